@@ -1,0 +1,81 @@
+# make          the commands build/dagc and build/radiosity
+# make check    the tests
+# make demo     the main job on real scenes, pictures included
+# SPDX-License-Identifier: MIT
+
+CC       = gcc
+BUILD    = build
+OPT      = -O2 -g
+WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+# No contraction of a*b+c: all releases of an oracle must agree to the bit.
+CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fopenmp $(SANITIZE)
+CPPFLAGS = -D_POSIX_C_SOURCE=200809L -I$(BUILD)/gen -Iruntime -Idagc -Isolver -Itests/hand
+LDFLAGS  = $(SANITIZE) -fopenmp
+EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
+LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
+
+objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(wildcard $(1)/*.c)))
+ORACLES   = $(notdir $(basename $(wildcard examples/oracles/*.dag)))
+FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
+LIBDAGC   = $(BUILD)/libdagc.a
+RUNTIME   = $(call objects,runtime) $(BUILD)/gen/catalog.o
+SOLVER    = $(call objects,solver) $(call objects,tests/hand) $(FLAT) $(BUILD)/gen/builtin.o
+TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
+OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
+
+.PHONY: all check demo packages clean
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: packages
+	@$(MAKE) --no-print-directory commands
+.PHONY: commands
+commands: $(BUILD)/bin/dagc $(BUILD)/bin/radiosity
+
+# What is built by what: catalog.dag -> libdagc -> dagc -> everything that includes discussion.h.
+$(BUILD)/bin/dagc: $(BUILD)/dagc/main.o $(LIBDAGC)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^
+$(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o
+	rm -f $@
+	ar rcs $@ $^
+$(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/embed.sh
+	@mkdir -p $(@D)
+	sh dagc/embed.sh dagc_standard_catalog $< > $@
+$(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
+	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
+$(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
+	$(BUILD)/bin/dagc --emit=catalog-c -o $@ $<
+$(BUILD)/gen/oracles/%.c: examples/oracles/%.dag $(BUILD)/bin/dagc
+	@mkdir -p $(@D)
+	$(BUILD)/bin/dagc -o $@ --header $(@:.c=.h) $<
+$(BUILD)/gen/builtin.c: solver/builtin.sh $(wildcard examples/oracles/*.dag) dagc/embed.sh
+	@mkdir -p $(@D)
+	sh solver/builtin.sh $(ORACLES) > $@
+
+$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
+$(BUILD)/tests/check_%: $(BUILD)/tests/check_%.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
+
+$(BUILD)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(BUILD)/gen/%.o: $(BUILD)/gen/%.c
+	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT): $(BUILD)/gen/catalog.h
+
+packages:
+	@sh tests/packages.sh
+
+check: all
+	@$(MAKE) --no-print-directory $(TESTS)
+	@sh tests/run.sh $(BUILD) $(TESTS)
+
+demo: all
+	@sh examples/demo.sh $(BUILD)
+
+clean:
+	rm -rf $(BUILD)
+
+-include $(OBJECTS:.o=.d) $(TESTS:=.d)

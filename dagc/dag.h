@@ -1,0 +1,308 @@
+/* dag.h - the data dictionary of dagc: what a catalog and its decision graphs are in memory.
+ *
+ * A `struct dag` is one compilation: the sources, the catalog (types, terms, tools, decisions:
+ * all that the compiler knows of its domain) and the oracles. Every kind of thing lives in one
+ * array of the dag, and things name each other by index in that array, -1 for "none"; a list is
+ * a span of an array. So neither order nor output can depend on an address, and one arena holds
+ * and frees it all.
+ *
+ * Sources: Turbet and Sillion for the graph (nodes hold tools, arcs are answers, leaves are
+ * decisions); QBE and chibicc for a compiler's data in one commented header.
+ * SPDX-License-Identifier: MIT */
+#ifndef DAG_H
+#define DAG_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DAGC_VERSION "0.1.0"
+
+/* A list: items first .. first + count - 1 of the array that the field's comment names. */
+struct span {
+    int first, count;
+};
+
+/* A piece of source text, for messages; line and column are computed only when printed. */
+struct where {
+    int source;         /* in sources; -1: nowhere (a whole file, the command line) */
+    int offset, length; /* bytes */
+};
+
+struct source {
+    const char *name; /* as the user gave it */
+    const char *base; /* without its directory: what generated files may mention */
+    const char *text; /* NUL-terminated copy */
+    int length;       /* bytes, without the NUL */
+};
+
+/* Exponents of the base units m, kg, s, A, K, mol, cd; all zero: a plain number. */
+enum { UNIT_BASES = 7 };
+struct unit {
+    signed char exponent[UNIT_BASES];
+};
+
+enum base { BASE_REAL, BASE_INTEGER };
+
+/* type NAME = real|real[N]|integer "UNIT"; */
+struct type {
+    const char *name;
+    struct where where;    /* of the name; so in every struct below */
+    enum base base;        /* double or int in C */
+    int length;            /* 1: a scalar; N: a vector of N */
+    const char *unit_text; /* as written: "W/m2" */
+    struct unit unit;      /* the same, comparable */
+};
+
+/* One step of a term's precision, coarsest first. */
+struct level {
+    const char *name;
+    struct where where;
+};
+
+/* term NAME : TYPE [levels (a < b < c)] "doc"; a value in the data manager. */
+struct term {
+    const char *name;
+    struct where where;
+    struct where type_where;
+    const char *type_name;
+    int type;           /* in types */
+    struct span levels; /* in levels; empty: the term is absent or present */
+    const char *doc;
+};
+
+/* A term at a level or better, as tools and decisions read or write it. */
+struct need {
+    const char *term_name, *level_name; /* level_name NULL: none was written */
+    struct where where, level_where;
+    int term;  /* in terms */
+    int level; /* 1 is the coarsest (or "present"); the enums of catalog.h count alike */
+};
+
+/* A parameter of an oracle, or of a tool. */
+struct parameter {
+    const char *name;
+    struct where where;
+    struct where type_where, value_where, range_where;
+    const char *type_name;
+    int type;            /* in types; always a scalar */
+    const char *doc;     /* "" when none */
+    double value;        /* the default, NAN when there is none (tools only) */
+    double low, high;    /* closed range; -INFINITY, INFINITY when none was written */
+    unsigned char given; /* PARAMETER_VALUE | PARAMETER_RANGE: which of them were written */
+    unsigned char bad;   /* an error was reported: say no more about its value or range */
+};
+enum { PARAMETER_VALUE = 1, PARAMETER_RANGE = 2 };
+
+/* How far an answer can be trusted. [Turbet & Sillion, section 3] */
+enum kind { KIND_PRECISE, KIND_APPROXIMATE, KIND_OTHER };
+
+struct answer {
+    const char *name;
+    struct where where;
+    enum kind kind;
+};
+
+enum tool_kind { TOOL_QUESTION, TOOL_COMMAND };
+
+/* tool NAME(parameters) question|command answers (...) [reads] [writes] [guards] [header] "doc"; */
+struct tool {
+    const char *name;
+    struct where where;
+    enum tool_kind kind;
+    struct span parameters;  /* in parameters */
+    struct span answers;     /* in answers; their numbers, from 0, are the C enum's values */
+    struct span reads;       /* in needs */
+    struct span writes;      /* in needs */
+    unsigned char guards;    /* says that a subdivision may go on: every way to one passes a guard */
+    const char *header;      /* C header with `tool_NAME`, "tools/NAME.h" when not written */
+    const char *doc;
+};
+
+/* (Named so that an enum decision may stand beside it.) decision NAME [reads (...)] [subdivides] "doc"; a leaf, the same in every oracle. */
+struct decision_tool {
+    const char *name;
+    struct where where;
+    struct span reads;        /* in needs: the terms the decision uses */
+    unsigned char subdivides; /* the pair is discussed again, one step deeper */
+    const char *doc;
+};
+
+/* The value of an argument. First cut: a number or a parameter; computed ones get more kinds. */
+enum expression_kind { EXPRESSION_NUMBER, EXPRESSION_PARAMETER };
+
+struct expression {
+    enum expression_kind kind;
+    struct where where;   /* for a tool's default: of that default in the catalog */
+    const char *name;     /* PARAMETER: as written */
+    double number;        /* NUMBER */
+    int parameter;        /* PARAMETER: in parameters, one of the oracle's own */
+    struct unit unit;     /* of the value; of a bare NUMBER: the unit it was used with */
+    int left, right;      /* operands, in expressions; -1 */
+};
+
+/* NAME = VALUE between a node's parentheses. */
+struct argument {
+    const char *name;
+    struct where where;
+    int parameter;  /* of the tool: in parameters */
+    int expression; /* in expressions */
+};
+
+/* Where an arc leads: the name of a node or of a decision. */
+enum target_kind { TARGET_NONE, TARGET_NODE, TARGET_DECISION };
+
+struct target {
+    enum target_kind kind; /* NONE: unresolved, an error has been reported */
+    int index;             /* in nodes or in decisions */
+    const char *name;
+    struct where where;
+};
+
+/* An answer's name as written in a node. */
+struct label {
+    const char *name;
+    struct where where;
+};
+
+/* answer | answer -> target; as written: resolve turns the rules of a node into its arcs. */
+struct rule {
+    struct span labels; /* in labels; empty: `otherwise` */
+    struct where where;
+    struct target target;
+};
+
+/* One answer of one node and where it leads. A node's arcs are in the order of its tool's
+ * answers, one each, so that arc = node.arcs.first + answer. */
+struct arc {
+    struct target target;
+    struct where where; /* of the rule that maps it */
+};
+
+/* node NAME = TOOL(arguments) { rules } */
+struct node {
+    const char *name;
+    struct where where;
+    const char *tool_name;
+    struct where tool_where;
+    int tool;              /* in tools */
+    struct span written;   /* in arguments: as in the source */
+    struct span arguments; /* in arguments: after resolve, one per tool parameter, in the tool's
+                              order, defaults filled in */
+    struct span rules;     /* in rules: as in the source */
+    struct span arcs;      /* in arcs: after resolve */
+    int order;             /* place in oracle.order after check; -1: not reachable from start */
+    unsigned char bad;     /* broken syntax or unknown tool: do not report what follows from it */
+};
+
+/* oracle NAME "doc" { parameters; start NODE; nodes }: a decision graph. */
+struct oracle_graph {
+    const char *name;
+    struct where where;
+    const char *doc;
+    struct span parameters; /* in parameters */
+    struct span nodes;      /* in nodes, in the source's order */
+    struct target start;    /* a node */
+    struct span order;      /* in order: the reachable nodes, topologically from start */
+    uint64_t fingerprint;   /* of what the graph decides: same number, same decisions */
+    unsigned char bad;      /* a part was lost to a syntax error: names may seem to be missing */
+};
+
+/* A message. Notes follow the message that they explain. */
+enum severity { SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE };
+
+struct diagnostic {
+    enum severity severity;
+    struct where where;
+    const char *message;
+};
+
+enum { ERRORS_SHOWN = 50 }; /* the rest of a file's errors are only counted */
+
+/* Memory in blocks that are freed together. Failure to get a block ends the pass that asked:
+ * control returns to dag_protect (see internal.h), as in Lua. */
+struct block;
+struct protector;
+struct arena {
+    struct block *blocks;
+    struct protector *protector;
+};
+
+/* Names of one kind to their index; open addressing, in the arena. */
+struct table {
+    const char **keys;
+    int *values;
+    int capacity, count;
+};
+
+struct dag {
+    struct arena arena;
+
+    /* The catalog. */
+    const char *runtime_header; /* included by every generated file; NULL: not declared */
+    int runtime_abi;            /* the value RUNTIME_ABI must have */
+    int lost;                   /* a declaration lost its name to a syntax error: a name that
+                                   seems unknown may be that one */
+    struct where runtime_where;
+    struct type *types;         int type_count;
+    struct level *levels;       int level_count;
+    struct term *terms;         int term_count;
+    struct need *needs;         int need_count;
+    struct answer *answers;     int answer_count;
+    struct tool *tools;         int tool_count;
+    struct decision_tool *decisions; int decision_count; /* their numbers are the C enum's values */
+
+    /* The graphs. */
+    struct parameter *parameters;   int parameter_count; /* of tools and of oracles */
+    struct expression *expressions; int expression_count;
+    struct argument *arguments;     int argument_count;
+    struct label *labels;           int label_count;
+    struct rule *rules;             int rule_count;
+    struct arc *arcs;               int arc_count;
+    struct node *nodes;             int node_count;
+    int *order;                     int order_count; /* indices in nodes */
+    struct oracle_graph *oracles;   int oracle_count;
+
+    /* Names, filled by resolve. */
+    struct table type_names, term_names, tool_names, decision_names, oracle_names;
+
+    /* Where the text came from and what is wrong with it. */
+    struct source *sources;         int source_count;
+    struct diagnostic *diagnostics; int diagnostic_count;
+    int error_count, warning_count; /* all of them, also those not kept */
+};
+
+/* ------------------------------------------------------------------------------------------
+ * The library: load a .dag file, read the arrays above, free it. Thread-safe, no globals. */
+
+/* The catalog built into the library and the command, NUL-terminated (dagc/embed.sh makes it). */
+extern const char dagc_standard_catalog[];
+
+/* Reads, resolves and checks the file `path` ("-": standard input) under a catalog; `catalog` is
+ * its text (NULL: dagc_standard_catalog), `catalog_name` what messages call it (NULL: "catalog").
+ * All errors go to `errors` as text (NULL: nowhere). Returns NULL after any error, else a dag
+ * that dag_free frees, in which every index is valid, every oracle has a start, `order` is
+ * topological, and every argument and arc of a reachable node is resolved. */
+struct dag *dag_load(const char *path, const char *catalog_name, const char *catalog, FILE *errors);
+
+/* The same for text in memory; `name` stands for the file name in messages. */
+struct dag *dag_load_text(const char *name, const char *text, size_t length,
+                          const char *catalog_name, const char *catalog, FILE *errors);
+
+void dag_free(struct dag *dag); /* NULL is fine */
+
+/* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or many. */
+int dag_oracle(const struct dag *dag, const char *name);
+
+/* The fingerprint as 16 hexadecimal digits and a NUL. */
+void dag_fingerprint_text(const struct oracle_graph *oracle, char text[17]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,153 @@
+/* resolve_catalog.c - the catalog's names to indices.
+ *
+ * A name may be used before its declaration. After this pass, unless errors were reported, every
+ * index of the catalog is valid and the tables of names are complete.
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "resolve.h"
+
+void dag_resolve_twice(struct dag *dag, const char *what, const char *name, struct where where,
+                       struct where first)
+{
+    dag_error(dag, where, "a second %s '%s'", what, name);
+    dag_note(dag, first, "the first is here");
+}
+
+/* Declares every item of one kind, `name` and `where` being its first two fields. */
+#define DECLARE(dag, table, list, count, what)                                                 \
+    for (int i = 0; i < (dag)->count; i++) {                                                   \
+        int first = dag_put(&(dag)->arena, &(dag)->table, (dag)->list[i].name, i);             \
+        if (first >= 0)                                                                        \
+            dag_resolve_twice(dag, what, (dag)->list[i].name, (dag)->list[i].where,                \
+                          (dag)->list[first].where);                                           \
+    }
+
+int dag_resolve_type(struct dag *dag, const char *name, struct where where)
+{
+    if (name == NULL)
+        return -1;
+    int type = dag_find(&dag->type_names, name);
+    if (type < 0 && !dag->lost) {
+        struct suggestion suggestion = {name, NULL, 0};
+        dag_error(dag, where, "unknown type '%s'", name);
+        for (int i = 0; i < dag->type_count && !dag_errors_full(dag); i++)
+            dag_suggest(&suggestion, dag->types[i].name);
+        dag_note_suggestion(dag, &suggestion);
+    }
+    return type;
+}
+
+void dag_resolve_parameters(struct dag *dag, struct span span)
+{
+    struct table names = {NULL, NULL, 0, 0};
+    for (int i = span.first; i < span.first + span.count; i++) {
+        struct parameter *parameter = &dag->parameters[i];
+        int first = dag_put(&dag->arena, &names, parameter->name, i);
+        if (first >= 0)
+            dag_resolve_twice(dag, "parameter", parameter->name, parameter->where,
+                              dag->parameters[first].where);
+        if (strcmp(parameter->name, "inf") == 0)
+            dag_error(dag, parameter->where, "'inf' is a number and cannot name a parameter");
+        parameter->type = dag_resolve_type(dag, parameter->type_name, parameter->type_where);
+        if (parameter->type < 0)
+            parameter->bad = 1;
+        else if (dag->types[parameter->type].length != 1) {
+            dag_error(dag, parameter->type_where, "'%s' is a vector: a parameter is one number",
+                      parameter->type_name);
+            parameter->bad = 1;
+        }
+    }
+}
+
+static void resolve_term(struct dag *dag, struct term *term)
+{
+    term->type = dag_resolve_type(dag, term->type_name, term->type_where);
+    if (term->levels.count >= ANSWERS_MAX) {
+        dag_error(dag, term->where, "a term has at most %d levels", ANSWERS_MAX - 1);
+        return;
+    }
+    for (int i = 0; i < term->levels.count; i++)
+        for (int j = 0; j < i; j++) {
+            const struct level *levels = &dag->levels[term->levels.first];
+            if (strcmp(levels[i].name, levels[j].name) == 0)
+                dag_resolve_twice(dag, "level", levels[i].name, levels[i].where, levels[j].where);
+        }
+}
+
+static void resolve_needs(struct dag *dag, struct span span)
+{
+    for (int i = span.first; i < span.first + span.count; i++) {
+        struct need *need = &dag->needs[i];
+        need->term = dag_find(&dag->term_names, need->term_name);
+        need->level = 1;
+        if (need->term < 0) {
+            struct suggestion suggestion = {need->term_name, NULL, 0};
+            if (dag->lost)
+                continue;
+            dag_error(dag, need->where, "unknown term '%s'", need->term_name);
+            for (int t = 0; t < dag->term_count && !dag_errors_full(dag); t++)
+                dag_suggest(&suggestion, dag->terms[t].name);
+            dag_note_suggestion(dag, &suggestion);
+            continue;
+        }
+        if (need->level_name == NULL)
+            continue;
+        const struct term *term = &dag->terms[need->term];
+        struct suggestion suggestion = {need->level_name, NULL, 0};
+        need->level = 0;
+        for (int l = 0; l < term->levels.count; l++) {
+            const char *name = dag->levels[term->levels.first + l].name;
+            dag_suggest(&suggestion, name);
+            if (strcmp(name, need->level_name) == 0)
+                need->level = l + 1;
+        }
+        if (need->level == 0) {
+            dag_error(dag, need->level_where, "the term '%s' has no level '%s'", term->name,
+                      need->level_name);
+            dag_note_suggestion(dag, &suggestion);
+        }
+    }
+}
+
+static void resolve_tool(struct dag *dag, const struct tool *tool)
+{
+    dag_resolve_parameters(dag, tool->parameters);
+    resolve_needs(dag, tool->reads);
+    resolve_needs(dag, tool->writes);
+    if (tool->answers.count > ANSWERS_MAX) {
+        dag_error(dag, tool->where, "a tool has at most %d answers", ANSWERS_MAX);
+        return;
+    }
+    for (int i = 0; i < tool->answers.count; i++) {
+        const struct answer *answers = &dag->answers[tool->answers.first];
+        if (strcmp(answers[i].name, "otherwise") == 0)
+            dag_error(dag, answers[i].where, "'otherwise' stands for all other answers");
+        for (int j = 0; j < i; j++)
+            if (strcmp(answers[i].name, answers[j].name) == 0)
+                dag_resolve_twice(dag, "answer", answers[i].name, answers[i].where, answers[j].where);
+    }
+}
+
+void dag_resolve_catalog(struct dag *dag)
+{
+    DECLARE(dag, type_names, types, type_count, "type")
+    DECLARE(dag, term_names, terms, term_count, "term")
+    DECLARE(dag, tool_names, tools, tool_count, "tool")
+    DECLARE(dag, decision_names, decisions, decision_count, "decision")
+    for (int i = 0; i < dag->term_count; i++)
+        resolve_term(dag, &dag->terms[i]);
+    for (int i = 0; i < dag->tool_count; i++)
+        resolve_tool(dag, &dag->tools[i]);
+    for (int i = 0; i < dag->decision_count; i++)
+        resolve_needs(dag, dag->decisions[i].reads);
+    if (dag->runtime_header == NULL && dag->error_count == 0) {
+        struct where where = {dag->source_count - 1, 0, 0};
+        dag_error(dag, where, "the catalog names no runtime");
+        dag_note(dag, dag_nowhere, "add: runtime \"HEADER.h\" abi 1;");
+    }
+    if (dag->decision_count == 0 && dag->error_count == 0) {
+        struct where where = {dag->source_count - 1, 0, 0};
+        dag_error(dag, where, "the catalog declares no decision: no graph could end");
+    }
+}

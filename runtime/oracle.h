@@ -1,0 +1,34 @@
+/* oracle.h - how a program meets an oracle it did not know when it was compiled.
+ *
+ * Every C file that dagc emits for an oracle NAME defines, next to NAME_refine and
+ * NAME_defaults, one `const struct oracle NAME_oracle`; a loader (dlsym) or a table of
+ * built-in oracles needs no more to list parameters, set them and refine.
+ * SPDX-License-Identifier: MIT */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+#include <stddef.h>
+#include "discussion.h"
+
+/* One parameter of an oracle and where it lives in the oracle's parameter structure. */
+struct oracle_parameter {
+    const char *name;
+    const char *unit; /* "" for a plain number */
+    const char *doc;
+    double value, low, high; /* default and closed range */
+    int integer;             /* the field is an int, not a double */
+    size_t offset;           /* of the field in the parameter structure */
+};
+
+struct oracle {
+    int abi; /* RUNTIME_ABI it was compiled against */
+    const char *name, *doc;
+    const char *fingerprint; /* of the graph: equal fingerprints, equal decisions */
+    const struct oracle_parameter *parameters;
+    int parameter_count;
+    size_t parameters_size;            /* sizeof the parameter structure */
+    void (*defaults)(void *parameters); /* fills a parameter structure */
+    enum decision (*refine)(const void *parameters, struct discussion *discussion);
+};
+
+#endif

@@ -1,0 +1,238 @@
+/* rays.c - occlusion on Embree.
+ *
+ * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
+ * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
+ * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of the
+ * largest coordinate), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
+ * Rays travel in packets of 16.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <omp.h>
+#if defined __has_include
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#define EMBREE 4
+#endif
+#endif
+#ifndef EMBREE
+#include <embree3/rtcore.h>
+#define EMBREE 3
+#endif
+#include "rays.h"
+
+enum { PACKET = 16 };
+
+/* One thread's counters, alone on their cache lines. */
+struct tally {
+    uint64_t rays;
+    uint64_t nanoseconds;
+    char pad[112];
+};
+
+struct rays {
+    struct host host; /* first, so that a host is its rays */
+    RTCDevice device;
+    RTCScene scene;
+    double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
+    int threads;
+    struct tally *tallies; /* [threads] */
+};
+
+static uint64_t now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+static int occluded(const struct host *host, int count, const struct segment *segments)
+{
+    const struct rays *rays = (const struct rays *)(const void *)host;
+    struct tally *tally = &rays->tallies[omp_get_thread_num()];
+    int first, i, hits = 0;
+    for (first = 0; first < count; first += PACKET) {
+        int n = count - first < PACKET ? count - first : PACKET;
+        _Alignas(64) int valid[PACKET];
+        _Alignas(64) struct RTCRay16 packet;
+        uint64_t start;
+        for (i = 0; i < PACKET; i++) {
+            const struct segment *s = &segments[first + (i < n ? i : 0)];
+            float from[3], to[3];
+            int k;
+            for (k = 0; k < 3; k++) {
+                from[k] = (float)((s->from[k] - rays->origin[k]) * rays->scale);
+                to[k] = (float)((s->to[k] - rays->origin[k]) * rays->scale);
+            }
+            valid[i] = i < n ? -1 : 0;
+            packet.org_x[i] = from[0];
+            packet.org_y[i] = from[1];
+            packet.org_z[i] = from[2];
+            packet.dir_x[i] = to[0] - from[0];
+            packet.dir_y[i] = to[1] - from[1];
+            packet.dir_z[i] = to[2] - from[2];
+            packet.tnear[i] = 0;
+            packet.tfar[i] = 1;
+            packet.time[i] = 0;
+            packet.mask[i] = ~0u;
+            packet.id[i] = 0;
+            packet.flags[i] = 0;
+        }
+        start = now();
+        {
+#if EMBREE == 4
+            struct RTCOccludedArguments arguments;
+            rtcInitOccludedArguments(&arguments);
+            arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+            rtcOccluded16(valid, rays->scene, &packet, &arguments);
+#else
+            struct RTCIntersectContext context;
+            rtcInitIntersectContext(&context);
+            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+            rtcOccluded16(valid, rays->scene, &context, &packet);
+#endif
+        }
+        tally->nanoseconds += now() - start;
+        for (i = 0; i < n; i++)
+            hits += packet.tfar[i] < 0; /* Embree: -inf when occluded */
+    }
+    tally->rays += (uint64_t)count;
+    return hits;
+}
+
+/* The largest power of two not above x > 0. */
+static double power_of_two(double x)
+{
+    int e;
+    frexp(x, &e);
+    return ldexp(1, e - 1);
+}
+
+static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
+{
+    double area = 0, emitted = 0, reflected = 0, size = 0, largest = 0;
+    uint32_t i;
+    int k;
+    for (i = 0; i < h->face_count; i++) {
+        double a = h->elements[h->face_element[i]].area;
+        area += a;
+        emitted += a * exitance[i];
+        reflected += a * reflectance[i];
+    }
+    for (k = 0; k < 3; k++) {
+        double side = h->high[k] - h->low[k];
+        rays->origin[k] = 0.5 * (h->low[k] + h->high[k]);
+        size = side > size ? side : size;
+        largest = fabs(h->low[k]) > largest ? fabs(h->low[k]) : largest;
+        largest = fabs(h->high[k]) > largest ? fabs(h->high[k]) : largest;
+    }
+    rays->scale = 1 / power_of_two(size);
+    rays->host.occluded = occluded;
+    rays->host.area = area;
+    rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
+    /* 2^-24 is half a unit in the last place of a float; input coordinates carry that much error. */
+    rays->host.ray_offset = ldexp(size, -18);
+    if (rays->host.ray_offset < ldexp(largest, -21))
+        rays->host.ray_offset = ldexp(largest, -21);
+    rays->host.flat = 0.5 * rays->host.ray_offset;
+}
+
+static RTCGeometry faces_geometry(const struct rays *rays, const struct hierarchy *h)
+{
+    RTCGeometry geometry = rtcNewGeometry(rays->device, RTC_GEOMETRY_TYPE_QUAD);
+    uint32_t solid = 0, i, j, n = 0;
+    float *vertices;
+    unsigned *indices;
+    for (i = 0; i < h->face_count; i++)
+        solid += !h->faces[i].back;
+    vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                       3 * sizeof *vertices, (size_t)solid * 4);
+    indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                      4 * sizeof *indices, solid);
+    if (!vertices || !indices) {
+        rtcReleaseGeometry(geometry);
+        return NULL;
+    }
+    for (i = 0; i < h->face_count; i++) {
+        const struct face *f = &h->faces[i];
+        if (f->back)
+            continue;
+        for (j = 0; j < 4; j++) {
+            const double *v = f->vertex[j < f->vertices ? j : f->vertices - 1]; /* a triangle repeats its last corner */
+            int k;
+            for (k = 0; k < 3; k++)
+                vertices[12 * (size_t)n + 3 * j + (size_t)k] = (float)((v[k] - rays->origin[k]) * rays->scale);
+            indices[4 * (size_t)n + j] = 4 * n + j;
+        }
+        n++;
+    }
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
+                       int threads, const char **cause)
+{
+    struct rays *rays = calloc(1, sizeof *rays);
+    RTCGeometry geometry;
+    *cause = "out of memory";
+    if (!rays)
+        return NULL;
+    rays->threads = threads;
+    rays->tallies = calloc((size_t)threads, sizeof *rays->tallies);
+    if (!rays->tallies) {
+        free(rays);
+        return NULL;
+    }
+    totals(rays, h, exitance, reflectance);
+    rays->device = rtcNewDevice(threads == 1 ? "threads=1,set_affinity=0" : NULL);
+    if (!rays->device) {
+        *cause = "Embree finds no device on this processor";
+        rays_close(rays);
+        return NULL;
+    }
+    rays->scene = rtcNewScene(rays->device);
+    rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(rays->scene, RTC_BUILD_QUALITY_HIGH);
+    geometry = faces_geometry(rays, h);
+    if (geometry) {
+        rtcAttachGeometry(rays->scene, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(rays->scene);
+    }
+    if (!geometry || rtcGetDeviceError(rays->device) != RTC_ERROR_NONE) {
+        *cause = "Embree cannot build its structure over the scene (out of memory?)";
+        rays_close(rays);
+        return NULL;
+    }
+    return rays;
+}
+
+const struct host *rays_host(const struct rays *rays)
+{
+    return &rays->host;
+}
+
+struct rays_count rays_count(const struct rays *rays)
+{
+    struct rays_count sum = { 0, 0 };
+    int i;
+    for (i = 0; i < rays->threads; i++) {
+        sum.rays += rays->tallies[i].rays;
+        sum.seconds += 1e-9 * (double)rays->tallies[i].nanoseconds;
+    }
+    return sum;
+}
+
+void rays_close(struct rays *rays)
+{
+    if (!rays)
+        return;
+    if (rays->scene)
+        rtcReleaseScene(rays->scene);
+    if (rays->device)
+        rtcReleaseDevice(rays->device);
+    free(rays->tallies);
+    free(rays);
+}

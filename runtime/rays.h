@@ -1,0 +1,31 @@
+/* rays.h - the host services of a scene: occlusion by Embree, totals for the oracles.
+ * Embree 3 or 4, whichever the system has, is known to rays.c alone.
+ * SPDX-License-Identifier: MIT */
+#ifndef RAYS_H
+#define RAYS_H
+
+#include "discussion.h"
+#include "hierarchy.h"
+
+struct rays;
+
+/* What the rays have cost so far, all threads together. */
+struct rays_count {
+    uint64_t rays;
+    double seconds; /* inside Embree, summed over threads */
+};
+
+/* Build the occlusion structure over the faces; those marked `back` cast no shadow of their own, for
+ * their front stands at the same place and every face occludes from both sides.
+ * exitance and reflectance: scene totals for host.irradiance, [face_count] largest band each.
+ * `threads`: how many threads may ask at once. The faces are only read during the call.
+ * Returns NULL when Embree fails; *cause then names the reason (a constant string). */
+struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
+                       int threads, const char **cause);
+
+/* The services in the form that a discussion takes. Valid until rays_close. */
+const struct host *rays_host(const struct rays *rays);
+struct rays_count rays_count(const struct rays *rays);
+void rays_close(struct rays *rays);
+
+#endif

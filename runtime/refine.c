@@ -1,0 +1,265 @@
+/* refine.c - refinement in rounds.
+ *
+ * A round takes up to ROUND pairs from the end of the queue and gives each to the refiner, both ways round, which only
+ * reads the hierarchy; so the pairs of a round run in parallel. Then, in their order, links are
+ * appended, elements split, and the children's pairs queued. Invariant: links, their order and the
+ * element indices depend on the scene, the oracle and its parameters alone, never on threads,
+ * timing or release. Taking from the end keeps the queue short: a few rounds' worth, not the square of the faces.
+ * [Hanrahan et al. 1991, section 4, for the recursion; rounds: derived here]
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "refine.h"
+
+enum { ROUND = 1 << 17, CHUNK = 64 };
+
+void link_store(struct link *link, const struct terms *terms)
+{
+    link->form_factor = (float)terms->form_factor;
+    link->form_factor_level = terms->form_factor_level;
+    link->visibility = (uint16_t)(terms->visibility * LINK_VISIBLE + 0.5);
+    link->visibility_level = terms->visibility_level;
+}
+
+void link_recall(const struct link *link, struct terms *terms)
+{
+    memset(terms, 0, sizeof *terms);
+    terms->form_factor = (double)link->form_factor;
+    terms->form_factor_level = link->form_factor_level;
+    terms->visibility = link->visibility * (1.0 / LINK_VISIBLE);
+    terms->visibility_level = link->visibility_level;
+}
+
+/* Room for `need` items of `size` bytes in *list. Returns 0, or -1 when there is none. */
+static int grow(void *list, size_t *capacity, size_t need, size_t size)
+{
+    size_t more = need + need / 2 + 1024;
+    void *old, *moved;
+    if (need <= *capacity)
+        return 0;
+    if (more > SIZE_MAX / size)
+        return -1;
+    memcpy(&old, list, sizeof old);
+    moved = realloc(old, more * size);
+    if (!moved)
+        return -1;
+    memcpy(list, &moved, sizeof moved);
+    *capacity = more;
+    return 0;
+}
+
+int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
+                    const struct refiner *refiner, int threads)
+{
+    memset(r, 0, sizeof *r);
+    r->hierarchy = hierarchy;
+    r->host = host;
+    r->refiner = refiner;
+    r->threads = threads;
+    r->round = malloc(ROUND * sizeof *r->round);
+    r->outcomes = malloc(ROUND * sizeof *r->outcomes);
+    if (!r->round || !r->outcomes) {
+        refinement_close(r);
+        return -1;
+    }
+    return 0;
+}
+
+/* One discussion; the link's values go in and come out. */
+static unsigned char discuss(const struct refinement *r, struct link *link)
+{
+    const struct element *elements = r->hierarchy->elements;
+    struct discussion d;
+    enum decision decision;
+    d.receiver = &elements[link->receiver];
+    d.emitter = &elements[link->emitter];
+    d.host = r->host;
+    link_recall(link, &d.terms);
+    decision = r->refiner->refine(r->refiner->state, &d);
+    if (decision == DECISION_LINK)
+        link_store(link, &d.terms);
+    return (unsigned char)decision;
+}
+
+/* Discuss the pairs of the round. Visibility is the same both ways, so the second discussion starts with it. */
+static void discuss_round(struct refinement *r, int count)
+{
+    int i;
+#pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
+    for (i = 0; i < count; i++) {
+        const struct pair *p = &r->round[i];
+        struct outcome *o = &r->outcomes[i];
+        struct link there = { p->receiver, p->emitter, 0, 0, 0, 0 }, back = { p->emitter, p->receiver, 0, 0, 0, 0 };
+        o->link[0] = there;
+        o->decision[0] = discuss(r, &o->link[0]);
+        if (!p->both)
+            continue;
+        if (o->decision[0] == DECISION_LINK) {
+            back.visibility = o->link[0].visibility;
+            back.visibility_level = o->link[0].visibility_level;
+        }
+        o->link[1] = back;
+        o->decision[1] = discuss(r, &o->link[1]);
+    }
+}
+
+/* Queue the pairs of the children of one element, which is the receiver or else the emitter, with the
+ * other. An element paired with itself gives the pairs of its children with each other and themselves. */
+static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split_receiver, int both)
+{
+    struct hierarchy *h = r->hierarchy;
+    uint32_t split = split_receiver ? receiver : emitter, i, j;
+    const struct element *e;
+    struct pair *q;
+    if (hierarchy_split(h, split) < 0)
+        return -1;
+    e = &h->elements[split];
+    if (grow(&r->queue, &r->queue_capacity, r->queue_count + (size_t)e->children * e->children, sizeof *q) < 0)
+        return -1;
+    q = r->queue + r->queue_count;
+    for (i = e->child; i < e->child + e->children; i++) {
+        if (receiver != emitter) {
+            *q++ = (struct pair){ split_receiver ? i : receiver, split_receiver ? emitter : i, (uint32_t)both };
+            continue;
+        }
+        *q++ = (struct pair){ i, i, 0 };
+        for (j = e->child; j < i; j++)
+            *q++ = (struct pair){ i, j, 1 };
+    }
+    r->queue_count = (size_t)(q - r->queue);
+    return 0;
+}
+
+/* Carry out one decision about (receiver, emitter). */
+static int carry_out(struct refinement *r, const struct link *link, enum decision decision)
+{
+    r->decided[decision]++;
+    switch (decision) {
+    case DECISION_LINK:
+        if (grow(&r->links, &r->link_capacity, r->link_count + 1, sizeof *link) < 0)
+            return -1;
+        r->links[r->link_count++] = *link;
+        return 0;
+    case DECISION_SUBDIVIDE_RECEIVER:
+        return subdivide(r, link->receiver, link->emitter, 1, 0);
+    case DECISION_SUBDIVIDE_EMITTER:
+        return subdivide(r, link->receiver, link->emitter, 0, 0);
+    case DECISION_STOP:
+        break;
+    }
+    return 0;
+}
+
+/* Carry out both decisions about a pair; when both split the same element, its children stay paired both ways. */
+static int carry_out_both(struct refinement *r, const struct outcome *o)
+{
+    enum decision there = (enum decision)o->decision[0], back = (enum decision)o->decision[1];
+    int splits_receiver = there == DECISION_SUBDIVIDE_RECEIVER && back == DECISION_SUBDIVIDE_EMITTER;
+    int splits_emitter = there == DECISION_SUBDIVIDE_EMITTER && back == DECISION_SUBDIVIDE_RECEIVER;
+    if (!splits_receiver && !splits_emitter)
+        return carry_out(r, &o->link[0], there) < 0 || carry_out(r, &o->link[1], back) < 0 ? -1 : 0;
+    r->decided[there]++;
+    r->decided[back]++;
+    return subdivide(r, o->link[0].receiver, o->link[0].emitter, splits_receiver, 1);
+}
+
+static void end_round(struct refinement *r)
+{
+    r->rounds++;
+    if (r->watch)
+        r->watch(r->watch_context, r);
+}
+
+/* Rounds until the queue is empty. */
+static int drain(struct refinement *r)
+{
+    while (r->queue_count > 0) {
+        int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND), i;
+        r->queue_count -= (size_t)count;
+        memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
+        discuss_round(r, count);
+        for (i = 0; i < count; i++) {
+            const struct outcome *o = &r->outcomes[i];
+            int both = (int)r->round[i].both;
+            r->pairs += both ? 2 : 1;
+            if ((both ? carry_out_both(r, o) : carry_out(r, &o->link[0], (enum decision)o->decision[0])) < 0)
+                return -1;
+        }
+        end_round(r);
+    }
+    return 0;
+}
+
+int refinement_start(struct refinement *r)
+{
+    struct pair root = { 0, 0, 0 };
+    if (grow(&r->queue, &r->queue_capacity, 1, sizeof root) < 0)
+        return -1;
+    r->queue[r->queue_count++] = root;
+    return drain(r);
+}
+
+int64_t refinement_again(struct refinement *r, const unsigned char *changed)
+{
+    size_t all = r->link_count, from;
+    int64_t moved = 0;
+    r->link_count = 0; /* links that stay are written back at or before the place they were read from */
+    for (from = 0; from < all; from += ROUND) {
+        int count = (int)(all - from < ROUND ? all - from : ROUND), i;
+        const struct link *links = r->links + from;
+#pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
+        for (i = 0; i < count; i++) {
+            struct outcome *o = &r->outcomes[i];
+                o->link[0] = links[i];
+            o->decision[1] = !changed || changed[links[i].receiver] || changed[links[i].emitter];
+            o->decision[0] = o->decision[1] ? discuss(r, &o->link[0]) : (unsigned char)DECISION_LINK;
+        }
+        for (i = 0; i < count; i++) {
+            const struct outcome *o = &r->outcomes[i];
+            if (!o->decision[1]) {
+                r->links[r->link_count++] = o->link[0];
+                continue;
+            }
+            r->pairs++;
+            moved += o->decision[0] != DECISION_LINK || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            if (carry_out(r, &o->link[0], (enum decision)o->decision[0]) < 0)
+                return -1;
+        }
+        end_round(r);
+    }
+    return drain(r) < 0 ? -1 : moved;
+}
+
+int refinement_sort(struct refinement *r)
+{
+    size_t elements = r->hierarchy->count, i;
+    size_t *first = calloc(elements + 2, sizeof *first);
+    struct link *sorted = malloc((r->link_count + 1) * sizeof *sorted);
+    if (!first || !sorted) {
+        free(first);
+        free(sorted);
+        return -1;
+    }
+    for (i = 0; i < r->link_count; i++)
+        first[r->links[i].receiver + 2]++;
+    for (i = 2; i < elements + 2; i++)
+        first[i] += first[i - 1];
+    for (i = 0; i < r->link_count; i++)
+        sorted[first[r->links[i].receiver + 1]++] = r->links[i];
+    free(r->links);
+    free(r->first_link);
+    r->links = sorted;
+    r->link_capacity = r->link_count + 1;
+    r->first_link = first;
+    return 0;
+}
+
+void refinement_close(struct refinement *r)
+{
+    free(r->links);
+    free(r->first_link);
+    free(r->queue);
+    free(r->round);
+    free(r->outcomes);
+    memset(r, 0, sizeof *r);
+}

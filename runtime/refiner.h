@@ -1,0 +1,38 @@
+/* refiner.h - an oracle ready to be asked, whatever its release: flat, hand or DAG.
+ * SPDX-License-Identifier: MIT */
+#ifndef REFINER_H
+#define REFINER_H
+
+#include <stdio.h>
+#include "oracle.h"
+
+/* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long as
+ * no parameter is set meanwhile. */
+struct refiner {
+    enum decision (*refine)(const void *state, struct discussion *d);
+    const void *state; /* a parameter structure, or the interpreter's program */
+    const char *oracle, *release, *doc;
+    const struct oracle_parameter *parameters; /* [parameter_count] */
+    int parameter_count;
+    void *block;                              /* owned: where parameters[i].offset points into */
+    void (*prepare)(struct refiner *refiner); /* after a parameter has changed; may be NULL */
+    void (*release_state)(struct refiner *refiner);
+    void *own; /* what release_state frees */
+};
+
+/* A compiled oracle (flat or hand) with its default parameters; `release` names which.
+ * Returns NULL when out of memory or when it was compiled against another RUNTIME_ABI. */
+struct refiner *refiner_compiled(const struct oracle *oracle, const char *release);
+
+/* The DAG release: load `path` ("-": standard input) or, when `text` is not NULL, that text under the name
+ * `path`, and interpret the oracle called `name` (NULL: the only one). Errors are written to `errors`;
+ * returns NULL then. */
+struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, FILE *errors);
+
+/* Set a parameter. Returns NULL when done, else the cause as a phrase ("no such parameter", ...). */
+const char *refiner_set(struct refiner *refiner, const char *name, double value);
+double refiner_get(const struct refiner *refiner, int parameter);
+
+void refiner_close(struct refiner *refiner); /* NULL is fine */
+
+#endif

@@ -1,0 +1,232 @@
+/* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
+ *
+ * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
+ * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
+ * Source of the formulas: form_factor.h.
+ * SPDX-License-Identifier: MIT */
+#ifndef TERM_POLYGON_FACTOR_H
+#define TERM_POLYGON_FACTOR_H
+
+#include "discussion.h"
+
+#define POLYGON_FACTOR_PI 3.14159265358979323846
+
+/* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
+#define POLYGON_FACTOR_NEAR 2.0
+#define POLYGON_FACTOR_MIDDLE 6.0
+#define POLYGON_FACTOR_FAR 60.0
+/* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
+#define POLYGON_FACTOR_EXACT 20.0
+
+/* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
+ * wholly in front of p and faces it. [Lambert's formula] */
+static inline double polygon_factor_point(const double p[3], const double n[3], const struct polygon *q)
+{
+    double sum = 0, a[3], b[3], c[3], size, angle;
+    int i;
+    sub3(a, q->v[q->n - 1], p);
+    for (i = 0; i < q->n; i++) {
+        sub3(b, q->v[i], p);
+        cross3(c, a, b);
+        size = length3(c);
+        angle = atan2(size, dot3(a, b));
+        if (size > 0)
+            sum += angle / size * dot3(c, n);
+        a[0] = b[0];
+        a[1] = b[1];
+        a[2] = b[2];
+    }
+    return sum * (-0.5 / POLYGON_FACTOR_PI);
+}
+
+/* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
+static inline double polygon_factor_line(const double p[3], const double a[3], const double u[3], double length)
+{
+    double w[3], c[3], x, h, y, z, sum;
+    sub3(w, p, a);
+    cross3(c, w, u);
+    x = dot3(w, u);
+    h = length3(c);
+    y = length - x;
+    z = y * y + h * h;
+    sum = -length;
+    if (z > 0)
+        sum += 0.5 * y * log(z);
+    z = x * x + h * h;
+    if (z > 0)
+        sum += 0.5 * x * log(z);
+    if (h > 0)
+        sum += h * (atan(y / h) + atan(x / h));
+    return sum;
+}
+
+/* The outer integral of one edge (from p, along e) against one edge (a, u, length), adaptive:
+ * a five-point Gauss rule over the whole against itself over both halves. */
+struct polygon_factor_edge {
+    const double *p, *a;
+    double e[3], u[3], length;
+};
+
+static inline double polygon_factor_gauss(const struct polygon_factor_edge *g, double from, double to)
+{
+    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
+    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
+    double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
+    int i, k;
+    for (i = -2; i <= 2; i++) {
+        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
+        for (k = 0; k < 3; k++)
+            p[k] = g->p[k] + s * g->e[k];
+        sum += weight[i < 0 ? -i : i] * polygon_factor_line(p, g->a, g->u, g->length);
+    }
+    return sum * half;
+}
+
+static inline double polygon_factor_adapt(const struct polygon_factor_edge *g, double from, double to,
+                                          double whole, double tolerance, int depth)
+{
+    double middle = 0.5 * (from + to);
+    double left = polygon_factor_gauss(g, from, middle), right = polygon_factor_gauss(g, middle, to);
+    if (depth == 0 || fabs(left + right - whole) <= tolerance)
+        return left + right;
+    return polygon_factor_adapt(g, from, middle, left, tolerance, depth - 1)
+         + polygon_factor_adapt(g, middle, to, right, tolerance, depth - 1);
+}
+
+/* A_p F_pq by the contour integral (m2). The shorter edge of each pair is the outer one: along it
+ * the inner integral varies least. */
+OUTLINE double polygon_factor_contour(const struct polygon *p, const struct polygon *q)
+{
+    double sum = 0;
+    int i, j, k;
+    for (i = 0; i < p->n; i++) {
+        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
+        double e[3], le;
+        sub3(e, p1, p0);
+        le = length3(e);
+        for (j = 0; j < q->n; j++) {
+            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
+            struct polygon_factor_edge g;
+            double f[3], lf, aligned;
+            sub3(f, q1, q0);
+            lf = length3(f);
+            aligned = dot3(e, f);
+            if (fabs(aligned) <= 1e-12 * le * lf)
+                continue;
+            g.p = le <= lf ? p0 : q0;
+            g.a = le <= lf ? q0 : p0;
+            g.length = le <= lf ? lf : le;
+            for (k = 0; k < 3; k++) {
+                g.e[k] = le <= lf ? e[k] : f[k];
+                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
+            }
+            sum += aligned / g.length
+                 * polygon_factor_adapt(&g, 0, 1, polygon_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
+        }
+    }
+    return sum * (0.5 / POLYGON_FACTOR_PI);
+}
+
+/* Integral over triangle abc with normal n of the factor to q (m2): 1, 3 or 6 points, exact to
+ * degree 1, 2, 4 [Strang and Fix 1973; Dunavant 1985]. */
+static inline double polygon_factor_triangle(const double *a, const double *b, const double *c,
+                                             const double n[3], const struct polygon *q, int order)
+{
+    static const double corner[3][2] = { { 1 / 3.0, 0 }, { 2 / 3.0, 0 },
+                                         { 0.81684757298045851308, 0.10810301816807022736 } };
+    static const double weight[3][2] = { { 1, 0 }, { 1 / 3.0, 0 },
+                                         { 0.10995174365532186764, 0.22338158967801146570 } };
+    double x[3], y[3], z[3], sum = 0;
+    int group, i, k;
+    sub3(x, b, a);
+    sub3(y, c, a);
+    cross3(z, x, y);
+    for (group = 0; group < (order == 2 ? 2 : 1); group++) {
+        double w = corner[order][group], v = 0.5 * (1 - w), part = 0;
+        for (i = 0; i < (order == 0 ? 1 : 3); i++) {
+            const double *p0 = i == 0 ? a : i == 1 ? b : c, *p1 = i == 0 ? b : i == 1 ? c : a,
+                         *p2 = i == 0 ? c : i == 1 ? a : b;
+            for (k = 0; k < 3; k++)
+                x[k] = w * p0[k] + v * p1[k] + v * p2[k];
+            part += polygon_factor_point(x, n, q);
+        }
+        sum += weight[order][group] * part;
+    }
+    return sum * 0.5 * dot3(z, n);
+}
+
+/* The same over a quad: the bilinear map of a Gauss rule of 1, 2 x 2 or 3 x 3 points. */
+static inline double polygon_factor_quad(const double (*v)[3], const double n[3], const struct polygon *q, int order)
+{
+    static const double node[3][3] = { { 0.5, 0, 0 },
+                                       { 0.21132486540518711775, 0.78867513459481288225, 0 },
+                                       { 0.11270166537925831148, 0.5, 0.88729833462074168852 } };
+    static const double weight[3][3] = { { 1, 0, 0 }, { 0.5, 0.5, 0 },
+                                         { 5 / 18.0, 8 / 18.0, 5 / 18.0 } };
+    double sum = 0;
+    int i, j, k;
+    for (i = 0; i <= order; i++)
+        for (j = 0; j <= order; j++) {
+            double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
+            for (k = 0; k < 3; k++) {
+                double low = v[0][k] + s * (v[1][k] - v[0][k]), high = v[3][k] + s * (v[2][k] - v[3][k]);
+                p[k] = low + t * (high - low);
+                dt[k] = high - low;
+                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+            }
+            cross3(jacobian, ds, dt);
+            sum += weight[order][i] * weight[order][j] * dot3(jacobian, n) * polygon_factor_point(p, n, q);
+        }
+    return sum;
+}
+
+/* The integral over a whole polygon, cut into quads and triangles (m2). */
+static inline double polygon_factor_rule(const struct polygon *p, const double n[3], const struct polygon *q, int order)
+{
+    const double (*v)[3] = (const double (*)[3])p->v;
+    double sum = 0;
+    if (p->n != 3)
+        sum = polygon_factor_quad(v, n, q, order);
+    if (p->n == 3)
+        sum = polygon_factor_triangle(v[0], v[1], v[2], n, q, order);
+    else if (p->n == 5)
+        sum += polygon_factor_triangle(v[0], v[3], v[4], n, q, order);
+    return sum;
+}
+
+/* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
+OUTLINE double polygon_factor(const struct element *r, const struct element *s, int exact)
+{
+    int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
+    const struct element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
+    struct polygon p, q;
+    double away[3], distance, exchange;
+    sub3(away, small->centre, large->centre);
+    distance = length3(away) - large->radius;
+    if (!exact && distance > POLYGON_FACTOR_FAR * large->radius) {
+        double cos_r = -dot3(small->normal, away), cos_s = dot3(large->normal, away), square = dot3(away, away);
+        if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
+            return cos_r * cos_s * s->area / (POLYGON_FACTOR_PI * square * square);
+    }
+    polygon_clip(&p, (const double (*)[3])small->vertex, small->vertices, large->centre, large->normal);
+    polygon_clip(&q, (const double (*)[3])large->vertex, large->vertices, small->centre, small->normal);
+    if (p.n == 0 || q.n == 0)
+        return 0;
+    if (distance < POLYGON_FACTOR_FAR * small->radius)
+        distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
+    if (exact)
+        exchange = distance > POLYGON_FACTOR_EXACT * small->radius ? polygon_factor_rule(&p, small->normal, &q, 2)
+                                                                   : polygon_factor_contour(&p, &q);
+    else if (distance > POLYGON_FACTOR_FAR * small->radius)
+        exchange = polygon_factor_rule(&p, small->normal, &q, 0);
+    else if (distance > POLYGON_FACTOR_MIDDLE * small->radius)
+        exchange = polygon_factor_rule(&p, small->normal, &q, 1);
+    else if (distance > POLYGON_FACTOR_NEAR * small->radius)
+        exchange = polygon_factor_rule(&p, small->normal, &q, 2);
+    else
+        exchange = polygon_factor_contour(&p, &q);
+    exchange /= r->area;
+    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
+}
+
+#endif

@@ -1,0 +1,48 @@
+/* main.c - the command radiosity: parse the options, read the scene, run the command.
+ * SPDX-License-Identifier: MIT */
+#include "commands.h"
+#include "dag.h"
+
+static int run(const struct options *o)
+{
+    struct scene_options how = { o->two_sided, o->quiet };
+    struct scene scene;
+    int status;
+    if (scene_read(&scene, o->scene, &how) < 0)
+        return 1;
+    switch (o->command) {
+    case COMMAND_COMPARE:
+        status = command_compare(o, &scene);
+        break;
+    case COMMAND_VIEWFACTORS:
+        status = command_viewfactors(o, &scene);
+        break;
+    default:
+        status = command_solve(o, &scene);
+        break;
+    }
+    scene_free(&scene);
+    return status;
+}
+
+int main(int count, char **arguments)
+{
+    struct options o;
+    int status = options_parse(&o, count, arguments);
+    if (status == 0)
+        switch (o.command) {
+        case COMMAND_HELP:
+            options_print_help(stdout);
+            break;
+        case COMMAND_VERSION:
+            printf("radiosity %s\n", DAGC_VERSION);
+            break;
+        case COMMAND_ORACLES:
+            oracles_print(stdout);
+            break;
+        default:
+            status = run(&o);
+        }
+    options_free(&o);
+    return fflush(stdout) != 0 && status == 0 ? 1 : status;
+}

@@ -1,0 +1,272 @@
+/* options.c - parse the command line. One table holds every option: the parser and the help derive from it.
+ * SPDX-License-Identifier: MIT */
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+#include "export.h"
+#include "options.h"
+
+enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
+           FACES, JSON, REPEATS, QUIET, HELP, VERSION };
+
+enum { S = 1, C = 2, V = 4, ALL = S | C | V }; /* solve, compare, viewfactors */
+
+static const struct option {
+    enum key key;
+    const char *name, *argument;
+    int commands;
+    const char *help;
+} table[] = {
+    { ORACLE, "--oracle", "NAME|FILE.dag", S | C, "the refinement oracle (default " DEFAULT_ORACLE "; see `radiosity oracles`)" },
+    { RELEASE, "--release", "flat|dag|hand", S, "compiled graph (default), interpreted graph, or written by hand" },
+    { SET, "--set", "PARAM=VALUE", ALL, "set a parameter of the oracle; may be given many times" },
+    { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
+    { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
+    { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
+    { THREADS, "--threads", "N", ALL, "threads to use (default: all processors); the result is the same" },
+    { TWO_SIDED, "--two-sided", NULL, ALL, "every face has two sides, not only materials named *_2s" },
+    { OUT, "-o", "FILE", S | V, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv" },
+    { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
+    { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
+    { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70)" },
+    { MESH, "--mesh", NULL, S, "draw the edges of the elements over the picture" },
+    { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
+    { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
+    { REPEATS, "--repeats", "N", C, "timed runs of each release (default 3)" },
+    { QUIET, "-q", NULL, ALL, "no progress, no summary, no warnings" },
+    { HELP, "--help", NULL, ALL, "this text" },
+    { VERSION, "--version", NULL, ALL, "the version" },
+};
+
+enum { OPTIONS = sizeof table / sizeof *table };
+
+void options_print_help(FILE *out)
+{
+    int i;
+    fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
+          "       radiosity compare SCENE [options]      run an oracle's three releases side by side\n"
+          "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
+          "       radiosity oracles                      list the built-in oracles and their parameters\n"
+          "\n"
+          "Light in a closed scene of diffuse surfaces, by hierarchical radiosity. SCENE is OBJ+MTL, PLY,\n"
+          "glTF, Collada or whatever Assimp reads, in metres; a material's diffuse colour is its reflectance,\n"
+          "its emissive colour its exitance in W/m2. Faces have one side unless the material's name ends in\n"
+          "_2s. What a solution costs and how good it is, the oracle's parameters decide:\n"
+          "\n"
+          "    radiosity solve room.obj --image room.png\n"
+          "    radiosity solve room.obj --set relative=0.02 --faces room.csv\n"
+          "    radiosity solve room.obj --oracle bf --set relative=0 --set epsilon=0.02   # the BF of 1991\n"
+          "\n", out);
+    for (i = 0; i < OPTIONS; i++) {
+        const struct option *p = &table[i];
+        char left[64];
+        snprintf(left, sizeof left, "%s%s%s", p->name, p->argument ? " " : "", p->argument ? p->argument : "");
+        fprintf(out, "  %-26s %s\n", left, p->help);
+    }
+    fputs("\nMessages go to standard error. Exit status: 0 done, 1 the scene, an oracle or a file is at fault\n"
+          "(nothing half-written is left), or compared releases differ; 2 wrong usage.\n", out);
+}
+
+static int wrong(const char *what, const char *which)
+{
+    fprintf(stderr, "radiosity: error: %s%s%s; see radiosity --help\n", what, *which ? " " : "", which);
+    return 2;
+}
+
+static int whole_number(const char *text, int low, int high, int *value)
+{
+    char *end;
+    long n;
+    errno = 0;
+    n = strtol(text, &end, 10);
+    if (end == text || *end || errno || n < low || n > high)
+        return -1;
+    *value = (int)n;
+    return 0;
+}
+
+static int take(struct options *o, const struct option *p, char *value)
+{
+    char *end;
+    int i;
+    switch (p->key) {
+    case ORACLE:
+        o->oracle = value;
+        return 0;
+    case RELEASE:
+        for (i = 0; i < RELEASES && strcmp(value, release_names[i]) != 0; i++)
+            ;
+        if (i == RELEASES)
+            return wrong("--release knows flat, dag and hand, not", value);
+        o->release = (enum release)i;
+        return 0;
+    case SET:
+        o->settings[o->setting_count++] = value;
+        return 0;
+    case TOLERANCE:
+        o->tolerance = strtod(value, &end);
+        if (end == value || *end || !(o->tolerance > 0) || !(o->tolerance < 1))
+            return wrong("--tolerance takes a number above 0 and below 1, not", value);
+        return 0;
+    case ITERATIONS:
+        return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
+    case THREADS:
+        return whole_number(value, 1, 1024, &o->threads) < 0 ? wrong("--threads takes a whole number from 1 to 1024, not", value) : 0;
+    case REPEATS:
+        return whole_number(value, 1, 1000, &o->repeats) < 0 ? wrong("--repeats takes a whole number from 1 to 1000, not", value) : 0;
+    case SIZE:
+        o->width = (int)strtol(value, &end, 10);
+        if (*end == 'x')
+            o->height = (int)strtol(end + 1, &end, 10);
+        return *end || o->width < 1 || o->height < 1 || o->width > 16384 || o->height > 16384
+                   ? wrong("--size takes WxH, each 1 to 16384, not", value) : 0;
+    case VIEW:
+        o->view_given = 1;
+        return view_parse(value, &o->view) < 0
+                   ? wrong("--view takes X,Y,Z:X,Y,Z[:FOV], two different points and 1 to 170 degrees, not", value) : 0;
+    case OUT:
+        o->out = value;
+        return 0;
+    case IMAGE:
+        o->image = value;
+        return 0;
+    case FACES:
+        o->faces = value;
+        return 0;
+    case JSON:
+        o->json = value;
+        return 0;
+    case MESH:
+        o->mesh = 1;
+        return 0;
+    case JACOBI:
+        o->jacobi = 1;
+        return 0;
+    case TWO_SIDED:
+        o->two_sided = 1;
+        return 0;
+    case QUIET:
+        o->quiet = 1;
+        return 0;
+    case HELP:
+        o->command = COMMAND_HELP;
+        return 0;
+    case VERSION:
+        o->command = COMMAND_VERSION;
+        return 0;
+    }
+    return 0;
+}
+
+/* The option that an argument names; `--name=value` gives its value too. */
+static const struct option *find(const char *argument, char **value)
+{
+    int i;
+    *value = NULL;
+    for (i = 0; i < OPTIONS; i++) {
+        size_t n = strlen(table[i].name);
+        if (strncmp(argument, table[i].name, n) != 0)
+            continue;
+        if (!argument[n])
+            return &table[i];
+        if (argument[n] == '=' && table[i].name[1] == '-') {
+            *value = (char *)argument + n + 1;
+            return &table[i];
+        }
+    }
+    if (strcmp(argument, "-h") == 0)
+        return find("--help", value);
+    return NULL;
+}
+
+static int command_of(const char *word, enum command *command)
+{
+    static const char *const names[] = { "solve", "compare", "viewfactors", "oracles" };
+    int i;
+    for (i = 0; i < 4; i++)
+        if (strcmp(word, names[i]) == 0) {
+            *command = (enum command)i;
+            return 0;
+        }
+    return -1;
+}
+
+int options_parse(struct options *o, int count, char **arguments)
+{
+    int i, only_files = 0, status;
+    memset(o, 0, sizeof *o);
+    o->oracle = DEFAULT_ORACLE;
+    o->tolerance = 1e-4;
+    o->iterations = 100000;
+    o->threads = omp_get_num_procs();
+    o->repeats = 3;
+    o->width = 1024;
+    o->height = 768;
+    o->settings = calloc((size_t)count + 1, sizeof *o->settings);
+    if (!o->settings)
+        return wrong("out of memory", "");
+    if (count < 2)
+        return wrong("no command is given", "");
+    if (arguments[1][0] == '-') {
+        char *value;
+        const struct option *p = find(arguments[1], &value);
+        if (!p || (p->key != HELP && p->key != VERSION))
+            return wrong("a command comes first, not", arguments[1]);
+        return take(o, p, NULL);
+    }
+    if (strcmp(arguments[1], "help") == 0) {
+        o->command = COMMAND_HELP;
+        return 0;
+    }
+    if (command_of(arguments[1], &o->command) < 0)
+        return wrong("unknown command", arguments[1]);
+    for (i = 2; i < count; i++) {
+        char *value;
+        const struct option *p;
+        if (only_files || arguments[i][0] != '-' || !arguments[i][1]) {
+            if (o->scene)
+                return wrong("more than one scene:", arguments[i]);
+            o->scene = arguments[i];
+            continue;
+        }
+        if (strcmp(arguments[i], "--") == 0) {
+            only_files = 1;
+            continue;
+        }
+        p = find(arguments[i], &value);
+        if (!p)
+            return wrong("unknown option", arguments[i]);
+        if (o->command < COMMAND_ORACLES && !(p->commands & 1 << o->command))
+            return wrong(arguments[1], p->name[1] == '-' ? "has no such option" : "has no option of that letter");
+        if (!p->argument && value)
+            return wrong("no value goes with", p->name);
+        if (p->argument && !value) {
+            if (i + 1 >= count)
+                return wrong("a value is missing after", p->name);
+            value = arguments[++i];
+        }
+        status = take(o, p, value);
+        if (status)
+            return status;
+        if (o->command == COMMAND_HELP || o->command == COMMAND_VERSION)
+            return 0;
+    }
+    if (o->command == COMMAND_ORACLES)
+        return o->scene ? wrong("oracles takes no scene, but got", o->scene) : 0;
+    if (!o->scene)
+        return wrong("no scene is given", "");
+    if (o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_UNKNOWN)
+        return wrong("-o takes a file named .ply, .gltf, .glb or .obj, not", o->out);
+    if ((o->mesh || o->view_given) && !o->image)
+        return wrong("--mesh and --view are for a picture: add --image FILE.png", "");
+    return 0;
+}
+
+void options_free(struct options *o)
+{
+    free(o->settings);
+    o->settings = NULL;
+}

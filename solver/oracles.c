@@ -1,0 +1,105 @@
+/* oracles.c - the three releases of an oracle, by name or from a file.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "builtin.h"
+#include "compile_oracle.h"
+#include "hand.h"
+#include "oracles.h"
+#include "report.h"
+
+const char *const release_names[RELEASES] = { "flat", "dag", "hand" };
+
+static const struct oracle *const hand_oracles[] = { &hand_bf, &hand_bf_guarded };
+
+static int is_file(const char *oracle)
+{
+    size_t n = strlen(oracle);
+    return strchr(oracle, '/') || (n > 4 && strcmp(oracle + n - 4, ".dag") == 0) || strcmp(oracle, "-") == 0;
+}
+
+static const struct builtin *find_builtin(const char *name)
+{
+    const struct builtin *b;
+    for (b = builtins; b->name; b++)
+        if (strcmp(b->name, name) == 0)
+            return b;
+    return NULL;
+}
+
+static struct refiner *open_hand(const char *oracle)
+{
+    size_t i;
+    for (i = 0; i < sizeof hand_oracles / sizeof *hand_oracles; i++)
+        if (strcmp(hand_oracles[i]->name, oracle) == 0)
+            return refiner_compiled(hand_oracles[i], "hand");
+    report_error(oracle, 0, "no hand-written release of this oracle; use --release flat or dag");
+    return NULL;
+}
+
+struct refiner *oracles_open(const char *oracle, enum release release)
+{
+    const struct builtin *b = find_builtin(oracle);
+    struct refiner *r;
+    if (!b && !is_file(oracle)) {
+        report_error(oracle, 0, "no such oracle; `radiosity oracles` lists the built-in ones, a file's name ends in .dag");
+        return NULL;
+    }
+    if (release == RELEASE_HAND)
+        return open_hand(oracle);
+    if (release == RELEASE_DAG)
+        return refiner_interpreted(oracle, b ? b->text : NULL, b ? b->name : NULL, stderr);
+    if (!b)
+        return compile_oracle(oracle);
+    r = refiner_compiled(b->flat, "flat");
+    if (!r)
+        report_error(oracle, 0, "out of memory");
+    return r;
+}
+
+int oracles_set(struct refiner *r, char *const *settings, int count)
+{
+    int i, k;
+    for (i = 0; i < count; i++) {
+        const char *equals = strchr(settings[i], '='), *cause;
+        char name[64], *end;
+        double value;
+        size_t length = equals ? (size_t)(equals - settings[i]) : 0;
+        if (!equals || length == 0 || length >= sizeof name)
+            return report_error("--set", 0, "'%s' is not PARAM=VALUE", settings[i]);
+        memcpy(name, settings[i], length);
+        name[length] = 0;
+        value = strtod(equals + 1, &end);
+        if (end == equals + 1 || *end || isnan(value))
+            return report_error("--set", 0, "'%s' is not a number (in %s)", equals + 1, settings[i]);
+        cause = refiner_set(r, name, value);
+        if (!cause)
+            continue;
+        for (k = 0; k < r->parameter_count && strcmp(r->parameters[k].name, name) != 0; k++)
+            ;
+        if (k < r->parameter_count)
+            return report_error("--set", 0, "%s = %g: %s; %s takes %s%g to %g%s%s", name, value, cause, name,
+                                r->parameters[k].integer ? "whole numbers from " : "", r->parameters[k].low,
+                                r->parameters[k].high, *r->parameters[k].unit ? " " : "", r->parameters[k].unit);
+        fprintf(stderr, "--set: error: oracle %s has no parameter '%s'; it has", r->oracle, name);
+        for (k = 0; k < r->parameter_count; k++)
+            fprintf(stderr, "%s %s", k ? "," : "", r->parameters[k].name);
+        fprintf(stderr, "\n");
+        return -1;
+    }
+    return 0;
+}
+
+void oracles_print(FILE *out)
+{
+    const struct builtin *b;
+    int i;
+    for (b = builtins; b->name; b++) {
+        fprintf(out, "%s%s: %s\n", b->name, strcmp(b->name, DEFAULT_ORACLE) == 0 ? " (default)" : "", b->flat->doc);
+        for (i = 0; i < b->flat->parameter_count; i++) {
+            const struct oracle_parameter *p = &b->flat->parameters[i];
+            fprintf(out, "  %-10s %8g %-5s %s\n", p->name, p->value, p->unit, p->doc);
+        }
+    }
+}

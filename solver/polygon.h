@@ -1,0 +1,30 @@
+/* polygon.h - plane polygons in space: area, flatness, convexity, triangles.
+ * SPDX-License-Identifier: MIT */
+#ifndef POLYGON_H
+#define POLYGON_H
+
+#include <stdint.h>
+
+/* Unit normal by Newell's sum, counter-clockwise seen from its tip; returns the area (of the
+ * projection along that normal when the polygon is not flat). Area 0: the normal is 0. */
+double polygon_normal(double (*vertex)[3], uint32_t count, double normal[3]);
+
+/* The longest distance between two corners. */
+double polygon_size(double (*vertex)[3], uint32_t count);
+
+/* 1 when there is no area to speak of: thinner than 1e-7 of its length, or than the rounding of
+ * its coordinates when they have been stored in single precision. */
+int polygon_degenerate(double (*vertex)[3], uint32_t count);
+
+/* 1 when every corner lies within tolerance * size of the mean plane. */
+int polygon_flat(double (*vertex)[3], uint32_t count, double tolerance);
+
+/* 1 when a flat quad has no inward corner and does not cross itself. */
+int polygon_convex_quad(double (*vertex)[3]);
+
+/* Cut into count - 2 triangles or fewer by ear clipping, in the plane of the mean normal; concave
+ * polygons are cut right. Triangles are corner indices in the polygon's own sense of rotation,
+ * `scratch` holds `count` numbers. Returns the number of triangles. */
+uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3], uint32_t *scratch);
+
+#endif

@@ -1,0 +1,40 @@
+/* progress.c - see progress.h. Ten lines a second at the most, and none in a log file.
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+#include "progress.h"
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void progress_start(struct progress *p, int quiet)
+{
+    p->wanted = !quiet && isatty(STDERR_FILENO);
+    p->shown = 0;
+    p->next = seconds() + 0.3;
+}
+
+void progress_show(void *context, const struct solve *s, const char *phase)
+{
+    struct progress *p = context;
+    double now;
+    if (!p->wanted || (now = seconds()) < p->next)
+        return;
+    fprintf(stderr, "\r%-6s pass %d, round %llu: %.3g pairs (%zu waiting), %.3g links, %.3g rays, residual %.1e \033[K",
+            phase, s->passes + 1, (unsigned long long)s->refinement.rounds, (double)s->refinement.pairs,
+            s->refinement.queue_count, (double)s->refinement.link_count, (double)rays_count(s->rays).rays, s->residual);
+    p->shown = 1;
+    p->next = now + 0.1;
+}
+
+void progress_end(struct progress *p)
+{
+    if (p->shown)
+        fprintf(stderr, "\r\033[K");
+    p->shown = 0;
+}

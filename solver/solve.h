@@ -1,0 +1,67 @@
+/* solve.h - from a scene to radiosity: refine, solve, refine again with the new radiosities.
+ * SPDX-License-Identifier: MIT */
+#ifndef SOLVE_H
+#define SOLVE_H
+
+#include <stdio.h>
+#include "hierarchy.h"
+#include "rays.h"
+#include "refine.h"
+#include "scene.h"
+#include "solution.h"
+
+struct solve;
+
+struct solve_options {
+    double tolerance; /* relative L1 error of B that iteration may leave, > 0 */
+    int iterations;   /* sweeps per solve at the most */
+    int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
+    int threads;
+    int unit;         /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    void (*progress)(void *context, const struct solve *solve, const char *phase);
+    void *context; /* of progress, which may be NULL */
+};
+
+/* Seconds by the clock in each phase. */
+struct solve_seconds {
+    double build, refine, iterate, in_rays; /* in_rays: inside Embree, mean over threads, part of refine */
+};
+
+struct solve {
+    struct scene const *scene; /* borrowed */
+    struct solve_options options;
+    struct hierarchy hierarchy;
+    struct rays *rays;
+    struct refinement refinement;
+    uint32_t bands;
+    double *radiosity, *irradiance; /* [room * bands], element by element */
+    double *exitance, *reflectance; /* [face_count * bands] */
+    unsigned char *changed;         /* [room]: the oracles see a radiosity that has grown since the links were discussed */
+    uint32_t room;                  /* elements that the arrays above have place for */
+    uint32_t started;               /* elements whose radiosity has a value */
+
+    uint32_t leaves;
+    int passes, sweeps;      /* solves, and sweeps of all of them */
+    int converged;           /* the last solve reached the tolerance and changed no link */
+    double residual;         /* of the last sweep: sum A |dB| / sum A B over leaves */
+    double emitted, absorbed; /* W, all bands */
+    double *row_scale;        /* [room]: leaves only, the factor that caps its row at 1 */
+    double row_low, row_high; /* smallest and largest sum of F V over a leaf's links, before the cap; 1 in a closed scene */
+    double row_excess;        /* what the cap moved: sum A (row - 1) over rows above 1, as a share of the scene's area */
+    struct solve_seconds seconds;
+};
+
+/* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set and nothing to free. */
+int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options, const char **cause);
+
+/* Refine with `refiner` and solve until no link changes and iteration error is below tolerance.
+ * Returns 0, or -1 with *cause set. */
+int solve_run(struct solve *s, const struct refiner *refiner, const char **cause);
+
+/* Refine once from the root, without solving. */
+int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause);
+
+struct solution solve_solution(const struct solve *s);
+void solve_close(struct solve *s);
+
+#endif

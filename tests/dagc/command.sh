@@ -1,0 +1,215 @@
+#!/bin/sh
+# Tests of the command dagc as a process: what it writes, and above all what it leaves alone.
+# Usage: command.sh DAGC. SPDX-License-Identifier: MIT
+# shellcheck disable=SC2086 # $run and $warnings are words
+dagc=$(realpath "$1")
+here=$(realpath "$(dirname "$0")")
+tmp=$(mktemp -d) || exit 2
+trap 'cd /; umount "$tmp/disk" 2>/dev/null; rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+bad=0 count=0
+
+check() { # WHAT COMMAND...
+    what=$1
+    shift
+    count=$((count + 1))
+    "$@" >out 2>&1 || { bad=$((bad + 1)); echo "command.sh: $what"; head -c 2000 out; }
+}
+status() { # STATUS COMMAND...
+    wanted=$1
+    shift
+    "$@" >stdout 2>stderr </dev/null
+    got=$?
+    [ $got = "$wanted" ] || { echo "exit $got, not $wanted"; cat stderr; return 1; }
+}
+says() { # TEXT: in the last standard error
+    grep -qF -- "$1" stderr || { echo "not said: $1"; head -c 1000 stderr; return 1; }
+}
+fails_with() { # STATUS TEXT COMMAND...
+    s=$1 t=$2
+    shift 2
+    status "$s" "$@" && says "$t"
+}
+untouched() { [ "$(cat old.c)" = old ] && [ "$(cat old.h)" = old ] && [ "$(find . -name '*.??????' | wc -l)" = 0 ]; }
+
+cp "$here/test_catalog.dag" catalog.dag
+cp "$here/emit_c.dag" good.dag
+cp "$here/cycle.dag" wrong.dag
+run="$dagc --catalog catalog.dag"
+old() { echo old >old.c; echo old >old.h; }
+
+# ---- wrong usage
+for arguments in '' '--nonsense good.dag' '-o' 'good.dag more.dag' '--emit=pdf good.dag' '--catalog' \
+    '-o x.c --header x.c good.dag' '-o good.dag good.dag' '-o ./good.dag good.dag' '-x good.dag' \
+    '--catalog - -' '--emit=catalog-h --header x.h catalog.dag' '-o catalog.dag --catalog catalog.dag good.dag'; do
+        check "usage: $arguments" status 2 "$dagc" $arguments
+done
+check "usage leaves files" cmp -s good.dag "$here/emit_c.dag"
+check "--help" status 0 "$dagc" --help
+check "--help teaches" grep -q 'oracle small' stdout
+sed -n '/# small.dag/,/^    }/s/^    //p' stdout >small.dag
+check "the example of --help compiles" status 0 "$dagc" --emit=none small.dag
+check "--version" status 0 "$dagc" --version
+check "--version says so" grep -q '^dagc [0-9]' stdout
+
+# ---- errors touch nothing
+old
+check "error" status 1 $run -o old.c --header old.h wrong.dag
+check "error leaves files" untouched
+check "missing file" fails_with 1 'cannot read none.dag: No such file' $run -o old.c none.dag
+check "directory" fails_with 1 'Is a directory' $run -o old.c .
+check "missing catalog" fails_with 1 'cannot read none' "$dagc" --catalog none -o old.c good.dag
+check "missing output folder" fails_with 1 'cannot write no/x.c' $run -o no/x.c --header old.h good.dag
+check "missing header folder" fails_with 1 'cannot write no/x.h' $run -o old.c --header no/x.h good.dag
+mkdir folder
+check "output is a folder" fails_with 1 'cannot write folder' $run -o old.c --header folder good.dag
+check "all of this leaves files" untouched
+# shellcheck disable=SC2016
+check "a file that cannot grow" fails_with 1 'cannot write old.c' sh -c 'ulimit -f 1; trap "" XFSZ; exec "$@"' sh $run -o old.c --header old.h good.dag
+check "a file that cannot grow leaves files" untouched
+check "full device" fails_with 1 'No space left' $run -o /dev/full good.dag
+check "full device as standard output" fails_with 1 'cannot write standard output' sh -c "$run good.dag >/dev/full"
+check "full device and header" fails_with 1 'No space left' $run -o /dev/full --header old.h good.dag
+check "full device leaves the header" untouched
+mkdir disk
+if mount -t tmpfs -o size=4k none disk 2>/dev/null; then
+    echo old >disk/old.c
+    check "full disk" fails_with 1 'No space left' $run -o disk/old.c --header old.h good.dag
+    check "full disk leaves the file" [ "$(ls disk)$(cat disk/old.c)" = old.cold ]
+    check "full disk leaves the header" untouched
+    umount disk
+fi
+
+# ---- what is written
+check "write" status 0 $run -o new.c --header new.h good.dag
+check "nothing printed" [ ! -s stdout ]
+check "the header is included" grep -q '^#include "new.h"$' new.c
+check "mode by umask" [ "$(umask 027; $run -o mode.c good.dag; stat -c %a mode.c)" = 640 ]
+check "mode by umask, open" [ "$(umask 0; $run -o mode2.c good.dag; stat -c %a mode2.c)" = 666 ]
+check "standard output" status 0 $run --header=- -o one.c good.dag
+check "standard output is the header" grep -q 'struct first_parameters' stdout
+check "standard input" sh -c "$run - <good.dag | grep -q 'from standard input'"
+check "a device is not replaced" sh -c "$run -o /dev/null good.dag && [ -c /dev/null ]"
+ln -s target.c link.c && echo old >target.c
+check "a link is followed" sh -c "$run -o link.c good.dag && [ -L link.c ] && grep -q dagc target.c"
+check "--emit=none" status 0 $run --emit=none -o old.c good.dag
+check "--emit=none writes nothing" untouched
+mkdir -p a/b
+check "same bytes from elsewhere" sh -c "cd a/b && $dagc --catalog=$tmp/catalog.dag -o new.c --header new.h ../../good.dag; cmp new.c ../../new.c && cmp new.h ../../new.h"
+check "no path, no date" sh -c "! grep -E '$tmp|/tmp|20[0-9][0-9]-' new.c new.h"
+check "a locale with a decimal comma" sh -c "LC_ALL=de_DE.UTF-8 $run good.dag >de.c && $run good.dag | cmp - de.c"
+
+# ---- hostile input
+hostile() { # WHAT TEXT: hostile.dag must give this error, quickly and shortly
+    check "$1" fails_with 1 "$2" timeout 20 $run -o old.c --header old.h hostile.dag
+    check "$1 leaves files" untouched
+    check "$1 says little" [ "$(wc -c <stderr)" -lt 40000 ]
+}
+: >hostile.dag
+hostile "an empty file" 'no oracle in this file'
+printf 'oracle t {\n start a; \000 }' >hostile.dag
+hostile "a NUL byte" 'hostile.dag:2:11: error: a NUL byte'
+printf 'oracle t { # \377\n}' >hostile.dag
+hostile "invalid UTF-8" 'this byte (0xff) is not UTF-8'
+printf 'oracle t { # \342\200\256 }' >hostile.dag
+hostile "a bidirectional control" 'U+202E'
+head -c 10000000 /dev/zero | tr '\0' 'a' >hostile.dag
+hostile "a name of 10 MB" 'the most is 63'
+{ printf 'oracle t "'; head -c 10000000 /dev/zero | tr '\0' 'a'; echo '" { }'; } >hostile.dag
+hostile "a string of 10 MB" 'the most is 2000'
+{ printf 'oracle t { start '; head -c 10000000 /dev/zero | tr '\0' ' '; echo 'a; b }'; } >hostile.dag
+hostile "a line of 10 MB" "found 'b'"
+{ printf 'oracle t { start a; node a = weigh(share = '; head -c 100000 /dev/zero | tr '\0' '('; echo '1'; } >hostile.dag
+hostile "100,000 parentheses" 'expected a number or the name of a parameter'
+{ printf 'oracle t { start a; node a = look() '; head -c 100000 /dev/zero | tr '\0' '{'; } >hostile.dag
+hostile "100,000 braces" "expected an answer"
+head -c 300000 /dev/zero | tr '\0' '}' >hostile.dag
+hostile "300,000 closing braces" "expected 'oracle'"
+{ echo 'oracle t {'; yes '@ x' | head -n 200000; } >hostile.dag
+hostile "200,000 errors" 'the first 50 found are shown'
+awk 'BEGIN { print "oracle t { start n0;"; for (i = 0; i < 30000; i++) print "node n" i " = lok" i "() { left -> m" i "; }"; print "}" }' >hostile.dag
+hostile "60,000 unknown names" 'the first 50 found are shown'
+awk 'BEGIN { print "oracle t { start n0;"; for (i = 0; i < 100000; i++) print "node n" i " = look() { left -> n" (i + 1) % 100000 "; otherwise -> drop; }"; print "}" }' >hostile.dag
+hostile "a cycle of 100,000 nodes" 'a cycle: n0 -> n1'
+head -c 70000000 /dev/zero >hostile.dag
+hostile "70 MB" 'more than 64 MB'
+rm hostile.dag
+check "a chain of 10,000 nodes" sh -c "awk 'BEGIN { print \"oracle t { start n0;\"; for (i = 0; i < 9999; i++) print \"node n\" i \" = look() { left -> n\" i + 1 \"; right -> n9999; neither -> drop; }\"; print \"node n9999 = look() { otherwise -> keep; } }\" }' | timeout 5 $run -o chain.c -"
+
+# ---- memory that runs out, wherever it does
+cat >malloc.c <<'END'
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdlib.h>
+static long left = -2;
+static int fails(void)
+{
+    if (left == -2) {
+        const char *at = getenv("FAIL_AT");
+        left = at != NULL ? atol(at) : -1;
+    }
+    return left >= 0 && left-- == 0;
+}
+void *malloc(size_t size)
+{
+    static void *(*next)(size_t);
+    if (next == NULL)
+        *(void **)&next = dlsym(RTLD_NEXT, "malloc");
+    return fails() ? (errno = ENOMEM, NULL) : next(size);
+}
+void *realloc(void *old, size_t size)
+{
+    static void *(*next)(void *, size_t);
+    if (next == NULL)
+        *(void **)&next = dlsym(RTLD_NEXT, "realloc");
+    return fails() ? (errno = ENOMEM, NULL) : next(old, size);
+}
+END
+if cc -shared -fPIC -o malloc.so malloc.c 2>/dev/null && LD_PRELOAD=$tmp/malloc.so "$dagc" --version >/dev/null 2>&1; then
+    out_of_memory() {
+        old
+        for at in $(seq 0 200); do
+            FAIL_AT=$at LD_PRELOAD=$tmp/malloc.so $run -o old.c --header old.h good.dag >stdout 2>stderr
+            got=$?
+            if [ $got = 0 ]; then
+                grep -q dagc old.c && [ "$at" -gt 5 ] && return 0
+                old
+            elif [ $got != 1 ] || ! untouched; then
+                echo "malloc number $at: exit $got"
+                cat stderr
+                return 1
+            fi
+        done
+    }
+    check "out of memory" out_of_memory
+fi
+
+# ---- the text compiles, in C and in C++
+mkdir gen gen/tools
+cp "$here"/runtime/*.h gen
+cp "$here"/runtime/tools/*.h gen/tools
+cp "$here"/../../runtime/oracle.h gen
+[ -f "$here/../../runtime/tool_table.h" ] && cp "$here/../../runtime/tool_table.h" gen
+check "catalog.h" status 0 "$dagc" --emit=catalog-h -o gen/catalog.h catalog.dag
+check "catalog.c" status 0 "$dagc" --emit=catalog-c -o gen/catalog.c catalog.dag
+check "with a header" status 0 $run -o gen/with.c --header gen/with.h good.dag
+check "without a header" status 0 $run -o gen/without.c good.dag
+check "two oracles" status 0 $run -o gen/two.c --header gen/two.h "$here/emit_header_name.dag"
+warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Igen -c -o object.o"
+for compiler in "gcc -std=c11 -O2" "gcc -std=c11 -O0" "gcc -std=c99 -O1" "clang -std=c11 -O2" "g++ -x c++ -std=c++17 -O2" "clang++ -x c++ -std=c++17 -O1"; do
+    command -v "${compiler%% *}" >/dev/null || continue
+    for text in gen/*.c; do
+                check "$compiler $text" $compiler $warnings $text
+    done
+done
+check "a newer runtime" sh -c "gcc $warnings -DRUNTIME_ABI=8 gen/with.c 2>&1 | grep -q 'run dagc again'"
+check "an older runtime" sh -c "gcc $warnings -DRUNTIME_ABI=6 gen/with.c 2>&1 | grep -q 'renew the runtime'"
+sed -i 's/TOOL enum weigh_answer tool_weigh(struct discussion \*d, double most/TOOL enum weigh_answer tool_weigh(struct discussion *d, float most/' gen/tools/weigh.h
+check "a tool that drifts from its declaration" sh -c "! gcc -std=c11 $warnings gen/catalog.c"
+sed -i 's/tally() *question answers (few, some, many)/&/; s/(few, some, many)/(few, some, many, all)/' catalog.dag
+"$dagc" --emit=catalog-h -o gen/catalog.h catalog.dag
+check "a tool with a new answer" sh -c "gcc -std=c11 $warnings gen/two.c 2>&1 | grep -q 'other answers'"
+
+echo "dagc: $count checks of the command, $bad failed"
+[ "$bad" = 0 ]

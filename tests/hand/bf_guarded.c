@@ -1,0 +1,125 @@
+/* bf_guarded.c - the oracle bf_guarded as a good engineer writes it.
+ * SPDX-License-Identifier: MIT */
+#include "hand.h"
+
+struct parameters {
+    double epsilon, relative, shadow, min_area, min_share;
+    int rays;
+};
+
+/* Lowest and highest signed distance of e's corners from the plane of `plane`. */
+static void range(const struct element *e, const struct element *plane, double *low, double *high)
+{
+    const double *n = plane->normal, *c = plane->centre;
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int i = 0; i < e->vertices; i++) {
+        const double *v = e->vertex[i];
+        double h = n[0] * (v[0] - c[0]) + n[1] * (v[1] - c[1]) + n[2] * (v[2] - c[2]);
+        *low = h < *low ? h : *low;
+        *high = h > *high ? h : *high;
+    }
+}
+
+/* The emitter as a disc, from the receiver's centre. */
+static double disc(const struct element *r, const struct element *s)
+{
+    double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1], z = s->centre[2] - r->centre[2];
+    double q = x * x + y * y + z * z;
+    double a = r->normal[0] * x + r->normal[1] * y + r->normal[2] * z;
+    double b = -(s->normal[0] * x + s->normal[1] * y + s->normal[2] * z);
+    return a > 0 && b > 0 ? a * b * s->area / (q * (3.14159265358979323846 * q + s->area)) : 0;
+}
+
+static enum decision refine(const void *state, struct discussion *d)
+{
+    const struct parameters *p = state;
+    const struct element *r = d->receiver, *s = d->emitter;
+    const struct host *host = d->host;
+    double f = d->terms.form_factor, low_r, high_r, low_s, high_s;
+    int known = d->terms.form_factor_level, r_crosses, s_crosses;
+
+    if (!r->vertices || !s->vertices)
+        return hand_open_clusters(r, s, host);
+
+    double flat = host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    range(r, s, &low_r, &high_r);
+    if (high_r <= flat)
+        return DECISION_STOP;
+    range(s, r, &low_s, &high_s);
+    if (high_s <= flat)
+        return DECISION_STOP;
+    r_crosses = low_r < -flat;
+    s_crosses = low_s < -flat;
+    int r_first = r->area > s->area || (r->area == s->area && r->id <= s->id);
+    if (r_crosses && s_crosses)
+        *(r_first ? &s_crosses : &r_crosses) = 0;
+    if ((r_crosses || s_crosses) && known < FORM_FACTOR_POLYGON) {
+        f = hand_form_factor(r, s);
+        known = FORM_FACTOR_POLYGON;
+    }
+
+    if (s->black)
+        return DECISION_STOP;
+    double least = p->min_share * host->area;
+    least = 4 * (least > p->min_area ? least : p->min_area);
+    int split_r = r->area >= least && r->depth < 24, split_s = s->area >= least && s->depth < 24;
+
+    double limit = p->relative * host->irradiance, faint = p->shadow * host->irradiance, brought = s->radiosity;
+    limit = p->epsilon > limit ? p->epsilon : limit;
+    faint = p->epsilon > faint ? p->epsilon : faint;
+    if (brought > limit || brought > faint) {
+        if (known == FORM_FACTOR_ABSENT)
+            f = disc(r, s);
+        brought *= f;
+    }
+    if (brought > limit && (split_r || split_s)) {
+        if (r_crosses || s_crosses)
+            return (r_crosses ? split_r : !split_s) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+        return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+    }
+
+    int level = p->rays <= 4 ? VISIBILITY_RAYS_4 : p->rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64;
+    double v = d->terms.visibility;
+    if (d->terms.visibility_level < level)
+        v = hand_visibility(r, s, host, level == VISIBILITY_RAYS_4 ? 4 : level == VISIBILITY_RAYS_16 ? 16 : 64);
+    else
+        level = d->terms.visibility_level;
+    int doubtful = v <= 0;
+    if (doubtful) {
+        if (brought <= faint)
+            return DECISION_STOP;
+        if (level < VISIBILITY_RAYS_64) {
+            v = hand_visibility(r, s, host, 64);
+            level = VISIBILITY_RAYS_64;
+        }
+        if (v <= 0)
+            return DECISION_STOP;
+    }
+    if ((doubtful || v < 1) && brought > faint && (split_r || split_s))
+        return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+
+    d->terms.visibility = v;
+    d->terms.visibility_level = (unsigned char)level;
+    d->terms.form_factor = known == FORM_FACTOR_POLYGON ? f : hand_form_factor(r, s);
+    d->terms.form_factor_level = FORM_FACTOR_POLYGON;
+    return DECISION_LINK;
+}
+
+static void defaults(void *at)
+{
+    *(struct parameters *)at = (struct parameters){ .relative = 0.05, .shadow = 0.005, .min_share = 2e-5, .rays = 16 };
+}
+
+static const struct oracle_parameter table[] = {
+    { "epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon) },
+    { "relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative) },
+    { "shadow", "", "", 0.005, 0, INFINITY, 0, offsetof(struct parameters, shadow) },
+    { "min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area) },
+    { "min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share) },
+    { "rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays) },
+};
+
+const struct oracle hand_bf_guarded = {
+    RUNTIME_ABI, "bf_guarded", "written by hand", "", table, 6, sizeof(struct parameters), defaults, refine
+};
