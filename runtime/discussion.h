@@ -64,9 +64,9 @@ enum { SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 
 /* What the program around the refiner provides. */
 struct host {
-    /* How many of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side?
-     * Called from many threads at once. */
-    int (*occluded)(const struct host *host, int count, const struct segment *segments);
+    /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
+     * segment i; bits from count on are 0. Called from many threads at once. */
+    uint64_t (*occluded)(const struct host *host, int count, const struct segment *segments);
     double area;       /* of all faces, m2 */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double ray_offset; /* how far off its surface a ray must start (m) */

@@ -36,6 +36,7 @@ struct rays {
     RTCDevice device;
     RTCScene scene;
     double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
+    unsigned char *two_sided; /* by Embree's primitive: its back is no inside */
     int threads;
     struct tally *tallies; /* [threads] */
 };
@@ -47,11 +48,12 @@ static uint64_t now(void)
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-static int occluded(const struct host *host, int count, const struct segment *segments)
+static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct rays *rays = (const struct rays *)(const void *)host;
     struct tally *tally = &rays->tallies[omp_get_thread_num()];
-    int first, i, hits = 0;
+    uint64_t hits = 0;
+    int first, i;
     for (first = 0; first < count; first += PACKET) {
         int n = count - first < PACKET ? count - first : PACKET;
         _Alignas(64) int valid[PACKET];
@@ -95,7 +97,7 @@ static int occluded(const struct host *host, int count, const struct segment *se
         }
         tally->nanoseconds += now() - start;
         for (i = 0; i < n; i++)
-            hits += packet.tfar[i] < 0; /* Embree: -inf when occluded */
+            hits |= (uint64_t)(packet.tfar[i] < 0) << (first + i); /* Embree: -inf when occluded */
     }
     tally->rays += (uint64_t)count;
     return hits;
@@ -138,7 +140,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.flat = 0.5 * rays->host.ray_offset;
 }
 
-static RTCGeometry faces_geometry(const struct rays *rays, const struct hierarchy *h)
+static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
 {
     RTCGeometry geometry = rtcNewGeometry(rays->device, RTC_GEOMETRY_TYPE_QUAD);
     uint32_t solid = 0, i, j, n = 0;
@@ -150,7 +152,8 @@ static RTCGeometry faces_geometry(const struct rays *rays, const struct hierarch
                                        3 * sizeof *vertices, (size_t)solid * 4);
     indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
                                       4 * sizeof *indices, solid);
-    if (!vertices || !indices) {
+    rays->two_sided = calloc(solid, 1);
+    if (!vertices || !indices || !rays->two_sided) {
         rtcReleaseGeometry(geometry);
         return NULL;
     }
@@ -165,6 +168,7 @@ static RTCGeometry faces_geometry(const struct rays *rays, const struct hierarch
                 vertices[12 * (size_t)n + 3 * j + (size_t)k] = (float)((v[k] - rays->origin[k]) * rays->scale);
             indices[4 * (size_t)n + j] = 4 * n + j;
         }
+        rays->two_sided[n] = i + 1 < h->face_count && f[1].back && f[1].input == f->input;
         n++;
     }
     rtcCommitGeometry(geometry);
@@ -209,6 +213,76 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
+/* Does the ray from p (Embree's coordinates) meet first the back of a one-sided face? */
+static int meets_inside(const struct rays *rays, const double p[3], const double direction[3])
+{
+    _Alignas(16) struct RTCRayHit query;
+    float facing;
+    memset(&query, 0, sizeof query);
+    query.ray.org_x = (float)p[0];
+    query.ray.org_y = (float)p[1];
+    query.ray.org_z = (float)p[2];
+    query.ray.dir_x = (float)direction[0];
+    query.ray.dir_y = (float)direction[1];
+    query.ray.dir_z = (float)direction[2];
+    query.ray.tfar = INFINITY;
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    {
+#if EMBREE == 4
+        struct RTCIntersectArguments arguments;
+        rtcInitIntersectArguments(&arguments);
+        rtcIntersect1(rays->scene, &query, &arguments);
+#else
+        struct RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1(rays->scene, &context, &query);
+#endif
+    }
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID || rays->two_sided[query.hit.primID])
+        return 0;
+    facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
+    return facing > 0;
+}
+
+double rays_exposed(const struct rays *rays, const struct element *e)
+{
+    enum { SIDE = 4, DIRECTIONS = 8, MOST = 6 };
+    /* Two unit vectors across the normal, the first along the axis that is most across it. */
+    const double *n = e->normal;
+    double u[3] = { 0, 0, 0 }, v[3], size;
+    int axis = fabs(n[0]) <= fabs(n[1]) ? fabs(n[0]) <= fabs(n[2]) ? 0 : 2 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2;
+    int i, j, k, m, buried = 0;
+    u[axis] = 1;
+    cross3(v, n, u);
+    size = length3(v);
+    for (k = 0; k < 3; k++)
+        v[k] /= size;
+    cross3(u, v, n);
+    for (i = 0; i < SIDE; i++)
+        for (j = 0; j < SIDE; j++) {
+            double s = (i + 0.5) / SIDE, t = (j + 0.5) / SIDE, p[3];
+            int inside = 0;
+            if (e->vertices == 3) /* fold the square onto the triangle, keeping area */
+                s = sqrt(s);
+            for (k = 0; k < 3; k++) {
+                const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
+                p[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b)
+                                        : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
+                p[k] = (p[k] + rays->host.ray_offset * n[k] - rays->origin[k]) * rays->scale;
+            }
+            for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++) {
+                /* sines of cosine-spread directions: radius sqrt of the stratum's middle */
+                double angle = 2.39996322972865332 * m, r = sqrt((m + 0.5) / DIRECTIONS), z = sqrt(1 - r * r), w[3];
+                for (k = 0; k < 3; k++)
+                    w[k] = z * n[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
+                inside += meets_inside(rays, p, w);
+            }
+            buried += inside >= MOST;
+        }
+    return 1 - buried / (double)(SIDE * SIDE);
+}
+
 const struct host *rays_host(const struct rays *rays)
 {
     return &rays->host;
@@ -233,6 +307,7 @@ void rays_close(struct rays *rays)
         rtcReleaseScene(rays->scene);
     if (rays->device)
         rtcReleaseDevice(rays->device);
+    free(rays->two_sided);
     free(rays->tallies);
     free(rays);
 }

@@ -23,6 +23,10 @@ struct rays_count {
 struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
                        int threads, const char **cause);
 
+/* The share of a surface that is not buried: a point is buried when most rays from it (8, cosine-spread) meet
+ * first the back of a one-sided face, as from the floor under a table leg. 16 points. Thread-safe. */
+double rays_exposed(const struct rays *rays, const struct element *e);
+
 /* The services in the form that a discussion takes. Valid until rays_close. */
 const struct host *rays_host(const struct rays *rays);
 struct rays_count rays_count(const struct rays *rays);

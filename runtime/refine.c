@@ -18,6 +18,10 @@ void link_store(struct link *link, const struct terms *terms)
     link->form_factor = (float)terms->form_factor;
     link->form_factor_level = terms->form_factor_level;
     link->visibility = (uint16_t)(terms->visibility * LINK_VISIBLE + 0.5);
+    if (link->visibility == 0 && terms->visibility > 0)
+        link->visibility = 1;
+    if (link->visibility == LINK_VISIBLE && terms->visibility < 1)
+        link->visibility = LINK_VISIBLE - 1; /* all and none stay what rays found, not what rounding makes */
     link->visibility_level = terms->visibility_level;
 }
 

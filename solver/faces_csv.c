@@ -1,4 +1,7 @@
 /* faces_csv.c - see faces_csv.h.
+ *
+ * Every column is a mean over the whole face, so B = E + rho H holds in each row, to rounding;
+ * solution.radiosity is the mean over what is not buried, which may be more.
  * SPDX-License-Identifier: MIT */
 #include "faces_csv.h"
 
@@ -11,7 +14,7 @@
 
 /* Sums over the faces that one input became. */
 struct total {
-    double area, irradiance[3], radiosity[3];
+    double area, irradiance[3];
 };
 
 static void write_name(FILE *out, const char *name)
@@ -54,7 +57,7 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
     for (uint32_t k = 0; k < s->bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : t->irradiance[k] / t->area);
     for (uint32_t k = 0; k < s->bands; k++)
-        fprintf(out, ",%.12g", dropped ? 0 : t->radiosity[k] / t->area);
+        fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
     putc('\n', out);
 }
 
@@ -73,10 +76,8 @@ int faces_csv_write(const char *path, const struct solution *s)
         size_t element = s->hierarchy->face_element[i];
         double area = s->hierarchy->elements[element].area;
         t->area += area;
-        for (uint32_t k = 0; k < s->bands; k++) {
+        for (uint32_t k = 0; k < s->bands; k++)
             t->irradiance[k] += area * s->irradiance[element * s->bands + k];
-            t->radiosity[k] += area * s->radiosity[element * s->bands + k];
-        }
     }
     write_header(file.stream, s->bands);
     for (uint32_t i = 0; i < s->scene->input_count; i++)

@@ -7,7 +7,8 @@
 #include "hierarchy.h"
 #include "scene.h"
 
-/* Values are constant over a leaf; an inner element holds the area mean of its children. */
+/* Values are constant over a leaf. Radiosity is the mean over the part of an element that is not buried in a
+ * solid; irradiance the mean over all of it. */
 struct solution {
     const struct scene *scene;         /* borrowed */
     const struct hierarchy *hierarchy; /* borrowed */

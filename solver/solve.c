@@ -3,15 +3,21 @@
  * A sweep gathers H_r += F V B_s over the links of every element, pushes it down to the leaves, where
  * B = E + rho H, and pulls area means up. A sweep goes through the faces in blocks; within a block all
  * gather first and are updated then, so the result is the same for any number of threads. One block
- * is Jacobi's method, many are Gauss-Seidel's. Every contraction is at most the largest reflectance, so
- * the L1 error left is at most residual * rho / (1 - rho), which is what the tolerance is held against.
+ * is Jacobi's method, many are Gauss-Seidel's. With rows at most 1 a sweep contracts by rho, the largest reflectance, so
+ * the error left is about residual * rho / (1 - rho), which is what the tolerance is held against.
+ *
+ * Part of a surface may be buried in a solid that stands on it, like the floor under a table leg. It
+ * receives nothing and sends nothing; rays know that, but a mean over the whole element would send the missing light
+ * a second time less. So B is the mean over the exposed part, and B = E + rho H / exposed, where H stays the mean over all.
  *
  * No point sees more than everything, so the sums of F V over a leaf's links (its row) are at most 1; yet a
  * leaf near an edge, whose ancestors' links bring their mean, can exceed that, and then a bright enough
  * scene gains power in every reflection and the iteration diverges. So rows are capped: a leaf above 1 is scaled to 1
- * and the excess A (row - 1) is given to the leaves of the same face between 1/2 and 1, by the room they
+ * and the power that takes away is given to the leaves of the same face between 1/2 and 1, by the room they
  * have. That moves power within a face and makes none; rows below 1/2 are shadow, not error, and
- * stay dark. With every row at most 1 the iteration converges whatever the oracle does.
+ * stay dark. Where the mean row of a whole face exceeds 1, by the noise of its rays, the cap is that mean (cutting
+ * noise on one side would lose power), but at most 1 + (1 - rho) / 2: so the iteration converges whatever
+ * the oracle does.
  * [Hanrahan et al. 1991, sections 4 and 5; Arvo et al. 1994, section 5.3 for the bound; cap: derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -58,6 +64,14 @@ static int make_room(struct solve *s)
         if (!moved)
             return -1;
         s->row_scale = moved;
+        moved = realloc(s->row_gift, room * sizeof *moved);
+        if (!moved)
+            return -1;
+        s->row_gift = moved;
+        moved = realloc(s->exposed, room * sizeof *moved);
+        if (!moved)
+            return -1;
+        s->exposed = moved;
         mark = realloc(s->changed, room);
         if (!mark)
             return -1;
@@ -70,9 +84,38 @@ static int make_room(struct solve *s)
             s->radiosity[(size_t)i * b + k] = e->vertices && e->depth > 0 ? s->radiosity[(size_t)e->parent * b + k] : 0;
             s->irradiance[(size_t)i * b + k] = 0;
         }
+        s->exposed[i] = 1;
     }
     s->started = count;
     return 0;
+}
+
+/* Which part of each new leaf is exposed; from there up, means. `first`: the first new element. */
+static void expose(struct solve *s, uint32_t first)
+{
+    struct element *elements = s->hierarchy.elements;
+    uint32_t count = s->hierarchy.count, i;
+    int c;
+#pragma omp parallel for schedule(dynamic, 64) num_threads(s->options.threads)
+    for (i = first; i < count; i++)
+        if (elements[i].vertices && !elements[i].children)
+            s->exposed[i] = rays_exposed(s->rays, &elements[i]);
+    for (i = count; i-- > 0;) {
+        if (!elements[i].children)
+            continue;
+        s->exposed[i] = 0;
+        for (c = 0; c < elements[i].children; c++) {
+            uint32_t j = elements[i].child + (uint32_t)c;
+            s->exposed[i] += s->exposed[j] * elements[j].area / elements[i].area;
+        }
+    }
+}
+
+/* The weight of child j in the mean radiosity of e: its share of the exposed area, or of all when none is exposed. */
+static double share(const struct solve *s, uint32_t j, uint32_t e)
+{
+    double part = s->hierarchy.elements[j].area / s->hierarchy.elements[e].area;
+    return s->exposed[e] > 0 ? part * s->exposed[j] / s->exposed[e] : part;
 }
 
 /* Before the first solve the oracles see what the light is likely to be: E + rho H with the mean irradiance. */
@@ -104,10 +147,10 @@ static void publish(struct solve *s)
                 s->radiosity[(size_t)i * b + k] = s->irradiance[(size_t)i * b + k] = 0;
             for (c = 0; c < e->children; c++) {
                 uint32_t j = e->child + (uint32_t)c;
-                double share = s->hierarchy.elements[j].area / e->area;
+                double sent = share(s, j, i), received = s->hierarchy.elements[j].area / e->area;
                 for (k = 0; k < b; k++) {
-                    s->radiosity[(size_t)i * b + k] += share * s->radiosity[(size_t)j * b + k];
-                    s->irradiance[(size_t)i * b + k] += share * s->irradiance[(size_t)j * b + k];
+                    s->radiosity[(size_t)i * b + k] += sent * s->radiosity[(size_t)j * b + k];
+                    s->irradiance[(size_t)i * b + k] += received * s->irradiance[(size_t)j * b + k];
                 }
             }
         }
@@ -202,9 +245,11 @@ static void gather_below(struct solve *s, uint32_t e)
         gather_below(s, x->child + (uint32_t)c);
 }
 
+struct rows;
+
 /* Call visit(context, leaf, sum of F V over its links and its ancestors') for the leaves below e. */
-static void visit_rows(struct solve *s, uint32_t e, double above, void (*visit)(struct solve *, uint32_t, double, double *),
-                       double *context)
+static void visit_rows(struct solve *s, uint32_t e, double above, void (*visit)(struct solve *, uint32_t, double, struct rows *),
+                       struct rows *context)
 {
     const struct element *x = &s->hierarchy.elements[e];
     const struct refinement *r = &s->refinement;
@@ -218,25 +263,49 @@ static void visit_rows(struct solve *s, uint32_t e, double above, void (*visit)(
         visit(s, e, above, context);
 }
 
-enum { EXCESS, ROOM, LOW, HIGH, LEAVES, ROW_SUMS };
+/* What the rows of one face come to. A row counts per exposed area: what is buried sees nothing. */
+struct rows {
+    double cap, sum, area; /* sum: of A exposed row (m2); area: of A exposed (m2) */
+    double excess, room;   /* above the cap; between ROW_SHADOW of the cap and the cap (m2) */
+};
 #define ROW_SHADOW 0.5
 
-static void measure_row(struct solve *s, uint32_t leaf, double row, double *sums)
+/* The row of a leaf per exposed area, and that area (m2); 0 when all of it is buried. */
+static double exposed_row(const struct solve *s, uint32_t leaf, double row, double *area)
 {
-    double area = s->hierarchy.elements[leaf].area;
-    if (row > 1)
-        sums[EXCESS] += area * (row - 1);
-    else if (row > ROW_SHADOW)
-        sums[ROOM] += area * (1 - row);
-    sums[LOW] = row < sums[LOW] ? row : sums[LOW];
-    sums[HIGH] = row > sums[HIGH] ? row : sums[HIGH];
-    sums[LEAVES]++;
+    *area = s->hierarchy.elements[leaf].area * s->exposed[leaf];
+    return s->exposed[leaf] > 0 ? row / s->exposed[leaf] : 0;
 }
 
-static void cap_row(struct solve *s, uint32_t leaf, double row, double *sums)
+static void sum_row(struct solve *s, uint32_t leaf, double row, struct rows *rows)
 {
-    double given = sums[ROOM] > sums[EXCESS] ? sums[EXCESS] / sums[ROOM] : sums[ROOM] > 0 ? 1 : 0;
-    s->row_scale[leaf] = row > 1 ? 1 / row : row > ROW_SHADOW ? 1 + given * (1 - row) / row : 1;
+    double area;
+    row = exposed_row(s, leaf, row, &area);
+    s->leaves++;
+    if (!(area > 0))
+        return;
+    rows->sum += area * row;
+    rows->area += area;
+    s->row_low = row < s->row_low ? row : s->row_low;
+    s->row_high = row > s->row_high ? row : s->row_high;
+}
+
+static void weigh_row(struct solve *s, uint32_t leaf, double row, struct rows *rows)
+{
+    double area;
+    row = exposed_row(s, leaf, row, &area);
+    if (row > rows->cap)
+        rows->excess += area * (row - rows->cap);
+    else if (row > ROW_SHADOW * rows->cap)
+        rows->room += area * (rows->cap - row);
+}
+
+static void cap_row(struct solve *s, uint32_t leaf, double row, struct rows *rows)
+{
+    double area, most = rows->excess > rows->room ? rows->excess : rows->room;
+    row = exposed_row(s, leaf, row, &area);
+    s->row_scale[leaf] = row > rows->cap ? rows->cap / row : 1;
+    s->row_gift[leaf] = row > ROW_SHADOW * rows->cap && row < rows->cap ? s->exposed[leaf] * (rows->cap - row) / most : 0;
 }
 
 /* Rows of all leaves: their range, and the factors that cap them. */
@@ -248,30 +317,48 @@ static void cap_rows(struct solve *s)
     s->row_high = s->row_excess = 0;
     for (i = 0; i < s->scene->face_count; i++) {
         uint32_t e = s->hierarchy.face_element[i];
-        double sums[ROW_SUMS] = { 0, 0, INFINITY, 0, 0 };
-        visit_rows(s, e, 0, measure_row, sums);
-        visit_rows(s, e, 0, cap_row, sums);
-        s->row_low = sums[LOW] < s->row_low ? sums[LOW] : s->row_low;
-        s->row_high = sums[HIGH] > s->row_high ? sums[HIGH] : s->row_high;
-        s->row_excess += sums[EXCESS] / rays_host(s->rays)->area;
-        s->leaves += (uint32_t)sums[LEAVES];
+        double most = 1 + 0.5 * (1 - largest(&s->reflectance[(size_t)i * s->bands], s->bands));
+        struct rows rows = { 1, 0, 0, 0, 0 };
+        visit_rows(s, e, 0, sum_row, &rows);
+        if (rows.sum > rows.area)
+            rows.cap = rows.sum < most * rows.area ? rows.sum / rows.area : most;
+        visit_rows(s, e, 0, weigh_row, &rows);
+        visit_rows(s, e, 0, cap_row, &rows);
+        s->row_excess += rows.excess / rays_host(s->rays)->area;
     }
 }
 
-/* Push irradiance from the ancestors down to the leaves, pull means up. Returns sum A |dB| over the leaves. */
-static double push_pull(struct solve *s, uint32_t e, const double above[3])
+/* Push irradiance down to the leaves and cap it there; removed[band] gathers the power that takes away. */
+static void push(struct solve *s, uint32_t e, const double above[3], double removed[3])
 {
     const struct element *x = &s->hierarchy.elements[e];
     uint32_t b = s->bands, k;
-    double *B = &s->radiosity[(size_t)e * b], *H = &s->irradiance[(size_t)e * b], h[3], moved = 0;
+    double *H = &s->irradiance[(size_t)e * b], h[3];
     int c;
     for (k = 0; k < b; k++)
         h[k] = above[k] + H[k];
+    for (c = 0; c < x->children; c++)
+        push(s, x->child + (uint32_t)c, h, removed);
+    for (k = 0; k < b && !x->children; k++) {
+        H[k] = h[k] * s->row_scale[e];
+        removed[k] += x->area * (h[k] - H[k]);
+    }
+}
+
+/* B = E + rho H at the leaves, means above. Returns sum A |dB| over the leaves. */
+static double pull(struct solve *s, uint32_t e, const double removed[3])
+{
+    const struct element *x = &s->hierarchy.elements[e];
+    uint32_t b = s->bands, k;
+    double *B = &s->radiosity[(size_t)e * b], *H = &s->irradiance[(size_t)e * b], moved = 0;
+    int c;
     if (!x->children) {
         const double *E = &s->exitance[(size_t)x->face * b], *rho = &s->reflectance[(size_t)x->face * b];
         for (k = 0; k < b; k++) {
-            double next = E[k] + rho[k] * (H[k] = h[k] * s->row_scale[e]);
-            moved += x->area * fabs(next - B[k]);
+            double exposed = s->exposed[e], next;
+            H[k] += removed[k] * s->row_gift[e];
+            next = E[k] + (exposed > 0 ? rho[k] * H[k] / exposed : 0);
+            moved += x->area * exposed * fabs(next - B[k]);
             B[k] = next;
         }
         return moved;
@@ -280,12 +367,11 @@ static double push_pull(struct solve *s, uint32_t e, const double above[3])
         B[k] = H[k] = 0;
     for (c = 0; c < x->children; c++) {
         uint32_t j = x->child + (uint32_t)c;
-        double share;
-        moved += push_pull(s, j, h);
-        share = s->hierarchy.elements[j].area / x->area;
+        double sent = share(s, j, e), received = s->hierarchy.elements[j].area / x->area;
+        moved += pull(s, j, removed);
         for (k = 0; k < b; k++) {
-            B[k] += share * s->radiosity[(size_t)j * b + k];
-            H[k] += share * s->irradiance[(size_t)j * b + k];
+            B[k] += sent * s->radiosity[(size_t)j * b + k];
+            H[k] += received * s->irradiance[(size_t)j * b + k];
         }
     }
     return moved;
@@ -303,8 +389,11 @@ static void sweep(struct solve *s, double *moved)
         for (i = from; i < to; i++)
             gather_below(s, s->hierarchy.face_element[i]);
 #pragma omp for schedule(dynamic, 64)
-        for (i = from; i < to; i++)
-            moved[i] = push_pull(s, s->hierarchy.face_element[i], nothing);
+        for (i = from; i < to; i++) {
+            double removed[3] = { 0, 0, 0 };
+            push(s, s->hierarchy.face_element[i], nothing, removed);
+            moved[i] = pull(s, s->hierarchy.face_element[i], removed);
+        }
     }
 }
 
@@ -327,7 +416,7 @@ static int iterate(struct solve *s, const char **cause)
             uint32_t e = s->hierarchy.face_element[i];
             change += moved[i];
             for (k = 0; k < s->bands; k++)
-                power += s->hierarchy.elements[e].area * s->radiosity[(size_t)e * s->bands + k];
+                power += s->hierarchy.elements[e].area * s->exposed[e] * s->radiosity[(size_t)e * s->bands + k];
         }
         s->residual = power > 0 ? change / power : 0;
         s->converged = s->residual * rho <= s->options.tolerance * (1 - rho);
@@ -347,7 +436,7 @@ static void account(struct solve *s)
         uint32_t e = s->hierarchy.face_element[i];
         double area = s->hierarchy.elements[e].area;
         for (k = 0; k < b; k++) {
-            s->emitted += area * s->exitance[(size_t)i * b + k];
+            s->emitted += area * s->exposed[e] * s->exitance[(size_t)i * b + k];
             s->absorbed += area * (1 - s->reflectance[(size_t)i * b + k]) * s->irradiance[(size_t)e * b + k];
         }
     }
@@ -371,6 +460,8 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.watch_context = s;
     if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0 || make_room(s) < 0)
         return -1;
+    if (!s->options.unit)
+        expose(s, 0);
     s->seconds.refine += seconds() - start;
     s->seconds.in_rays = rays_count(s->rays).seconds / s->options.threads;
     return 0;
@@ -383,14 +474,17 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
         return -1;
     for (s->passes = 0; changed > 0 && s->passes < PASSES; s->passes++) {
         double start = seconds(), middle;
+        uint32_t first;
         if (iterate(s, cause) < 0)
             return -1;
         publish(s);
         middle = seconds();
         *cause = "out of memory while refining; a coarser oracle parameter needs less";
+        first = s->hierarchy.count;
         changed = refinement_again(&s->refinement, s->changed);
         if (changed < 0 || (changed > 0 && refinement_sort(&s->refinement) < 0) || make_room(s) < 0)
             return -1;
+        expose(s, first);
         s->seconds.iterate += middle - start;
         s->seconds.refine += seconds() - middle;
     }
@@ -414,6 +508,8 @@ void solve_close(struct solve *s)
     free(s->radiosity);
     free(s->irradiance);
     free(s->row_scale);
+    free(s->row_gift);
+    free(s->exposed);
     free(s->changed);
     free(s->exitance);
     free(s->reflectance);

@@ -45,7 +45,9 @@ struct solve {
     int converged;           /* the last solve reached the tolerance and changed no link */
     double residual;         /* of the last sweep: sum A |dB| / sum A B over leaves */
     double emitted, absorbed; /* W, all bands */
+    double *exposed;          /* [room]: the share of the element that is not buried in a solid */
     double *row_scale;        /* [room]: leaves only, the factor that caps its row at 1 */
+    double *row_gift;         /* [room]: leaves only, its share of the power capped off its face, per area (1/m2) */
     double row_low, row_high; /* smallest and largest sum of F V over a leaf's links, before the cap; 1 in a closed scene */
     double row_excess;        /* what the cap moved: sum A (row - 1) over rows above 1, as a share of the scene's area */
     struct solve_seconds seconds;

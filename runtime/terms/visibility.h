@@ -1,4 +1,8 @@
-/* visibility.h - term: V, the visible fraction of the segments between two surfaces. In [0, 1].
+/* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In [0, 1].
+ *
+ * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see each other
+ * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
+ * smaller area over the number of segments, bounds the weight of parts that touch.
  *
  * rays_4, rays_16, rays_64: so many segments between points of the two elements' mutually facing
  * parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
@@ -87,6 +91,8 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
     };
     const struct element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
     struct segment segments[SEGMENTS_MAX];
+    double weight[SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
+    uint64_t blocked;
     struct sampler p, q;
     uint64_t hash = visibility_hash(r->id + visibility_hash(s->id));
     uint32_t digit[4];
@@ -102,7 +108,7 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
     }
     for (i = 0; i < count; i++) {
         struct segment *g = &segments[i];
-        double x[4];
+        double x[4], v[3], cos_r, cos_s, square;
         if (i > 0) { /* Gray code order: one digit changes from point to point */
             int bit = 0;
             while (!(i >> bit & 1))
@@ -114,12 +120,23 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
             x[k] = digit[k] * (1 / 4294967296.0);
         sampler_point(g->from, &p, x[0], x[1]);
         sampler_point(g->to, &q, x[2], x[3]);
+        sub3(v, g->to, g->from);
+        cos_r = dot3(r->normal, v);
+        cos_s = -dot3(s->normal, v);
+        square = dot3(v, v);
+        weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
         for (k = 0; k < 3; k++) {
             g->from[k] += host->ray_offset * r->normal[k];
             g->to[k] += host->ray_offset * s->normal[k];
         }
     }
-    return 1 - (double)host->occluded(host, count, segments) / count;
+    blocked = host->occluded(host, count, segments);
+    for (i = 0; i < count; i++) {
+        all += weight[i];
+        if (!(blocked >> i & 1))
+            seen += weight[i];
+    }
+    return all > 0 ? seen / all : 0;
 }
 
 TOOL double term_visibility(struct discussion *d, enum visibility_level level)

@@ -286,10 +286,11 @@ double hand_visibility(const struct element *r, const struct element *s, const s
     }
     uint64_t h = scramble(r->id + scramble(s->id)), k = scramble(h);
     uint32_t x[4] = { (uint32_t)(h >> 32), (uint32_t)h, (uint32_t)(k >> 32), (uint32_t)k };
-    double offset = host->ray_offset;
+    double offset = host->ray_offset, spread = (r->area < s->area ? r->area : s->area) / rays;
+    double weight[64], seen = 0, all = 0;
     prepare(&f, r, s);
     prepare(&g, s, r);
-    if (f.p.n == 0 || g.p.n == 0)
+    if (f.p.n == 0 || g.p.n == 0 || rays < 1)
         return 0;
     for (int i = 0; i < rays; i++) {
         if (i > 0) {
@@ -301,9 +302,18 @@ double hand_visibility(const struct element *r, const struct element *s, const s
         }
         vec a = sample(&f, x[0] * (1 / 4294967296.0), x[1] * (1 / 4294967296.0));
         vec b = sample(&g, x[2] * (1 / 4294967296.0), x[3] * (1 / 4294967296.0));
+        vec v = minus(b, a);
+        double cos_r = dot(load(r->normal), v), cos_s = -dot(load(s->normal), v), square = dot(v, v);
+        weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
         segments[i] = (struct segment){
             { a.x + offset * r->normal[0], a.y + offset * r->normal[1], a.z + offset * r->normal[2] },
             { b.x + offset * s->normal[0], b.y + offset * s->normal[1], b.z + offset * s->normal[2] } };
     }
-    return 1 - (double)host->occluded(host, rays, segments) / rays;
+    uint64_t blocked = host->occluded(host, rays, segments);
+    for (int i = 0; i < rays; i++) {
+        all += weight[i];
+        if ((blocked & (uint64_t)1 << i) == 0)
+            seen += weight[i];
+    }
+    return all > 0 ? seen / all : 0;
 }
