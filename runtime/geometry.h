@@ -50,7 +50,7 @@ struct polygon {
 static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
-    int i, k, count = 0;
+    int i, count = 0;
     double h = height3(v[n - 1], on, normal);
     const double *a = v[n - 1];
     for (i = 0; i < n; i++) {
@@ -58,13 +58,15 @@ static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n
         double g = height3(b, on, normal);
         if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
             double t = h / (h - g);
-            for (k = 0; k < 3; k++)
-                out->v[count][k] = a[k] + t * (b[k] - a[k]);
+            out->v[count][0] = a[0] + t * (b[0] - a[0]);
+            out->v[count][1] = a[1] + t * (b[1] - a[1]);
+            out->v[count][2] = a[2] + t * (b[2] - a[2]);
             count++;
         }
         if (g >= 0 && count < POLYGON_MAX) {
-            for (k = 0; k < 3; k++)
-                out->v[count][k] = b[k];
+            out->v[count][0] = b[0];
+            out->v[count][1] = b[1];
+            out->v[count][2] = b[2];
             count++;
         }
         a = b;

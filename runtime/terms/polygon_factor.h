@@ -72,11 +72,12 @@ static inline double polygon_factor_gauss(const struct polygon_factor_edge *g, d
     static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
     static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    int i, k;
+    int i;
     for (i = -2; i <= 2; i++) {
         double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
-        for (k = 0; k < 3; k++)
-            p[k] = g->p[k] + s * g->e[k];
+        p[0] = g->p[0] + s * g->e[0];
+        p[1] = g->p[1] + s * g->e[1];
+        p[2] = g->p[2] + s * g->e[2];
         sum += weight[i < 0 ? -i : i] * polygon_factor_line(p, g->a, g->u, g->length);
     }
     return sum * half;
