@@ -3,7 +3,7 @@
 #include "hand.h"
 
 struct parameters {
-    double epsilon, relative, shadow, min_area, min_share;
+    double epsilon, relative, shadow, faint, min_area, min_share;
     int rays;
 };
 
@@ -65,10 +65,11 @@ static enum decision refine(const void *state, struct discussion *d)
     least = 4 * (least > p->min_area ? least : p->min_area);
     int split_r = r->area >= least && r->depth < 24, split_s = s->area >= least && s->depth < 24;
 
-    double limit = p->relative * host->irradiance, faint = p->shadow * host->irradiance, brought = s->radiosity;
+    double limit = p->relative * host->irradiance, half = p->shadow * host->irradiance;
+    double faint = p->faint * host->irradiance, brought = s->radiosity;
     limit = p->epsilon > limit ? p->epsilon : limit;
-    faint = p->epsilon > faint ? p->epsilon : faint;
-    if (brought > limit || brought > faint) {
+    half = p->epsilon > half ? p->epsilon : half;
+    if (brought > limit || brought > half || brought > faint) {
         if (known == FORM_FACTOR_ABSENT)
             f = disc(r, s);
         brought *= f;
@@ -79,7 +80,8 @@ static enum decision refine(const void *state, struct discussion *d)
         return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
     }
 
-    int level = p->rays <= 4 ? VISIBILITY_RAYS_4 : p->rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64;
+    int bright = brought > faint;
+    int level = !bright || p->rays <= 4 ? VISIBILITY_RAYS_4 : p->rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64;
     double v = d->terms.visibility;
     if (d->terms.visibility_level < level)
         v = hand_visibility(r, s, host, level == VISIBILITY_RAYS_4 ? 4 : level == VISIBILITY_RAYS_16 ? 16 : 64);
@@ -87,7 +89,7 @@ static enum decision refine(const void *state, struct discussion *d)
         level = d->terms.visibility_level;
     int doubtful = v <= 0;
     if (doubtful) {
-        if (brought <= faint)
+        if (!bright || brought <= half)
             return DECISION_STOP;
         if (level < VISIBILITY_RAYS_64) {
             v = hand_visibility(r, s, host, 64);
@@ -96,7 +98,7 @@ static enum decision refine(const void *state, struct discussion *d)
         if (v <= 0)
             return DECISION_STOP;
     }
-    if ((doubtful || v < 1) && brought > faint && (split_r || split_s))
+    if (bright && (doubtful || v < 1) && brought > half && (split_r || split_s))
         return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
 
     d->terms.visibility = v;
@@ -108,18 +110,19 @@ static enum decision refine(const void *state, struct discussion *d)
 
 static void defaults(void *at)
 {
-    *(struct parameters *)at = (struct parameters){ .relative = 0.05, .shadow = 0.005, .min_share = 2e-5, .rays = 16 };
+    *(struct parameters *)at = (struct parameters){ .relative = 0.05, .shadow = 0.005, .faint = 2e-4, .min_share = 2e-5, .rays = 16 };
 }
 
 static const struct oracle_parameter table[] = {
     { "epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon) },
     { "relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative) },
     { "shadow", "", "", 0.005, 0, INFINITY, 0, offsetof(struct parameters, shadow) },
+    { "faint", "", "", 2e-4, 0, INFINITY, 0, offsetof(struct parameters, faint) },
     { "min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area) },
     { "min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share) },
     { "rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays) },
 };
 
 const struct oracle hand_bf_guarded = {
-    RUNTIME_ABI, "bf_guarded", "written by hand", "", table, 6, sizeof(struct parameters), defaults, refine
+    RUNTIME_ABI, "bf_guarded", "written by hand", "", table, 7, sizeof(struct parameters), defaults, refine
 };
