@@ -9,7 +9,7 @@ OPT      = -O2 -g
 WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 # No contraction of a*b+c: all releases of an oracle must agree to the bit.
 CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fopenmp $(SANITIZE)
-CPPFLAGS = -D_POSIX_C_SOURCE=200809L -I$(BUILD)/gen -Iruntime -Idagc -Isolver -Itests/hand
+CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen -Iruntime -Idagc -Isolver -Itests/hand
 LDFLAGS  = $(SANITIZE) -fopenmp
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm

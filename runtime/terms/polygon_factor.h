@@ -94,6 +94,17 @@ static inline double polygon_factor_adapt(const struct polygon_factor_edge *g, d
          + polygon_factor_adapt(g, middle, to, right, tolerance, depth - 1);
 }
 
+/* Multiply a polygon's corners by a power of two. */
+static inline void polygon_factor_scale(struct polygon *p, double factor)
+{
+    int i;
+    for (i = 0; i < p->n; i++) {
+        p->v[i][0] *= factor;
+        p->v[i][1] *= factor;
+        p->v[i][2] *= factor;
+    }
+}
+
 /* A_p F_pq by the contour integral (m2). The shorter edge of each pair is the outer one: along it
  * the inner integral varies least. */
 OUTLINE double polygon_factor_contour(const struct polygon *p, const struct polygon *q)
@@ -195,6 +206,19 @@ static inline double polygon_factor_rule(const struct polygon *p, const double n
     return sum;
 }
 
+/* The contour integral at a size of about one, so that logarithms round alike at every scale. */
+static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius)
+{
+    double up, down;
+    int e;
+    (void)frexp(radius, &e);
+    up = ldexp(1, e);
+    down = 1 / up;
+    polygon_factor_scale(p, down);
+    polygon_factor_scale(q, down);
+    return polygon_factor_contour(p, q) * up * up;
+}
+
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
 OUTLINE double polygon_factor(const struct element *r, const struct element *s, int exact)
 {
@@ -217,7 +241,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
     if (exact)
         exchange = distance > POLYGON_FACTOR_EXACT * small->radius ? polygon_factor_rule(&p, small->normal, &q, 2)
-                                                                   : polygon_factor_contour(&p, &q);
+                                                                   : polygon_factor_contour_at(&p, &q, large->radius);
     else if (distance > POLYGON_FACTOR_FAR * small->radius)
         exchange = polygon_factor_rule(&p, small->normal, &q, 0);
     else if (distance > POLYGON_FACTOR_MIDDLE * small->radius)
@@ -225,7 +249,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     else if (distance > POLYGON_FACTOR_NEAR * small->radius)
         exchange = polygon_factor_rule(&p, small->normal, &q, 2);
     else
-        exchange = polygon_factor_contour(&p, &q);
+        exchange = polygon_factor_contour_at(&p, &q, large->radius);
     exchange /= r->area;
     return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }

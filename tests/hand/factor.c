@@ -114,6 +114,19 @@ static double contour(const poly *p, const poly *q)
     return sum * (0.5 / 3.14159265358979323846);
 }
 
+/* Logarithms round alike at every scale when the size is always about one. */
+static double contour_at_unit_size(poly *p, poly *q, double radius)
+{
+    int e;
+    frexp(radius, &e);
+    double up = ldexp(1, e), down = 1 / up;
+    for (int i = 0; i < p->n; i++)
+        p->v[i] = (vec){ p->v[i].x * down, p->v[i].y * down, p->v[i].z * down };
+    for (int i = 0; i < q->n; i++)
+        q->v[i] = (vec){ q->v[i].x * down, q->v[i].y * down, q->v[i].z * down };
+    return contour(p, q) * up * up;
+}
+
 /* One orbit of a symmetric triangle rule: three points with barycentric weight w at one corner. */
 static double orbit(vec a, vec b, vec c, double w, int points, vec n, const poly *q)
 {
@@ -219,7 +232,7 @@ double hand_form_factor(const struct element *r, const struct element *s)
     else if (distance > 2 * small->radius)
         exchange = over(&p, n, &q, 2);
     else
-        exchange = contour(&p, &q);
+        exchange = contour_at_unit_size(&p, &q, large->radius);
     exchange /= r->area;
     return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }
