@@ -1,6 +1,7 @@
 # make          the commands build/dagc and build/radiosity
 # make check    the tests
 # make demo     the main job on real scenes, pictures included
+# make bench    what the releases cost, in instructions
 # SPDX-License-Identifier: MIT
 
 CC       = gcc
@@ -23,7 +24,7 @@ SOLVER    = $(call objects,solver) $(call objects,tests/hand) $(FLAT) $(BUILD)/g
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
-.PHONY: all check demo packages clean
+.PHONY: all check demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -74,6 +75,10 @@ check: all
 
 demo: all
 	@sh examples/demo.sh $(BUILD)
+
+# Instruction counts of the three releases; --repeats medians: radiosity compare SCENE.
+bench: all
+	sh tests/bench_releases.sh $(BUILD)/bin/radiosity
 
 clean:
 	rm -rf $(BUILD)
