@@ -115,13 +115,12 @@ END_TEST
 /* A cube, ceiling E = 1, rho = .5: the continuous solution's means. The error falls with epsilon. */
 START_TEST(test_cube)
 {
-    static char *settings[4][5] = { { "relative=0", "epsilon=0.1", "min_share=1e-6", NULL },
+    static char *settings[3][5] = { { "relative=0", "epsilon=0.1", "min_share=1e-6", NULL },
                                     { "relative=0", "epsilon=0.01", "min_share=1e-6", NULL },
-                                    { "relative=0", "epsilon=0.002", "min_share=1e-6", NULL },
-                                    { "relative=0", "epsilon=0.0005", "min_share=1e-5", NULL } };
-    double error[4];
+                                    { "relative=0", "epsilon=0.002", "min_share=1e-6", NULL } };
+    double error[3];
     int i;
-    for (i = 0; i < 4; i++) {
+    for (i = 0; i < 3; i++) {
         struct scene scene;
         struct solve s;
         uint32_t wall, lamp, m[6], f;
@@ -141,7 +140,7 @@ START_TEST(test_cube)
     }
     ck_assert_double_lt(error[1], error[0]);
     ck_assert_double_lt(error[2], error[1]);
-    ck_assert_double_lt(error[3], 1e-3);
+    ck_assert_double_lt(error[2], 1e-3);
 }
 END_TEST
 
@@ -306,8 +305,8 @@ START_TEST(test_compare)
     static const char *const oracle[] = { "bf", "bf_guarded" };
     const char *program = getenv("RADIOSITY");
     char command[512];
-    snprintf(command, sizeof command, "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set relative=0.5%s > /dev/null",
-             program ? program : "build/bin/radiosity", scene[_i / 2], oracle[_i % 2], _i % 2 ? " --set shadow=0.1" : "");
+    snprintf(command, sizeof command, "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set relative=0.5 --set min_share=1e-3%s > /dev/null",
+             program ? program : "build/bin/radiosity", scene[_i / 2], oracle[_i % 2], _i % 2 ? " --set shadow=0.1 --set faint=1e-3" : "");
     ck_assert_int_eq(system(command), 0);
 }
 END_TEST

@@ -2,8 +2,10 @@
  * stood between, mean over r. Dimensionless, in [0, 1].
  *
  * disc     the emitter as a disc of its area seen from the receiver's centre,
- *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and more),
- *          elements that cross each other's planes. [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and more; a
+ *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
+ *          polygon is computed instead; elements that cross each other's planes.
+ *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
  *          by a rule of as many points as the distance asks for; where they are nearer than their
@@ -34,6 +36,12 @@ TOOL double form_factor_disc(struct discussion *d)
 TOOL double term_form_factor(struct discussion *d, enum form_factor_level level)
 {
     if (d->terms.form_factor_level < level) {
+        if (level == FORM_FACTOR_DISC) {
+            double reach = d->receiver->radius + d->emitter->radius;
+            const double *axis = term_axis(d);
+            if (dot3(axis, axis) < reach * reach)
+                level = FORM_FACTOR_POLYGON;
+        }
         d->terms.form_factor = level == FORM_FACTOR_DISC
                                    ? form_factor_disc(d)
                                    : polygon_factor(d->receiver, d->emitter, level == FORM_FACTOR_CONTOUR);

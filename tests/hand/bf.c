@@ -21,11 +21,16 @@ static void range(const struct element *e, const struct element *plane, double *
     }
 }
 
-/* The emitter as a disc, from the receiver's centre. */
-static double disc(const struct element *r, const struct element *s)
+/* F_rs as good as refinement needs it: the emitter as a disc, seen from the receiver's centre, unless the two are near. */
+static double estimate(const struct element *r, const struct element *s, int *polygon)
 {
+    double reach = r->radius + s->radius;
     double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1], z = s->centre[2] - r->centre[2];
     double q = x * x + y * y + z * z;
+    if (q < reach * reach) {
+        *polygon = 1;
+        return hand_form_factor(r, s);
+    }
     double a = r->normal[0] * x + r->normal[1] * y + r->normal[2] * z;
     double b = -(s->normal[0] * x + s->normal[1] * y + s->normal[2] * z);
     return a > 0 && b > 0 ? a * b * s->area / (q * (3.14159265358979323846 * q + s->area)) : 0;
@@ -60,7 +65,10 @@ static enum decision refine(const void *state, struct discussion *d)
     double limit = p->relative * host->irradiance;
     if (p->epsilon > limit)
         limit = p->epsilon;
-    if (s->radiosity > limit && s->radiosity * (polygon ? f : disc(r, s)) > limit) {
+    double brought = s->radiosity;
+    if (brought > limit && !polygon)
+        f = estimate(r, s, &polygon);
+    if (brought > limit && brought * f > limit) {
         double least = p->min_share * host->area;
         least = 4 * (least > p->min_area ? least : p->min_area);
         int split_r = r->area >= least && r->depth < 24, split_s = s->area >= least && s->depth < 24;
