@@ -12,8 +12,8 @@
 #define POLYGON_FACTOR_PI 3.14159265358979323846
 
 /* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
-#define POLYGON_FACTOR_NEAR 2.0
-#define POLYGON_FACTOR_MIDDLE 6.0
+#define POLYGON_FACTOR_NEAR 3.0
+#define POLYGON_FACTOR_MIDDLE 8.0
 #define POLYGON_FACTOR_FAR 60.0
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
 #define POLYGON_FACTOR_EXACT 20.0

@@ -227,9 +227,9 @@ double hand_form_factor(const struct element *r, const struct element *s)
         distance = distance_to(centre, &q, m);
     if (distance > 60 * small->radius)
         exchange = over(&p, n, &q, 0);
-    else if (distance > 6 * small->radius)
+    else if (distance > 8 * small->radius)
         exchange = over(&p, n, &q, 1);
-    else if (distance > 2 * small->radius)
+    else if (distance > 3 * small->radius)
         exchange = over(&p, n, &q, 2);
     else
         exchange = contour_at_unit_size(&p, &q, large->radius);
