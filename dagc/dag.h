@@ -38,6 +38,7 @@ struct source {
     const char *base; /* without its directory: what generated files may mention */
     const char *text; /* NUL-terminated copy */
     int length;       /* bytes, without the NUL */
+    unsigned char is_file; /* `name` is its path; else standard input or a text in memory */
 };
 
 /* Exponents of the base units m, kg, s, A, K, mol, cd; all zero: a plain number. */
@@ -221,12 +222,13 @@ struct diagnostic {
     const char *message;
 };
 
-enum { ERRORS_SHOWN = 50 }; /* the rest of a file's errors are only counted */
+enum { ERRORS_SHOWN = 50 }; /* the rest of the errors, or of the warnings, are only counted */
 
 /* Memory in blocks that are freed together. Failure to get a block ends the pass that asked:
  * control returns to dag_protect (see internal.h), as in Lua. */
 struct block;
 struct protector;
+struct warnings;
 struct arena {
     struct block *blocks;
     struct protector *protector;
@@ -274,6 +276,8 @@ struct dag {
     struct source *sources;         int source_count;
     struct diagnostic *diagnostics; int diagnostic_count;
     int error_count, warning_count; /* all of them, also those not kept */
+    unsigned char muted;            /* the last one was not kept: nor are its notes */
+    const struct warnings *warnings; /* see warn.h; NULL: only those that are errors by nature */
 };
 
 /* ------------------------------------------------------------------------------------------
@@ -292,6 +296,12 @@ struct dag *dag_load(const char *path, const char *catalog_name, const char *cat
 /* The same for text in memory; `name` stands for the file name in messages. */
 struct dag *dag_load_text(const char *name, const char *text, size_t length,
                           const char *catalog_name, const char *catalog, FILE *errors);
+
+/* The same under switches as after `-W` on the command line, separated by spaces, such as
+ * "all no-unused-parameter error"; both functions above give only errors. */
+struct dag *dag_load_switched(const char *switches, const char *name, const char *text,
+                              size_t length, const char *catalog_name, const char *catalog,
+                              FILE *errors);
 
 void dag_free(struct dag *dag); /* NULL is fine */
 

@@ -81,6 +81,7 @@ struct input {
     char *owned; /* the same, when dag_input_close is to free it */
     size_t length;
     int error; /* an errno; dag_read reports it */
+    unsigned char is_file; /* not standard input, not a text in memory */
 };
 void dag_input_open(struct input *input, const char *path); /* "-": standard input */
 void dag_input_close(struct input *input);
@@ -91,8 +92,11 @@ int dag_read_text(struct dag *dag, const char *name, const char *text, size_t le
 
 extern const struct where dag_nowhere;
 void dag_error(struct dag *dag, struct where where, const char *format, ...) PRINTF_LIKE(3, 4);
-/* Explains the last error; dropped when that error was dropped. */
+/* Explains the last error or warning; dropped when that was dropped. */
 void dag_note(struct dag *dag, struct where where, const char *format, ...) PRINTF_LIKE(3, 4);
+/* Keeps a finished message, or only counts it when it is one too many: was it kept? */
+int dag_report(struct dag *dag, enum severity severity, struct where where, const char *message);
+int dag_is_full(const struct dag *dag, enum severity severity); /* the next is one too many */
 /* Prints all messages in the order of the sources, then how many there were. */
 void dag_print_diagnostics(const struct dag *dag, FILE *out);
 int dag_line(const struct source *source, int offset); /* 1-based */
@@ -135,6 +139,14 @@ struct token dag_lex(struct lexer *lexer);
 
 /* ---- passes, in their order */
 
+/* What --dump can show, and --emit=text after the last of them. */
+enum pass {
+#define PASS(number, name, says) PASS_##number,
+#include "passes.def"
+#undef PASS
+    PASSES
+};
+
 enum content { CONTENT_CATALOG, CONTENT_ORACLES };
 void dag_parse(struct dag *dag, int source, enum content content);
 void dag_resolve_catalog(struct dag *dag);
@@ -142,8 +154,13 @@ void dag_check_names(struct dag *dag);  /* the catalog's names as C names */
 void dag_resolve(struct dag *dag);      /* the oracles: names to indices, rules to arcs */
 void dag_check_values(struct dag *dag); /* types, units, ranges */
 void dag_check_graph(struct dag *dag);  /* cycles; the topological order */
+void dag_analyse(struct dag *dag);     /* what paths prove: warnings, terms, termination */
 void dag_fingerprint(struct dag *dag);
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name);
+void dag_emit_dot(struct dag *dag, struct text *out);
+void dag_emit_json(struct dag *dag, struct text *out);
+void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
+void dag_emit_catalog_doc(struct dag *dag, struct text *out);
 void dag_emit_catalog_h(const struct dag *dag, struct text *out);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 

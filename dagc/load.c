@@ -2,17 +2,19 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "internal.h"
+#include "warn.h"
 
 struct request {
     const char *catalog_name, *catalog;
     struct input file;
+    struct warnings warnings;
 };
 
 /* The passes up to a checked graph, as in main.c. */
 static void load(struct dag *dag, void *context)
 {
     const struct request *request = context;
+    dag->warnings = &request->warnings;
     int catalog = dag_read_text(dag, request->catalog_name, request->catalog,
                                 strlen(request->catalog));
     if (catalog >= 0) {
@@ -30,6 +32,8 @@ static void load(struct dag *dag, void *context)
         dag_check_values(dag);
         dag_check_graph(dag);
     }
+    if (dag->error_count == 0)
+        dag_analyse(dag);
     if (dag->error_count == 0)
         dag_fingerprint(dag);
 }
@@ -49,12 +53,14 @@ static struct dag *run(struct request *request, const char *catalog_name, const 
         dag_free(dag);
         return NULL;
     }
+    dag->warnings = NULL; /* they end with this function */
     return dag;
 }
 
 struct dag *dag_load(const char *path, const char *catalog_name, const char *catalog, FILE *errors)
 {
     struct request request = {0};
+    dag_warnings_quiet(&request.warnings);
     dag_input_open(&request.file, path);
     struct dag *dag = run(&request, catalog_name, catalog, errors);
     dag_input_close(&request.file);
@@ -64,7 +70,33 @@ struct dag *dag_load(const char *path, const char *catalog_name, const char *cat
 struct dag *dag_load_text(const char *name, const char *text, size_t length,
                           const char *catalog_name, const char *catalog, FILE *errors)
 {
+    return dag_load_switched("", name, text, length, catalog_name, catalog, errors);
+}
+
+/* Obeys words such as "no-unused-parameter error"; 0: there is one that is no switch. */
+static int obey(struct warnings *warnings, const char *switches, FILE *errors)
+{
+    char word[64];
+    int length;
+    for (; sscanf(switches, " %63s%n", word, &length) == 1; switches += length) {
+        const char *nearest = NULL;
+        if (dag_warnings_switch(warnings, word, &nearest) != NULL) {
+            if (errors != NULL)
+                fprintf(errors, "dagc: error: no warning is called '%s'\n", word);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+struct dag *dag_load_switched(const char *switches, const char *name, const char *text,
+                              size_t length, const char *catalog_name, const char *catalog,
+                              FILE *errors)
+{
     struct request request = {0};
+    dag_warnings_quiet(&request.warnings);
+    if (!obey(&request.warnings, switches, errors))
+        return NULL;
     request.file.name = name;
     request.file.bytes = text;
     request.file.length = length;

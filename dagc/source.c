@@ -99,7 +99,7 @@ static int slurp(FILE *file, struct input *input)
 void dag_input_open(struct input *input, const char *path)
 {
     int standard = strcmp(path, "-") == 0;
-    *input = (struct input){standard ? "standard input" : path, NULL, NULL, 0, 0};
+    *input = (struct input){standard ? "standard input" : path, NULL, NULL, 0, 0, !standard};
     FILE *file = standard ? stdin : fopen(path, "rb");
     if (file == NULL)
         input->error = errno != 0 ? errno : ENOENT;
@@ -120,8 +120,12 @@ void dag_input_close(struct input *input)
 
 int dag_read(struct dag *dag, const struct input *input)
 {
-    if (input->error == 0)
-        return dag_read_text(dag, input->name, input->bytes, input->length);
+    if (input->error == 0) {
+        int next = dag->source_count, index = dag_read_text(dag, input->name, input->bytes, input->length);
+        if (next < dag->source_count)
+            dag->sources[next].is_file = input->is_file;
+        return index;
+    }
     dag_error(dag, dag_nowhere, "cannot read %s: %s", input->name, strerror(input->error));
     return -1;
 }
