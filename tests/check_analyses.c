@@ -79,7 +79,7 @@ static void make(struct graph *g)
         for (int a = 0; a < answers_of(tool); a++) {
             int left = g->count - n - 1, node = left > 0 && pick(4) > 0;
             int to = g->target[n][a] = node ? n + 1 + pick(left < 3 ? left : 3) : -1 - pick(DECISIONS);
-            char name[16];
+            char name[32];
             if (node)
                 snprintf(name, sizeof name, "n%d", to);
             else
@@ -180,7 +180,7 @@ static void compare(const struct graph *g, const char *said, const char *warning
 
 static void check_questions(const struct graph *g, const char *said, const struct findings *f, int n)
 {
-    char path_to[16], it[16];
+    char path_to[32], it[32];
     int bits = f->answers[n], single = bits != 0 && (bits & (bits - 1)) == 0;
     int implied = single && !f->unasked[n], arc = 0, command = answers_of(g->tool[n]) == 1;
     for (int m = 0; m < NODES; m++)
