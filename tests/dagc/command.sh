@@ -230,6 +230,15 @@ hostile "a cycle of 100,000 nodes" 'a cycle: n0 -> n1'
 head -c 70000000 /dev/zero >hostile.dag
 hostile "70 MB" 'more than 64 MB'
 rm hostile.dag
+catalog_of() { # KIND: a catalog with 300 levels or 300 answers
+    awk -v kind="$1" 'BEGIN { print "runtime \"r.h\" abi 1; type r = real \"\"; decision d; term x : r levels (l0";
+        for (i = 1; kind == "levels" && i < 300; i++) print " < l" i; print "); tool t() question answers (a0";
+        for (i = 1; kind == "answers" && i < 300; i++) print ", a" i; print ");" }' >many.dag
+}
+catalog_of levels
+check "300 levels" fails_with 1 'a term has at most' "$dagc" --emit=catalog-h many.dag
+catalog_of answers
+check "300 answers" fails_with 1 'a tool has at most' "$dagc" --emit=catalog-h many.dag
 check "a chain of 10,000 nodes" sh -c "awk 'BEGIN { print \"oracle t { start n0;\"; for (i = 0; i < 9999; i++) print \"node n\" i \" = look() { left -> n\" i + 1 \"; right -> n9999; neither -> drop; }\"; print \"node n9999 = look() { otherwise -> keep; } }\" }' | timeout 5 $run -o chain.c -"
 
 # ---- memory that runs out, wherever it does
