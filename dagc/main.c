@@ -9,16 +9,18 @@
 
 #include "write.h"
 
-enum emit { EMIT_C, EMIT_NONE, EMIT_CATALOG_H, EMIT_CATALOG_C };
+enum emit { EMIT_C, EMIT_NONE, EMIT_CATALOG_H, EMIT_CATALOG_C, EMIT_STUB };
 
-static const char *const emit_names[] = {"c", "none", "catalog-h", "catalog-c"};
-enum { EMIT_NAMES = 4 };
+static const char *const emit_names[] = {"c", "none", "catalog-h", "catalog-c", "stub"};
+enum { EMIT_NAMES = 5 };
 
 struct job {
     const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
     enum emit emit;
     struct input input, catalog;
     struct output outputs[2];              /* the C text, the header */
+    const char **folders;                  /* of -I */
+    int folder_count;
 };
 
 static int is_catalog(const struct job *job)
@@ -30,6 +32,8 @@ static void passes(struct dag *dag, void *context)
 {
     struct job *job = context;
     struct output *out = &job->outputs[0], *header = &job->outputs[1];
+    dag->folders = job->folders;
+    dag->folder_count = job->folder_count;
 
     int catalog = is_catalog(job) ? dag_read(dag, &job->input) : dag_read(dag, &job->catalog);
     if (catalog >= 0) {
@@ -40,12 +44,19 @@ static void passes(struct dag *dag, void *context)
     }
     if (dag->error_count > 0)
         return;
+    if (job->emit == EMIT_STUB) {
+        dag_emit_stub(dag, &out->text, job->input_path);
+        return;
+    }
     if (!is_catalog(job)) {
         int file = dag_read(dag, &job->input);
         if (file >= 0) {
             dag_parse(dag, file, CONTENT_ORACLES);
+            dag_resolve_catalog(dag); /* what the file declares itself */
+            dag_check_names(dag);
             dag_resolve(dag);
             dag_check_values(dag);
+            dag_expand(dag);
             dag_check_graph(dag);
         }
     }
@@ -66,7 +77,8 @@ static int run(struct job *job)
 {
     struct dag *dag = dag_new();
     int result = 1;
-    dag_input_open(&job->input, job->input_path);
+    if (job->emit != EMIT_STUB)
+        dag_input_open(&job->input, job->input_path);
     if (job->catalog_path != NULL)
         dag_input_open(&job->catalog, job->catalog_path);
     else {
@@ -92,8 +104,9 @@ static int run(struct job *job)
 /* ---- the command line */
 
 static const char usage[] =
-    "usage: dagc [-o FILE] [--header FILE] [--emit=c|none|catalog-h|catalog-c]\n"
-    "            [--catalog FILE] [--version] [--help] FILE.dag\n";
+    "usage: dagc [-o FILE] [--header FILE] [--emit=c|none|catalog-h|catalog-c] [-I DIR]\n"
+    "            [--catalog FILE] [--version] [--help] FILE.dag\n"
+    "       dagc --emit=stub [-o FILE] [-I DIR] [--catalog FILE] TOOL\n";
 
 static const char help[] =
     "\n"
@@ -105,6 +118,8 @@ static const char help[] =
     "                  none       nothing: only look for mistakes\n"
     "                  catalog-h  FILE.dag is a catalog: its enums and terms for C\n"
     "                  catalog-c  FILE.dag is a catalog: the interpreter's table of tools\n"
+    "                  stub       TOOL is a tool or term of the catalog: its header, to be filled in\n"
+    "  -I DIR          look for imported files here, too; may be given again\n"
     "  --catalog FILE  the tools, terms and decisions to use instead of the standard ones\n"
     "  FILE.dag        the source; '-': standard input\n"
     "\n"
@@ -193,6 +208,8 @@ static const char *contradiction(const struct job *job)
         return "an output would replace an input";
     if (standard_input && job->catalog_path != NULL && strcmp(job->catalog_path, "-") == 0)
         return "the source and the catalog cannot both be standard input";
+    if (job->emit == EMIT_STUB && header != NULL)
+        return "--header means nothing with --emit=stub";
     if (is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
     return NULL;
@@ -217,7 +234,11 @@ static int parse_arguments(struct job *job, int count, char **arguments)
         } else if (strcmp(argument, "--version") == 0) {
             printf("dagc %s\n", DAGC_VERSION);
             return 1;
-        } else if ((value = value_of("-o", arguments, count, &i, &missing)) != NULL)
+        } else if (strncmp(argument, "-I", 2) == 0 && argument[2] != '\0')
+            job->folders[job->folder_count++] = argument + 2;
+        else if ((value = value_of("-I", arguments, count, &i, &missing)) != NULL)
+            job->folders[job->folder_count++] = value;
+        else if ((value = value_of("-o", arguments, count, &i, &missing)) != NULL)
             job->outputs[0].path = value;
         else if ((value = value_of("--header", arguments, count, &i, &missing)) != NULL)
             job->outputs[1].path = value;
@@ -225,7 +246,7 @@ static int parse_arguments(struct job *job, int count, char **arguments)
             job->catalog_path = value;
         else if ((value = value_of("--emit", arguments, count, &i, &missing)) != NULL) {
             if (!set_emit(job, value))
-                return wrong("--emit knows c, none, catalog-h and catalog-c, not", value);
+                return wrong("--emit knows c, none, catalog-h, catalog-c and stub, not", value);
         } else
             return wrong(missing ? "a value is missing after" : "unknown option", argument);
     }
@@ -240,8 +261,16 @@ static int parse_arguments(struct job *job, int count, char **arguments)
 int main(int count, char **arguments)
 {
     struct job job = {0};
+    job.folders = calloc((size_t)count + 1, sizeof *job.folders);
+    if (job.folders == NULL) {
+        fprintf(stderr, "dagc: error: out of memory\n");
+        return 1;
+    }
     int status = parse_arguments(&job, count, arguments);
     if (status == 1)
-        return fflush(stdout) != 0;
-    return status != 0 ? status : run(&job);
+        status = fflush(stdout) != 0;
+    else if (status == 0)
+        status = run(&job);
+    free(job.folders);
+    return status;
 }
