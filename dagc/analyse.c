@@ -11,6 +11,7 @@ void dag_analyse(struct dag *dag)
     dag_analyse_guards(dag);
     dag_analyse_terms(dag);
     dag_analyse_repeats(dag);
+    dag->use = -1;
 }
 
 /* ---- the search */
@@ -126,13 +127,63 @@ const char *dag_target_name(const struct dag *dag, const struct target *target)
                                        : dag->decisions[target->index].name;
 }
 
-const char *dag_expression_text(struct dag *dag, int expression)
+/* An operand of + - * / and of the minus sign. */
+static const char *operand_text(struct dag *dag, int expression)
+{
+    enum expression_kind kind = dag->expressions[expression].kind;
+    const char *text = dag_value_text(dag, expression);
+    int infix = kind == EXPRESSION_NEGATE || (kind >= EXPRESSION_ADD && kind <= EXPRESSION_DIVIDE);
+    return infix ? dag_format(&dag->arena, "(%s)", text) : text;
+}
+
+static const char *operation_text(struct dag *dag, const struct expression *e)
+{
+    static const char *const signs[] = {"+", "-", "*", "/"}; /* from EXPRESSION_ADD on */
+    if (e->kind == EXPRESSION_NEGATE)
+        return dag_format(&dag->arena, "-%s", operand_text(dag, e->left));
+    if (e->kind == EXPRESSION_SQRT || e->kind == EXPRESSION_ABS)
+        return dag_format(&dag->arena, "%s(%s)", e->kind == EXPRESSION_SQRT ? "sqrt" : "abs",
+                          dag_value_text(dag, e->left));
+    if (e->kind == EXPRESSION_MIN || e->kind == EXPRESSION_MAX)
+        return dag_format(&dag->arena, "%s(%s, %s)", e->kind == EXPRESSION_MIN ? "min" : "max",
+                          dag_value_text(dag, e->left), dag_value_text(dag, e->right));
+    const char *left = operand_text(dag, e->left);
+    return dag_format(&dag->arena, "%s %s %s", left, signs[e->kind - EXPRESSION_ADD],
+                      operand_text(dag, e->right));
+}
+
+const char *dag_value_text(struct dag *dag, int expression)
 {
     const struct expression *e = &dag->expressions[expression];
     char digits[32];
-    if (e->kind == EXPRESSION_PARAMETER)
+    switch (e->kind) {
+    case EXPRESSION_NUMBER:
+        return dag_format(&dag->arena, "%s", dag_number(e->number, digits));
+    case EXPRESSION_PARAMETER:
         return dag->parameters[e->parameter].name;
-    return dag_format(&dag->arena, "%s", dag_number(e->number, digits));
+    case EXPRESSION_NAME:
+        return e->name;
+    case EXPRESSION_FACT:
+        return dag->facts[e->index].name;
+    case EXPRESSION_TERM: {
+        const struct term *term = &dag->terms[e->index];
+        return term->levels.count == 0 ? term->name
+             : dag_format(&dag->arena, "%s.%s", term->name, dag->levels[term->levels.first + e->level - 1].name);
+    }
+    case EXPRESSION_EXTERN:
+        return dag_format(&dag->arena, "extern %s", e->name);
+    case EXPRESSION_NEGATE:
+    case EXPRESSION_SQRT:
+    case EXPRESSION_ABS:
+    case EXPRESSION_ADD:
+    case EXPRESSION_SUBTRACT:
+    case EXPRESSION_MULTIPLY:
+    case EXPRESSION_DIVIDE:
+    case EXPRESSION_MIN:
+    case EXPRESSION_MAX:
+        break;
+    }
+    return operation_text(dag, e);
 }
 
 const char *dag_call_text(struct dag *dag, const struct node *node)
@@ -142,7 +193,7 @@ const char *dag_call_text(struct dag *dag, const struct node *node)
         const struct argument *argument = &dag->arguments[node->arguments.first + i];
         text = dag_format(&dag->arena, "%s%s%s = %s", text, i > 0 ? ", " : "",
                           dag->parameters[argument->parameter].name,
-                          dag_expression_text(dag, argument->expression));
+                          dag_value_text(dag, argument->expression));
     }
     return dag_format(&dag->arena, "%s(%s)", dag->tools[node->tool].name, text);
 }

@@ -47,7 +47,8 @@ const struct node *dag_search_turn(const struct search *search, const struct nod
 const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph *oracle, int place);
 const char *dag_answer_name(const struct dag *dag, const struct node *node, int answer);
 const char *dag_target_name(const struct dag *dag, const struct target *target);
-const char *dag_expression_text(struct dag *dag, int expression); /* as the language writes it */
+/* The value, whole and the same for the same value: names resolved, operators in parentheses. */
+const char *dag_value_text(struct dag *dag, int expression);
 const char *dag_call_text(struct dag *dag, const struct node *node); /* "transfer(absolute = epsilon)" */
 const char *dag_need_text(struct dag *dag, const struct need *need); /* "form_factor >= polygon" */
 /* ", a, b or c": appends a name to a list, for sentences. */
@@ -65,7 +66,9 @@ void dag_analyse_repeats(struct dag *dag); /* what has been asked before */
  * reached; 0: some path leaves it absent. */
 void dag_sure_levels(const struct dag *dag, const struct oracle_graph *oracle, int term,
                      unsigned char *sure);
-/* The least level that the tool leaves the term at, 0: it does not write it. */
+/* The least level that the tool leaves the term at, 0: it does not write it; and that asking the
+ * node leaves it at, whose arguments may have read it. */
 int dag_written_level(const struct dag *dag, const struct tool *tool, int term);
+int dag_left_level(const struct dag *dag, const struct node *node, int term);
 
 #endif

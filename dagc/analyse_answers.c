@@ -32,6 +32,7 @@ static void check_wildcard(struct dag *dag, struct search *search, const struct 
     int count = 0, shown = -1;
     if (otherwise == NULL || node->rules.count == 1)
         return;
+    dag->use = node->use;
     for (int a = 0; a < node->arcs.count; a++) {
         if (!is_by(&dag->arcs[node->arcs.first + a], otherwise))
             continue;
@@ -47,7 +48,8 @@ static void check_wildcard(struct dag *dag, struct search *search, const struct 
                                 "'otherwise' swallows the precise answer%s %s of '%s'",
                                 count > 1 ? "s" : "", precise, node->name))
         return;
-    dag_note(dag, node->where, "%s", dag_search_path(search, node, 0, shown, otherwise->target.name));
+    const char *end = dag_target_name(dag, &dag->arcs[node->arcs.first + shown].target);
+    dag_note(dag, node->where, "%s", dag_search_path(search, node, 0, shown, end));
     dag_note(dag, dag_nowhere, "say which answers are meant: %s -> %s;", all, otherwise->target.name);
 }
 
@@ -117,11 +119,12 @@ static void check_alike(struct classes *classes, struct search *search, const st
 {
     struct dag *dag = classes->dag;
     const struct arc *arcs = &dag->arcs[node->arcs.first];
+    dag->use = node->use;
     if (is_idle(classes, node)) {
         if (dag_warn(dag, WARNING_IDLE_QUESTION, node->where,
                      "'%s' decides nothing: all its answers lead to the same decisions", node->name)) {
             dag_note(dag, arcs[0].target.where, "%s",
-                     dag_search_path(search, node, 0, 0, arcs[0].target.name));
+                     dag_search_path(search, node, 0, 0, dag_target_name(dag, &arcs[0].target)));
             dag_note(dag, dag_nowhere, "lead to '%s' at once", arcs[0].target.name);
         }
         return;
@@ -135,7 +138,7 @@ static void check_alike(struct classes *classes, struct search *search, const st
                      dag_answer_name(dag, node, twin), dag_answer_name(dag, node, a), node->name,
                      arcs[twin].target.name, arcs[a].target.name)) {
             dag_note(dag, arcs[twin].target.where, "%s",
-                     dag_search_path(search, node, 0, twin, arcs[twin].target.name));
+                     dag_search_path(search, node, 0, twin, dag_target_name(dag, &arcs[twin].target)));
             dag_note(dag, dag_nowhere, "lead both to '%s'", arcs[twin].target.name);
         }
         break;

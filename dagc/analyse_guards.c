@@ -27,6 +27,7 @@ static void report(struct search *search, const struct node *node, int answer, i
     struct dag *dag = search->dag;
     const struct arc *arc = &dag->arcs[node->arcs.first + answer];
     const char *decision = dag->decisions[arc->target.index].name, *list = guards(dag);
+    dag->use = node->use;
     if (!dag_warn(dag, WARNING_UNGUARDED_SPLIT, arc->target.where,
                   "a path to '%s' passes no guard: '%s' need not end", decision,
                   search->oracle->name))

@@ -52,13 +52,39 @@ static int writes_any(const struct dag *dag, const struct tool *tool, struct spa
     return 0;
 }
 
-/* May asking `tool` change what the question answers next time? Its own writes alone do not: it
- * finds what it left. Reading what it writes, it may count. */
-static int may_change(const struct dag *dag, const struct tool *tool, const struct tool *question,
+/* Do the node's arguments raise one of these terms? At its lowest level anyone who reads a term
+ * computes it, which changes no answer. */
+static int raises_any(const struct dag *dag, const struct node *node, struct span needs)
+{
+    for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
+        for (int k = needs.first; dag->needs[i].level > 1 && k < needs.first + needs.count; k++)
+            if (dag->needs[k].term == dag->needs[i].term)
+                return 1;
+    return 0;
+}
+
+/* May the tool's writes change what the question of that node answers next time? Its own alone
+ * do not: it finds what it left. Reading what it writes, it may count. */
+static int may_change(const struct dag *dag, const struct tool *tool, const struct node *question,
                       int same_question)
 {
-    return writes_any(dag, tool, question->reads) ||
-           (!same_question && writes_any(dag, tool, question->writes));
+    const struct tool *asked = &dag->tools[question->tool];
+    return writes_any(dag, tool, asked->reads) || writes_any(dag, tool, question->reads) ||
+           (!same_question && writes_any(dag, tool, asked->writes));
+}
+
+/* The same of what the arguments of another question's node read. */
+static int arguments_may_change(const struct dag *dag, const struct node *node,
+                                const struct node *question)
+{
+    const struct tool *asked = &dag->tools[question->tool];
+    return raises_any(dag, node, asked->reads) || raises_any(dag, node, question->reads) ||
+           raises_any(dag, node, asked->writes);
+}
+
+static const struct node *node_of(const struct repeats *repeats, const struct question *question)
+{
+    return dag_node_at(repeats->dag, repeats->oracle, question->first);
 }
 
 static const struct tool *tool_of(const struct repeats *repeats, const struct question *question)
@@ -106,7 +132,7 @@ static void fill_word(struct repeats *repeats)
         question->shift = used;
         used += 1 + question->answers;
         for (int t = 0; t < dag->tool_count; t++)
-            if (may_change(dag, &dag->tools[t], tool, 0))
+            if (may_change(dag, &dag->tools[t], node_of(repeats, question), 0))
                 repeats->changed[t] |= UINT64_C(1) << question->shift;
     }
     repeats->to = i;
@@ -137,11 +163,23 @@ static int is_in_word(const struct repeats *repeats, int question)
            repeats->questions[question].nodes > 1;
 }
 
+/* "not asked", of the questions in the word whose answer the node may change. */
+static uint64_t changes(const struct repeats *repeats, const struct node *node)
+{
+    uint64_t changed = repeats->changed[node->tool];
+    for (int i = repeats->from; node->reads.count > 0 && i < repeats->to; i++) {
+        const struct question *question = &repeats->questions[i];
+        if (question->nodes > 1 && arguments_may_change(repeats->dag, node, node_of(repeats, question)))
+            changed |= UINT64_C(1) << question->shift;
+    }
+    return changed;
+}
+
 /* The word once the node at a place has been asked, but for its own question. */
 static uint64_t changed_by(const struct repeats *repeats, int place)
 {
     uint64_t word = repeats->state[place];
-    uint64_t changed = repeats->changed[dag_node_at(repeats->dag, repeats->oracle, place)->tool];
+    uint64_t changed = changes(repeats, dag_node_at(repeats->dag, repeats->oracle, place));
     for (int i = repeats->from; changed != 0 && i < repeats->to; i++) {
         const struct question *question = &repeats->questions[i];
         if (question->nodes < 2 || (changed >> question->shift & 1) == 0)
@@ -164,7 +202,7 @@ static uint64_t after(const struct repeats *repeats, int place, int answer, uint
     uint64_t bit = UINT64_C(1) << answer_bit(question, answer);
     if ((before & (bit | 1)) == 0) /* the earlier answer was another one */
         return with_bits(question, word, 0);
-    return with_bits(question, word, may_change(repeats->dag, tool, tool, 1) ? 1 : bit);
+    return with_bits(question, word, may_change(repeats->dag, tool, node_of(repeats, question), 1) ? 1 : bit);
 }
 
 static int is_single(uint64_t bits)
@@ -242,11 +280,11 @@ static int asked(const struct search *search, const struct node *node, int answe
     const struct asked *context = search->context;
     const struct dag *dag = search->dag;
     const struct tool *tool = &dag->tools[node->tool];
-    const struct tool *question = &dag->tools[context->node->tool];
     (void)answer;
     if (asks_it(context, node))
-        return !may_change(dag, tool, question, 1);
-    return phase && !may_change(dag, tool, question, 0);
+        return !may_change(dag, tool, context->node, 1);
+    return phase && !may_change(dag, tool, context->node, 0) &&
+           !arguments_may_change(dag, node, context->node);
 }
 
 /* The path to the node on which it is asked twice, through the arc on which that is sure if there
@@ -304,6 +342,7 @@ static void check_node(struct repeats *repeats, int place)
     const struct node *node = dag_node_at(dag, repeats->oracle, place);
     const struct question *question = &repeats->questions[repeats->question[place]];
     uint64_t bits = bits_of(question, repeats->state[place]);
+    dag->use = node->use;
     int answer = agreed(repeats, question, bits), all = (bits & 1) == 0;
     if ((bits & ~UINT64_C(1)) == 0)
         return;

@@ -3,7 +3,8 @@
  * A forward must-analysis: the fact about a term is the level at which it is surely known, where
  * paths meet the least of theirs holds, and a tool that writes the term raises it. A tool's
  * `reads` without a level asks for nothing: such a tool computes what it lacks, and may also
- * do without (so it raises nothing either). A level in `reads`, and whatever a decision reads,
+ * do without (so it raises nothing either); what a node's arguments read is computed before the
+ * tool is asked, and is known from there on. A level in `reads`, and whatever a decision reads,
  * must be there. Terms are absent at the start: what an earlier discussion left may be gone.
  * [the forward analysis of Kildall 1973, on a graph without cycles: one sweep]
  * SPDX-License-Identifier: MIT */
@@ -18,6 +19,15 @@ int dag_written_level(const struct dag *dag, const struct tool *tool, int term)
     return level;
 }
 
+int dag_left_level(const struct dag *dag, const struct node *node, int term)
+{
+    int level = dag_written_level(dag, &dag->tools[node->tool], term);
+    for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
+        if (dag->needs[i].term == term && dag->needs[i].level > level)
+            level = dag->needs[i].level;
+    return level;
+}
+
 void dag_sure_levels(const struct dag *dag, const struct oracle_graph *oracle, int term,
                      unsigned char *sure)
 {
@@ -27,7 +37,7 @@ void dag_sure_levels(const struct dag *dag, const struct oracle_graph *oracle, i
     sure[0] = 0;
     for (int i = 0; i < oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, oracle, i);
-        int written = dag_written_level(dag, &dag->tools[node->tool], term);
+        int written = dag_left_level(dag, node, term);
         unsigned char after = written > sure[i] ? (unsigned char)written : sure[i];
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
@@ -48,7 +58,7 @@ static int lacks(const struct search *search, const struct node *node, int answe
 {
     const struct wanted *wanted = search->context;
     (void)answer, (void)phase;
-    int level = dag_written_level(search->dag, &search->dag->tools[node->tool], wanted->term);
+    int level = dag_left_level(search->dag, node, wanted->term);
     return level >= wanted->level ? -1 : 0;
 }
 
@@ -57,8 +67,7 @@ static int reaches(const struct search *search, const struct node *node, int ans
 {
     const struct wanted *wanted = search->context;
     (void)answer;
-    return phase || dag_written_level(search->dag, &search->dag->tools[node->tool],
-                                      wanted->term) >= wanted->level;
+    return phase || dag_left_level(search->dag, node, wanted->term) >= wanted->level;
 }
 
 static const char *level_name(const struct dag *dag, int term, int level)
@@ -94,6 +103,7 @@ static void report_lack(struct search *search, const struct need *need, const ch
     struct dag *dag = search->dag;
     const struct node *node = lack->node;
     struct wanted wanted = {need->term, need->level};
+    dag->use = node->use;
     struct where where = lack->answer < 0 ? node->tool_where
                        : dag->arcs[node->arcs.first + lack->answer].target.where;
     if (!dag_warn(dag, WARNING_MISSING_TERM, where,
@@ -117,7 +127,7 @@ static void check_decision(struct search *search, int decision, const struct nee
     for (int i = 0; i < search->oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, search->oracle, i);
         if (sure[i] >= need->level ||
-            dag_written_level(dag, &dag->tools[node->tool], need->term) >= need->level)
+            dag_left_level(dag, node, need->term) >= need->level)
             continue;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
@@ -133,6 +143,15 @@ static void check_decision(struct search *search, int decision, const struct nee
         report_lack(search, need, dag->decisions[decision].name, &lack);
 }
 
+/* Do the node's arguments read the term so well? They are evaluated before the tool. */
+static int reads_it(const struct dag *dag, const struct node *node, const struct need *need)
+{
+    for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
+        if (dag->needs[i].term == need->term && dag->needs[i].level >= need->level)
+            return 1;
+    return 0;
+}
+
 static void check_tool(struct search *search, int tool, const struct need *need,
                        const unsigned char *sure)
 {
@@ -140,7 +159,8 @@ static void check_tool(struct search *search, int tool, const struct need *need,
     struct lack lack = {NULL, -1, 0};
     for (int i = 0; i < search->oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, search->oracle, i);
-        if (node->tool == tool && sure[i] < need->level && lack.count++ == 0)
+        if (node->tool == tool && sure[i] < need->level && !reads_it(dag, node, need) &&
+            lack.count++ == 0)
             lack.node = node;
     }
     if (lack.count > 0)
@@ -162,6 +182,7 @@ static void check_falling(struct search *search, int term, const unsigned char *
         int level = dag_written_level(dag, tool, term);
         if (!explicit || level >= sure[i])
             continue;
+        dag->use = node->use;
         if (!dag_warn(dag, WARNING_FALLING_PRECISION, node->tool_where,
                       "'%s' computes %s at %s, where every path knows it at %s", tool->name,
                       dag->terms[term].name, level_name(dag, term, level),

@@ -26,7 +26,7 @@ int dag_report(struct dag *dag, enum severity severity, struct where where, cons
     int kept = severity == SEVERITY_NOTE ? !dag->muted : !dag_is_full(dag, severity);
     if (kept) {
         int index = ADD(dag, diagnostics, diagnostic_count);
-        dag->diagnostics[index] = (struct diagnostic){severity, where, message};
+        dag->diagnostics[index] = (struct diagnostic){severity, where, message, dag->use};
     }
     if (severity != SEVERITY_NOTE)
         dag->muted = (unsigned char)!kept;
@@ -177,6 +177,33 @@ static void print_one(const struct dag *dag, const struct diagnostic *diagnostic
     print_line(source, where, start, out);
 }
 
+enum { CHAIN_SHOWN = 10 };
+
+static void print_note(const struct dag *dag, struct where where, const char *message, FILE *out)
+{
+    const struct diagnostic note = {SEVERITY_NOTE, where, message, -1};
+    print_one(dag, &note, out);
+}
+
+/* How one comes to the branch that a message is about. */
+static void print_uses(const struct dag *dag, int use, FILE *out)
+{
+    for (int shown = 0; use >= 0; use = dag->uses[use].outer)
+        if (shown++ < CHAIN_SHOWN)
+            print_note(dag, dag->uses[use].where, "in the graph that is used here", out);
+}
+
+/* How one comes to the file that a message is about. */
+static void print_importers(const struct dag *dag, int source, FILE *out)
+{
+    for (int shown = 0; source >= 0 && dag->sources[source].importer.source >= 0; shown++) {
+        struct where importer = dag->sources[source].importer;
+        if (shown < CHAIN_SHOWN)
+            print_note(dag, importer, "imported here", out);
+        source = importer.source;
+    }
+}
+
 /* An error and where its notes are; sorted by place, then by the order of reporting. */
 struct group {
     struct where where;
@@ -210,10 +237,13 @@ void dag_print_diagnostics(const struct dag *dag, FILE *out)
             groups[count++] = (struct group){dag->diagnostics[i].where, i};
     qsort(groups, (size_t)count, sizeof *groups, by_place);
     for (int g = 0; g < count; g++) {
-        int i = groups[g].first;
+        int i = groups[g].first, use = dag->diagnostics[i].use;
         do
             print_one(dag, &dag->diagnostics[i++], out);
         while (i < dag->diagnostic_count && dag->diagnostics[i].severity == SEVERITY_NOTE);
+        print_uses(dag, use, out);
+        if (g == 0 || groups[g - 1].where.source != groups[g].where.source)
+            print_importers(dag, groups[g].where.source, out);
     }
     print_count(dag->error_count, "error", out);
     print_count(dag->warning_count, "warning", out);

@@ -6,7 +6,7 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "internal.h"
+#include "emit.h"
 
 static void print_banner(const struct dag *dag, struct text *out, const char *idea)
 {
@@ -158,12 +158,68 @@ static void print_headers(const struct dag *dag, struct text *out)
     }
 }
 
+/* ---- what computed arguments read */
+
+static void print_term_headers(const struct dag *dag, struct text *out)
+{
+    for (int i = 0; i < dag->term_count; i++) {
+        int seen = 0;
+        for (int j = 0; j < i; j++)
+            seen |= strcmp(dag->terms[i].header, dag->terms[j].header) == 0;
+        for (int j = 0; j < dag->tool_count; j++)
+            seen |= strcmp(dag->terms[i].header, dag->tools[j].header) == 0;
+        if (!seen)
+            dag_print(out, "#include \"%s\"\n", dag->terms[i].header);
+    }
+}
+
+/* double read_NAME(d, level): a vector is only seen to be there. */
+static void print_reader(const struct dag *dag, struct text *out, const struct term *term)
+{
+    const struct type *type = &dag->types[term->type];
+    int levels = term->levels.count > 0;
+    dag_print(out, "\nstatic double read_%s(struct discussion *d, int level)\n{\n", term->name);
+    if (!levels)
+        dag_print(out, "    (void)level;\n");
+    dag_print(out, "    %sterm_%s(d", type->length > 1 ? "(void)" : "return ", term->name);
+    if (levels)
+        dag_print(out, ", (enum %s_level)level", term->name);
+    dag_print(out, ");\n%s}\n", type->length > 1 ? "    return 0;\n" : "");
+}
+
+static void print_readers(const struct dag *dag, struct text *out)
+{
+    for (int i = 0; i < dag->term_count; i++)
+        print_reader(dag, out, &dag->terms[i]);
+    for (int i = 0; i < dag->fact_count; i++) {
+        dag_print(out, "\nstatic ");
+        dag_emit_fact(dag, out, i);
+    }
+    dag_print(out, "\nconst struct term_entry term_table[] = {\n");
+    for (int i = 0; i < dag->term_count; i++)
+        dag_print(out, "    {\"%s\", %d, read_%s},\n", dag->terms[i].name, dag->terms[i].levels.count,
+                  dag->terms[i].name);
+    if (dag->term_count == 0)
+        dag_print(out, "    {\"\", 0, 0},\n");
+    dag_print(out, "};\nconst int term_table_count = %d;\n", dag->term_count);
+    dag_print(out, "\nconst struct fact_entry fact_table[] = {\n");
+    for (int i = 0; i < dag->fact_count; i++) {
+        dag_print(out, "    {\"%s\", fact_", dag->facts[i].name);
+        dag_emit_fact_name(out, &dag->facts[i]);
+        dag_print(out, "},\n");
+    }
+    if (dag->fact_count == 0)
+        dag_print(out, "    {\"\", 0},\n");
+    dag_print(out, "};\nconst int fact_table_count = %d;\n", dag->fact_count);
+}
+
 void dag_emit_catalog_c(const struct dag *dag, struct text *out)
 {
     print_banner(dag, out, "The interpreter's way to the tools: one call each, by the tool's number.");
     dag_print(out, "#include \"%s\"\n", dag->runtime_header);
     dag_print(out, "#include \"tool_table.h\"\n");
     print_headers(dag, out);
+    print_term_headers(dag, out);
     for (int i = 0; i < dag->tool_count; i++)
         print_call(dag, out, &dag->tools[i]);
     dag_print(out, "\nconst struct tool_entry tool_table[] = {\n");
@@ -175,4 +231,5 @@ void dag_emit_catalog_c(const struct dag *dag, struct text *out)
     if (dag->tool_count == 0)
         dag_print(out, "    {\"\", 0, 0, 0},\n");
     dag_print(out, "};\nconst int tool_table_count = %d;\n", dag->tool_count);
+    print_readers(dag, out);
 }

@@ -76,7 +76,7 @@ static void print_node(const struct drawing *drawing, const struct node *node)
     for (int i = 0; i < node->arguments.count; i++) {
         const struct argument *argument = &dag->arguments[node->arguments.first + i];
         const char *name = dag->parameters[argument->parameter].name;
-        const char *value = dag_expression_text(dag, argument->expression);
+        const char *value = dag_value_text(dag, argument->expression);
         dag_print(out, "<br/><font point-size=\"9\" color=\"#555555\">%s", name);
         if (strcmp(name, value) != 0) { /* `rays = rays` says no more than `rays` */
             dag_print(out, " = ");

@@ -217,16 +217,37 @@ static void print_catalog(struct dag *dag, struct text *out)
 
 /* ---- the oracles */
 
-/* {"number": 16} or {"parameter": "rays"}; an infinite number is a string. */
+/* {"number": 16}, {"parameter": "rays"}, {"operator": "add", "operands": [..., ...]} and so on; an
+ * infinite number is a string. */
 static void print_expression(struct dag *dag, struct text *out, int expression)
 {
+    static const char *const operators[] = {"negate", "sqrt", "abs", "add", "subtract", "multiply",
+                                            "divide", "min", "max"}; /* from EXPRESSION_NEGATE on */
     const struct expression *e = &dag->expressions[expression];
     char digits[32];
     if (e->kind == EXPRESSION_PARAMETER)
         print_field(out, "{", "parameter", dag->parameters[e->parameter].name);
-    else {
+    else if (e->kind == EXPRESSION_NUMBER) {
         const char *quote = isfinite(e->number) ? "" : "\"";
         dag_print(out, "{\"number\": %s%s%s", quote, dag_number(e->number, digits), quote);
+    } else if (e->kind == EXPRESSION_FACT)
+        print_field(out, "{", "fact", dag->facts[e->index].name);
+    else if (e->kind == EXPRESSION_EXTERN)
+        print_field(out, "{", "extern", dag->callbacks[e->index].name);
+    else if (e->kind == EXPRESSION_TERM) {
+        const struct term *term = &dag->terms[e->index];
+        print_field(out, "{", "term", term->name);
+        if (term->levels.count > 0)
+            print_field(out, ", ", "level", dag->levels[term->levels.first + e->level - 1].name);
+    } else if (e->kind >= EXPRESSION_NEGATE) {
+        print_field(out, "{", "operator", operators[e->kind - EXPRESSION_NEGATE]);
+        dag_print(out, ", \"operands\": [");
+        print_expression(dag, out, e->left);
+        if (e->right >= 0) {
+            dag_print(out, ", ");
+            print_expression(dag, out, e->right);
+        }
+        dag_print(out, "]");
     }
     dag_print(out, "}");
 }

@@ -14,16 +14,14 @@ struct listing {
     unsigned char *guarded; /* by place: every path to the node has passed a guard */
 };
 
-/* "x = 1, y = limit" as in the source; expressions may have no parameter yet. */
+/* "x = 1, y = limit" before names are resolved. */
 static void print_written(const struct listing *listing, struct span arguments)
 {
     struct dag *dag = listing->dag;
     for (int i = 0; i < arguments.count; i++) {
         const struct argument *argument = &dag->arguments[arguments.first + i];
-        const struct expression *e = &dag->expressions[argument->expression];
         dag_print(listing->out, "%s%s = %s", i > 0 ? ", " : "", argument->name,
-                  e->kind == EXPRESSION_PARAMETER ? e->name
-                                                  : dag_expression_text(dag, argument->expression));
+                  dag_value_text(dag, argument->expression));
     }
 }
 
@@ -137,10 +135,12 @@ void dag_emit_text(struct dag *dag, struct text *out, enum pass pass)
         dag_print(out, "  start %s;\n", oracle->start.name != NULL ? oracle->start.name : "?");
         if (pass == PASS_ANALYSE)
             analyse(&listing);
-        int count = pass < PASS_CHECK ? oracle->nodes.count : oracle->order.count;
+        int count = pass == PASS_PARSE ? oracle->drafts.count
+                  : pass == PASS_RESOLVE ? oracle->nodes.count : oracle->order.count;
         for (int k = 0; k < count; k++)
-            print_node(&listing, pass < PASS_CHECK ? &dag->nodes[oracle->nodes.first + k]
-                                                   : dag_node_at(dag, oracle, k));
+            print_node(&listing, pass == PASS_PARSE ? &dag->drafts[oracle->drafts.first + k]
+                               : pass == PASS_RESOLVE ? &dag->nodes[oracle->nodes.first + k]
+                                                      : dag_node_at(dag, oracle, k));
         dag_print(out, "}\n");
     }
 }

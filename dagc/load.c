@@ -5,8 +5,9 @@
 #include "warn.h"
 
 struct request {
-    const char *catalog_name, *catalog;
-    struct input file;
+    struct input catalog, file;
+    const char *const *folders;
+    int folder_count;
     struct warnings warnings;
 };
 
@@ -15,8 +16,9 @@ static void load(struct dag *dag, void *context)
 {
     const struct request *request = context;
     dag->warnings = &request->warnings;
-    int catalog = dag_read_text(dag, request->catalog_name, request->catalog,
-                                strlen(request->catalog));
+    dag->folders = request->folders;
+    dag->folder_count = request->folder_count;
+    int catalog = dag_read(dag, &request->catalog);
     if (catalog >= 0) {
         dag_parse(dag, catalog, CONTENT_CATALOG);
         dag_resolve_catalog(dag);
@@ -28,49 +30,17 @@ static void load(struct dag *dag, void *context)
     int file = dag_read(dag, &request->file);
     if (file >= 0) {
         dag_parse(dag, file, CONTENT_ORACLES);
+        dag_resolve_catalog(dag); /* what the file declares itself */
+        dag_check_names(dag);
         dag_resolve(dag);
         dag_check_values(dag);
+        dag_expand(dag);
         dag_check_graph(dag);
     }
     if (dag->error_count == 0)
         dag_analyse(dag);
     if (dag->error_count == 0)
         dag_fingerprint(dag);
-}
-
-static struct dag *run(struct request *request, const char *catalog_name, const char *catalog,
-                       FILE *errors)
-{
-    request->catalog_name = catalog_name != NULL ? catalog_name : "catalog";
-    request->catalog = catalog != NULL ? catalog : dagc_standard_catalog;
-    struct dag *dag = dag_new();
-    int failed = dag == NULL || dag_protect(dag, load, request) != 0;
-    if (failed && errors != NULL)
-        fprintf(errors, "dagc: error: out of memory\n");
-    else if (!failed && errors != NULL)
-        dag_print_diagnostics(dag, errors);
-    if (failed || dag->error_count > 0) {
-        dag_free(dag);
-        return NULL;
-    }
-    dag->warnings = NULL; /* they end with this function */
-    return dag;
-}
-
-struct dag *dag_load(const char *path, const char *catalog_name, const char *catalog, FILE *errors)
-{
-    struct request request = {0};
-    dag_warnings_quiet(&request.warnings);
-    dag_input_open(&request.file, path);
-    struct dag *dag = run(&request, catalog_name, catalog, errors);
-    dag_input_close(&request.file);
-    return dag;
-}
-
-struct dag *dag_load_text(const char *name, const char *text, size_t length,
-                          const char *catalog_name, const char *catalog, FILE *errors)
-{
-    return dag_load_switched("", name, text, length, catalog_name, catalog, errors);
 }
 
 /* Obeys words such as "no-unused-parameter error"; 0: there is one that is no switch. */
@@ -89,18 +59,77 @@ static int obey(struct warnings *warnings, const char *switches, FILE *errors)
     return 1;
 }
 
+struct dag *dag_load_with(const char *path, const struct dag_options *options, FILE *errors)
+{
+    struct request request = {0};
+    request.folders = options->folders;
+    request.folder_count = options->folder_count;
+    dag_warnings_quiet(&request.warnings);
+    if (options->switches != NULL && !obey(&request.warnings, options->switches, errors))
+        return NULL;
+    if (options->catalog_path != NULL)
+        dag_input_open(&request.catalog, options->catalog_path);
+    else {
+        const char *text = options->catalog != NULL ? options->catalog : dagc_standard_catalog;
+        request.catalog.name = options->catalog_name != NULL ? options->catalog_name : "catalog";
+        request.catalog.bytes = text;
+        request.catalog.length = strlen(text);
+    }
+    if (options->text != NULL) {
+        request.file.name = path;
+        request.file.bytes = options->text;
+        request.file.length = options->length;
+    } else
+        dag_input_open(&request.file, path);
+    struct dag *dag = dag_new();
+    int failed = dag == NULL || dag_protect(dag, load, &request) != 0;
+    if (failed && errors != NULL)
+        fprintf(errors, "dagc: error: out of memory\n");
+    else if (!failed && errors != NULL)
+        dag_print_diagnostics(dag, errors);
+    if (failed || dag->error_count > 0) {
+        dag_free(dag);
+        dag = NULL;
+    } else {
+        dag->warnings = NULL; /* they end with this function */
+        dag->folders = NULL; /* the caller's */
+        dag->folder_count = 0;
+    }
+    dag_input_close(&request.catalog);
+    dag_input_close(&request.file);
+    return dag;
+}
+
+struct dag *dag_load(const char *path, const char *catalog_name, const char *catalog, FILE *errors)
+{
+    struct dag_options options = {0};
+    options.catalog_name = catalog_name;
+    options.catalog = catalog;
+    return dag_load_with(path, &options, errors);
+}
+
+struct dag *dag_load_text(const char *name, const char *text, size_t length,
+                          const char *catalog_name, const char *catalog, FILE *errors)
+{
+    struct dag_options options = {0};
+    options.text = text;
+    options.length = length;
+    options.catalog_name = catalog_name;
+    options.catalog = catalog;
+    return dag_load_with(name, &options, errors);
+}
+
 struct dag *dag_load_switched(const char *switches, const char *name, const char *text,
                               size_t length, const char *catalog_name, const char *catalog,
                               FILE *errors)
 {
-    struct request request = {0};
-    dag_warnings_quiet(&request.warnings);
-    if (!obey(&request.warnings, switches, errors))
-        return NULL;
-    request.file.name = name;
-    request.file.bytes = text;
-    request.file.length = length;
-    return run(&request, catalog_name, catalog, errors);
+    struct dag_options options = {0};
+    options.switches = switches;
+    options.text = text;
+    options.length = length;
+    options.catalog_name = catalog_name;
+    options.catalog = catalog;
+    return dag_load_with(name, &options, errors);
 }
 
 int dag_oracle(const struct dag *dag, const char *name)

@@ -3,6 +3,7 @@
  * Exit status: 0 done; 1 the sources have errors, or a file cannot be read or written; 2 the
  * command line is wrong. With a status other than 0 no output file has been touched.
  * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
 #include <string.h>
 
 #include "depfile.h"
@@ -49,6 +50,7 @@ static void emit(struct dag *dag, struct job *job)
     case EMIT_CATALOG_C:
         dag_emit_catalog_c(dag, out);
         break;
+    case EMIT_STUB:
     case EMIT_NONE:
     case EMITS:
         break;
@@ -61,6 +63,8 @@ static void passes(struct dag *dag, void *context)
     struct job *job = context;
     int is_catalog = dag_job_is_catalog(job);
     dag->warnings = &job->warnings;
+    dag->folders = job->folders;
+    dag->folder_count = job->folder_count;
 
     int catalog = dag_read(dag, is_catalog ? &job->input : &job->catalog);
     if (catalog >= 0) {
@@ -71,6 +75,10 @@ static void passes(struct dag *dag, void *context)
     }
     if (dag->error_count > 0)
         return;
+    if (job->emit == EMIT_STUB) {
+        dag_emit_stub(dag, &job->outputs[OUTPUT_TEXT].text, job->input_path);
+        return;
+    }
     if (!is_catalog) {
         int file = dag_read(dag, &job->input);
         if (file < 0)
@@ -78,10 +86,13 @@ static void passes(struct dag *dag, void *context)
         dag_parse(dag, file, CONTENT_ORACLES);
         if (stops(dag, job, PASS_PARSE))
             return;
+        dag_resolve_catalog(dag); /* what the file declares itself */
+        dag_check_names(dag);
         dag_resolve(dag);
+        dag_check_values(dag);
+        dag_expand(dag);
         if (stops(dag, job, PASS_RESOLVE))
             return;
-        dag_check_values(dag);
         dag_check_graph(dag);
         if (stops(dag, job, PASS_CHECK))
             return;
@@ -98,7 +109,8 @@ static int run(struct job *job)
     struct dag *dag = dag_new();
     struct text *out = &job->outputs[OUTPUT_TEXT].text;
     int result = 1;
-    dag_input_open(&job->input, job->input_path);
+    if (job->emit != EMIT_STUB) /* there FILE.dag is the name of a tool */
+        dag_input_open(&job->input, job->input_path);
     if (job->catalog_path != NULL)
         dag_input_open(&job->catalog, job->catalog_path);
     else {
@@ -129,8 +141,16 @@ static int run(struct job *job)
 int main(int count, char **arguments)
 {
     struct job job = {0};
+    job.folders = calloc((size_t)count, sizeof *job.folders);
+    if (job.folders == NULL) {
+        fprintf(stderr, "dagc: error: out of memory\n");
+        return 1;
+    }
     int status = dag_parse_arguments(&job, count, arguments);
     if (status == 0)
-        return fflush(stdout) != 0;
-    return status > 0 ? status : run(&job);
+        status = fflush(stdout) != 0;
+    else if (status < 0)
+        status = run(&job);
+    free(job.folders);
+    return status;
 }

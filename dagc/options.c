@@ -90,7 +90,7 @@ static void print_option(int option)
     const char *value = options[option].value;
     char left[64];
     snprintf(left, sizeof left, "%s%s%s", options[option].spelling,
-             *value == '\0' || *value == '+' ? "" : options[option].spelling[1] == '-' ? "=" : " ",
+             *value == '\0' || strcmp(value, "+") == 0 ? "" : *value == '+' ? " " : options[option].spelling[1] == '-' ? "=" : " ",
              *value == '+' ? value + 1 : value);
     printf("  %-15s %s\n", left, options[option].help);
     for (int i = 0; option == OPTION_EMIT && i < EMITS; i++)
@@ -193,6 +193,9 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_CATALOG:
         job->catalog_path = value;
         return -1;
+    case OPTION_FOLDER:
+        job->folders[job->folder_count++] = value;
+        return -1;
     case OPTION_EMIT:
         return set_emit(job, value);
     case OPTION_DUMP:
@@ -218,9 +221,10 @@ static int matches(const char *argument, int option, const char **value)
     *value = NULL;
     if (strncmp(argument, options[option].spelling, length) != 0)
         return 0;
-    if (options[option].value[0] == '+')
-        *value = argument + length;
-    else if (argument[length] == '=' && options[option].value[0] != '\0')
+    if (options[option].value[0] == '+') {
+        if (argument[length] != '\0' || options[option].value[1] == '\0')
+            *value = argument + length;
+    } else if (argument[length] == '=' && options[option].value[0] != '\0')
         *value = argument + length + 1;
     else if (argument[length] != '\0')
         return 0;
@@ -299,6 +303,8 @@ static const char *contradiction(const struct job *job)
         return "--header and --catalog mean nothing with a catalog as the source";
     if (header != NULL && (job->emit != EMIT_C || job->stop != PASSES))
         return "--header belongs to C text";
+    if (job->emit == EMIT_STUB && (job->stop != PASSES || depfile != NULL))
+        return "--dump and --depfile mean nothing with --emit=stub";
     if (dag_job_is_catalog(job) && job->stop != PASSES)
         return "--dump shows oracles, not a catalog";
     if (depfile != NULL && is_standard(out) && (header == NULL || is_standard(header)))

@@ -21,6 +21,8 @@ struct job {
     enum pass stop;                        /* --dump; PASSES: none */
     struct warnings warnings;
     struct input input, catalog;
+    const char **folders;                  /* of -I; room for as many as there are arguments */
+    int folder_count;
     struct output outputs[OUTPUTS];
 };
 

@@ -106,10 +106,24 @@ enum warning_level dag_warning_level(const struct dag *dag, enum warning warning
     return (enum warning_level)warnings->level[warning];
 }
 
+/* A branch's nodes are copied wherever it is used; what is wrong in it is said once. */
+static int said_of_another_use(const struct dag *dag, enum warning warning, struct where where)
+{
+    const char *name = dag_warning_facts[warning].name;
+    for (int i = 0; dag->use >= 0 && i < dag->diagnostic_count; i++) {
+        const struct diagnostic *said = &dag->diagnostics[i];
+        const char *tail = strrchr(said->message, '[');
+        if (said->where.source == where.source && said->where.offset == where.offset &&
+            said->use != dag->use && tail != NULL && strstr(tail, name) != NULL)
+            return 1;
+    }
+    return 0;
+}
+
 int dag_warn(struct dag *dag, enum warning warning, struct where where, const char *format, ...)
 {
     enum warning_level level = dag_warning_level(dag, warning);
-    if (level == LEVEL_OFF)
+    if (level == LEVEL_OFF || said_of_another_use(dag, warning, where))
         return 0;
     enum severity severity = level == LEVEL_ERROR ? SEVERITY_ERROR : SEVERITY_WARNING;
     if (dag_is_full(dag, severity)) {

@@ -292,6 +292,7 @@ struct record {
     int calls;
     int tools[CALLS];
     double arguments[CALLS][2];
+    double facts[4];
 };
 struct discussion {
     struct {
