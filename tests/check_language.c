@@ -188,6 +188,41 @@ START_TEST(imports)
 }
 END_TEST
 
+/* ---- mutated sources: they need not be right, they must not hurt */
+
+static int pick(int count);
+
+START_TEST(mutations)
+{
+    static const char *const pieces[] = {"graph g(", ") exits (x)", "import \"x\";", "import standard;", "one(", "three(",
+                                         "x * ", " / (", "min(", "sqrt(", "-", ".", "start", "{", "}", ";", "size.fine",
+                                         "fact a.b : ", "extern e() : flux;", "lamp", "inf", "= p", "two", "low", "w"};
+    FILE *nowhere = fopen("/dev/null", "w");
+    for (int i = 0; i < 20000; i++) {
+        char text[4096];
+        size_t length = strlen(nested);
+        memcpy(text, nested, length + 1);
+        for (int k = 1 + pick(3); k > 0; k--) {
+            const char *piece = pieces[pick((int)(sizeof pieces / sizeof *pieces))];
+            size_t at = (size_t)pick((int)length), size = strlen(piece), cut = (size_t)pick(12);
+            if (cut > length - at)
+                cut = length - at;
+            if (pick(2)) {
+                memmove(text + at, text + at + cut, length - at - cut + 1);
+                length -= cut;
+            }
+            if (pick(3)) {
+                memmove(text + at + size, text + at, length - at + 1);
+                memcpy(text + at, piece, size);
+                length += size;
+            }
+        }
+        dag_free(load(text, nowhere));
+    }
+    fclose(nowhere);
+}
+END_TEST
+
 /* ---- random expressions */
 
 static uint64_t seed = 3;
@@ -373,6 +408,8 @@ int main(int count, char **arguments)
     tcase_add_test(library, same_as_by_hand);
     tcase_add_test(library, reads);
     tcase_add_test(library, imports);
+    tcase_add_test(library, mutations);
+    tcase_set_timeout(library, 120);
     tcase_add_test(programs, same_bits);
     tcase_add_test(programs, user_tool);
     suite_add_tcase(suite, library);
