@@ -70,7 +70,7 @@ static const char *described(struct dag *dag, int expression)
 }
 
 /* Both sides of + - min max have one unit. */
-static int same_unit(struct dag *dag, struct expression *e, const char *verb, const char *joint)
+static int same_unit(struct dag *dag, struct expression *e, const char *verb)
 {
     struct expression *a = &dag->expressions[e->left], *b = &dag->expressions[e->right];
     if (a->any_unit && !b->any_unit)
@@ -81,8 +81,12 @@ static int same_unit(struct dag *dag, struct expression *e, const char *verb, co
     e->any_unit = a->any_unit && b->any_unit;
     if (dag_same_unit(&a->unit, &b->unit))
         return 1;
-    dag_error(dag, e->where, "cannot %s %s %s %s", verb, described(dag, e->left), joint,
-              described(dag, e->right));
+    if (e->kind == EXPRESSION_SUBTRACT)
+        dag_error(dag, e->where, "cannot subtract %s from %s", described(dag, e->right),
+                  described(dag, e->left));
+    else
+        dag_error(dag, e->where, "cannot %s %s and %s", verb, described(dag, e->left),
+                  described(dag, e->right));
     dag_note(dag, dag_nowhere, "both must have the same unit");
     return 0;
 }
@@ -177,19 +181,19 @@ static int check_binary(struct dag *dag, struct expression *e)
     case EXPRESSION_ADD:
         e->low = bound(a->low + b->low, -INFINITY);
         e->high = bound(a->high + b->high, INFINITY);
-        return same_unit(dag, e, "add", "and");
+        return same_unit(dag, e, "add");
     case EXPRESSION_SUBTRACT:
         e->low = bound(a->low - b->high, -INFINITY);
         e->high = bound(a->high - b->low, INFINITY);
-        return same_unit(dag, e, "subtract in", "-");
+        return same_unit(dag, e, "subtract");
     case EXPRESSION_MIN:
         e->low = smaller(a->low, b->low);
         e->high = smaller(a->high, b->high);
-        return same_unit(dag, e, "compare", "and");
+        return same_unit(dag, e, "compare");
     case EXPRESSION_MAX:
         e->low = larger(a->low, b->low);
         e->high = larger(a->high, b->high);
-        return same_unit(dag, e, "compare", "and");
+        return same_unit(dag, e, "compare");
     default:
         break;
     }

@@ -279,6 +279,8 @@ static struct target follow(const struct expansion *x, const struct instance *in
     for (;;) {
         if (target.kind == TARGET_EXIT) {
             const struct node *user = &dag->drafts[instance->draft];
+            if (target.index >= user->arcs.count)
+                return (struct target){TARGET_NONE, -1, target.name, where};
             target = dag->arcs[user->arcs.first + target.index].target;
             instance = &x->instances[instance->parent];
         } else if (target.kind == TARGET_NODE) {

@@ -307,9 +307,8 @@ static void resolve_node(struct dag *dag, const struct scope *scope, struct node
     const struct rule *otherwise = NULL;
     if (node->tool < 0 && node->branch < 0 && node->tool_name != NULL)
         unknown_tool(dag, node);
-    int known = node->tool >= 0 || node->branch >= 0;
-    if (node->branch >= 0 && dag->branches[node->branch].bad)
-        node->bad = 1; /* its parameters and exits may be lost */
+    /* A branch without exits lost them to a syntax error. */
+    int known = node->tool >= 0 || (node->branch >= 0 && dag->branches[node->branch].exits.count > 0);
     if (known) {
         int answers = callee_of(dag, node).answers.count;
         resolve_arguments(dag, scope, node);
