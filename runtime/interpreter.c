@@ -430,6 +430,7 @@ struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors
     options.catalog_path = how->catalog_path;
     options.folders = how->folders;
     options.folder_count = how->folder_count;
+    options.switches = how->switches;
     p->dag = dag_load_with(path, &options, errors);
     if (!p->dag)
         goto fail;

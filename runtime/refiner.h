@@ -44,6 +44,7 @@ struct interpretation {
     int folder_count;
     const struct extern_entry *externs;
     int extern_count;
+    const char *switches;             /* of warnings, as in struct dag_options; NULL: errors alone */
 };
 
 /* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and so is a
