@@ -89,20 +89,57 @@ static void print_tools(struct dag *dag, struct text *out)
     }
 }
 
+/* "Type `ratio`, in m2. From 0 to 1." */
+static void print_value(const struct dag *dag, struct text *out, int type, double low, double high)
+{
+    const char *unit = dag->types[type].unit_text;
+    char from[32], to[32];
+    dag_print(out, "Type `%s`%s%s.", dag->types[type].name, *unit != '\0' ? ", in " : "", unit);
+    if (!isinf(low) || !isinf(high))
+        dag_print(out, " From %s to %s.", dag_number(low, from), dag_number(high, to));
+}
+
 static void print_terms(struct dag *dag, struct text *out)
 {
     dag_print(out, "## Terms\n\nWhat a discussion may know; levels from the coarsest on.\n\n");
     for (int i = 0; i < dag->term_count; i++) {
         const struct term *term = &dag->terms[i];
-        const char *unit = dag->types[term->type].unit_text, *gap = " Levels: ";
+        const char *gap = " Levels: ";
         dag_print(out, "### %s\n\n", term->name);
         print_doc(out, term->doc);
-        dag_print(out, "Type `%s`%s%s.", term->type_name, *unit != '\0' ? ", in " : "", unit);
+        print_value(dag, out, term->type, term->low, term->high);
         for (int l = term->levels.first; l < term->levels.first + term->levels.count; l++) {
             dag_print(out, "%s`%s`", gap, dag->levels[l].name);
             gap = " < ";
         }
         dag_print(out, "%s\n\n", term->levels.count > 0 ? "." : "");
+    }
+}
+
+static void print_facts(const struct dag *dag, struct text *out)
+{
+    if (dag->fact_count > 0)
+        dag_print(out, "## Facts\n\nNumbers that are there for the asking, in computed arguments.\n\n");
+    for (int i = 0; i < dag->fact_count; i++) {
+        const struct fact *fact = &dag->facts[i];
+        dag_print(out, "### %s\n\n", fact->name);
+        print_doc(out, fact->doc);
+        print_value(dag, out, fact->type, fact->low, fact->high);
+        dag_print(out, "\n\n");
+    }
+}
+
+static void print_callbacks(struct dag *dag, struct text *out)
+{
+    if (dag->callback_count > 0)
+        dag_print(out, "## Externs\n\nC functions of the user's that give a number.\n\n");
+    for (int i = 0; i < dag->callback_count; i++) {
+        const struct callback *callback = &dag->callbacks[i];
+        dag_print(out, "### %s\n\n", callback->name);
+        print_doc(out, callback->doc);
+        print_value(dag, out, callback->type, callback->low, callback->high);
+        dag_print(out, "\n\n");
+        print_needs(dag, out, "Reads", callback->reads);
     }
 }
 
@@ -127,5 +164,7 @@ void dag_emit_catalog_doc(struct dag *dag, struct text *out)
     print_decisions(dag, out);
     print_tools(dag, out);
     print_terms(dag, out);
+    print_facts(dag, out);
+    print_callbacks(dag, out);
     print_types(dag, out);
 }
