@@ -35,7 +35,7 @@ commands: $(BUILD)/bin/dagc $(BUILD)/bin/radiosity
 # What is built by what: catalog.dag -> libdagc -> dagc -> everything that includes discussion.h.
 $(BUILD)/bin/dagc: $(BUILD)/dagc/main.o $(LIBDAGC)
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -o $@ $^
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 $(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o
 	rm -f $@
 	ar rcs $@ $^

@@ -75,10 +75,11 @@ static void print_structure(const struct dag *dag, struct text *out,
     dag_print(out, "};\n");
 }
 
-static void print_declarations(const struct dag *dag, struct text *out)
+static void print_declarations(struct dag *dag, struct text *out)
 {
     dag_print(out, "#include \"%s\"\n#include \"oracle.h\"\n", dag->runtime_header);
     dag_print(out, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
+    dag_emit_externs(dag, out);
     for (int i = 0; i < dag->oracle_count; i++) {
         const struct oracle_graph *oracle = &dag->oracles[i];
         const char *name = oracle->name;
@@ -112,7 +113,7 @@ static void print_guard(struct text *out, const char *header_name)
     }
 }
 
-static void print_header(const struct dag *dag, struct text *out, const char *header_name)
+static void print_header(struct dag *dag, struct text *out, const char *header_name)
 {
     print_banner(dag, out);
     dag_print(out, "#ifndef ");
@@ -254,6 +255,7 @@ void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char
     print_checks(dag, c, reached);
     dag_print(c, "\n#include <stddef.h>\n");
     print_tool_headers(dag, c, reached);
+    dag_emit_accessors(dag, c);
     for (int i = 0; i < dag->oracle_count; i++) {
         print_defaults(dag, c, &dag->oracles[i]);
         dag_emit_flat(dag, c, &dag->oracles[i]);

@@ -107,25 +107,14 @@ static void print_jump(const struct flat *flat, const struct target *target)
     }
 }
 
-static void print_value(const struct flat *flat, const struct argument *argument)
-{
-    const struct dag *dag = flat->dag;
-    const struct expression *value = &dag->expressions[argument->expression];
-    const struct parameter *wanted = &dag->parameters[argument->parameter];
-    if (value->kind == EXPRESSION_PARAMETER)
-        dag_print(flat->out, "parameters->%s", dag->parameters[value->parameter].name);
-    else if (dag->types[wanted->type].base == BASE_INTEGER)
-        dag_print_integer(flat->out, value->number);
-    else
-        dag_print_number(flat->out, value->number);
-}
-
 static void print_call(const struct flat *flat, const struct node *node)
 {
+    int value = 0;
     dag_print(flat->out, "tool_%s(&d", flat->dag->tools[node->tool].name);
     for (int i = 0; i < node->arguments.count; i++) {
         dag_print(flat->out, ", ");
-        print_value(flat, &flat->dag->arguments[node->arguments.first + i]);
+        dag_emit_expression(flat->dag, flat->out, &flat->dag->arguments[node->arguments.first + i],
+                            &value);
     }
     dag_print(flat->out, ")");
 }
@@ -163,16 +152,22 @@ static void print_switch(const struct flat *flat, const struct node *node)
 
 static void print_node(const struct flat *flat, const struct node *node)
 {
+    int block = dag_has_reads(flat->dag, node);
     dag_print(flat->out, "\n");
     if (flat->node_label[node->order])
         dag_print(flat->out, "node_%s:\n", node->name);
+    if (block) { /* C++ may not jump past a constant: it gets a block */
+        dag_print(flat->out, "    {\n");
+        dag_emit_reads(flat->dag, flat->out, node);
+    }
     if (!decides_nothing(flat, node)) {
         print_switch(flat, node);
+        dag_print(flat->out, "%s", block ? "    }\n" : "");
         return;
     }
     dag_print(flat->out, "    (void)");
     print_call(flat, node);
-    dag_print(flat->out, ";\n");
+    dag_print(flat->out, ";\n%s", block ? "    }\n" : "");
     if (!falls_through(flat, node)) {
         dag_print(flat->out, "    ");
         print_jump(flat, &arc_of(flat, node, 0)->target);
@@ -208,7 +203,7 @@ static int uses_parameters(const struct flat *flat)
         const struct node *node = node_at(flat, i);
         for (int a = 0; a < node->arguments.count; a++) {
             int value = flat->dag->arguments[node->arguments.first + a].expression;
-            if (flat->dag->expressions[value].kind == EXPRESSION_PARAMETER)
+            if (dag_reads_parameters(flat->dag, value))
                 return 1;
         }
     }
