@@ -63,7 +63,7 @@ $(BUILD)/%.o: %.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
-$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT): $(BUILD)/gen/catalog.h
+$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o: $(BUILD)/gen/catalog.h
 
 packages:
 	@sh tests/packages.sh

@@ -222,8 +222,9 @@ int dag_check_expression(struct dag *dag, int expression)
     struct expression *e = &dag->expressions[expression];
     if (e->bad || e->checked)
         return !e->bad;
-    int ok = (e->left < 0 || dag_check_expression(dag, e->left)) &
-             (e->right < 0 || dag_check_expression(dag, e->right));
+    int left = e->left < 0 || dag_check_expression(dag, e->left);
+    int right = e->right < 0 || dag_check_expression(dag, e->right);
+    int ok = left && right;
     if (ok)
         ok = e->left < 0 ? check_leaf(dag, e) : e->right < 0 ? check_unary(dag, e) : check_binary(dag, e);
     e->checked = 1;
