@@ -32,6 +32,21 @@ static inline double length3(const double a[3])
     return sqrt(dot3(a, a));
 }
 
+/* a + t (b - a). Written out, as all of these: at -O2 gcc leaves a loop over three coordinates a loop. */
+static inline void lerp3(double out[3], const double a[3], const double b[3], double t)
+{
+    out[0] = a[0] + t * (b[0] - a[0]);
+    out[1] = a[1] + t * (b[1] - a[1]);
+    out[2] = a[2] + t * (b[2] - a[2]);
+}
+
+static inline void copy3(double out[3], const double a[3])
+{
+    out[0] = a[0];
+    out[1] = a[1];
+    out[2] = a[2];
+}
+
 /* Signed distance of p from the plane through `on` with unit normal n, positive in front (m). */
 static inline double height3(const double p[3], const double on[3], const double n[3])
 {
@@ -50,23 +65,16 @@ struct polygon {
 static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
-    int i, k, count = 0;
+    int i, count = 0;
     double h = height3(v[n - 1], on, normal);
     const double *a = v[n - 1];
     for (i = 0; i < n; i++) {
         const double *b = v[i];
         double g = height3(b, on, normal);
-        if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
-            double t = h / (h - g);
-            for (k = 0; k < 3; k++)
-                out->v[count][k] = a[k] + t * (b[k] - a[k]);
-            count++;
-        }
-        if (g >= 0 && count < POLYGON_MAX) {
-            for (k = 0; k < 3; k++)
-                out->v[count][k] = b[k];
-            count++;
-        }
+        if ((h > 0 && g < 0) || (h < 0 && g > 0))
+            lerp3(out->v[count++], a, b, h / (h - g));
+        if (g >= 0 && count < POLYGON_MAX)
+            copy3(out->v[count++], b);
         a = b;
         h = g;
     }

@@ -69,15 +69,18 @@ struct polygon_factor_edge {
 
 static inline double polygon_factor_gauss(const struct polygon_factor_edge *g, double from, double to)
 {
-    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
-    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
+    static const double node[5] = { -0.90617984593866399280, -0.53846931010568309104, 0, 0.53846931010568309104,
+                                    0.90617984593866399280 };
+    static const double weight[5] = { 0.23692688505618908751, 0.47862867049936646804, 0.56888888888888888889,
+                                      0.47862867049936646804, 0.23692688505618908751 };
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    int i, k;
-    for (i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
-        for (k = 0; k < 3; k++)
-            p[k] = g->p[k] + s * g->e[k];
-        sum += weight[i < 0 ? -i : i] * polygon_factor_line(p, g->a, g->u, g->length);
+    int i;
+    for (i = 0; i < 5; i++) {
+        double s = middle + half * node[i], p[3];
+        p[0] = g->p[0] + s * g->e[0];
+        p[1] = g->p[1] + s * g->e[1];
+        p[2] = g->p[2] + s * g->e[2];
+        sum += weight[i] * polygon_factor_line(p, g->a, g->u, g->length);
     }
     return sum * half;
 }
@@ -137,7 +140,7 @@ static inline double polygon_factor_triangle(const double *a, const double *b, c
     static const double weight[3][2] = { { 1, 0 }, { 1 / 3.0, 0 },
                                          { 0.10995174365532186764, 0.22338158967801146570 } };
     double x[3], y[3], z[3], sum = 0;
-    int group, i, k;
+    int group, i;
     sub3(x, b, a);
     sub3(y, c, a);
     cross3(z, x, y);
@@ -146,8 +149,9 @@ static inline double polygon_factor_triangle(const double *a, const double *b, c
         for (i = 0; i < (order == 0 ? 1 : 3); i++) {
             const double *p0 = i == 0 ? a : i == 1 ? b : c, *p1 = i == 0 ? b : i == 1 ? c : a,
                          *p2 = i == 0 ? c : i == 1 ? a : b;
-            for (k = 0; k < 3; k++)
-                x[k] = w * p0[k] + v * p1[k] + v * p2[k];
+            x[0] = w * p0[0] + v * p1[0] + v * p2[0];
+            x[1] = w * p0[1] + v * p1[1] + v * p2[1];
+            x[2] = w * p0[2] + v * p1[2] + v * p2[2];
             part += polygon_factor_point(x, n, q);
         }
         sum += weight[order][group] * part;
@@ -163,20 +167,25 @@ static inline double polygon_factor_quad(const double (*v)[3], const double n[3]
                                        { 0.11270166537925831148, 0.5, 0.88729833462074168852 } };
     static const double weight[3][3] = { { 1, 0, 0 }, { 0.5, 0.5, 0 },
                                          { 5 / 18.0, 8 / 18.0, 5 / 18.0 } };
-    double sum = 0;
-    int i, j, k;
-    for (i = 0; i <= order; i++)
+    double sum = 0, along0[3], along1[3];
+    int i, j;
+    sub3(along0, v[1], v[0]);
+    sub3(along1, v[2], v[3]);
+    for (i = 0; i <= order; i++) {
+        double low[3], high[3], dt[3];
+        lerp3(low, v[0], v[1], node[order][i]);
+        lerp3(high, v[3], v[2], node[order][i]);
+        sub3(dt, high, low);
         for (j = 0; j <= order; j++) {
-            double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
-            for (k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]), high = v[3][k] + s * (v[2][k] - v[3][k]);
-                p[k] = low + t * (high - low);
-                dt[k] = high - low;
-                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
-            }
+            double t = node[order][j], p[3], ds[3], jacobian[3];
+            lerp3(p, low, high, t);
+            ds[0] = (1 - t) * along0[0] + t * along1[0];
+            ds[1] = (1 - t) * along0[1] + t * along1[1];
+            ds[2] = (1 - t) * along0[2] + t * along1[2];
             cross3(jacobian, ds, dt);
             sum += weight[order][i] * weight[order][j] * dot3(jacobian, n) * polygon_factor_point(p, n, q);
         }
+    }
     return sum;
 }
 

@@ -52,26 +52,40 @@ static inline void sampler_clip(struct sampler *q, const struct element *e, cons
     }
 }
 
+/* a + s u + t v. */
+static inline void sampler_sum(double out[3], const double a[3], double s, const double u[3], double t, const double v[3])
+{
+    out[0] = a[0] + s * u[0] + t * v[0];
+    out[1] = a[1] + s * u[1] + t * v[1];
+    out[2] = a[2] + s * u[2] + t * v[2];
+}
+
+static inline void sampler_lift(double out[3], double offset, const double normal[3])
+{
+    out[0] += offset * normal[0];
+    out[1] += offset * normal[1];
+    out[2] += offset * normal[2];
+}
+
 /* Map (s, t) in the unit square to the polygon so that area is kept. */
 static inline void sampler_point(double out[3], const struct sampler *q, double s, double t)
 {
-    const double *a = q->p.v[0], *b, *c;
-    int i, k;
+    const double *a = q->p.v[0];
+    double u[3], v[3];
+    int i;
     if (q->parallelogram) {
-        b = q->p.v[1];
-        c = q->p.v[3];
-        for (k = 0; k < 3; k++)
-            out[k] = a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]);
+        sub3(u, q->p.v[1], a);
+        sub3(v, q->p.v[3], a);
+        sampler_sum(out, a, s, u, t, v);
         return;
     }
     s *= q->whole;
     for (i = 2; i < q->p.n - 1 && s >= q->area[i]; i++)
         s -= q->area[i];
     s = q->area[i] > 0 && s < q->area[i] ? sqrt(s / q->area[i]) : 1;
-    b = q->p.v[i - 1];
-    c = q->p.v[i];
-    for (k = 0; k < 3; k++)
-        out[k] = a[k] + s * (b[k] - a[k]) + s * t * (c[k] - b[k]);
+    sub3(u, q->p.v[i - 1], a);
+    sub3(v, q->p.v[i], q->p.v[i - 1]);
+    sampler_sum(out, a, s, u, s * t, v);
 }
 
 /* The visible fraction by `count` segments, a power of two up to SEGMENTS_MAX. */
@@ -114,10 +128,8 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
             x[k] = digit[k] * (1 / 4294967296.0);
         sampler_point(g->from, &p, x[0], x[1]);
         sampler_point(g->to, &q, x[2], x[3]);
-        for (k = 0; k < 3; k++) {
-            g->from[k] += host->ray_offset * r->normal[k];
-            g->to[k] += host->ray_offset * s->normal[k];
-        }
+        sampler_lift(g->from, host->ray_offset, r->normal);
+        sampler_lift(g->to, host->ray_offset, s->normal);
     }
     return 1 - (double)host->occluded(host, count, segments) / count;
 }
