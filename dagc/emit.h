@@ -5,7 +5,39 @@
 
 #include "internal.h"
 
-/* The function NAME_refine (emit_flat.c). */
-void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle);
+/* The three functions that one graph can become; their decisions are the same. */
+enum flavour {
+    FLAVOUR_PLAIN,   /* NAME_refine */
+    FLAVOUR_COUNTED, /* NAME_refine_counted: calls, time, answers (--instrument) */
+    FLAVOUR_TRACED   /* NAME_refine_traced: a callback per node (--trace) */
+};
+
+/* Beyond so many nodes tools are called, not inlined, and the graph becomes functions of so many
+ * nodes each: compilers take time that grows faster than a function's size. */
+enum { PART_NODES = 100 };
+
+/* One function (emit_flat.c). */
+void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                   enum flavour flavour);
+int dag_emit_states_facts(struct dag *dag); /* does the text use the macro KNOWN? */
+/* What functions of many parts call instead of the tools; nothing when no oracle is that large. */
+void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned char *reached);
+
+/* The declarations and tables that counted and traced functions need (emit_counters.c). */
+void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                         const struct emit_options *options);
+void dag_emit_counters_c(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                         const struct emit_options *options);
+/* The head of NAME_refine, NAME_refine_counted or NAME_refine_traced, up to its `)`. */
+void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enum flavour flavour);
+
+/* Which terms are known at a node (availability.c). */
+struct available {
+    unsigned char *low;  /* [order * term_count + term]: on every path at least this level */
+    unsigned char *high; /* 0: absent on every path */
+};
+struct available dag_availability(struct dag *dag, const struct oracle_graph *oracle);
+/* Does a decision read the term? Then a discussion gives it back, and may be handed it again. */
+int dag_is_kept(const struct dag *dag, int term);
 
 #endif

@@ -75,7 +75,8 @@ static void print_structure(const struct dag *dag, struct text *out,
     dag_print(out, "};\n");
 }
 
-static void print_declarations(const struct dag *dag, struct text *out)
+static void print_declarations(const struct dag *dag, struct text *out,
+                               const struct emit_options *options)
 {
     dag_print(out, "#include \"%s\"\n#include \"oracle.h\"\n", dag->runtime_header);
     dag_print(out, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
@@ -88,11 +89,12 @@ static void print_declarations(const struct dag *dag, struct text *out)
         print_structure(dag, out, oracle);
         dag_print(out, "\n/* Fills in the defaults. */\n");
         dag_print(out, "void %s_defaults(struct %s_parameters *parameters);\n", name, name);
-        dag_print(out, "\n/* Discusses one pair and decides. The discussion begins with nothing known:"
-                       " terms that the\n * caller left in it are ignored. Afterwards it holds the"
-                       " terms that the decision reads;\n * the others are unspecified. */\n");
-        dag_print(out, "enum decision %s_refine(const struct %s_parameters *parameters,\n"
-                       "    struct discussion *discussion);\n", name, name);
+        dag_print(out, "\n/* Discusses one pair and decides. Terms that some decision reads are taken"
+                       " from the\n * discussion: all zero when nothing is known yet. Afterwards it"
+                       " holds the terms that the\n * decision reads; the others are unspecified. */\n");
+        dag_emit_prototype(out, oracle, FLAVOUR_PLAIN);
+        dag_print(out, ";\n");
+        dag_emit_counters_h(dag, out, oracle, options);
         dag_print(out, "\nextern const struct oracle %s_oracle;\n", name);
     }
     dag_print(out, "\n#ifdef __cplusplus\n}\n#endif\n");
@@ -112,7 +114,8 @@ static void print_guard(struct text *out, const char *header_name)
     }
 }
 
-static void print_header(const struct dag *dag, struct text *out, const char *header_name)
+static void print_header(const struct dag *dag, struct text *out, const char *header_name,
+                         const struct emit_options *options)
 {
     print_banner(dag, out);
     dag_print(out, "#ifndef ");
@@ -120,7 +123,7 @@ static void print_header(const struct dag *dag, struct text *out, const char *he
     dag_print(out, "\n#define ");
     print_guard(out, header_name);
     dag_print(out, "\n\n");
-    print_declarations(dag, out);
+    print_declarations(dag, out, options);
     dag_print(out, "\n#endif\n");
 }
 
@@ -241,22 +244,43 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
               name, name, name);
 }
 
-void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name)
+/* What availability.c proved and a compiler may not see. */
+static void print_known_macro(struct text *out)
 {
+    dag_print(out, "\n#if defined __GNUC__\n"
+                   "#define KNOWN(fact) do { if (!(fact)) __builtin_unreachable(); } while (0)\n"
+                   "#else\n#define KNOWN(fact) ((void)0)\n#endif\n");
+}
+
+void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                const struct emit_options *options)
+{
+    static const struct emit_options plain = {0, 0};
     const unsigned char *reached = reached_tools(dag);
+    if (options == NULL)
+        options = &plain;
     if (header != NULL)
-        print_header(dag, header, header_name);
+        print_header(dag, header, header_name, options);
     print_banner(dag, c);
     if (header != NULL)
         dag_print(c, "#include \"%s\"\n", header_name);
     else
-        print_declarations(dag, c);
+        print_declarations(dag, c, options);
     print_checks(dag, c, reached);
     dag_print(c, "\n#include <stddef.h>\n");
     print_tool_headers(dag, c, reached);
+    dag_emit_callers(dag, c, reached);
+    if (dag_emit_states_facts(dag))
+        print_known_macro(c);
     for (int i = 0; i < dag->oracle_count; i++) {
-        print_defaults(dag, c, &dag->oracles[i]);
-        dag_emit_flat(dag, c, &dag->oracles[i]);
-        print_oracle(dag, c, &dag->oracles[i]);
+        const struct oracle_graph *oracle = &dag->oracles[i];
+        print_defaults(dag, c, oracle);
+        dag_emit_flat(dag, c, oracle, FLAVOUR_PLAIN);
+        dag_emit_counters_c(dag, c, oracle, options);
+        if (options->counted)
+            dag_emit_flat(dag, c, oracle, FLAVOUR_COUNTED);
+        if (options->traced)
+            dag_emit_flat(dag, c, oracle, FLAVOUR_TRACED);
+        print_oracle(dag, c, oracle);
     }
 }

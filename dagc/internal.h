@@ -143,7 +143,13 @@ void dag_resolve(struct dag *dag);      /* the oracles: names to indices, rules 
 void dag_check_values(struct dag *dag); /* types, units, ranges */
 void dag_check_graph(struct dag *dag);  /* cycles; the topological order */
 void dag_fingerprint(struct dag *dag);
-void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name);
+/* What --emit=c adds to the plain function. */
+struct emit_options {
+    int counted; /* --instrument: NAME_refine_counted */
+    int traced;  /* --trace: NAME_refine_traced */
+};
+void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                const struct emit_options *options); /* options NULL: nothing is added */
 void dag_emit_catalog_h(const struct dag *dag, struct text *out);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 

@@ -17,6 +17,7 @@ enum { EMIT_NAMES = 4 };
 struct job {
     const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
     enum emit emit;
+    struct emit_options options;
     struct input input, catalog;
     struct output outputs[2];              /* the C text, the header */
 };
@@ -55,7 +56,7 @@ static void passes(struct dag *dag, void *context)
     if (job->emit == EMIT_C) {
         const char *slash = header->path == NULL ? NULL : strrchr(header->path, '/');
         const char *name = slash != NULL ? slash + 1 : header->path;
-        dag_emit_c(dag, &out->text, name == NULL ? NULL : &header->text, name);
+        dag_emit_c(dag, &out->text, name == NULL ? NULL : &header->text, name, &job->options);
     } else if (job->emit == EMIT_CATALOG_H)
         dag_emit_catalog_h(dag, &out->text);
     else if (job->emit == EMIT_CATALOG_C)
@@ -105,6 +106,8 @@ static const char help[] =
     "                  none       nothing: only look for mistakes\n"
     "                  catalog-h  FILE.dag is a catalog: its enums and terms for C\n"
     "                  catalog-c  FILE.dag is a catalog: the interpreter's table of tools\n"
+    "  --instrument    add NAME_refine_counted: calls and time per node, answers per arc\n"
+    "  --trace         add NAME_refine_traced: a callback after every node\n"
     "  --catalog FILE  the tools, terms and decisions to use instead of the standard ones\n"
     "  FILE.dag        the source; '-': standard input\n"
     "\n"
@@ -211,6 +214,10 @@ static int parse_arguments(struct job *job, int count, char **arguments)
             job->input_path = argument;
         } else if (strcmp(argument, "--") == 0)
             only_files = 1;
+        else if (strcmp(argument, "--instrument") == 0)
+            job->options.counted = 1;
+        else if (strcmp(argument, "--trace") == 0)
+            job->options.traced = 1;
         else if (strcmp(argument, "--help") == 0) {
             printf("%s%s", usage, help);
             return 1;
