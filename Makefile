@@ -36,12 +36,16 @@ commands: $(BUILD)/bin/dagc $(BUILD)/bin/radiosity
 $(BUILD)/bin/dagc: $(BUILD)/dagc/main.o $(LIBDAGC)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^
-$(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o
+$(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
 	rm -f $@
 	ar rcs $@ $^
 $(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/embed.sh
 	@mkdir -p $(@D)
 	sh dagc/embed.sh dagc_standard_catalog $< > $@
+HEADERS   = discussion.h geometry.h oracle.h $(patsubst runtime/%,%,$(wildcard runtime/tools/*.h runtime/terms/*.h))
+$(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/embed_headers.sh
+	@mkdir -p $(@D)
+	sh dagc/embed_headers.sh runtime $(HEADERS) > $@
 $(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
 $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc

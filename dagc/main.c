@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "diff.h"
+#include "prove.h"
 #include "write.h"
 
 enum emit { EMIT_C, EMIT_NONE, EMIT_CATALOG_H, EMIT_CATALOG_C };
@@ -18,6 +20,7 @@ struct job {
     const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
     enum emit emit;
     struct emit_options options;
+    int prove, proved;                     /* --prove; what it found */
     struct input input, catalog;
     struct output outputs[2];              /* the C text, the header */
 };
@@ -53,7 +56,9 @@ static void passes(struct dag *dag, void *context)
     if (dag->error_count > 0)
         return;
     dag_fingerprint(dag);
-    if (job->emit == EMIT_C) {
+    if (job->prove)
+        job->proved = dag_prove(dag, &job->options, stdout);
+    else if (job->emit == EMIT_C) {
         const char *slash = header->path == NULL ? NULL : strrchr(header->path, '/');
         const char *name = slash != NULL ? slash + 1 : header->path;
         dag_emit_c(dag, &out->text, name == NULL ? NULL : &header->text, name, &job->options);
@@ -80,7 +85,8 @@ static int run(struct job *job)
     else {
         dag_print_diagnostics(dag, stderr);
         if (dag->error_count == 0)
-            result = job->emit != EMIT_NONE && dag_write_outputs(job->outputs, 2) != 0;
+            result = job->prove ? job->proved != 0 || fflush(stdout) != 0
+                                : job->emit != EMIT_NONE && dag_write_outputs(job->outputs, 2) != 0;
     }
     for (int i = 0; i < 2; i++)
         dag_text_free(&job->outputs[i].text);
@@ -94,7 +100,8 @@ static int run(struct job *job)
 
 static const char usage[] =
     "usage: dagc [-o FILE] [--header FILE] [--emit=c|none|catalog-h|catalog-c]\n"
-    "            [--catalog FILE] [--version] [--help] FILE.dag\n";
+    "            [--catalog FILE] [--version] [--help] FILE.dag\n"
+    "       dagc diff [--catalog FILE] A.dag B.dag\n";
 
 static const char help[] =
     "\n"
@@ -108,6 +115,9 @@ static const char help[] =
     "                  catalog-c  FILE.dag is a catalog: the interpreter's table of tools\n"
     "  --instrument    add NAME_refine_counted: calls and time per node, answers per arc\n"
     "  --trace         add NAME_refine_traced: a callback after every node\n"
+    "  --prove         emit nothing: compile the C text and compare it with the graph, path by path\n"
+    "  diff            say which answers make the oracles of two files decide differently;\n"
+    "                  exit status 0: none, 1: some, 2: trouble\n"
     "  --catalog FILE  the tools, terms and decisions to use instead of the standard ones\n"
     "  FILE.dag        the source; '-': standard input\n"
     "\n"
@@ -214,6 +224,8 @@ static int parse_arguments(struct job *job, int count, char **arguments)
             job->input_path = argument;
         } else if (strcmp(argument, "--") == 0)
             only_files = 1;
+        else if (strcmp(argument, "--prove") == 0)
+            job->prove = 1;
         else if (strcmp(argument, "--instrument") == 0)
             job->options.counted = 1;
         else if (strcmp(argument, "--trace") == 0)
@@ -244,8 +256,36 @@ static int parse_arguments(struct job *job, int count, char **arguments)
     return why != NULL ? wrong(why, "") : 0;
 }
 
+/* dagc diff [--catalog FILE] A.dag B.dag */
+static int command_diff(int count, char **arguments)
+{
+    const char *files[2] = {NULL, NULL}, *catalog = NULL, *value;
+    struct input input = {0};
+    int given = 0, missing = 0, result = 2;
+    for (int i = 2; i < count; i++) {
+        if ((value = value_of("--catalog", arguments, count, &i, &missing)) != NULL)
+            catalog = value;
+        else if (missing || given == 2 || (arguments[i][0] == '-' && arguments[i][1] != '\0'))
+            return wrong("diff takes two files and --catalog FILE, not", arguments[i]);
+        else
+            files[given++] = arguments[i];
+    }
+    if (given != 2)
+        return wrong("diff takes two files", "");
+    if (catalog != NULL)
+        dag_input_open(&input, catalog);
+    if (input.error != 0)
+        fprintf(stderr, "dagc: error: cannot read %s: %s\n", catalog, strerror(input.error));
+    else
+        result = dag_diff(files[0], files[1], catalog, input.bytes, stdout);
+    dag_input_close(&input);
+    return fflush(stdout) != 0 ? 2 : result;
+}
+
 int main(int count, char **arguments)
 {
+    if (count > 1 && strcmp(arguments[1], "diff") == 0)
+        return command_diff(count, arguments);
     struct job job = {0};
     int status = parse_arguments(&job, count, arguments);
     if (status == 1)
