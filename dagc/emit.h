@@ -16,6 +16,16 @@ enum flavour {
  * nodes each: compilers take time that grows faster than a function's size. */
 enum { PART_NODES = 100 };
 
+/* Parts of a C file (emit_c.c): the head, the tools that some graph reaches, the macro KNOWN if it is
+ * used, and of one oracle all but its `struct oracle`. */
+void dag_emit_banner(const struct dag *dag, struct text *out);
+unsigned char *dag_emit_reached_tools(struct dag *dag); /* by tool */
+void dag_emit_known_macro(struct dag *dag, struct text *out);
+void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                       const struct emit_options *options);
+void dag_emit_oracle_c(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                       const struct emit_options *options);
+
 /* One function (emit_flat.c). */
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                    enum flavour flavour);

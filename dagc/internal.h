@@ -147,9 +147,15 @@ void dag_fingerprint(struct dag *dag);
 struct emit_options {
     int counted; /* --instrument: NAME_refine_counted */
     int traced;  /* --trace: NAME_refine_traced */
+    int standalone;              /* --standalone: all that it needs, in one .c and one .h */
+    const char *prefix;          /* of every name in it; NULL: the first oracle's name */
+    const char *const *folders;  /* -I: where headers are looked for before the built-in ones */
+    int folder_count;
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */
+void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                         const struct emit_options *options);
 void dag_emit_catalog_h(const struct dag *dag, struct text *out);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 

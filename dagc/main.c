@@ -20,6 +20,7 @@ struct job {
     const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
     enum emit emit;
     struct emit_options options;
+    const char *folders[64];               /* -I */
     int prove, proved;                     /* --prove; what it found */
     struct input input, catalog;
     struct output outputs[2];              /* the C text, the header */
@@ -61,7 +62,11 @@ static void passes(struct dag *dag, void *context)
     else if (job->emit == EMIT_C) {
         const char *slash = header->path == NULL ? NULL : strrchr(header->path, '/');
         const char *name = slash != NULL ? slash + 1 : header->path;
-        dag_emit_c(dag, &out->text, name == NULL ? NULL : &header->text, name, &job->options);
+        if (job->options.standalone)
+            dag_emit_standalone(dag, &out->text, &header->text, name, &job->options);
+        else
+            dag_emit_c(dag, &out->text, name == NULL ? NULL : &header->text, name,
+                       &job->options);
     } else if (job->emit == EMIT_CATALOG_H)
         dag_emit_catalog_h(dag, &out->text);
     else if (job->emit == EMIT_CATALOG_C)
@@ -115,6 +120,9 @@ static const char help[] =
     "                  catalog-c  FILE.dag is a catalog: the interpreter's table of tools\n"
     "  --instrument    add NAME_refine_counted: calls and time per node, answers per arc\n"
     "  --trace         add NAME_refine_traced: a callback after every node\n"
+    "  --standalone    write C text and header that need no other file: with the tools they reach\n"
+    "  --prefix NAME   what every name in them begins with; else the first oracle's name\n"
+    "  -I FOLDER       look here for the headers of tools before those built into dagc\n"
     "  --prove         emit nothing: compile the C text and compare it with the graph, path by path\n"
     "  diff            say which answers make the oracles of two files decide differently;\n"
     "                  exit status 0: none, 1: some, 2: trouble\n"
@@ -206,6 +214,8 @@ static const char *contradiction(const struct job *job)
         return "an output would replace an input";
     if (standard_input && job->catalog_path != NULL && strcmp(job->catalog_path, "-") == 0)
         return "the source and the catalog cannot both be standard input";
+    if (job->options.standalone && header == NULL)
+        return "--standalone needs --header";
     if (is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
     return NULL;
@@ -226,7 +236,17 @@ static int parse_arguments(struct job *job, int count, char **arguments)
             only_files = 1;
         else if (strcmp(argument, "--prove") == 0)
             job->prove = 1;
-        else if (strcmp(argument, "--instrument") == 0)
+        else if (strcmp(argument, "--standalone") == 0)
+            job->options.standalone = 1;
+        else if ((value = value_of("--prefix", arguments, count, &i, &missing)) != NULL)
+            job->options.prefix = value;
+        else if ((value = value_of("--include", arguments, count, &i, &missing)) != NULL ||
+                 (value = value_of("-I", arguments, count, &i, &missing)) != NULL) {
+            if (job->options.folder_count == 64)
+                return wrong("more than 64 of -I", "");
+            job->folders[job->options.folder_count++] = value;
+            job->options.folders = job->folders;
+        } else if (strcmp(argument, "--instrument") == 0)
             job->options.counted = 1;
         else if (strcmp(argument, "--trace") == 0)
             job->options.traced = 1;

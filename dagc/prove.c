@@ -20,7 +20,7 @@
 #include "headers.h"
 #include "prove.h"
 
-enum { PATHS_MAX = 100000, RANDOM_PATHS = 2000, SEED = 1 };
+enum { PATHS_MAX = 100000, RANDOM_PATHS = 2000, SEED = 1, OPTIMISED_NODES = 1000 };
 
 /* What a run of one path was asked. The same text stands in the scripted discussion.h. */
 struct prove_record {
@@ -207,7 +207,7 @@ static int compile(const struct proof *proof, const char *source, const char *li
     char *given = getenv("CC"), *cc = given != NULL && *given != '\0' ? given : (char *)"cc";
     snprintf(include, sizeof include, "-I%s", proof->folder);
     /* Much text is compiled without optimising, which would take minutes. */
-    char *optimise = proof->dag->order_count > 3000 ? (char *)"-O0" : (char *)"-O1";
+    char *optimise = proof->dag->order_count > OPTIMISED_NODES ? (char *)"-O0" : (char *)"-O1";
     char *arguments[] = {cc, (char *)"-std=c11", optimise, (char *)"-shared", (char *)"-fPIC",
                          (char *)"-ffp-contract=off", include, (char *)"-o", (char *)library,
                          (char *)source, (char *)"-lm", NULL};
