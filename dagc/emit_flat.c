@@ -247,7 +247,7 @@ static void print_known(const struct flat *flat, const struct node *node)
                       level_name(dag, t, low), low < t->levels.count ? " or better" : "");
         else
             dag_print(flat->out, "    /* %s: %s */\n", t->name,
-                      high == 0 ? "absent on every path" : "checked, as paths differ");
+                      high == 0 ? "absent on every path" : "checked: not every path has it");
         if (is_fact(flat, node, low)) {
             dag_print(flat->out, "    KNOWN(%sterms.%s_level >= ", flat->of, t->name);
             print_constant(flat->out, t->name, level_name(dag, t, low));

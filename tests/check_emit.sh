@@ -50,7 +50,7 @@ oracle small {
 }
 END
 # A C compiler that breaks what it is given: the proof must notice.
-for change in 's/return DECISION_DROP/return DECISION_SPLIT/' 's/tool_weigh(&d, parameters->most/tool_weigh(&d, 1.5/' 's/goto node_b/goto node_c/' \
+for change in 's/return DECISION_DROP/return DECISION_SPLIT/' 's/parameters->most, 0.5/1.5, 0.5/' 's/goto node_b/goto node_c/' \
               's/discussion->terms.size = d.terms.size/(void)d.terms.size/'; do
     printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@"\n' "$change" >broken
     chmod +x broken

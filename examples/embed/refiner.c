@@ -808,7 +808,7 @@ node_planes:
     }
 
 node_energy:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->relative)) {
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
@@ -833,7 +833,7 @@ node_guard:
     }
 
 node_clip_receiver:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
 
     /* form_factor: polygon or better on every path */
@@ -860,7 +860,7 @@ node_guard_receiver:
     }
 
 node_clip_emitter:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
 
     /* form_factor: polygon or better on every path */
@@ -887,8 +887,8 @@ node_guard_emitter:
     }
 
 node_seen:
-    /* form_factor: checked, as paths differ */
-    /* visibility: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
+    /* visibility: checked: not every path has it */
     switch (refiner_tool_visibility(&d, parameters->rays)) {
     case REFINER_VISIBILITY_NONE:
         goto node_hidden;
@@ -900,7 +900,7 @@ node_seen:
     }
 
 node_hidden:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->shadow)) {
     case REFINER_TRANSFER_DARK:
     case REFINER_TRANSFER_BELOW:
@@ -911,7 +911,7 @@ node_hidden:
     }
 
 node_look:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     /* visibility: rays_4 or better on every path */
     switch (refiner_tool_visibility(&d, 64)) {
     case REFINER_VISIBILITY_NONE:
@@ -923,7 +923,7 @@ node_look:
     }
 
 node_matters:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->shadow)) {
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
@@ -957,7 +957,7 @@ node_side:
     }
 
 node_form:
-    /* form_factor: checked, as paths differ */
+    /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
 
     discussion->terms.form_factor = d.terms.form_factor;
