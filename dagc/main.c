@@ -3,6 +3,7 @@
  * Exit status: 0 done; 1 the sources have errors, or a file cannot be read or written; 2 the
  * command line is wrong. With a status other than 0 no output file has been touched.
  * SPDX-License-Identifier: MIT */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -294,10 +295,15 @@ static int command_diff(int count, char **arguments)
         return wrong("diff takes two files", "");
     if (catalog != NULL)
         dag_input_open(&input, catalog);
-    if (input.error != 0)
-        fprintf(stderr, "dagc: error: cannot read %s: %s\n", catalog, strerror(input.error));
+    char *text = catalog == NULL || input.error != 0 ? NULL : calloc(1, input.length + 1);
+    if (text != NULL && input.length > 0)
+        memcpy(text, input.bytes, input.length);
+    if (catalog != NULL && text == NULL)
+        fprintf(stderr, "dagc: error: cannot read %s: %s\n", catalog,
+                strerror(input.error != 0 ? input.error : ENOMEM));
     else
-        result = dag_diff(files[0], files[1], catalog, input.bytes, stdout);
+        result = dag_diff(files[0], files[1], catalog, text, stdout);
+    free(text);
     dag_input_close(&input);
     return fflush(stdout) != 0 ? 2 : result;
 }
