@@ -1,6 +1,7 @@
 # make          the commands build/dagc and build/radiosity
 # make check    the tests
 # make prove    1,000 random graphs: interpreter and compiled function on every path
+# make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make demo     the main job on real scenes, pictures included
 # SPDX-License-Identifier: MIT
 
@@ -25,7 +26,7 @@ TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh)
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
-.PHONY: all check prove demo packages clean
+.PHONY: all check prove bench-size demo packages clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -83,6 +84,8 @@ check: all
 
 prove: commands
 	@sh tests/prove.sh $(BUILD)/bin/dagc 1000
+bench-size: commands
+	@sh tests/bench_size.sh $(BUILD)/bin/dagc
 
 demo: all
 	@sh examples/demo.sh $(BUILD)

@@ -259,7 +259,7 @@ static void add_system(struct c_items *items, const char *text)
     items->system[items->system_count++] = name;
 }
 
-void c_items_add(struct c_items *items, const char *name, const char *text,
+void dag_items_add(struct c_items *items, const char *name, const char *text,
                  void (*include)(struct c_items *items, const char *name, void *context), void *context)
 {
     const char *end = text + strlen(text), *from = NULL, *at = text;
@@ -353,7 +353,7 @@ static void reach(struct c_items *items, int index, int reached_by)
     }
 }
 
-void c_items_keep(struct c_items *items, const char *file, int reached_by)
+void dag_items_keep(struct c_items *items, const char *file, int reached_by)
 {
     for (int i = 0; i < items->item_count; i++)
         if (strcmp(items->files[items->items[i].file].name, file) == 0)
@@ -380,7 +380,7 @@ static void print_name(struct text *out, const struct c_token *token, const char
     dag_print(out, "%.*s", (int)token->length, token->text);
 }
 
-void c_items_print(struct c_items *items, struct c_item *item, struct text *out, const char *prefix)
+void dag_items_print(struct c_items *items, struct c_item *item, struct text *out, const char *prefix)
 {
     const char *text = item->text, *end = text + item->length;
     struct c_token before = {C_MARK, " ", 1};

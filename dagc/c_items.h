@@ -30,13 +30,13 @@ struct c_items {
 };
 
 /* Adds the items of a text. `include` is called for each #include "NAME" before what follows it. */
-void c_items_add(struct c_items *items, const char *name, const char *text,
+void dag_items_add(struct c_items *items, const char *name, const char *text,
                  void (*include)(struct c_items *items, const char *name, void *context), void *context);
 
 /* Marks the items of a file and all that they need. */
-void c_items_keep(struct c_items *items, const char *file, int reached_by);
+void dag_items_keep(struct c_items *items, const char *file, int reached_by);
 
 /* Prints an item; what the items declare gets the prefix: P_name, and P in capitals for NAME. */
-void c_items_print(struct c_items *items, struct c_item *item, struct text *out, const char *prefix);
+void dag_items_print(struct c_items *items, struct c_item *item, struct text *out, const char *prefix);
 
 #endif

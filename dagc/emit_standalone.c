@@ -44,7 +44,7 @@ static void include(struct c_items *items, const char *name, void *context)
         return;
     const char *text = strcmp(name, "catalog.h") == 0 ? s->catalog : header_text(s, name);
     if (text != NULL)
-        c_items_add(items, name, text, include, s);
+        dag_items_add(items, name, text, include, s);
     else
         dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I", name);
 }
@@ -80,8 +80,8 @@ static void collect(struct standalone *s, struct c_items *items)
     for (int i = 0; i < dag->tool_count; i++)
         if (reached[i])
             include(items, dag->tools[i].header, s);
-    c_items_add(items, public_name, settle(dag, &declarations), include, s);
-    c_items_add(items, private_name, settle(dag, &functions), include, s);
+    dag_items_add(items, public_name, settle(dag, &declarations), include, s);
+    dag_items_add(items, private_name, settle(dag, &functions), include, s);
 }
 
 static void print_items(struct c_items *items, struct text *out, const char *prefix, int public_part)
@@ -89,7 +89,7 @@ static void print_items(struct c_items *items, struct text *out, const char *pre
     for (int i = 0; i < items->item_count; i++) {
         struct c_item *item = &items->items[i];
         if (item->kept && !item->shown && ((item->reached_by & C_PUBLIC) != 0) == public_part)
-            c_items_print(items, item, out, prefix);
+            dag_items_print(items, item, out, prefix);
     }
 }
 
@@ -119,9 +119,9 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, c
     collect(&s, &items);
     if (dag->error_count > 0)
         return;
-    c_items_keep(&items, private_name, C_PRIVATE);
-    c_items_keep(&items, public_name, C_PUBLIC);
-    c_items_keep(&items, "standalone.h", C_PUBLIC);
+    dag_items_keep(&items, private_name, C_PRIVATE);
+    dag_items_keep(&items, public_name, C_PUBLIC);
+    dag_items_keep(&items, "standalone.h", C_PUBLIC);
 
     dag_emit_banner(dag, header);
     dag_print(header, "#ifndef ");

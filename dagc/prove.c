@@ -522,24 +522,40 @@ static int prove_oracle(struct proof *proof)
     return proof->different != 0;
 }
 
+struct request {
+    struct proof proof;
+    int result;
+};
+
+static void prove_all(struct dag *dag, void *context)
+{
+    struct request *request = context;
+    struct proof *proof = &request->proof;
+    request->result = build(proof);
+    for (int i = 0; i < dag->oracle_count && request->result >= 0; i++) {
+        proof->oracle = &dag->oracles[i];
+        proof->number = i;
+        request->result |= prove_oracle(proof);
+    }
+}
+
 int dag_prove(struct dag *dag, const struct emit_options *options, FILE *report)
 {
-    struct proof proof = {0};
-    int result = 0;
-    proof.dag = dag;
-    proof.options = options;
-    proof.report = report;
-    proof.width = 1;
+    struct request request = {0};
+    struct protector *outer = dag->arena.protector;
+    request.proof.dag = dag;
+    request.proof.options = options;
+    request.proof.report = report;
+    request.proof.width = 1;
     for (int i = 0; i < dag->tool_count; i++)
-        if (dag->tools[i].parameters.count > proof.width)
-            proof.width = dag->tools[i].parameters.count;
-    if (build(&proof) < 0)
-        result = -1;
-    for (int i = 0; i < dag->oracle_count && result >= 0; i++) {
-        proof.oracle = &dag->oracles[i];
-        proof.number = i;
-        result |= prove_oracle(&proof);
+        if (dag->tools[i].parameters.count > request.proof.width)
+            request.proof.width = dag->tools[i].parameters.count;
+    /* Of its own, so that the temporary folder goes even when memory runs out. */
+    if (dag_protect(dag, prove_all, &request) != 0) {
+        fprintf(stderr, "dagc: error: out of memory\n");
+        request.result = -1;
     }
-    clean(&proof);
-    return result;
+    dag->arena.protector = outer;
+    clean(&request.proof);
+    return request.result;
 }
