@@ -66,6 +66,11 @@ void dag_analyse_repeats(struct dag *dag); /* what has been asked before */
  * reached; 0: some path leaves it absent. */
 void dag_sure_levels(const struct dag *dag, const struct oracle_graph *oracle, int term,
                      unsigned char *sure);
+/* By place: may the term be known when the node is reached? */
+void dag_possible_terms(const struct dag *dag, const struct oracle_graph *oracle, int term,
+                        unsigned char *possible);
+/* Does a decision read the term? Then a discussion gives it back, and may be handed it again. */
+int dag_is_kept(const struct dag *dag, int term);
 /* The least level that the tool leaves the term at, 0: it does not write it; and that asking the
  * node leaves it at, whose arguments may have read it. */
 int dag_written_level(const struct dag *dag, const struct tool *tool, int term);

@@ -8,6 +8,8 @@
  * must be there. Terms are absent at the start: what an earlier discussion left may be gone.
  * [the forward analysis of Kildall 1973, on a graph without cycles: one sweep]
  * SPDX-License-Identifier: MIT */
+#include <string.h>
+
 #include "analyse.h"
 
 int dag_written_level(const struct dag *dag, const struct tool *tool, int term)
@@ -43,6 +45,43 @@ void dag_sure_levels(const struct dag *dag, const struct oracle_graph *oracle, i
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
             if (target->kind == TARGET_NODE && after < sure[dag->nodes[target->index].order])
                 sure[dag->nodes[target->index].order] = after;
+        }
+    }
+}
+
+int dag_is_kept(const struct dag *dag, int term)
+{
+    for (int i = 0; i < dag->decision_count; i++)
+        for (int k = 0; k < dag->decisions[i].reads.count; k++)
+            if (dag->needs[dag->decisions[i].reads.first + k].term == term)
+                return 1;
+    return 0;
+}
+
+static int handles(const struct dag *dag, struct span needs, int term)
+{
+    for (int i = needs.first; i < needs.first + needs.count; i++)
+        if (dag->needs[i].term == term)
+            return 1;
+    return 0;
+}
+
+/* The may-analysis beside it. A node may fill whatever it declares to read or write; a term that
+ * decisions read may have come with the discussion. */
+void dag_possible_terms(const struct dag *dag, const struct oracle_graph *oracle, int term,
+                        unsigned char *possible)
+{
+    memset(possible, 0, (size_t)oracle->order.count);
+    possible[0] = (unsigned char)dag_is_kept(dag, term);
+    for (int i = 0; i < oracle->order.count; i++) {
+        const struct node *node = dag_node_at(dag, oracle, i);
+        const struct tool *tool = &dag->tools[node->tool];
+        int after = possible[i] || handles(dag, node->reads, term) ||
+                    handles(dag, tool->reads, term) || handles(dag, tool->writes, term);
+        for (int a = 0; a < node->arcs.count; a++) {
+            const struct target *target = &dag->arcs[node->arcs.first + a].target;
+            if (target->kind == TARGET_NODE)
+                possible[dag->nodes[target->index].order] |= (unsigned char)after;
         }
     }
 }

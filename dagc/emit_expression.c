@@ -23,8 +23,9 @@ static int precedence(enum expression_kind kind)
     }
 }
 
-/* Prints e where an operator of precedence `around` stands; *value counts the constants. */
-static void print(const struct dag *dag, struct text *out, int expression, int around, int *value)
+/* `at` is the discussion's address, as the text around has it. Prints e where an operator of precedence `around` stands; *value counts the constants. */
+static void print(const struct dag *dag, struct text *out, int expression, int around, const char *at,
+                  int *value)
 {
     static const char *const operators[] = {" + ", " - ", " * ", " / "};
     static const char *const functions[] = {"sqrt(", "fabs("};
@@ -48,7 +49,7 @@ static void print(const struct dag *dag, struct text *out, int expression, int a
     case EXPRESSION_FACT:
         dag_print(out, "fact_");
         dag_emit_fact_name(out, &dag->facts[e->index]);
-        dag_print(out, "(&d)");
+        dag_print(out, "(%s)", at);
         break;
     case EXPRESSION_TERM:
     case EXPRESSION_EXTERN:
@@ -56,26 +57,26 @@ static void print(const struct dag *dag, struct text *out, int expression, int a
         break;
     case EXPRESSION_NEGATE:
         dag_print(out, "-");
-        print(dag, out, e->left, 4, value);
+        print(dag, out, e->left, 4, at, value);
         break;
     case EXPRESSION_SQRT:
     case EXPRESSION_ABS:
         dag_print(out, "%s", functions[e->kind - EXPRESSION_SQRT]);
-        print(dag, out, e->left, 0, value);
+        print(dag, out, e->left, 0, at, value);
         dag_print(out, ")");
         break;
     case EXPRESSION_MIN:
     case EXPRESSION_MAX:
         dag_print(out, e->kind == EXPRESSION_MIN ? "value_min(" : "value_max(");
-        print(dag, out, e->left, 0, value);
+        print(dag, out, e->left, 0, at, value);
         dag_print(out, ", ");
-        print(dag, out, e->right, 0, value);
+        print(dag, out, e->right, 0, at, value);
         dag_print(out, ")");
         break;
     default: /* the operators: left to right, so the right operand binds tighter */
-        print(dag, out, e->left, own, value);
+        print(dag, out, e->left, own, at, value);
         dag_print(out, "%s", operators[e->kind - EXPRESSION_ADD]);
-        print(dag, out, e->right, own + 1, value);
+        print(dag, out, e->right, own + 1, at, value);
         break;
     }
     dag_print(out, "%s", parentheses ? ")" : "");
@@ -83,12 +84,12 @@ static void print(const struct dag *dag, struct text *out, int expression, int a
 
 void dag_emit_fact_name(struct text *out, const struct fact *fact)
 {
-    for (const char *at = fact->name; *at != '\0'; at++)
-        dag_print(out, "%c", *at == '.' ? '_' : *at);
+    for (const char *c = fact->name; *c != '\0'; c++)
+        dag_print(out, "%c", *c == '.' ? '_' : *c);
 }
 
 void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
-                         int *value)
+                         const char *at, int *value)
 {
     const struct expression *e = &dag->expressions[argument->expression];
     int integer = dag->types[dag->parameters[argument->parameter].type].base == BASE_INTEGER;
@@ -98,16 +99,16 @@ void dag_emit_expression(const struct dag *dag, struct text *out, const struct a
         dag_print_integer(out, e->number);
     else {
         dag_print(out, "%s", integer ? "(int)(" : "");
-        print(dag, out, argument->expression, 0, value);
+        print(dag, out, argument->expression, 0, at, value);
         dag_print(out, "%s", integer ? ")" : "");
     }
 }
 
 /* term_NAME(&d, NAME_LEVEL), or term_NAME(&d) for a term without levels */
-static void print_term(const struct dag *dag, struct text *out, int term, int level)
+static void print_term(const struct dag *dag, struct text *out, int term, int level, const char *at)
 {
     const struct term *t = &dag->terms[term];
-    dag_print(out, "term_%s(&d", t->name);
+    dag_print(out, "term_%s(%s", t->name, at);
     if (t->levels.count > 0) {
         dag_print(out, ", ");
         dag_print_upper(out, t->name);
@@ -117,34 +118,34 @@ static void print_term(const struct dag *dag, struct text *out, int term, int le
     dag_print(out, ")");
 }
 
-static void print_reads(const struct dag *dag, struct text *out, int expression, int *value)
+static void print_reads(const struct dag *dag, struct text *out, int expression, const char *at, int *value)
 {
     const struct expression *e = &dag->expressions[expression];
     if (e->kind == EXPRESSION_TERM) {
         dag_print(out, "    const double value_%d = ", ++*value);
-        print_term(dag, out, e->index, e->level);
+        print_term(dag, out, e->index, e->level, at);
         dag_print(out, ";\n");
     } else if (e->kind == EXPRESSION_EXTERN) {
         const struct callback *callback = &dag->callbacks[e->index];
         struct span reads = callback->reads;
         for (int i = reads.first; i < reads.first + reads.count; i++) {
             dag_print(out, "    (void)");
-            print_term(dag, out, dag->needs[i].term, dag->needs[i].level);
+            print_term(dag, out, dag->needs[i].term, dag->needs[i].level, at);
             dag_print(out, ";\n");
         }
-        dag_print(out, "    const double value_%d = %s(&d);\n", ++*value, callback->name);
+        dag_print(out, "    const double value_%d = %s(%s);\n", ++*value, callback->name, at);
     }
     if (e->left >= 0)
-        print_reads(dag, out, e->left, value);
+        print_reads(dag, out, e->left, at, value);
     if (e->right >= 0)
-        print_reads(dag, out, e->right, value);
+        print_reads(dag, out, e->right, at, value);
 }
 
-int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node)
+int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node, const char *at)
 {
     int value = 0;
     for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++)
-        print_reads(dag, out, dag->arguments[i].expression, &value);
+        print_reads(dag, out, dag->arguments[i].expression, at, &value);
     return value;
 }
 

@@ -166,7 +166,19 @@ void dag_expand(struct dag *dag);       /* branches to plain nodes */
 void dag_check_graph(struct dag *dag);  /* cycles; the topological order */
 void dag_analyse(struct dag *dag);     /* what paths prove: warnings, terms, termination */
 void dag_fingerprint(struct dag *dag);
-void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name);
+/* What --emit=c adds to the plain function. */
+struct emit_options {
+    int counted; /* --instrument: NAME_refine_counted */
+    int traced;  /* --trace: NAME_refine_traced */
+    int standalone;              /* --standalone: all that it needs, in one .c and one .h */
+    const char *prefix;          /* of every name in it; NULL: the first oracle's name */
+    const char *const *folders;  /* -I: where headers are looked for before the built-in ones */
+    int folder_count;
+};
+void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                const struct emit_options *options); /* options NULL: nothing is added */
+void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                         const struct emit_options *options);
 void dag_emit_dot(struct dag *dag, struct text *out);
 void dag_emit_json(struct dag *dag, struct text *out);
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);

@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "depfile.h"
+#include "diff.h"
 #include "emit_svg.h"
 #include "options.h"
+#include "prove.h"
 
 /* After a pass: is this as far as the run goes? Its listing is then the output. */
 static int stops(struct dag *dag, struct job *job, enum pass pass)
@@ -29,7 +31,10 @@ static void emit(struct dag *dag, struct job *job)
     const char *name = slash != NULL ? slash + 1 : header->path;
     switch (job->emit) {
     case EMIT_C:
-        dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name);
+        if (job->c.standalone)
+            dag_emit_standalone(dag, out, &job->outputs[OUTPUT_HEADER].text, name, &job->c);
+        else
+            dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name, &job->c);
         break;
     case EMIT_DOT:
     case EMIT_SVG: /* run() has it drawn, outside of dag_protect */
@@ -101,7 +106,10 @@ static void passes(struct dag *dag, void *context)
             return;
     }
     dag_fingerprint(dag);
-    emit(dag, job);
+    if (job->prove)
+        job->proved = dag_prove(dag, &job->c, stdout);
+    else
+        emit(dag, job);
 }
 
 static int run(struct job *job)
@@ -124,9 +132,11 @@ static int run(struct job *job)
         dag_print_diagnostics(dag, stderr);
         if (dag->error_count == 0) {
             int draws = job->emit == EMIT_SVG && job->stop == PASSES;
-            if (job->emit == EMIT_NONE && job->stop == PASSES)
+            if (job->prove || (job->emit == EMIT_NONE && job->stop == PASSES))
                 job->outputs[OUTPUT_TEXT].path = NULL;
-            if (!draws || dag_draw_svg(out) == 0)
+            if (job->prove)
+                result = job->proved != 0 || fflush(stdout) != 0;
+            else if (!draws || dag_draw_svg(out) == 0)
                 result = dag_write_outputs(job->outputs, OUTPUTS) != 0;
         }
     }
@@ -138,19 +148,30 @@ static int run(struct job *job)
     return result;
 }
 
+static int run_diff(const struct job *job)
+{
+    struct dag_options options = {0};
+    options.catalog_path = job->catalog_path;
+    options.folders = job->folders;
+    options.folder_count = job->folder_count;
+    int result = dag_diff(job->input_path, job->second_path, &options, stdout);
+    return fflush(stdout) != 0 ? 2 : result;
+}
+
 int main(int count, char **arguments)
 {
+    int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
     struct job job = {0};
     job.folders = calloc((size_t)count, sizeof *job.folders);
     if (job.folders == NULL) {
         fprintf(stderr, "dagc: error: out of memory\n");
         return 1;
     }
-    int status = dag_parse_arguments(&job, count, arguments);
+    int status = diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
     if (status == 0)
         status = fflush(stdout) != 0;
     else if (status < 0)
-        status = run(&job);
+        status = diff ? run_diff(&job) : run(&job);
     free(job.folders);
     return status;
 }

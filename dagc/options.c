@@ -54,7 +54,8 @@ int dag_job_is_catalog(const struct job *job)
 
 /* ---- help */
 
-static const char usage[] = "usage: dagc [OPTION]... FILE.dag\n";
+static const char usage[] = "usage: dagc [OPTION]... FILE.dag\n"
+                            "       dagc diff [-I DIR] [--catalog FILE] A.dag B.dag\n";
 
 static const char lesson[] =
     "\n"
@@ -79,8 +80,12 @@ static const char lesson[] =
     "    dagc -o small.c --header small.h small.dag     small_defaults(), small_refine(), small_oracle\n"
     "    dagc --emit=svg -o small.svg small.dag         a drawing of the graph\n"
     "    dagc --emit=none -Werror small.dag             only look for mistakes, and be strict\n"
+    "    dagc --prove small.dag                         does the C text what the graph says?\n"
     "\n"
     "Every warning and error shows where it is, the path that proves it, and how to mend it.\n"
+    "`dagc diff` says which answers make the oracles of two files decide differently; exit status\n"
+    "0: none, 1: some, 2: trouble.\n"
+    "\n"
     "The text generated is yours. Messages go to standard error. Exit status: 0 done, 1 errors\n"
     "in the source or in reading and writing, 2 wrong usage; unless it is 0, no output file has\n"
     "been touched.\n";
@@ -193,6 +198,21 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_CATALOG:
         job->catalog_path = value;
         return -1;
+    case OPTION_INSTRUMENT:
+        job->c.counted = 1;
+        return -1;
+    case OPTION_TRACE:
+        job->c.traced = 1;
+        return -1;
+    case OPTION_STANDALONE:
+        job->c.standalone = 1;
+        return -1;
+    case OPTION_PREFIX:
+        job->c.prefix = value;
+        return -1;
+    case OPTION_PROVE:
+        job->prove = 1;
+        return -1;
     case OPTION_FOLDER:
         job->folders[job->folder_count++] = value;
         return -1;
@@ -301,6 +321,15 @@ static const char *contradiction(const struct job *job)
         return "the source and the catalog cannot both be standard input";
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
+    if ((job->c.counted || job->c.traced || job->c.standalone || job->prove) &&
+        (job->emit != EMIT_C || job->stop != PASSES))
+        return "--instrument, --trace, --standalone and --prove belong to C text";
+    if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
+        return "--prove writes nothing";
+    if (job->c.standalone && header == NULL)
+        return "--standalone needs --header";
+    if (job->c.prefix != NULL && !job->c.standalone)
+        return "--prefix belongs to --standalone";
     if (header != NULL && (job->emit != EMIT_C || job->stop != PASSES))
         return "--header belongs to C text";
     if (job->emit == EMIT_STUB && (job->stop != PASSES || depfile != NULL))
@@ -335,6 +364,32 @@ int dag_parse_arguments(struct job *job, int count, char **arguments)
         return wrong("no source is given", "");
     if (job->outputs[OUTPUT_TEXT].path == NULL)
         job->outputs[OUTPUT_TEXT].path = "-";
+    job->c.folders = job->folders;
+    job->c.folder_count = job->folder_count;
     const char *why = contradiction(job);
     return why != NULL ? wrong(why, "") : -1;
+}
+
+int dag_parse_diff(struct job *job, int count, char **arguments)
+{
+    int only_files = 0;
+    for (int i = 2; i < count; i++) {
+        const char *argument = arguments[i];
+        if (only_files || argument[0] != '-' || strcmp(argument, "-") == 0) {
+            if (job->second_path != NULL)
+                return wrong("diff takes two files, not also", argument);
+            *(job->input_path == NULL ? &job->input_path : &job->second_path) = argument;
+        } else if (strcmp(argument, "--") == 0)
+            only_files = 1;
+        else {
+            const char *value;
+            if (!matches(argument, OPTION_CATALOG, &value) && !matches(argument, OPTION_FOLDER, &value) &&
+                !matches(argument, OPTION_HELP, &value))
+                return wrong("diff does not know", argument);
+            int status = parse_option(job, count, arguments, &i);
+            if (status >= 0)
+                return status;
+        }
+    }
+    return job->second_path != NULL ? -1 : wrong("diff takes two files", "");
 }

@@ -20,9 +20,13 @@ struct job {
     enum emit emit;
     enum pass stop;                        /* --dump; PASSES: none */
     struct warnings warnings;
+    struct emit_options c;                 /* of C text */
+    int prove;                             /* --prove */
+    int proved;                            /* what it found */
     struct input input, catalog;
     const char **folders;                  /* of -I; room for as many as there are arguments */
     int folder_count;
+    const char *second_path;               /* of diff */
     struct output outputs[OUTPUTS];
 };
 
@@ -31,5 +35,8 @@ int dag_job_is_catalog(const struct job *job);
 
 /* Reads the command line. -1: run the job; else the status to exit with: all has been said. */
 int dag_parse_arguments(struct job *job, int count, char **arguments);
+
+/* dagc diff [OPTION]... A.dag B.dag: the same, for two files. */
+int dag_parse_diff(struct job *job, int count, char **arguments);
 
 #endif
