@@ -7,7 +7,7 @@
 #include "near_first.h"
 #include "refiner.h"
 
-static int occluded(const struct host *host, int count, const struct segment *segments)
+static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     (void)host;
     (void)count;
