@@ -87,8 +87,13 @@ static int same_value(const struct dag *a, int i, const struct dag *b, int j)
 
 static int same_base(const struct side *a, const struct node *x, const struct side *b, const struct node *y)
 {
-    if (x->tool != y->tool)
+    if (x->tool != y->tool || x->reads.count != y->reads.count)
         return 0;
+    for (int i = 0; i < x->reads.count; i++) { /* an extern may be declared otherwise */
+        const struct need *p = &a->dag->needs[x->reads.first + i], *q = &b->dag->needs[y->reads.first + i];
+        if (p->term != q->term || p->level != q->level)
+            return 0;
+    }
     for (int i = 0; i < x->arguments.count; i++)
         if (!same_value(a->dag, a->dag->arguments[x->arguments.first + i].expression,
                         b->dag, b->dag->arguments[y->arguments.first + i].expression))

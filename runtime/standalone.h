@@ -10,9 +10,8 @@
 enum { HOST_SEGMENTS = SEGMENTS_MAX };
 
 /* Makes a host of its callbacks. `totals` is called once, here, to fill in area, irradiance, ray_offset and
- * flat; `occluded` whenever a tool casts rays: bit i of its answer
- * says that segment i meets something. To give them data of your own, let `host` be the first
- * member of a structure of yours. */
+ * flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
+ * To give them data of your own, let `host` be the first member of a structure of yours. */
 static inline void host_open(struct host *host,
                              uint64_t (*occluded)(const struct host *host, int count, const struct segment *segments),
                              void (*totals)(struct host *host))

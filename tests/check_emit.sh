@@ -39,6 +39,8 @@ says() { # TEXT COMMAND...
 for oracle in "$top"/examples/oracles/*.dag; do
     check "prove ${oracle##*/}" "$dagc" --prove --instrument --trace "$oracle"
 done
+check "prove a user's tool and term" "$dagc" --prove --instrument --trace "$top/examples/user_tool/near_first.dag"
+check "prove branches and externs" says 'proved on all' "$dagc" -Wno-all --catalog "$catalog" --prove --instrument --trace "$top/tests/dagc/emit_branch.dag"
 check "60 random graphs" sh "$top/tests/prove.sh" "$dagc" 60
 cat >small.dag <<'END'
 oracle small {
@@ -84,6 +86,24 @@ sed 's/most = most/most = 1/' small.dag >number.dag
 check "diff: a number is not a parameter" status 1 "$dagc" diff --catalog "$catalog" small.dag number.dag
 sed 's/flux = 1 /flux = 2 /' small.dag >default.dag
 check "diff: a default" says '^+ parameter most = 2' "$dagc" diff --catalog "$catalog" small.dag default.dag
+cat >computed.dag <<'END'
+extern glow(size >= rough) : flux in [0, inf] "it shines";
+oracle computed {
+  param most : flux = 1 in [0, inf];
+  start a;
+  node a = weigh(most = max(lamp, glow) * 2, share = min(1, abs(size.fine))) { light -> b; heavy -> split; }
+  node b = weigh(most = most + lamp, share = 0.5) { light -> drop; heavy -> split; }
+}
+END
+check "diff: computed arguments" status 0 "$dagc" diff --catalog "$catalog" computed.dag computed.dag
+for change in 's/max(lamp/min(lamp/' 's/\* 2/* 3/' 's/most + lamp/lamp/' 's/size\.fine/size.rough/' 's/glow(size/glow(where, size/'; do
+    sed "$change" computed.dag >changed.dag
+    check "diff: $change" status 1 "$dagc" diff --catalog "$catalog" computed.dag changed.dag
+done
+check "diff: an expression as a witness" says 'weigh(most = max(lamp, extern glow) \* 2, share = min(1, abs(size.fine))): light' \
+    "$dagc" diff --catalog "$catalog" computed.dag changed.dag
+{ echo 'tool more() question answers (yes, no) "More?";'; cat computed.dag; } >more.dag
+check "diff: other tools" status 2 "$dagc" diff --catalog "$catalog" computed.dag more.dag
 
 # ---- standalone, and the program that ships it
 embed=$top/examples/embed
@@ -96,12 +116,13 @@ warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 for oracle in bf bf_guarded viewfactors; do
     check "standalone $oracle" "$dagc" --standalone --instrument --trace -o $oracle.c --header $oracle.h "$top/examples/oracles/$oracle.dag"
 done
+check "standalone near_first" "$dagc" --standalone --instrument --prefix near_first -I "$top/examples/user_tool" -o near_first.c --header near_first.h "$top/examples/user_tool/near_first.dag"
 for compiler in "gcc -std=c99" "clang -std=c99" "tcc" "g++ -x c++ -std=c++17" "clang++ -x c++ -std=c++17"; do
     if ! command -v "${compiler%% *}" >/dev/null; then
         echo "skipped: ${compiler%% *} is not installed"
         continue
     fi
-    for oracle in bf bf_guarded viewfactors; do
+    for oracle in bf bf_guarded viewfactors near_first; do
         check "$compiler $oracle" $compiler $warnings -O2 -c -o $oracle.o $oracle.c
         # shellcheck disable=SC2016
         [ "$compiler" = tcc ] || check "symbols of $oracle" sh -c "! nm -g --defined-only $oracle.o | grep -v ' ${oracle}_'"
@@ -112,6 +133,10 @@ for compiler in "gcc -std=c99" "clang -std=c99" "tcc" "g++ -x c++ -std=c++17" "c
 done
 [ -x "$engine" ] || echo "skipped: no $engine to compare with"
 check "--prefix" status 1 "$dagc" --standalone --prefix 9x -o x.c --header x.h "$bf"
+check "no --standalone" status 2 "$dagc" --prefix x "$bf"
+check "a proof writes nothing" status 2 "$dagc" --prove -o x.c "$bf"
+check "no header with a proof" status 2 "$dagc" --prove --header x.h "$bf"
+check "a proof of a drawing" status 2 "$dagc" --prove --emit=dot "$bf"
 check "no --header" status 2 "$dagc" --standalone -o x.c "$bf"
 
 echo "emit: $count checks, $bad failed"

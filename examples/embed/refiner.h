@@ -96,9 +96,8 @@ struct refiner_discussion {
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
 
 /* Makes a host of its callbacks. `totals` is called once, here, to fill in area, irradiance, ray_offset and
- * flat; `occluded` whenever a tool casts rays: bit i of its answer
- * says that segment i meets something. To give them data of your own, let `host` be the first
- * member of a structure of yours. */
+ * flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
+ * To give them data of your own, let `host` be the first member of a structure of yours. */
 static inline void refiner_host_open(struct refiner_host *host,
                              uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments),
                              void (*totals)(struct refiner_host *host))
