@@ -3,6 +3,7 @@
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make demo     the main job on real scenes, pictures included
+# make bench    what the releases cost, in instructions
 # SPDX-License-Identifier: MIT
 
 CC       = gcc
@@ -26,7 +27,7 @@ TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh)
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
-.PHONY: all check prove bench-size demo packages clean
+.PHONY: all check prove bench-size demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -89,6 +90,10 @@ bench-size: commands
 
 demo: all
 	@sh examples/demo.sh $(BUILD)
+
+# Instruction counts of the three releases; --repeats medians: radiosity compare SCENE.
+bench: all
+	sh tests/bench_releases.sh $(BUILD)/bin/radiosity
 
 clean:
 	rm -rf $(BUILD)

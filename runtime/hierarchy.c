@@ -11,6 +11,9 @@
 
 enum { BINS = 16, FANOUT = 4 };
 
+/* What stands for a parent in the identities of faces, wherever the clusters put them. */
+#define FACES 0x2545f4914f6cdd1du
+
 /* A set of faces on its way to becoming one element: order[from .. to). */
 struct range {
     uint32_t from, to;
@@ -108,7 +111,7 @@ static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
     e->vertices = (uint8_t)f->vertices;
     e->face = face;
     e->black = f->black;
-    e->id = child_id(~(uint64_t)0, face);
+    e->id = child_id(FACES, face);
     h->face_element[face] = index;
     measure_surface(e);
 }

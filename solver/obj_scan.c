@@ -266,6 +266,39 @@ static int scan_uses(struct obj_scan *s, const char *path, struct cursor c, long
     return 0;
 }
 
+/* Assimp 5.2 sees neither that .5 is a number nor what an indented line says: write 0.5 on vertex
+ * lines, and drop indents. Returns 0 or -1. */
+static int spell_out(struct obj_scan *s)
+{
+    size_t more = 1, i, n = 0;
+    int vertex = 0, line_start = 1;
+    char *text;
+    for (i = 0; i + 1 < s->size; i++)
+        more += blank(s->text[i]) && s->text[i + 1] == '.';
+    text = malloc(s->size + more);
+    if (!text)
+        return -1;
+    for (i = 0; i < s->size; i++) {
+        char c = s->text[i];
+        if (line_start && blank(c) && c != '\r')
+            continue;
+        if (line_start) {
+            vertex = c == 'v';
+            line_start = 0;
+        }
+        if (c == '.' && vertex && blank(s->text[i - 1]))
+            text[n++] = '0';
+        text[n++] = c;
+        if (c == '\n')
+            line_start = 1;
+    }
+    text[n] = 0;
+    free(s->text);
+    s->text = text;
+    s->size = n;
+    return 0;
+}
+
 int obj_scan_read(struct obj_scan *scan, const char *path)
 {
     *scan = (struct obj_scan){0};
@@ -276,6 +309,8 @@ int obj_scan_read(struct obj_scan *scan, const char *path)
     long vertices = 0;
     if (memchr(scan->text, 0, scan->size)) {
         failed = report_error(path, 0, "not a text, hence no OBJ file; check the format");
+    } else if (spell_out(scan) < 0) {
+        failed = out_of_memory(path);
     } else {
         if (scan->size >= 3 && memcmp(scan->text, "\xEF\xBB\xBF", 3) == 0)
             erase(scan->text, scan->text + 3);

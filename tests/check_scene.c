@@ -249,6 +249,7 @@ START_TEST(test_polygons)
          4, 2.598076},                                                            /* a hexagon: 3 sqrt(3) / 2 */
         {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 3\nf -4 -3/1/1 -2//7 -1\n", 2, 1.5}, /* repeated; relative; odd parts */
         {"v 0 0 0\nv 1 0 0\\\n\nv 1 1 0\r\nv 0 1 0\nf 1 2 \\\n 3 4\r\n", 1, 1},         /* continued lines, CR */
+        {"v 0 0 0\n v .5 0 0\n\tv .5 +.5 0\n f 1 2 3\n", 1, 0.125},                     /* bare points, indents */
     };
     struct scene s;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
