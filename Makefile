@@ -1,5 +1,7 @@
 # make          the commands build/dagc and build/radiosity
 # make check    the tests
+# make prove    1,000 random graphs: interpreter and compiled function on every path
+# make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make demo     the main job on real scenes, pictures included
 # make bench    what the releases cost, in instructions
 # SPDX-License-Identifier: MIT
@@ -22,9 +24,10 @@ LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,runtime) $(BUILD)/gen/catalog.o
 SOLVER    = $(call objects,solver) $(call objects,tests/hand) $(FLAT) $(BUILD)/gen/builtin.o
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
+SCRIPTS   = $(wildcard tests/check_*.sh)
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
-.PHONY: all check demo packages bench clean
+.PHONY: all check prove bench-size demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -36,13 +39,17 @@ commands: $(BUILD)/bin/dagc $(BUILD)/bin/radiosity
 # What is built by what: catalog.dag -> libdagc -> dagc -> everything that includes discussion.h.
 $(BUILD)/bin/dagc: $(BUILD)/dagc/main.o $(LIBDAGC)
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -o $@ $^
-$(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o
+	$(CC) $(LDFLAGS) -o $@ $^ -ldl -lm
+$(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
 	rm -f $@
 	ar rcs $@ $^
 $(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/embed.sh
 	@mkdir -p $(@D)
 	sh dagc/embed.sh dagc_standard_catalog $< > $@
+HEADERS   = discussion.h geometry.h oracle.h standalone.h $(patsubst runtime/%,%,$(wildcard runtime/tools/*.h runtime/terms/*.h))
+$(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/embed_headers.sh
+	@mkdir -p $(@D)
+	sh dagc/embed_headers.sh runtime $(HEADERS) > $@
 $(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
 $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
@@ -59,19 +66,27 @@ $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 $(BUILD)/tests/check_%: $(BUILD)/tests/check_%.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
+$(BUILD)/tests/embed_engine: $(BUILD)/tests/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
-$(BUILD)/gen/builtin.o $(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT): $(BUILD)/gen/catalog.h
+$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/embed_engine.o: $(BUILD)/gen/catalog.h
 
 packages:
 	@sh tests/packages.sh
 
 check: all
-	@$(MAKE) --no-print-directory $(TESTS)
-	@sh tests/run.sh $(BUILD) $(TESTS)
+	@$(MAKE) --no-print-directory $(TESTS) $(BUILD)/tests/embed_engine
+	@sh tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
+
+prove: commands
+	@sh tests/prove.sh $(BUILD)/bin/dagc 1000
+bench-size: commands
+	@sh tests/bench_size.sh $(BUILD)/bin/dagc
 
 demo: all
 	@sh examples/demo.sh $(BUILD)

@@ -107,7 +107,10 @@ int dag_protect(struct dag *dag, void (*body)(struct dag *dag, void *context), v
 
 struct dag *dag_new(void)
 {
-    return calloc(1, sizeof(struct dag));
+    struct dag *dag = calloc(1, sizeof *dag);
+    if (dag != NULL)
+        dag->use = -1;
+    return dag;
 }
 
 void dag_free(struct dag *dag)
@@ -120,6 +123,7 @@ void dag_free(struct dag *dag)
         free(block);
         block = next;
     }
+    free(dag->reading);
     free(dag);
 }
 

@@ -20,12 +20,29 @@ struct search {
 
 enum { PATH_SHOWN = 12 };
 
+/* Was the cycle found before, in another copy of the same branch? */
+static int is_known(const struct dag *dag, const struct arc *closing)
+{
+    const struct where *where = &closing->target.where;
+    for (int i = 0; i < dag->diagnostic_count; i++) {
+        const struct diagnostic *other = &dag->diagnostics[i];
+        if (other->use >= 0 && other->severity == SEVERITY_ERROR &&
+            other->where.source == where->source && other->where.offset == where->offset)
+            return 1;
+    }
+    return 0;
+}
+
 /* "a -> b -> a", its middle left out when it is long. */
 static void report_cycle(struct dag *dag, const struct search *search, const struct arc *closing)
 {
     int first = search->depth - 1;
+    if (is_known(dag, closing))
+        return;
+    dag->use = dag->nodes[search->stack[search->depth - 1]].use;
     if (dag_errors_full(dag)) {
         dag_error(dag, closing->target.where, "a cycle");
+        dag->use = -1;
         return;
     }
     while (search->stack[first] != closing->target.index)
@@ -42,6 +59,7 @@ static void report_cycle(struct dag *dag, const struct search *search, const str
     }
     dag_error(dag, closing->target.where, "a cycle: %s%s", path, closing->target.name);
     dag_note(dag, dag_nowhere, "a discussion would never end: every arc must lead nearer to a decision");
+    dag->use = -1;
 }
 
 /* Has an answer of the node that was followed before `arc` led to the same place? Answers are

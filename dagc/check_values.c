@@ -93,25 +93,77 @@ static void check_reference(struct dag *dag, const struct expression *expression
     }
 }
 
+static void check_computed(struct dag *dag, const struct expression *e,
+                           const struct parameter *wanted, const char *tool)
+{
+    const struct type *to = &dag->types[wanted->type];
+    const char *text = dag_expression_text(dag, (int)(e - dag->expressions));
+    if (!e->any_unit && !dag_same_unit(&e->unit, &to->unit)) {
+        dag_error(dag, e->where, "'%s' of %s is of type %s (%s), but '%s' is %s", wanted->name, tool,
+                  to->name, dag_unit_name(to), text, dag_unit_text(dag, &e->unit));
+        dag_note(dag, wanted->where, "declared here");
+    } else if (to->base == BASE_INTEGER && !e->whole) {
+        dag_error(dag, e->where, "'%s' of %s is a whole number (%s), but '%s' may be none",
+                  wanted->name, tool, to->name, text);
+        dag_note(dag, dag_nowhere, "whole are: whole numbers, and + - * min max abs of them");
+    } else {
+        double low = wanted->low, high = wanted->high;
+        if (to->base == BASE_INTEGER) { /* what a C int can hold */
+            low = low < INT_MIN ? INT_MIN : low;
+            high = high > INT_MAX ? INT_MAX : high;
+        }
+        if (e->low >= low && e->high <= high)
+            return;
+        dag_error(dag, e->where, "the argument may leave its range: '%s' lies in %s, '%s' of %s takes %s",
+                  text, range(dag, e->low, e->high), wanted->name, tool, range(dag, low, high));
+        char a[32], b[32];
+        if (e->low < low && e->high > high)
+            dag_note(dag, dag_nowhere, "write: min(max(%s, %s), %s)", text, dag_number(low, a),
+                     dag_number(high, b));
+        else
+            dag_note(dag, dag_nowhere, "write: %s(%s, %s)", e->low < low ? "max" : "min", text,
+                     dag_number(e->low < low ? low : high, a));
+    }
+}
+
 static void check_argument(struct dag *dag, const struct argument *argument, const char *tool)
 {
     const struct parameter *wanted = &dag->parameters[argument->parameter];
     struct expression *expression = &dag->expressions[argument->expression];
-    expression->unit = dag->types[wanted->type].unit;
+    if (wanted->bad || !dag_check_expression(dag, argument->expression))
+        return;
     if (expression->kind == EXPRESSION_NUMBER)
         check_number(dag, expression, wanted, tool);
-    else if (expression->parameter >= 0)
+    else if (expression->kind == EXPRESSION_PARAMETER)
         check_reference(dag, expression, wanted, tool);
+    else
+        check_computed(dag, expression, wanted, tool);
+    if (expression->any_unit)
+        expression->unit = dag->types[wanted->type].unit;
 }
 
+static void check_graph(struct dag *dag, const struct oracle_graph *graph)
+{
+    dag->use = graph->use;
+    for (int i = graph->drafts.first; i < graph->drafts.first + graph->drafts.count; i++) {
+        const struct node *node = &dag->drafts[i];
+        const char *callee = node->branch >= 0 ? dag->branches[node->branch].name
+                           : node->tool >= 0 ? dag->tools[node->tool].name : "";
+        for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
+            if (dag->arguments[a].expression >= 0)
+                check_argument(dag, &dag->arguments[a], callee);
+    }
+    dag->use = -1;
+}
+
+/* Branches are checked as they are written, with their own parameters' ranges: what fits there
+ * fits wherever the branch is used. */
 void dag_check_values(struct dag *dag)
 {
     for (int i = 0; i < dag->parameter_count; i++)
         check_parameter(dag, &dag->parameters[i]);
-    for (int i = 0; i < dag->node_count; i++) {
-        const struct node *node = &dag->nodes[i];
-        for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
-            if (dag->arguments[a].expression >= 0)
-                check_argument(dag, &dag->arguments[a], dag->tools[node->tool].name);
-    }
+    for (int i = 0; i < dag->oracle_count; i++)
+        check_graph(dag, &dag->oracles[i]);
+    for (int i = 0; i < dag->branch_count; i++)
+        check_graph(dag, &dag->branches[i]);
 }

@@ -38,6 +38,19 @@ struct source {
     const char *base; /* without its directory: what generated files may mention */
     const char *text; /* NUL-terminated copy */
     int length;       /* bytes, without the NUL */
+    unsigned char is_file; /* `name` is its path; else standard input or a text in memory */
+    struct where importer;  /* the `import` that asked for it; nowhere: it was given */
+    uint64_t device, inode; /* which file it is, however it is called */
+    unsigned char on_disk;  /* device and inode are known */
+    unsigned char standard; /* dagc_standard_catalog */
+};
+
+/* import "FILE"; or import standard; in the order of reading. */
+struct import {
+    const char *path;    /* as written; NULL: the standard catalog */
+    struct where where;
+    int source;          /* in sources; -1: not read */
+    unsigned char first; /* it is for this one that the source was read */
 };
 
 /* Exponents of the base units m, kg, s, A, K, mol, cd; all zero: a plain number. */
@@ -64,7 +77,8 @@ struct level {
     struct where where;
 };
 
-/* term NAME : TYPE [levels (a < b < c)] "doc"; a value in the data manager. */
+/* term NAME : TYPE [in [a, b]] [levels (a < b < c)] [header "H"] "doc"; a value in the data
+ * manager. */
 struct term {
     const char *name;
     struct where where;
@@ -72,6 +86,34 @@ struct term {
     const char *type_name;
     int type;           /* in types */
     struct span levels; /* in levels; empty: the term is absent or present */
+    double low, high;   /* the values it can have */
+    const char *header; /* C header with `term_NAME`, "terms/NAME.h" when not written */
+    const char *doc;
+};
+
+/* fact NAME[.NAME] : TYPE [in [a, b]] = "C" "doc"; a number that is there for the asking: of an
+ * element, of the scene. */
+struct fact {
+    const char *name; /* "receiver.area" */
+    struct where where;
+    struct where type_where;
+    const char *type_name;
+    int type;
+    double low, high;
+    const char *c;    /* its value as a C expression over `const struct discussion *d` */
+    const char *doc;
+};
+
+/* extern NAME(needs) : TYPE [in [a, b]] "doc"; a C function of the user's that gives a number:
+ * double NAME(const struct discussion *d). */
+struct callback {
+    const char *name;
+    struct where where;
+    struct where type_where;
+    const char *type_name;
+    int type;
+    double low, high;
+    struct span reads; /* in needs: terms that are there, at that level, when it is called */
     const char *doc;
 };
 
@@ -83,7 +125,7 @@ struct need {
     int level; /* 1 is the coarsest (or "present"); the enums of catalog.h count alike */
 };
 
-/* A parameter of an oracle, or of a tool. */
+/* A parameter of an oracle, of a branch, or of a tool. */
 struct parameter {
     const char *name;
     struct where where;
@@ -132,33 +174,53 @@ struct decision_tool {
     const char *doc;
 };
 
-/* The value of an argument. First cut: a number or a parameter; computed ones get more kinds. */
-enum expression_kind { EXPRESSION_NUMBER, EXPRESSION_PARAMETER };
+/* The value of an argument: a tree of these. All arithmetic is in double, operands are evaluated
+ * from left to right, both of them always; min is (a < b ? a : b), max is (a > b ? a : b). */
+enum expression_kind {
+    EXPRESSION_NUMBER, EXPRESSION_PARAMETER,
+    EXPRESSION_NAME, /* a name not yet resolved, or unknown */
+    EXPRESSION_FACT, EXPRESSION_TERM, EXPRESSION_EXTERN,
+    EXPRESSION_NEGATE, EXPRESSION_SQRT, EXPRESSION_ABS, /* one operand, left */
+    EXPRESSION_ADD, EXPRESSION_SUBTRACT, EXPRESSION_MULTIPLY, EXPRESSION_DIVIDE,
+    EXPRESSION_MIN, EXPRESSION_MAX
+};
 
 struct expression {
     enum expression_kind kind;
     struct where where;   /* for a tool's default: of that default in the catalog */
-    const char *name;     /* PARAMETER: as written */
+    const char *name;     /* a name as written, with its part behind the '.', if any */
+    int dot;              /* offset of the '.' in name; 0: none */
     double number;        /* NUMBER */
-    int parameter;        /* PARAMETER: in parameters, one of the oracle's own */
-    struct unit unit;     /* of the value; of a bare NUMBER: the unit it was used with */
+    int parameter;        /* PARAMETER: in parameters; in a node, one of the oracle's own */
+    int index;            /* FACT, TERM, EXTERN: in facts, terms, callbacks */
+    int level;            /* TERM: as in struct need */
     int left, right;      /* operands, in expressions; -1 */
+    int size, depth;      /* of the tree: at most EXPRESSION_SIZE and EXPRESSION_DEPTH */
+    struct unit unit;     /* of the value; of a bare NUMBER: the unit it was used with */
+    double low, high;     /* bounds of the value, by interval arithmetic */
+    unsigned char any_unit; /* numbers alone: it has the unit that it is used with */
+    unsigned char whole;    /* an integer */
+    unsigned char checked, bad;
 };
+enum { EXPRESSION_SIZE = 1000, EXPRESSION_DEPTH = 200 };
 
 /* NAME = VALUE between a node's parentheses. */
 struct argument {
     const char *name;
     struct where where;
-    int parameter;  /* of the tool: in parameters */
+    int parameter;  /* of the tool or branch: in parameters */
     int expression; /* in expressions */
 };
 
 /* Where an arc leads: the name of a node or of a decision. */
-enum target_kind { TARGET_NONE, TARGET_NODE, TARGET_DECISION };
+enum target_kind {
+    TARGET_NONE, TARGET_NODE, TARGET_DECISION,
+    TARGET_EXIT /* inside a branch, before it is expanded */
+};
 
 struct target {
     enum target_kind kind; /* NONE: unresolved, an error has been reported */
-    int index;             /* in nodes or in decisions */
+    int index;             /* in nodes (before expand: in drafts), in decisions, or which exit */
     const char *name;
     struct where where;
 };
@@ -183,32 +245,53 @@ struct arc {
     struct where where; /* of the rule that maps it */
 };
 
-/* node NAME = TOOL(arguments) { rules } */
+/* One place where a branch is used: of what a node inside it is a copy. */
+struct use {
+    int branch;         /* in branches */
+    const char *node;   /* the name of the node that uses it */
+    struct where where; /* of the branch's name there */
+    int outer;          /* in uses: of the branch that this node stands in; -1: an oracle */
+};
+
+/* node NAME = TOOL(arguments) { rules }
+ *
+ * Drafts are the nodes as written, of oracles and of branches. Expand makes the nodes of each
+ * oracle from them: every use of a branch is replaced by a copy of its nodes, so that later
+ * passes know nodes with tools, and no branches. */
 struct node {
-    const char *name;
+    const char *name;      /* of a copy: USE__NAME */
     struct where where;
     const char *tool_name;
     struct where tool_where;
-    int tool;              /* in tools */
+    int tool;              /* in tools; -1: a branch, or unknown */
+    int branch;            /* in branches, of a draft that uses one; else -1 */
+    int use;               /* in uses: the use that the node is a part of; -1: the oracle's own */
     struct span written;   /* in arguments: as in the source */
     struct span arguments; /* in arguments: after resolve, one per tool parameter, in the tool's
                               order, defaults filled in */
+    struct span reads;     /* in needs: terms that its arguments read, in the order of evaluation */
     struct span rules;     /* in rules: as in the source */
     struct span arcs;      /* in arcs: after resolve */
     int order;             /* place in oracle.order after check; -1: not reachable from start */
     unsigned char bad;     /* broken syntax or unknown tool: do not report what follows from it */
 };
 
-/* oracle NAME "doc" { parameters; start NODE; nodes }: a decision graph. */
+/* oracle NAME "doc" { parameters; start NODE; nodes }: a decision graph.
+ * graph NAME(parameters) exits (answers) "doc" { start NODE; nodes }: a branch. It is used in a
+ * node as a tool is, its exits are the answers. */
 struct oracle_graph {
     const char *name;
     struct where where;
     const char *doc;
     struct span parameters; /* in parameters */
-    struct span nodes;      /* in nodes, in the source's order */
-    struct target start;    /* a node */
+    struct span exits;      /* in answers; a branch's */
+    struct span drafts;     /* in drafts, in the source's order */
+    struct span nodes;      /* in nodes, likewise, each use of a branch at its place; an oracle's */
+    struct target start;    /* a node; a branch's: a draft */
     struct span order;      /* in order: the reachable nodes, topologically from start */
     uint64_t fingerprint;   /* of what the graph decides: same number, same decisions */
+    int use;                /* of a branch, in uses: the first place that uses it; -1: none */
+    unsigned char branch;   /* it is one */
     unsigned char bad;      /* a part was lost to a syntax error: names may seem to be missing */
 };
 
@@ -219,14 +302,16 @@ struct diagnostic {
     enum severity severity;
     struct where where;
     const char *message;
+    int use; /* in uses: the branch it was found in; -1 */
 };
 
-enum { ERRORS_SHOWN = 50 }; /* the rest of a file's errors are only counted */
+enum { ERRORS_SHOWN = 50 }; /* the rest of the errors, or of the warnings, are only counted */
 
 /* Memory in blocks that are freed together. Failure to get a block ends the pass that asked:
  * control returns to dag_protect (see internal.h), as in Lua. */
 struct block;
 struct protector;
+struct warnings;
 struct arena {
     struct block *blocks;
     struct protector *protector;
@@ -255,6 +340,8 @@ struct dag {
     struct answer *answers;     int answer_count;
     struct tool *tools;         int tool_count;
     struct decision_tool *decisions; int decision_count; /* their numbers are the C enum's values */
+    struct fact *facts;         int fact_count;
+    struct callback *callbacks; int callback_count;
 
     /* The graphs. */
     struct parameter *parameters;   int parameter_count; /* of tools and of oracles */
@@ -263,17 +350,30 @@ struct dag {
     struct label *labels;           int label_count;
     struct rule *rules;             int rule_count;
     struct arc *arcs;               int arc_count;
+    struct node *drafts;            int draft_count;
     struct node *nodes;             int node_count;
+    struct use *uses;               int use_count;
     int *order;                     int order_count; /* indices in nodes */
     struct oracle_graph *oracles;   int oracle_count;
+    struct oracle_graph *branches;  int branch_count;
 
     /* Names, filled by resolve. */
     struct table type_names, term_names, tool_names, decision_names, oracle_names;
+    struct table fact_names, callback_names, branch_names;
+    struct { int types, terms, tools, decisions, facts, callbacks; } resolved; /* how many are */
+    unsigned char recursive; /* some branch uses itself: none is expanded */
+    int use; /* in uses: of the branch that a pass looks at, for messages; -1 */
 
     /* Where the text came from and what is wrong with it. */
     struct source *sources;         int source_count;
+    struct import *imports;         int import_count;
+    int imports_read;                /* the first so many have been read */
+    const char *const *folders;     int folder_count; /* where to look for imports */
+    char *reading;                   /* a file's bytes on their way into sources */
     struct diagnostic *diagnostics; int diagnostic_count;
     int error_count, warning_count; /* all of them, also those not kept */
+    unsigned char muted;            /* the last one was not kept: nor are its notes */
+    const struct warnings *warnings; /* see warn.h; NULL: only those that are errors by nature */
 };
 
 /* ------------------------------------------------------------------------------------------
@@ -293,10 +393,31 @@ struct dag *dag_load(const char *path, const char *catalog_name, const char *cat
 struct dag *dag_load_text(const char *name, const char *text, size_t length,
                           const char *catalog_name, const char *catalog, FILE *errors);
 
+/* What else dag_load_with may be told; all zero: what dag_load does. */
+struct dag_options {
+    const char *text;           /* the source itself, `path` being its name; NULL: read path */
+    size_t length;              /* of text */
+    const char *catalog_name, *catalog; /* as above */
+    const char *catalog_path;   /* the catalog's file, instead of its text */
+    const char *const *folders; /* where imports are looked for, after the importing file's own */
+    int folder_count;
+    const char *switches;       /* as after `-W` on the command line, separated by spaces, such as
+                                   "all no-unused-parameter error"; NULL: errors alone */
+};
+struct dag *dag_load_with(const char *path, const struct dag_options *options, FILE *errors);
+
+/* dag_load_text under such switches. */
+struct dag *dag_load_switched(const char *switches, const char *name, const char *text,
+                              size_t length, const char *catalog_name, const char *catalog,
+                              FILE *errors);
+
 void dag_free(struct dag *dag); /* NULL is fine */
 
 /* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or many. */
 int dag_oracle(const struct dag *dag, const char *name);
+
+/* Is it made of numbers and parameters alone? Then it is the same in every discussion of a run. */
+int dag_is_fixed(const struct dag *dag, int expression);
 
 /* The fingerprint as 16 hexadecimal digits and a NUL. */
 void dag_fingerprint_text(const struct oracle_graph *oracle, char text[17]);

@@ -2,7 +2,7 @@
  *
  * Passes report in the order they find things; the reader wants the order of the file. So
  * messages are kept and printed at the end, sorted by place, each with its notes, the line and a
- * caret. The first ERRORS_SHOWN are kept, the others counted.
+ * caret. The first ERRORS_SHOWN errors and as many warnings are kept, the others counted.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -16,30 +16,44 @@ int dag_errors_full(const struct dag *dag)
     return dag->error_count >= ERRORS_SHOWN;
 }
 
-static void add(struct dag *dag, enum severity severity, struct where where, const char *message)
+int dag_is_full(const struct dag *dag, enum severity severity)
 {
-    int index = ADD(dag, diagnostics, diagnostic_count);
-    dag->diagnostics[index] = (struct diagnostic){severity, where, message};
+    return (severity == SEVERITY_ERROR ? dag->error_count : dag->warning_count) >= ERRORS_SHOWN;
+}
+
+int dag_report(struct dag *dag, enum severity severity, struct where where, const char *message)
+{
+    int kept = severity == SEVERITY_NOTE ? !dag->muted : !dag_is_full(dag, severity);
+    if (kept) {
+        int index = ADD(dag, diagnostics, diagnostic_count);
+        dag->diagnostics[index] = (struct diagnostic){severity, where, message, dag->use};
+    }
+    if (severity != SEVERITY_NOTE)
+        dag->muted = (unsigned char)!kept;
+    dag->error_count += severity == SEVERITY_ERROR;
+    dag->warning_count += severity == SEVERITY_WARNING;
+    return kept;
 }
 
 void dag_error(struct dag *dag, struct where where, const char *format, ...)
 {
+    const char *message = "";
     if (!dag_errors_full(dag)) {
         va_list arguments;
         va_start(arguments, format);
-        add(dag, SEVERITY_ERROR, where, dag_vformat(&dag->arena, format, arguments));
+        message = dag_vformat(&dag->arena, format, arguments);
         va_end(arguments);
     }
-    dag->error_count++;
+    dag_report(dag, SEVERITY_ERROR, where, message);
 }
 
 void dag_note(struct dag *dag, struct where where, const char *format, ...)
 {
-    if (dag->error_count > ERRORS_SHOWN)
+    if (dag->muted)
         return;
     va_list arguments;
     va_start(arguments, format);
-    add(dag, SEVERITY_NOTE, where, dag_vformat(&dag->arena, format, arguments));
+    dag_report(dag, SEVERITY_NOTE, where, dag_vformat(&dag->arena, format, arguments));
     va_end(arguments);
 }
 
@@ -163,6 +177,33 @@ static void print_one(const struct dag *dag, const struct diagnostic *diagnostic
     print_line(source, where, start, out);
 }
 
+enum { CHAIN_SHOWN = 10 };
+
+static void print_note(const struct dag *dag, struct where where, const char *message, FILE *out)
+{
+    const struct diagnostic note = {SEVERITY_NOTE, where, message, -1};
+    print_one(dag, &note, out);
+}
+
+/* How one comes to the branch that a message is about. */
+static void print_uses(const struct dag *dag, int use, FILE *out)
+{
+    for (int shown = 0; use >= 0; use = dag->uses[use].outer)
+        if (shown++ < CHAIN_SHOWN)
+            print_note(dag, dag->uses[use].where, "in the graph that is used here", out);
+}
+
+/* How one comes to the file that a message is about. */
+static void print_importers(const struct dag *dag, int source, FILE *out)
+{
+    for (int shown = 0; source >= 0 && dag->sources[source].importer.source >= 0; shown++) {
+        struct where importer = dag->sources[source].importer;
+        if (shown < CHAIN_SHOWN)
+            print_note(dag, importer, "imported here", out);
+        source = importer.source;
+    }
+}
+
 /* An error and where its notes are; sorted by place, then by the order of reporting. */
 struct group {
     struct where where;
@@ -178,6 +219,15 @@ static int by_place(const void *a, const void *b)
     return order != 0 ? order : (x->first > y->first) - (x->first < y->first);
 }
 
+/* One message speaks for itself. */
+static void print_count(int count, const char *what, FILE *out)
+{
+    if (count > ERRORS_SHOWN)
+        fprintf(out, "dagc: %d %ss, the first %d found are shown\n", count, what, ERRORS_SHOWN);
+    else if (count > 1)
+        fprintf(out, "dagc: %d %ss\n", count, what);
+}
+
 void dag_print_diagnostics(const struct dag *dag, FILE *out)
 {
     struct group groups[ERRORS_SHOWN * 2];
@@ -187,13 +237,14 @@ void dag_print_diagnostics(const struct dag *dag, FILE *out)
             groups[count++] = (struct group){dag->diagnostics[i].where, i};
     qsort(groups, (size_t)count, sizeof *groups, by_place);
     for (int g = 0; g < count; g++) {
-        int i = groups[g].first;
+        int i = groups[g].first, use = dag->diagnostics[i].use;
         do
             print_one(dag, &dag->diagnostics[i++], out);
         while (i < dag->diagnostic_count && dag->diagnostics[i].severity == SEVERITY_NOTE);
+        print_uses(dag, use, out);
+        if (g == 0 || groups[g - 1].where.source != groups[g].where.source)
+            print_importers(dag, groups[g].where.source, out);
     }
-    if (dag->error_count > ERRORS_SHOWN)
-        fprintf(out, "dagc: %d errors, the first %d found are shown\n", dag->error_count, ERRORS_SHOWN);
-    else if (dag->error_count > 1)
-        fprintf(out, "dagc: %d errors\n", dag->error_count);
+    print_count(dag->error_count, "error", out);
+    print_count(dag->warning_count, "warning", out);
 }

@@ -45,6 +45,30 @@ static void add_parameter(const struct dag *dag, uint64_t *hash, const struct pa
     add_number(hash, parameter->high);
 }
 
+/* Numbers and parameters as before there were others: their fingerprints stay. */
+static void add_expression(const struct dag *dag, uint64_t *hash, const struct oracle_graph *oracle,
+                           int expression)
+{
+    const struct expression *e = &dag->expressions[expression];
+    add_byte(hash, e->kind);
+    if (e->kind == EXPRESSION_NUMBER)
+        add_number(hash, e->number);
+    else if (e->kind == EXPRESSION_PARAMETER)
+        add_integer(hash, (uint64_t)(e->parameter - oracle->parameters.first));
+    else if (e->kind == EXPRESSION_FACT) {
+        add_name(hash, dag->facts[e->index].name);
+        add_name(hash, dag->facts[e->index].c);
+    } else if (e->kind == EXPRESSION_TERM) {
+        add_name(hash, dag->terms[e->index].name);
+        add_integer(hash, (uint64_t)e->level);
+    } else if (e->kind == EXPRESSION_EXTERN)
+        add_name(hash, dag->callbacks[e->index].name);
+    if (e->left >= 0)
+        add_expression(dag, hash, oracle, e->left);
+    if (e->right >= 0)
+        add_expression(dag, hash, oracle, e->right);
+}
+
 static void add_node(const struct dag *dag, uint64_t *hash, const struct oracle_graph *oracle,
                      const struct node *node)
 {
@@ -52,13 +76,8 @@ static void add_node(const struct dag *dag, uint64_t *hash, const struct oracle_
     add_name(hash, tool->name);
     for (int i = 0; i < node->arguments.count; i++) {
         const struct argument *argument = &dag->arguments[node->arguments.first + i];
-        const struct expression *value = &dag->expressions[argument->expression];
         add_name(hash, argument->name);
-        add_byte(hash, value->kind);
-        if (value->kind == EXPRESSION_NUMBER)
-            add_number(hash, value->number);
-        else
-            add_integer(hash, (uint64_t)(value->parameter - oracle->parameters.first));
+        add_expression(dag, hash, oracle, argument->expression);
     }
     for (int i = 0; i < node->arcs.count; i++) {
         const struct target *target = &dag->arcs[node->arcs.first + i].target;

@@ -25,6 +25,8 @@ enum {
     STRING_MAX_LENGTH = 2000,      /* C promises 4095 in a literal; escapes take up to twice */
     SOURCE_MAX_LENGTH = 64 << 20,  /* so that every offset and index is an int */
     VECTOR_MAX_LENGTH = 16,
+    BRANCH_DEPTH = 64,             /* branches within branches */
+    NODES_MAX = 1 << 20,           /* of one oracle, branches expanded */
     ANSWERS_MAX = 256              /* an answer's number fits a byte */
 };
 
@@ -81,18 +83,29 @@ struct input {
     char *owned; /* the same, when dag_input_close is to free it */
     size_t length;
     int error; /* an errno; dag_read reports it */
+    unsigned char is_file; /* not standard input, not a text in memory */
+    uint64_t device, inode; /* which file it is */
+    int on_disk;            /* these are known */
 };
 void dag_input_open(struct input *input, const char *path); /* "-": standard input */
 void dag_input_close(struct input *input);
 int dag_read(struct dag *dag, const struct input *input); /* index in sources; -1 after an error */
 int dag_read_text(struct dag *dag, const char *name, const char *text, size_t length);
 
+/* ---- import.c */
+
+/* Reads the next import that names a new source: its index; -1: there is none left. */
+int dag_next_import(struct dag *dag);
+
 /* ---- diag.c */
 
 extern const struct where dag_nowhere;
 void dag_error(struct dag *dag, struct where where, const char *format, ...) PRINTF_LIKE(3, 4);
-/* Explains the last error; dropped when that error was dropped. */
+/* Explains the last error or warning; dropped when that was dropped. */
 void dag_note(struct dag *dag, struct where where, const char *format, ...) PRINTF_LIKE(3, 4);
+/* Keeps a finished message, or only counts it when it is one too many: was it kept? */
+int dag_report(struct dag *dag, enum severity severity, struct where where, const char *message);
+int dag_is_full(const struct dag *dag, enum severity severity); /* the next is one too many */
 /* Prints all messages in the order of the sources, then how many there were. */
 void dag_print_diagnostics(const struct dag *dag, FILE *out);
 int dag_line(const struct source *source, int offset); /* 1-based */
@@ -135,23 +148,71 @@ struct token dag_lex(struct lexer *lexer);
 
 /* ---- passes, in their order */
 
+/* What --dump can show, and --emit=text after the last of them. */
+enum pass {
+#define PASS(number, name, says) PASS_##number,
+#include "passes.def"
+#undef PASS
+    PASSES
+};
+
 enum content { CONTENT_CATALOG, CONTENT_ORACLES };
-void dag_parse(struct dag *dag, int source, enum content content);
-void dag_resolve_catalog(struct dag *dag);
+void dag_parse(struct dag *dag, int source, enum content content); /* and what it imports */
+void dag_resolve_catalog(struct dag *dag); /* what was declared since the last time */
 void dag_check_names(struct dag *dag);  /* the catalog's names as C names */
 void dag_resolve(struct dag *dag);      /* the oracles: names to indices, rules to arcs */
 void dag_check_values(struct dag *dag); /* types, units, ranges */
+void dag_expand(struct dag *dag);       /* branches to plain nodes */
 void dag_check_graph(struct dag *dag);  /* cycles; the topological order */
+void dag_analyse(struct dag *dag);     /* what paths prove: warnings, terms, termination */
 void dag_fingerprint(struct dag *dag);
-void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name);
+/* What --emit=c adds to the plain function. */
+struct emit_options {
+    int counted; /* --instrument: NAME_refine_counted */
+    int traced;  /* --trace: NAME_refine_traced */
+    int standalone;              /* --standalone: all that it needs, in one .c and one .h */
+    const char *prefix;          /* of every name in it; NULL: the first oracle's name */
+    const char *const *folders;  /* -I: where headers are looked for before the built-in ones */
+    int folder_count;
+};
+void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                const struct emit_options *options); /* options NULL: nothing is added */
+void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                         const struct emit_options *options);
+void dag_emit_dot(struct dag *dag, struct text *out);
+void dag_emit_json(struct dag *dag, struct text *out);
+void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
+void dag_emit_catalog_doc(struct dag *dag, struct text *out);
 void dag_emit_catalog_h(const struct dag *dag, struct text *out);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
+void dag_emit_stub(struct dag *dag, struct text *out, const char *name); /* a tool's or term's header */
+
+/* ---- expression.c */
+
+int dag_reads_parameters(const struct dag *dag, int expression);
+/* Adds an expression over operands that are there (-1: none); sets its size and depth. */
+int dag_add_expression(struct dag *dag, const struct expression *expression);
+/* Appends to needs what the tree reads, in the order of evaluation. */
+void dag_add_reads(struct dag *dag, int expression);
+/* The expression as the source has it, cut when it is long. */
+const char *dag_expression_text(struct dag *dag, int expression);
+
+/* ---- check_expression.c */
+
+/* Units, bounds and wholeness of the tree; 0 after an error. */
+int dag_check_expression(struct dag *dag, int expression);
 
 /* ---- unit.c, names.c */
 
 int dag_parse_unit(const char *text, struct unit *unit); /* -1, or the offset of what is wrong */
 const char *dag_unit_name(const struct type *type);      /* for messages: "W/m2", "a plain number" */
 int dag_same_unit(const struct unit *a, const struct unit *b);
+/* Exponents a + sign * b; 0: too large. */
+int dag_unit_product(struct unit *result, const struct unit *a, const struct unit *b, int sign);
+int dag_unit_root(struct unit *unit); /* halves the exponents; 0: one is odd */
+/* "W/m2", as the catalog's first type of this unit has it, else in base units. */
+const char *dag_unit_text(struct dag *dag, const struct unit *unit);
+const char *dag_c_name(struct dag *dag, const char *name); /* receiver.area: receiver_area */
 int dag_is_c_word(const char *name); /* keyword of C or C++, or a macro of the headers */
 
 #endif

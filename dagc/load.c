@@ -2,19 +2,23 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "internal.h"
+#include "warn.h"
 
 struct request {
-    const char *catalog_name, *catalog;
-    struct input file;
+    struct input catalog, file;
+    const char *const *folders;
+    int folder_count;
+    struct warnings warnings;
 };
 
 /* The passes up to a checked graph, as in main.c. */
 static void load(struct dag *dag, void *context)
 {
     const struct request *request = context;
-    int catalog = dag_read_text(dag, request->catalog_name, request->catalog,
-                                strlen(request->catalog));
+    dag->warnings = &request->warnings;
+    dag->folders = request->folders;
+    dag->folder_count = request->folder_count;
+    int catalog = dag_read(dag, &request->catalog);
     if (catalog >= 0) {
         dag_parse(dag, catalog, CONTENT_CATALOG);
         dag_resolve_catalog(dag);
@@ -26,49 +30,106 @@ static void load(struct dag *dag, void *context)
     int file = dag_read(dag, &request->file);
     if (file >= 0) {
         dag_parse(dag, file, CONTENT_ORACLES);
+        dag_resolve_catalog(dag); /* what the file declares itself */
+        dag_check_names(dag);
         dag_resolve(dag);
         dag_check_values(dag);
+        dag_expand(dag);
         dag_check_graph(dag);
     }
+    if (dag->error_count == 0)
+        dag_analyse(dag);
     if (dag->error_count == 0)
         dag_fingerprint(dag);
 }
 
-static struct dag *run(struct request *request, const char *catalog_name, const char *catalog,
-                       FILE *errors)
+/* Obeys words such as "no-unused-parameter error"; 0: there is one that is no switch. */
+static int obey(struct warnings *warnings, const char *switches, FILE *errors)
 {
-    request->catalog_name = catalog_name != NULL ? catalog_name : "catalog";
-    request->catalog = catalog != NULL ? catalog : dagc_standard_catalog;
+    char word[64];
+    int length;
+    for (; sscanf(switches, " %63s%n", word, &length) == 1; switches += length) {
+        const char *nearest = NULL;
+        if (dag_warnings_switch(warnings, word, &nearest) != NULL) {
+            if (errors != NULL)
+                fprintf(errors, "dagc: error: no warning is called '%s'\n", word);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+struct dag *dag_load_with(const char *path, const struct dag_options *options, FILE *errors)
+{
+    struct request request = {0};
+    request.folders = options->folders;
+    request.folder_count = options->folder_count;
+    dag_warnings_quiet(&request.warnings);
+    if (options->switches != NULL && !obey(&request.warnings, options->switches, errors))
+        return NULL;
+    if (options->catalog_path != NULL)
+        dag_input_open(&request.catalog, options->catalog_path);
+    else {
+        const char *text = options->catalog != NULL ? options->catalog : dagc_standard_catalog;
+        request.catalog.name = options->catalog_name != NULL ? options->catalog_name : "catalog";
+        request.catalog.bytes = text;
+        request.catalog.length = strlen(text);
+    }
+    if (options->text != NULL) {
+        request.file.name = path;
+        request.file.bytes = options->text;
+        request.file.length = options->length;
+    } else
+        dag_input_open(&request.file, path);
     struct dag *dag = dag_new();
-    int failed = dag == NULL || dag_protect(dag, load, request) != 0;
+    int failed = dag == NULL || dag_protect(dag, load, &request) != 0;
     if (failed && errors != NULL)
         fprintf(errors, "dagc: error: out of memory\n");
     else if (!failed && errors != NULL)
         dag_print_diagnostics(dag, errors);
     if (failed || dag->error_count > 0) {
         dag_free(dag);
-        return NULL;
+        dag = NULL;
+    } else {
+        dag->warnings = NULL; /* they end with this function */
+        dag->folders = NULL; /* the caller's */
+        dag->folder_count = 0;
     }
+    dag_input_close(&request.catalog);
+    dag_input_close(&request.file);
     return dag;
 }
 
 struct dag *dag_load(const char *path, const char *catalog_name, const char *catalog, FILE *errors)
 {
-    struct request request = {0};
-    dag_input_open(&request.file, path);
-    struct dag *dag = run(&request, catalog_name, catalog, errors);
-    dag_input_close(&request.file);
-    return dag;
+    struct dag_options options = {0};
+    options.catalog_name = catalog_name;
+    options.catalog = catalog;
+    return dag_load_with(path, &options, errors);
 }
 
 struct dag *dag_load_text(const char *name, const char *text, size_t length,
                           const char *catalog_name, const char *catalog, FILE *errors)
 {
-    struct request request = {0};
-    request.file.name = name;
-    request.file.bytes = text;
-    request.file.length = length;
-    return run(&request, catalog_name, catalog, errors);
+    struct dag_options options = {0};
+    options.text = text;
+    options.length = length;
+    options.catalog_name = catalog_name;
+    options.catalog = catalog;
+    return dag_load_with(name, &options, errors);
+}
+
+struct dag *dag_load_switched(const char *switches, const char *name, const char *text,
+                              size_t length, const char *catalog_name, const char *catalog,
+                              FILE *errors)
+{
+    struct dag_options options = {0};
+    options.switches = switches;
+    options.text = text;
+    options.length = length;
+    options.catalog_name = catalog_name;
+    options.catalog = catalog;
+    return dag_load_with(name, &options, errors);
 }
 
 int dag_oracle(const struct dag *dag, const char *name)

@@ -5,33 +5,73 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-#include "write.h"
+#include "depfile.h"
+#include "diff.h"
+#include "emit_svg.h"
+#include "options.h"
+#include "prove.h"
 
-enum emit { EMIT_C, EMIT_NONE, EMIT_CATALOG_H, EMIT_CATALOG_C };
-
-static const char *const emit_names[] = {"c", "none", "catalog-h", "catalog-c"};
-enum { EMIT_NAMES = 4 };
-
-struct job {
-    const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
-    enum emit emit;
-    struct input input, catalog;
-    struct output outputs[2];              /* the C text, the header */
-};
-
-static int is_catalog(const struct job *job)
+/* After a pass: is this as far as the run goes? Its listing is then the output. */
+static int stops(struct dag *dag, struct job *job, enum pass pass)
 {
-    return job->emit == EMIT_CATALOG_H || job->emit == EMIT_CATALOG_C;
+    if (dag->error_count > 0)
+        return pass >= PASS_CHECK; /* the passes before it find all their errors together */
+    if (job->stop != pass)
+        return 0;
+    dag_emit_text(dag, &job->outputs[OUTPUT_TEXT].text, pass);
+    return 1;
+}
+
+static void emit(struct dag *dag, struct job *job)
+{
+    struct text *out = &job->outputs[OUTPUT_TEXT].text;
+    const struct output *header = &job->outputs[OUTPUT_HEADER];
+    const char *slash = header->path == NULL ? NULL : strrchr(header->path, '/');
+    const char *name = slash != NULL ? slash + 1 : header->path;
+    switch (job->emit) {
+    case EMIT_C:
+        if (job->c.standalone)
+            dag_emit_standalone(dag, out, &job->outputs[OUTPUT_HEADER].text, name, &job->c);
+        else
+            dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name, &job->c);
+        break;
+    case EMIT_DOT:
+    case EMIT_SVG: /* run() has it drawn, outside of dag_protect */
+        dag_emit_dot(dag, out);
+        break;
+    case EMIT_JSON:
+        dag_emit_json(dag, out);
+        break;
+    case EMIT_TEXT:
+        dag_emit_text(dag, out, PASS_ANALYSE);
+        break;
+    case EMIT_CATALOG:
+        dag_emit_catalog_doc(dag, out);
+        break;
+    case EMIT_CATALOG_H:
+        dag_emit_catalog_h(dag, out);
+        break;
+    case EMIT_CATALOG_C:
+        dag_emit_catalog_c(dag, out);
+        break;
+    case EMIT_STUB:
+    case EMIT_NONE:
+    case EMITS:
+        break;
+    }
+    dag_emit_depfile(dag, job->outputs);
 }
 
 static void passes(struct dag *dag, void *context)
 {
     struct job *job = context;
-    struct output *out = &job->outputs[0], *header = &job->outputs[1];
+    int is_catalog = dag_job_is_catalog(job);
+    dag->warnings = &job->warnings;
+    dag->folders = job->folders;
+    dag->folder_count = job->folder_count;
 
-    int catalog = is_catalog(job) ? dag_read(dag, &job->input) : dag_read(dag, &job->catalog);
+    int catalog = dag_read(dag, is_catalog ? &job->input : &job->catalog);
     if (catalog >= 0) {
         dag_parse(dag, catalog, CONTENT_CATALOG);
         dag_resolve_catalog(dag);
@@ -40,33 +80,45 @@ static void passes(struct dag *dag, void *context)
     }
     if (dag->error_count > 0)
         return;
-    if (!is_catalog(job)) {
-        int file = dag_read(dag, &job->input);
-        if (file >= 0) {
-            dag_parse(dag, file, CONTENT_ORACLES);
-            dag_resolve(dag);
-            dag_check_values(dag);
-            dag_check_graph(dag);
-        }
-    }
-    if (dag->error_count > 0)
+    if (job->emit == EMIT_STUB) {
+        dag_emit_stub(dag, &job->outputs[OUTPUT_TEXT].text, job->input_path);
         return;
+    }
+    if (!is_catalog) {
+        int file = dag_read(dag, &job->input);
+        if (file < 0)
+            return;
+        dag_parse(dag, file, CONTENT_ORACLES);
+        if (stops(dag, job, PASS_PARSE))
+            return;
+        dag_resolve_catalog(dag); /* what the file declares itself */
+        dag_check_names(dag);
+        dag_resolve(dag);
+        dag_check_values(dag);
+        dag_expand(dag);
+        if (stops(dag, job, PASS_RESOLVE))
+            return;
+        dag_check_graph(dag);
+        if (stops(dag, job, PASS_CHECK))
+            return;
+        dag_analyse(dag);
+        if (stops(dag, job, PASS_ANALYSE))
+            return;
+    }
     dag_fingerprint(dag);
-    if (job->emit == EMIT_C) {
-        const char *slash = header->path == NULL ? NULL : strrchr(header->path, '/');
-        const char *name = slash != NULL ? slash + 1 : header->path;
-        dag_emit_c(dag, &out->text, name == NULL ? NULL : &header->text, name);
-    } else if (job->emit == EMIT_CATALOG_H)
-        dag_emit_catalog_h(dag, &out->text);
-    else if (job->emit == EMIT_CATALOG_C)
-        dag_emit_catalog_c(dag, &out->text);
+    if (job->prove)
+        job->proved = dag_prove(dag, &job->c, stdout);
+    else
+        emit(dag, job);
 }
 
 static int run(struct job *job)
 {
     struct dag *dag = dag_new();
+    struct text *out = &job->outputs[OUTPUT_TEXT].text;
     int result = 1;
-    dag_input_open(&job->input, job->input_path);
+    if (job->emit != EMIT_STUB) /* there FILE.dag is the name of a tool */
+        dag_input_open(&job->input, job->input_path);
     if (job->catalog_path != NULL)
         dag_input_open(&job->catalog, job->catalog_path);
     else {
@@ -78,10 +130,17 @@ static int run(struct job *job)
         fprintf(stderr, "dagc: error: out of memory\n");
     else {
         dag_print_diagnostics(dag, stderr);
-        if (dag->error_count == 0)
-            result = job->emit != EMIT_NONE && dag_write_outputs(job->outputs, 2) != 0;
+        if (dag->error_count == 0) {
+            int draws = job->emit == EMIT_SVG && job->stop == PASSES;
+            if (job->prove || (job->emit == EMIT_NONE && job->stop == PASSES))
+                job->outputs[OUTPUT_TEXT].path = NULL;
+            if (job->prove)
+                result = job->proved != 0 || fflush(stdout) != 0;
+            else if (!draws || dag_draw_svg(out) == 0)
+                result = dag_write_outputs(job->outputs, OUTPUTS) != 0;
+        }
     }
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < OUTPUTS; i++)
         dag_text_free(&job->outputs[i].text);
     dag_input_close(&job->input);
     dag_input_close(&job->catalog);
@@ -89,159 +148,30 @@ static int run(struct job *job)
     return result;
 }
 
-/* ---- the command line */
-
-static const char usage[] =
-    "usage: dagc [-o FILE] [--header FILE] [--emit=c|none|catalog-h|catalog-c]\n"
-    "            [--catalog FILE] [--version] [--help] FILE.dag\n";
-
-static const char help[] =
-    "\n"
-    "dagc compiles refinement oracles, written as decision graphs, to C.\n"
-    "\n"
-    "  -o FILE         write the C text to FILE; '-' or nothing: standard output\n"
-    "  --header FILE   write the declarations to FILE, for the C text to include\n"
-    "  --emit=WHAT     c          one flat function per oracle (the default)\n"
-    "                  none       nothing: only look for mistakes\n"
-    "                  catalog-h  FILE.dag is a catalog: its enums and terms for C\n"
-    "                  catalog-c  FILE.dag is a catalog: the interpreter's table of tools\n"
-    "  --catalog FILE  the tools, terms and decisions to use instead of the standard ones\n"
-    "  FILE.dag        the source; '-': standard input\n"
-    "\n"
-    "A graph asks questions; every answer leads to the next node or to a decision:\n"
-    "\n"
-    "    # small.dag\n"
-    "    oracle small \"split by area until a link carries little\" {\n"
-    "      param most : ratio = 0.05 in [0, inf] \"share of the mean irradiance\";\n"
-    "      start level;\n"
-    "      node level  = clusters()  { surfaces -> energy;  apart -> stop;\n"
-    "                                  receiver -> subdivide_receiver;\n"
-    "                                  emitter -> subdivide_emitter; }\n"
-    "      node energy = transfer(relative = most) { dark -> stop;  below -> seen;\n"
-    "                                                above -> guard; }\n"
-    "      node guard  = can_split(min_share = 1e-5) { neither -> seen;\n"
-    "                                  receiver -> subdivide_receiver;\n"
-    "                                  otherwise -> subdivide_emitter; }\n"
-    "      node seen   = visibility(rays = 16)  { none -> stop;  otherwise -> form; }\n"
-    "      node form   = form_factor() { done -> link; }\n"
-    "    }\n"
-    "\n"
-    "    dagc -o small.c --header small.h small.dag\n"
-    "\n"
-    "gives small_defaults(), small_refine() and small_oracle. The text generated is yours.\n"
-    "Messages go to standard error. Exit status: 0 done, 1 errors in the source or in reading\n"
-    "and writing, 2 wrong usage; unless it is 0, no output file has been touched.\n";
-
-static int wrong(const char *what, const char *which)
+static int run_diff(const struct job *job)
 {
-    fprintf(stderr, "dagc: error: %s%s%s\n%s", what, *which != '\0' ? " " : "", which, usage);
-    return 2;
-}
-
-/* `--NAME=VALUE` or `--NAME VALUE`: the value, moving *at past it; NULL: another option. */
-static const char *value_of(const char *name, char **arguments, int count, int *at, int *missing)
-{
-    const char *argument = arguments[*at];
-    size_t length = strlen(name);
-    if (strncmp(argument, name, length) != 0)
-        return NULL;
-    if (argument[length] == '=')
-        return argument + length + 1;
-    if (argument[length] != '\0')
-        return NULL;
-    if (*at + 1 >= count) {
-        *missing = 1;
-        return NULL;
-    }
-    return arguments[++*at];
-}
-
-static int set_emit(struct job *job, const char *name)
-{
-    for (int i = 0; i < EMIT_NAMES; i++)
-        if (strcmp(name, emit_names[i]) == 0) {
-            job->emit = (enum emit)i;
-            return 1;
-        }
-    return 0;
-}
-
-/* Do two paths name one file that exists? "-" names none. */
-static int same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    if (a == NULL || b == NULL)
-        return 0;
-    if (strcmp(a, b) == 0)
-        return 1;
-    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
-        return 0;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev &&
-           x.st_ino == y.st_ino;
-}
-
-/* What no run could mean; NULL: nothing. */
-static const char *contradiction(const struct job *job)
-{
-    const char *out = job->outputs[0].path, *header = job->outputs[1].path;
-    int standard_input = strcmp(job->input_path, "-") == 0;
-    if (same_file(out, header))
-        return "-o and --header name the same file";
-    if ((!standard_input && (same_file(out, job->input_path) || same_file(header, job->input_path))) ||
-        (job->catalog_path != NULL && (same_file(out, job->catalog_path) ||
-                                       same_file(header, job->catalog_path))))
-        return "an output would replace an input";
-    if (standard_input && job->catalog_path != NULL && strcmp(job->catalog_path, "-") == 0)
-        return "the source and the catalog cannot both be standard input";
-    if (is_catalog(job) && (header != NULL || job->catalog_path != NULL))
-        return "--header and --catalog mean nothing with a catalog as the source";
-    return NULL;
-}
-
-/* 0: run the job; else the status to exit with, 1 standing for "done, 0". */
-static int parse_arguments(struct job *job, int count, char **arguments)
-{
-    int missing = 0, only_files = 0;
-    const char *value;
-    for (int i = 1; i < count; i++) {
-        const char *argument = arguments[i];
-        if (only_files || argument[0] != '-' || strcmp(argument, "-") == 0) {
-            if (job->input_path != NULL)
-                return wrong("more than one source:", argument);
-            job->input_path = argument;
-        } else if (strcmp(argument, "--") == 0)
-            only_files = 1;
-        else if (strcmp(argument, "--help") == 0) {
-            printf("%s%s", usage, help);
-            return 1;
-        } else if (strcmp(argument, "--version") == 0) {
-            printf("dagc %s\n", DAGC_VERSION);
-            return 1;
-        } else if ((value = value_of("-o", arguments, count, &i, &missing)) != NULL)
-            job->outputs[0].path = value;
-        else if ((value = value_of("--header", arguments, count, &i, &missing)) != NULL)
-            job->outputs[1].path = value;
-        else if ((value = value_of("--catalog", arguments, count, &i, &missing)) != NULL)
-            job->catalog_path = value;
-        else if ((value = value_of("--emit", arguments, count, &i, &missing)) != NULL) {
-            if (!set_emit(job, value))
-                return wrong("--emit knows c, none, catalog-h and catalog-c, not", value);
-        } else
-            return wrong(missing ? "a value is missing after" : "unknown option", argument);
-    }
-    if (job->input_path == NULL)
-        return wrong("no source is given", "");
-    if (job->outputs[0].path == NULL)
-        job->outputs[0].path = "-";
-    const char *why = contradiction(job);
-    return why != NULL ? wrong(why, "") : 0;
+    struct dag_options options = {0};
+    options.catalog_path = job->catalog_path;
+    options.folders = job->folders;
+    options.folder_count = job->folder_count;
+    int result = dag_diff(job->input_path, job->second_path, &options, stdout);
+    return fflush(stdout) != 0 ? 2 : result;
 }
 
 int main(int count, char **arguments)
 {
+    int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
     struct job job = {0};
-    int status = parse_arguments(&job, count, arguments);
-    if (status == 1)
-        return fflush(stdout) != 0;
-    return status != 0 ? status : run(&job);
+    job.folders = calloc((size_t)count, sizeof *job.folders);
+    if (job.folders == NULL) {
+        fprintf(stderr, "dagc: error: out of memory\n");
+        return 1;
+    }
+    int status = diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
+    if (status == 0)
+        status = fflush(stdout) != 0;
+    else if (status < 0)
+        status = diff ? run_diff(&job) : run(&job);
+    free(job.folders);
+    return status;
 }

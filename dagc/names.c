@@ -48,6 +48,14 @@ int dag_is_c_word(const char *name)
            is_in(macros, sizeof macros / sizeof *macros, name);
 }
 
+const char *dag_c_name(struct dag *dag, const char *name)
+{
+    char *copy = dag_alloc(&dag->arena, strlen(name) + 1);
+    for (size_t i = 0; name[i] != '\0'; i++)
+        copy[i] = name[i] == '.' ? '_' : name[i];
+    return copy;
+}
+
 /* The names claimed so far and who claims them. */
 struct claims {
     struct table table;
@@ -107,5 +115,15 @@ void dag_check_names(struct dag *dag)
             const struct level *level = &dag->levels[term->levels.first + l];
             claim(dag, &claims, level->where, term->name, level->name);
         }
+    }
+    for (int i = 0; i < dag->fact_count; i++) {
+        const struct fact *fact = &dag->facts[i];
+        claim(dag, &claims, fact->where, "fact", dag_c_name(dag, fact->name));
+    }
+    for (int i = 0; i < dag->callback_count; i++) {
+        const struct callback *callback = &dag->callbacks[i];
+        if (dag_is_c_word(callback->name))
+            dag_error(dag, callback->where, "'%s' is a word of C or C++ and cannot name a function",
+                      callback->name);
     }
 }

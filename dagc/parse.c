@@ -135,6 +135,20 @@ int dag_expect_number(struct parser *parser, double *number, struct where *where
     return 1;
 }
 
+int dag_parse_range(struct parser *parser, double *low, double *high, struct where *where)
+{
+    struct where part;
+    *where = parser->token.where;
+    if (!dag_take_word(parser, "in"))
+        return 0;
+    if (!dag_expect(parser, '[', "after 'in'") || !dag_expect_number(parser, low, &part) ||
+        !dag_expect(parser, ',', "between the ends of a range") ||
+        !dag_expect_number(parser, high, &part) || !dag_expect(parser, ']', "after a range"))
+        return -1;
+    where->length = parser->last.offset + parser->last.length - where->offset;
+    return 1;
+}
+
 int dag_parse_parameter(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -158,16 +172,12 @@ int dag_parse_parameter(struct parser *parser)
             return 0;
         p->given |= PARAMETER_VALUE;
     }
-    if (dag_at_word(parser, "in")) {
-        struct where where = parser->token.where, part;
-        dag_advance(parser);
-        if (!dag_expect(parser, '[', "after 'in'") || !dag_expect_number(parser, &p->low, &part) ||
-            !dag_expect(parser, ',', "between the ends of a range") ||
-            !dag_expect_number(parser, &p->high, &part) ||
-            !dag_expect(parser, ']', "after a range"))
-            return 0;
-        where.length = parser->last.offset + parser->last.length - where.offset;
-        p->range_where = where;
+    struct where range;
+    int ranged = dag_parse_range(parser, &p->low, &p->high, &range);
+    if (ranged < 0)
+        return 0;
+    if (ranged) {
+        p->range_where = range;
         p->given |= PARAMETER_RANGE;
     }
     if (parser->token.kind == TOKEN_STRING) {
@@ -178,13 +188,14 @@ int dag_parse_parameter(struct parser *parser)
     return 1;
 }
 
-static const char *const catalog_words[] = {"runtime", "type", "term", "tool", "decision"};
-enum { CATALOG_WORDS = 5 };
+static const char *const item_words[] = {"import", "graph", "oracle", "runtime", "type", "term",
+                                         "fact", "extern", "tool", "decision"};
+enum { ITEM_WORDS = 10, CATALOG_WORD = 3 /* the first of the catalog's */ };
 
 static int at_catalog_word(const struct parser *parser)
 {
-    for (int i = 0; i < CATALOG_WORDS; i++)
-        if (dag_at_word(parser, catalog_words[i]))
+    for (int i = CATALOG_WORD; i < ITEM_WORDS; i++)
+        if (dag_at_word(parser, item_words[i]))
             return 1;
     return 0;
 }
@@ -192,10 +203,12 @@ static int at_catalog_word(const struct parser *parser)
 /* The start of a declaration, seen while skipping: its word and what must follow it. */
 static int at_item(const struct parser *parser)
 {
-    if (!dag_at_word(parser, "oracle") && !at_catalog_word(parser))
+    int string = dag_at_word(parser, "runtime") || dag_at_word(parser, "import");
+    if (!dag_at_word(parser, "oracle") && !dag_at_word(parser, "graph") && !string &&
+        !at_catalog_word(parser))
         return 0;
     enum token_kind next = dag_peek(parser).kind;
-    return next == TOKEN_NAME || (next == TOKEN_STRING && dag_at_word(parser, "runtime"));
+    return next == TOKEN_NAME || (next == TOKEN_STRING && string);
 }
 
 /* To the end of a broken declaration: past its ';', or past the '}' of its body. */
@@ -219,29 +232,45 @@ static void unknown_item(struct parser *parser)
 {
     int catalog = parser->content == CONTENT_CATALOG;
     struct suggestion suggestion = {parser->token.text, NULL, 0};
-    if (!catalog && at_catalog_word(parser)) {
-        dag_error(parser->dag, parser->token.where,
-                  "a '%s' is declared in a catalog, not beside oracles", parser->token.text);
-        dag_note(parser->dag, dag_nowhere, "put it into a copy of the catalog, given with --catalog");
-        return;
-    }
-    if (catalog && dag_at_word(parser, "oracle")) {
-        dag_error(parser->dag, parser->token.where, "a catalog holds no oracles");
-        return;
-    }
-    dag_expected(parser, catalog ? "runtime, type, term, tool or decision" : "'oracle'");
+    dag_expected(parser, catalog ? "import, runtime, type, term, fact, extern, tool, decision or graph"
+                                 : "'oracle', 'graph', 'import' or a declaration");
     if (parser->token.kind == TOKEN_NAME) {
-        for (int i = 0; catalog && i < CATALOG_WORDS; i++)
-            dag_suggest(&suggestion, catalog_words[i]);
-        if (!catalog)
-            dag_suggest(&suggestion, "oracle");
+        for (int i = 0; i < ITEM_WORDS; i++)
+            dag_suggest(&suggestion, item_words[i]);
         dag_note_suggestion(parser->dag, &suggestion);
     }
     parser->dag->lost = 1;
 }
 
-/* file = { catalog_item } | oracle { oracle } */
-void dag_parse(struct dag *dag, int source, enum content content)
+/* import = "import" ( STRING | "standard" ) ";" */
+static int parse_import(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct import import = {NULL, parser->token.where, -1, 0};
+    if (!dag_take_word(parser, "standard") &&
+        !dag_expect_string(parser, "a file's name, a string, or 'standard'", &import.path))
+        return 0;
+    if (import.path != NULL && import.path[0] == '\0') {
+        dag_error(dag, import.where, "an import names a file");
+        return 0;
+    }
+    int index = ADD(dag, imports, import_count);
+    dag->imports[index] = import;
+    return dag_expect(parser, ';', "after an import");
+}
+
+/* An imported file, or a catalog, lends its graphs and declarations; an oracle in it is checked
+ * for its syntax and left out. */
+static int parse_oracle(struct parser *parser, int wanted)
+{
+    int count = parser->dag->oracle_count, ok = dag_parse_oracle(parser);
+    if (!wanted)
+        parser->dag->oracle_count = count;
+    return ok;
+}
+
+/* file = { import | graph | oracle | catalog_item } */
+static void parse_file(struct dag *dag, int source, enum content content)
 {
     struct parser parser = {0};
     parser.dag = dag;
@@ -249,12 +278,17 @@ void dag_parse(struct dag *dag, int source, enum content content)
     parser.last = (struct where){source, 0, 0};
     parser.content = content;
     parser.token = dag_lex(&parser.lexer);
+    int main = content == CONTENT_ORACLES && dag->sources[source].importer.source < 0;
     int oracles = dag->oracle_count, errors = dag->error_count;
     while (parser.token.kind != TOKEN_END) {
         int ok = 0;
-        if (content == CONTENT_ORACLES && dag_at_word(&parser, "oracle"))
-            ok = dag_parse_oracle(&parser);
-        else if (content == CONTENT_CATALOG && at_catalog_word(&parser))
+        if (dag_at_word(&parser, "oracle"))
+            ok = parse_oracle(&parser, main);
+        else if (dag_at_word(&parser, "graph"))
+            ok = dag_parse_branch(&parser);
+        else if (dag_take_word(&parser, "import"))
+            ok = parse_import(&parser);
+        else if (at_catalog_word(&parser))
             ok = dag_parse_catalog_item(&parser);
         else {
             unknown_item(&parser);
@@ -263,10 +297,16 @@ void dag_parse(struct dag *dag, int source, enum content content)
         if (!ok)
             skip_item(&parser);
     }
-    if (content == CONTENT_ORACLES && dag->oracle_count == oracles && dag->error_count == errors) {
+    if (main && dag->oracle_count == oracles && dag->error_count == errors) {
         struct where where = {source, 0, 0};
         dag_error(dag, where, "no oracle in this file");
         dag_note(dag, dag_nowhere, "write: oracle NAME \"doc\" "
                                    "{ start NODE; node NODE = TOOL() { ANSWER -> TARGET; } }");
     }
+}
+
+void dag_parse(struct dag *dag, int source, enum content content)
+{
+    for (; source >= 0; source = dag_next_import(dag))
+        parse_file(dag, source, content);
 }

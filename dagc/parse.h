@@ -17,6 +17,7 @@ struct parser {
     struct token token;  /* the one at hand */
     struct where last;   /* the one before it */
     int ended;           /* it was said that the file ends too early: once is enough */
+    int depth;           /* of parentheses in the expression at hand */
     enum content content;
 };
 
@@ -38,9 +39,15 @@ int dag_expect_number(struct parser *parser, double *number, struct where *where
 /* number or inf, with its sign, is at hand */
 int dag_at_number(const struct parser *parser);
 
-/* parameter = NAME ":" NAME [ "=" number ] [ "in" "[" number "," number "]" ] [ STRING ] */
+/* range = "in" "[" number "," number "]"; 1: taken, 0: none is there, -1: an error */
+int dag_parse_range(struct parser *parser, double *low, double *high, struct where *where);
+/* parameter = NAME ":" NAME [ "=" number ] [ range ] [ STRING ] */
 int dag_parse_parameter(struct parser *parser);
+/* answers = "(" NAME [ kind ] { "," NAME [ kind ] } ")" */
+int dag_parse_answers(struct parser *parser, struct span *span);
+int dag_parse_expression(struct parser *parser, int *expression); /* parse_expression.c */
 int dag_parse_catalog_item(struct parser *parser); /* parse_catalog.c */
 int dag_parse_oracle(struct parser *parser);       /* parse_oracle.c */
+int dag_parse_branch(struct parser *parser);
 
 #endif

@@ -1,5 +1,6 @@
 /* parse_catalog.c - the declarations that teach dagc its domain; see parse.h.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <string.h>
 
 #include "parse.h"
@@ -78,13 +79,29 @@ static int parse_type(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
-/* term = "term" NAME ":" NAME [ "levels" "(" NAME { "<" NAME } ")" ] [ STRING ] ";" */
+/* range, or nothing; 0 after an error */
+static int parse_bounds(struct parser *parser, double *low, double *high)
+{
+    struct where where;
+    int taken = dag_parse_range(parser, low, high, &where);
+    if (taken > 0 && !(*low <= *high)) {
+        dag_error(parser->dag, where, "this range holds no number");
+        *low = -INFINITY;
+        *high = INFINITY;
+    }
+    return taken >= 0;
+}
+
+/* term = "term" NAME ":" NAME [ range ] [ "levels" "(" NAME { "<" NAME } ")" ]
+ *        [ "header" STRING ] [ STRING ] ";" */
 static int parse_term(struct parser *parser)
 {
     struct dag *dag = parser->dag;
     struct term term = {0};
     term.doc = "";
     term.type = -1;
+    term.low = -INFINITY;
+    term.high = INFINITY;
     if (!dag_expect_name(parser, "the name of a term", &term.name, &term.where)) {
         dag->lost = 1;
         return 0;
@@ -94,7 +111,8 @@ static int parse_term(struct parser *parser)
     *t = term;
     t->levels.first = dag->level_count;
     if (!dag_expect(parser, ':', "and a type after the term's name") ||
-        !dag_expect_name(parser, "the name of a type", &t->type_name, &t->type_where))
+        !dag_expect_name(parser, "the name of a type", &t->type_name, &t->type_where) ||
+        !parse_bounds(parser, &t->low, &t->high))
         return 0;
     if (dag_take_word(parser, "levels")) {
         if (!dag_expect(parser, '(', "after 'levels'"))
@@ -110,7 +128,45 @@ static int parse_term(struct parser *parser)
         if (!dag_expect(parser, ')', "or '<' after a level"))
             return 0;
     }
+    t->header = dag_format(&dag->arena, "terms/%s.h", t->name);
+    if (dag_take_word(parser, "header") &&
+        !dag_expect_string(parser, "the name of a C header, a string", &t->header))
+        return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &t->doc))
+        return 0;
+    return dag_expect(parser, ';', "after a declaration");
+}
+
+/* fact = "fact" NAME [ "." NAME ] ":" NAME [ range ] "=" STRING [ STRING ] ";" */
+static int parse_fact(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct fact fact = {0};
+    const char *part;
+    struct where where;
+    fact.doc = fact.c = "";
+    fact.type = -1;
+    fact.low = -INFINITY;
+    fact.high = INFINITY;
+    if (!dag_expect_name(parser, "the name of a fact", &fact.name, &fact.where) ||
+        (dag_take(parser, '.') && !dag_expect_name(parser, "a name after the '.'", &part, &where))) {
+        dag->lost = 1;
+        return 0;
+    }
+    if (parser->last.offset != fact.where.offset) {
+        fact.name = dag_format(&dag->arena, "%s.%s", fact.name, part);
+        fact.where.length = parser->last.offset + parser->last.length - fact.where.offset;
+    }
+    int index = ADD(dag, facts, fact_count);
+    struct fact *f = &dag->facts[index];
+    *f = fact;
+    if (!dag_expect(parser, ':', "and a type after the fact's name") ||
+        !dag_expect_name(parser, "the name of a type", &f->type_name, &f->type_where) ||
+        !parse_bounds(parser, &f->low, &f->high) ||
+        !dag_expect(parser, '=', "and a C expression, a string") ||
+        !dag_expect_string(parser, "a C expression over d, a string", &f->c))
+        return 0;
+    if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &f->doc))
         return 0;
     return dag_expect(parser, ';', "after a declaration");
 }
@@ -145,7 +201,7 @@ static int parse_needs(struct parser *parser, struct span *span)
 
 /* answers = "(" NAME [ kind ] { "," NAME [ kind ] } ")"
  * kind    = "precise" | "approximate" | "other" */
-static int parse_answers(struct parser *parser, struct span *span)
+int dag_parse_answers(struct parser *parser, struct span *span)
 {
     struct dag *dag = parser->dag;
     span->first = dag->answer_count;
@@ -205,7 +261,7 @@ static int parse_tool(struct parser *parser)
         return dag_expected(parser, "'question' or 'command'");
     if (!dag_take_word(parser, "answers"))
         return dag_expected(parser, "'answers'");
-    if (!parse_answers(parser, &t->answers))
+    if (!dag_parse_answers(parser, &t->answers))
         return 0;
     for (;;) {
         if (dag_take_word(parser, "reads")) {
@@ -248,14 +304,47 @@ static int parse_decision(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
-/* catalog_item = runtime | type | term | tool | decision */
+/* extern = "extern" NAME "(" [ need { "," need } ] ")" ":" NAME [ range ] [ STRING ] ";" */
+static int parse_extern(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct callback callback = {0};
+    callback.doc = "";
+    callback.type = -1;
+    callback.low = -INFINITY;
+    callback.high = INFINITY;
+    if (!dag_expect_name(parser, "the name of a C function", &callback.name, &callback.where)) {
+        dag->lost = 1;
+        return 0;
+    }
+    int index = ADD(dag, callbacks, callback_count);
+    struct callback *c = &dag->callbacks[index];
+    *c = callback;
+    if (dag_at_mark(parser, '(') && dag_peek(parser).mark == ')') {
+        dag_advance(parser);
+        dag_advance(parser);
+    } else if (!parse_needs(parser, &c->reads))
+        return 0;
+    if (!dag_expect(parser, ':', "and a type after what the function reads") ||
+        !dag_expect_name(parser, "the name of a type", &c->type_name, &c->type_where) ||
+        !parse_bounds(parser, &c->low, &c->high))
+        return 0;
+    if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &c->doc))
+        return 0;
+    return dag_expect(parser, ';', "after a declaration");
+}
+
+/* catalog_item = runtime | type | term | fact | extern | tool | decision */
 int dag_parse_catalog_item(struct parser *parser)
 {
-    static int (*const parsers[])(struct parser *) = {parse_runtime, parse_type, parse_term,
-                                                      parse_tool, parse_decision};
-    static const char *const words[] = {"runtime", "type", "term", "tool", "decision"};
-    for (int i = 0; i < 5; i++)
-        if (dag_take_word(parser, words[i]))
-            return parsers[i](parser);
+    static const struct {
+        const char *word;
+        int (*parse)(struct parser *parser);
+    } items[] = {{"runtime", parse_runtime}, {"type", parse_type}, {"term", parse_term},
+                 {"fact", parse_fact}, {"extern", parse_extern}, {"tool", parse_tool},
+                 {"decision", parse_decision}};
+    for (size_t i = 0; i < sizeof items / sizeof *items; i++)
+        if (dag_take_word(parser, items[i].word))
+            return items[i].parse(parser);
     return 0;
 }

@@ -1,4 +1,4 @@
-/* parse_oracle.c - decision graphs; see parse.h.
+/* parse_oracle.c - decision graphs, oracles and branches; see parse.h.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
@@ -10,17 +10,18 @@ static int at_oracle_word(const struct parser *parser)
            dag_at_word(parser, "node");
 }
 
-/* `node NAME`, `param NAME`, `start NAME` or the next oracle: never the inside of a node, where
+/* `node NAME`, `param NAME`, `start NAME` or the next graph: never the inside of a node, where
  * a name is followed by '|', '->', '=' or ';'. */
 static int at_item(const struct parser *parser)
 {
-    return (at_oracle_word(parser) || dag_at_word(parser, "oracle")) &&
+    return (at_oracle_word(parser) || dag_at_word(parser, "oracle") || dag_at_word(parser, "graph")) &&
            dag_peek(parser).kind == TOKEN_NAME;
 }
 
-static int at_oracle(const struct parser *parser)
+static int at_graph(const struct parser *parser)
 {
-    return dag_at_word(parser, "oracle") && dag_peek(parser).kind == TOKEN_NAME;
+    return (dag_at_word(parser, "oracle") || dag_at_word(parser, "graph")) &&
+           dag_peek(parser).kind == TOKEN_NAME;
 }
 
 static int at_end(const struct parser *parser)
@@ -61,27 +62,7 @@ static int parse_rule(struct parser *parser)
     return 1;
 }
 
-/* value = number | NAME */
-static int parse_value(struct parser *parser, int *expression)
-{
-    struct dag *dag = parser->dag;
-    struct expression e = {0};
-    e.parameter = e.left = e.right = -1;
-    if (dag_at_number(parser)) {
-        e.kind = EXPRESSION_NUMBER;
-        if (!dag_expect_number(parser, &e.number, &e.where))
-            return 0;
-    } else {
-        e.kind = EXPRESSION_PARAMETER;
-        if (!dag_expect_name(parser, "a number or the name of a parameter", &e.name, &e.where))
-            return 0;
-    }
-    *expression = ADD(dag, expressions, expression_count);
-    dag->expressions[*expression] = e;
-    return 1;
-}
-
-/* arguments = "(" [ NAME "=" value { "," NAME "=" value } ] ")" */
+/* arguments = "(" [ NAME "=" expression { "," NAME "=" expression } ] ")" */
 static int parse_arguments(struct parser *parser, struct span *span)
 {
     struct dag *dag = parser->dag;
@@ -98,7 +79,7 @@ static int parse_arguments(struct parser *parser, struct span *span)
         }
         if (!dag_expect_name(parser, "the name of an argument", &argument.name, &argument.where) ||
             !dag_expect(parser, '=', "after the argument's name: write NAME = value") ||
-            !parse_value(parser, &argument.expression))
+            !dag_parse_expression(parser, &argument.expression))
             return 0;
         int index = ADD(dag, arguments, argument_count);
         dag->arguments[index] = argument;
@@ -145,18 +126,18 @@ static int parse_rules(struct parser *parser, struct span *span)
 }
 
 /* node = "node" NAME "=" NAME arguments rules */
-static int parse_node(struct parser *parser, int oracle)
+static int parse_node(struct parser *parser, struct oracle_graph *graph)
 {
     struct dag *dag = parser->dag;
     struct node node = {0};
-    node.tool = node.order = -1;
+    node.tool = node.branch = node.use = node.order = -1;
     node.bad = 1;
     if (!dag_expect_name(parser, "the name of a node", &node.name, &node.where)) {
-        dag->oracles[oracle].bad = 1;
+        graph->bad = 1;
         return 0;
     }
-    int index = ADD(dag, nodes, node_count);
-    struct node *n = &dag->nodes[index];
+    int index = ADD(dag, drafts, draft_count);
+    struct node *n = &dag->drafts[index];
     *n = node;
     if (!dag_expect(parser, '=', "and a tool after the node's name") ||
         !dag_expect_name(parser, "the name of a tool", &n->tool_name, &n->tool_where))
@@ -176,15 +157,15 @@ static int parse_node(struct parser *parser, int oracle)
 }
 
 /* start = "start" NAME ";" */
-static int parse_start(struct parser *parser, int oracle)
+static int parse_start(struct parser *parser, struct oracle_graph *graph)
 {
     struct dag *dag = parser->dag;
     struct target start = {TARGET_NONE, -1, NULL, parser->last};
     if (!dag_expect_name(parser, "the name of a node", &start.name, &start.where)) {
-        dag->oracles[oracle].bad = 1;
+        graph->bad = 1;
         return 0;
     }
-    struct target *first = &dag->oracles[oracle].start;
+    struct target *first = &graph->start;
     if (first->name != NULL) {
         dag_error(dag, start.where, "a second start");
         dag_note(dag, first->where, "the first is here");
@@ -217,15 +198,22 @@ static void skip_item(struct parser *parser)
 }
 
 /* item = "param" parameter ";" | start | node */
-static int parse_item(struct parser *parser, int oracle)
+static int parse_item(struct parser *parser, struct oracle_graph *graph)
 {
     struct dag *dag = parser->dag;
+    if (graph->branch && dag_at_word(parser, "param")) {
+        dag_error(dag, parser->token.where, "the parameters of a graph stand in parentheses");
+        dag_note(dag, dag_nowhere, "write: graph %s(NAME : TYPE) exits (...)", graph->name);
+        graph->bad = 1;
+        dag_advance(parser);
+        return 0;
+    }
     if (dag_take_word(parser, "param")) {
         int ok = dag_parse_parameter(parser);
-        struct span *span = &dag->oracles[oracle].parameters;
+        struct span *span = &graph->parameters;
         int count = dag->parameter_count - span->first;
         if (!ok && count == span->count)
-            dag->oracles[oracle].bad = 1;
+            graph->bad = 1;
         span->count = count;
         if (!ok)
             return 0;
@@ -235,11 +223,10 @@ static int parse_item(struct parser *parser, int oracle)
         return 0;
     }
     if (dag_take_word(parser, "start"))
-        return parse_start(parser, oracle);
+        return parse_start(parser, graph);
     if (dag_take_word(parser, "node")) {
-        int ok = parse_node(parser, oracle);
-        struct span *span = &dag->oracles[oracle].nodes;
-        span->count = dag->node_count - span->first;
+        int ok = parse_node(parser, graph);
+        graph->drafts.count = dag->draft_count - graph->drafts.first;
         return ok;
     }
     dag_expected(parser, "param, start, node or '}'");
@@ -252,43 +239,92 @@ static int parse_item(struct parser *parser, int oracle)
         dag_suggest(&suggestion, "node");
         dag_note_suggestion(dag, &suggestion);
     }
-    dag->oracles[oracle].bad = 1;
+    graph->bad = 1;
     dag_advance(parser);
     return 0;
 }
 
-/* oracle = "oracle" NAME [ STRING ] "{" { item } "}" */
+/* body = "{" { item } "}"; `what` is the graph's kind */
+static int parse_body(struct parser *parser, struct oracle_graph *graph, const char *what)
+{
+    if (!dag_expect(parser, '{', dag_format(&parser->dag->arena, "and the %s's items", what))) {
+        graph->bad = 1;
+        return 0;
+    }
+    for (;;) {
+        if (parser->token.kind == TOKEN_END || at_graph(parser))
+            break;
+        if (dag_at_mark(parser, '}')) {
+            struct where where = parser->token.where;
+            dag_advance(parser);
+            if (!at_item(parser) || at_graph(parser))
+                return 1;
+            dag_error(parser->dag, where, "this '}' would end the %s, but items follow", what);
+        } else if (!parse_item(parser, graph))
+            skip_item(parser);
+    }
+    dag_expect(parser, '}', dag_format(&parser->dag->arena, "at the end of the %s", what));
+    return 1;
+}
+
+static struct oracle_graph new_graph(const struct dag *dag)
+{
+    struct oracle_graph graph = {0};
+    graph.doc = "";
+    graph.start.index = graph.use = -1;
+    graph.parameters.first = dag->parameter_count;
+    graph.drafts.first = dag->draft_count;
+    return graph;
+}
+
+/* oracle = "oracle" NAME [ STRING ] body */
 int dag_parse_oracle(struct parser *parser)
 {
     struct dag *dag = parser->dag;
-    struct oracle_graph oracle = {0};
-    oracle.doc = "";
-    oracle.start.index = -1;
+    struct oracle_graph oracle = new_graph(dag);
     dag_advance(parser);
     if (!dag_expect_name(parser, "the name of an oracle", &oracle.name, &oracle.where))
         return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &oracle.doc))
         return 0;
-    oracle.parameters.first = dag->parameter_count;
-    oracle.nodes.first = dag->node_count;
     int index = ADD(dag, oracles, oracle_count);
     dag->oracles[index] = oracle;
-    if (!dag_expect(parser, '{', "and the oracle's items")) {
-        dag->oracles[index].bad = 1;
+    return parse_body(parser, &dag->oracles[index], "oracle");
+}
+
+/* graph = "graph" NAME "(" [ parameter { "," parameter } ] ")" "exits" answers [ STRING ] body */
+int dag_parse_branch(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct oracle_graph branch = new_graph(dag);
+    branch.branch = 1;
+    dag_advance(parser);
+    if (!dag_expect_name(parser, "the name of a graph", &branch.name, &branch.where)) {
+        dag->lost = 1;
         return 0;
     }
-    for (;;) {
-        if (parser->token.kind == TOKEN_END || at_oracle(parser))
+    int index = ADD(dag, branches, branch_count);
+    struct oracle_graph *b = &dag->branches[index];
+    *b = branch;
+    b->bad = 1;
+    if (!dag_expect(parser, '(', "after the graph's name"))
+        return 0;
+    while (!dag_at_mark(parser, ')')) {
+        int ok = dag_parse_parameter(parser);
+        b->parameters.count = dag->parameter_count - b->parameters.first;
+        if (!ok)
+            return 0;
+        if (!dag_take(parser, ','))
             break;
-        if (dag_at_mark(parser, '}')) {
-            struct where where = parser->token.where;
-            dag_advance(parser);
-            if (!at_item(parser) || at_oracle(parser))
-                return 1;
-            dag_error(dag, where, "this '}' would end the oracle, but items follow");
-        } else if (!parse_item(parser, index))
-            skip_item(parser);
     }
-    dag_expect(parser, '}', "at the end of the oracle");
-    return 1;
+    if (!dag_expect(parser, ')', "or ',' after a parameter"))
+        return 0;
+    if (!dag_take_word(parser, "exits"))
+        return dag_expected(parser, "'exits'");
+    if (!dag_parse_answers(parser, &b->exits))
+        return 0;
+    if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &b->doc))
+        return 0;
+    b->bad = 0;
+    return parse_body(parser, b, "graph");
 }

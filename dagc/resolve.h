@@ -5,6 +5,14 @@
 
 #include "internal.h"
 
+/* The names that one graph declares. */
+struct scope {
+    struct oracle_graph *graph;
+    struct table nodes, parameters, exits;
+};
+
+void dag_resolve_expression(struct dag *dag, const struct scope *scope, int expression);
+void dag_resolve_answers(struct dag *dag, struct span answers, const char *what);
 void dag_resolve_twice(struct dag *dag, const char *what, const char *name, struct where where,
                        struct where first);
 int dag_resolve_type(struct dag *dag, const char *name, struct where where);

@@ -14,9 +14,9 @@ void dag_resolve_twice(struct dag *dag, const char *what, const char *name, stru
     dag_note(dag, first, "the first is here");
 }
 
-/* Declares every item of one kind, `name` and `where` being its first two fields. */
+/* Declares the new items of one kind, `name` and `where` being its first two fields. */
 #define DECLARE(dag, table, list, count, what)                                                 \
-    for (int i = 0; i < (dag)->count; i++) {                                                   \
+    for (int i = (dag)->resolved.list; i < (dag)->count; i++) {                                                 \
         int first = dag_put(&(dag)->arena, &(dag)->table, (dag)->list[i].name, i);             \
         if (first >= 0)                                                                        \
             dag_resolve_twice(dag, what, (dag)->list[i].name, (dag)->list[i].where,                \
@@ -110,6 +110,43 @@ static void resolve_needs(struct dag *dag, struct span span)
     }
 }
 
+/* The names of a tool's answers or of a graph's exits. */
+void dag_resolve_answers(struct dag *dag, struct span span, const char *what)
+{
+    const struct answer *answers = &dag->answers[span.first];
+    for (int i = 0; i < span.count; i++) {
+        if (strcmp(answers[i].name, "otherwise") == 0)
+            dag_error(dag, answers[i].where, "'otherwise' stands for all other answers");
+        for (int j = 0; j < i; j++)
+            if (strcmp(answers[i].name, answers[j].name) == 0)
+                dag_resolve_twice(dag, what, answers[i].name, answers[i].where, answers[j].where);
+    }
+}
+
+static int scalar_type(struct dag *dag, const char *name, struct where where)
+{
+    int type = dag_resolve_type(dag, name, where);
+    if (type < 0 || dag->types[type].length == 1)
+        return type;
+    dag_error(dag, where, "'%s' is a vector: an expression is made of single numbers", name);
+    return -1;
+}
+
+/* `a.b` would be two things if the term a had a level b. */
+static void resolve_fact(struct dag *dag, struct fact *fact)
+{
+    const char *dot = strchr(fact->name, '.');
+    fact->type = scalar_type(dag, fact->type_name, fact->type_where);
+    const char *first = dot == NULL ? fact->name
+                                    : dag_copy(&dag->arena, fact->name, (size_t)(dot - fact->name));
+    int term = dag_find(&dag->term_names, first);
+    if (term >= 0) {
+        dag_error(dag, fact->where, "'%s' is a term and cannot %s a fact", first,
+                  dot == NULL ? "name" : "begin the name of");
+        dag_note(dag, dag->terms[term].where, "declared here");
+    }
+}
+
 static void resolve_tool(struct dag *dag, const struct tool *tool)
 {
     dag_resolve_parameters(dag, tool->parameters);
@@ -119,14 +156,7 @@ static void resolve_tool(struct dag *dag, const struct tool *tool)
         dag_error(dag, tool->where, "a tool has at most %d answers", ANSWERS_MAX);
         return;
     }
-    for (int i = 0; i < tool->answers.count; i++) {
-        const struct answer *answers = &dag->answers[tool->answers.first];
-        if (strcmp(answers[i].name, "otherwise") == 0)
-            dag_error(dag, answers[i].where, "'otherwise' stands for all other answers");
-        for (int j = 0; j < i; j++)
-            if (strcmp(answers[i].name, answers[j].name) == 0)
-                dag_resolve_twice(dag, "answer", answers[i].name, answers[i].where, answers[j].where);
-    }
+    dag_resolve_answers(dag, tool->answers, "answer");
 }
 
 void dag_resolve_catalog(struct dag *dag)
@@ -135,16 +165,32 @@ void dag_resolve_catalog(struct dag *dag)
     DECLARE(dag, term_names, terms, term_count, "term")
     DECLARE(dag, tool_names, tools, tool_count, "tool")
     DECLARE(dag, decision_names, decisions, decision_count, "decision")
-    for (int i = 0; i < dag->term_count; i++)
+    DECLARE(dag, fact_names, facts, fact_count, "fact")
+    DECLARE(dag, callback_names, callbacks, callback_count, "extern")
+    for (int i = dag->resolved.terms; i < dag->term_count; i++)
         resolve_term(dag, &dag->terms[i]);
-    for (int i = 0; i < dag->tool_count; i++)
+    for (int i = dag->resolved.facts; i < dag->fact_count; i++)
+        resolve_fact(dag, &dag->facts[i]);
+    for (int i = dag->resolved.callbacks; i < dag->callback_count; i++) {
+        struct callback *callback = &dag->callbacks[i];
+        callback->type = scalar_type(dag, callback->type_name, callback->type_where);
+        resolve_needs(dag, callback->reads);
+    }
+    for (int i = dag->resolved.tools; i < dag->tool_count; i++)
         resolve_tool(dag, &dag->tools[i]);
-    for (int i = 0; i < dag->decision_count; i++)
+    for (int i = dag->resolved.decisions; i < dag->decision_count; i++)
         resolve_needs(dag, dag->decisions[i].reads);
+    dag->resolved.types = dag->type_count;
+    dag->resolved.terms = dag->term_count;
+    dag->resolved.tools = dag->tool_count;
+    dag->resolved.decisions = dag->decision_count;
+    dag->resolved.facts = dag->fact_count;
+    dag->resolved.callbacks = dag->callback_count;
     if (dag->runtime_header == NULL && dag->error_count == 0) {
         struct where where = {dag->source_count - 1, 0, 0};
         dag_error(dag, where, "the catalog names no runtime");
-        dag_note(dag, dag_nowhere, "add: runtime \"HEADER.h\" abi 1;");
+        dag_note(dag, dag_nowhere, "add: runtime \"HEADER.h\" abi 1;  or, to extend the standard one: "
+                                   "import standard;");
     }
     if (dag->decision_count == 0 && dag->error_count == 0) {
         struct where where = {dag->source_count - 1, 0, 0};

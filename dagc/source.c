@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "internal.h"
 
@@ -69,6 +70,7 @@ static int add_source(struct dag *dag, const char *name)
     source->name = dag_copy(&dag->arena, name, strlen(name));
     source->base = slash != NULL ? source->name + (slash + 1 - name) : source->name;
     source->text = "";
+    source->importer = dag_nowhere;
     return index;
 }
 
@@ -99,11 +101,17 @@ static int slurp(FILE *file, struct input *input)
 void dag_input_open(struct input *input, const char *path)
 {
     int standard = strcmp(path, "-") == 0;
-    *input = (struct input){standard ? "standard input" : path, NULL, NULL, 0, 0};
+    *input = (struct input){standard ? "standard input" : path, NULL, NULL, 0, 0, !standard, 0, 0, 0};
     FILE *file = standard ? stdin : fopen(path, "rb");
     if (file == NULL)
         input->error = errno != 0 ? errno : ENOENT;
     else {
+        struct stat status;
+        if (fstat(fileno(file), &status) == 0) {
+            input->device = (uint64_t)status.st_dev;
+            input->inode = (uint64_t)status.st_ino;
+            input->on_disk = S_ISREG(status.st_mode);
+        }
         input->error = slurp(file, input);
         input->bytes = input->owned;
         if (!standard)
@@ -120,8 +128,16 @@ void dag_input_close(struct input *input)
 
 int dag_read(struct dag *dag, const struct input *input)
 {
-    if (input->error == 0)
-        return dag_read_text(dag, input->name, input->bytes, input->length);
+    if (input->error == 0) {
+        int count = dag->source_count, index = dag_read_text(dag, input->name, input->bytes, input->length);
+        if (dag->source_count > count) {
+            dag->sources[count].is_file = input->is_file;
+            dag->sources[count].device = input->device;
+            dag->sources[count].inode = input->inode;
+            dag->sources[count].on_disk = (unsigned char)input->on_disk;
+        }
+        return index;
+    }
     dag_error(dag, dag_nowhere, "cannot read %s: %s", input->name, strerror(input->error));
     return -1;
 }
@@ -136,5 +152,6 @@ int dag_read_text(struct dag *dag, const char *name, const char *text, size_t le
     int index = add_source(dag, name);
     dag->sources[index].text = dag_copy(&dag->arena, text, length);
     dag->sources[index].length = (int)length;
+    dag->sources[index].standard = text == dagc_standard_catalog;
     return check_text(dag, index);
 }

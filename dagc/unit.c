@@ -91,3 +91,42 @@ int dag_same_unit(const struct unit *a, const struct unit *b)
 {
     return memcmp(a->exponent, b->exponent, sizeof a->exponent) == 0;
 }
+
+int dag_unit_product(struct unit *result, const struct unit *a, const struct unit *b, int sign)
+{
+    struct unit product = {{0}};
+    for (int i = 0; i < UNIT_BASES; i++) {
+        int sum = a->exponent[i] + sign * b->exponent[i];
+        if (sum < -EXPONENT_MAX || sum > EXPONENT_MAX)
+            return 0;
+        product.exponent[i] = (signed char)sum;
+    }
+    *result = product;
+    return 1;
+}
+
+int dag_unit_root(struct unit *unit)
+{
+    for (int i = 0; i < UNIT_BASES; i++)
+        if (unit->exponent[i] % 2 != 0)
+            return 0;
+    for (int i = 0; i < UNIT_BASES; i++)
+        unit->exponent[i] = (signed char)(unit->exponent[i] / 2);
+    return 1;
+}
+
+const char *dag_unit_text(struct dag *dag, const struct unit *unit)
+{
+    static const char *const bases[] = {"m", "kg", "s", "A", "K", "mol", "cd"};
+    const char *text = "";
+    for (int i = 0; i < dag->type_count; i++)
+        if (dag_same_unit(&dag->types[i].unit, unit))
+            return dag_unit_name(&dag->types[i]);
+    for (int i = 0; i < UNIT_BASES; i++)
+        if (unit->exponent[i] == 1)
+            text = dag_format(&dag->arena, "%s%s%s", text, *text != '\0' ? " " : "", bases[i]);
+        else if (unit->exponent[i] != 0)
+            text = dag_format(&dag->arena, "%s%s%s%d", text, *text != '\0' ? " " : "", bases[i],
+                              unit->exponent[i]);
+    return *text != '\0' ? text : "a plain number";
+}

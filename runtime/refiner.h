@@ -29,6 +29,28 @@ struct refiner *refiner_compiled(const struct oracle *oracle, const char *releas
  * returns NULL then. */
 struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, FILE *errors);
 
+/* A C function that an oracle names with `extern`, for the interpreter; the flat release is linked with it. */
+struct extern_entry {
+    const char *name;
+    double (*call)(const struct discussion *d);
+};
+
+/* All that the interpreter may be told; zero: as refiner_interpreted. Everything is the caller's
+ * and need not outlive the call, but for the functions. */
+struct interpretation {
+    const char *path, *text, *oracle; /* as above */
+    const char *catalog_path;         /* the catalog's file; NULL: the standard catalog */
+    const char *const *folders;       /* where imports are looked for, after the importing file's own */
+    int folder_count;
+    const struct extern_entry *externs;
+    int extern_count;
+    const char *switches;             /* of warnings, as in struct dag_options; NULL: errors alone */
+};
+
+/* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and so is a
+ * tool, term or fact that the program was built without. */
+struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors);
+
 /* Set a parameter. Returns NULL when done, else the cause as a phrase ("no such parameter", ...). */
 const char *refiner_set(struct refiner *refiner, const char *name, double value);
 double refiner_get(const struct refiner *refiner, int parameter);

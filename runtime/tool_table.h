@@ -14,7 +14,23 @@ struct tool_entry {
     int (*call)(struct discussion *d, const double *arguments);
 };
 
+struct term_entry {
+    const char *name;
+    int level_count; /* 0: the term is absent or present */
+    /* The term at this level (from 1) or a better one; 0 for a vector, which is only computed. */
+    double (*read)(struct discussion *d, int level);
+};
+
+struct fact_entry {
+    const char *name; /* "receiver.area" */
+    double (*read)(const struct discussion *d);
+};
+
 extern const struct tool_entry tool_table[]; /* in the catalog's order */
 extern const int tool_table_count;
+extern const struct term_entry term_table[];
+extern const int term_table_count;
+extern const struct fact_entry fact_table[];
+extern const int fact_table_count;
 
 #endif

@@ -20,6 +20,7 @@ struct record {
     int calls;
     int tools[4096];
     double arguments[4096][2];
+    double facts[4]; /* what the catalog's facts read */
 };
 
 struct discussion {

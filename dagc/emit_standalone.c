@@ -1,0 +1,144 @@
+/* emit_standalone.c - an oracle with all it needs: one .c and one .h, no other header but libc's.
+ *
+ * The texts of the runtime's header, of the tools' and of whatever they include (from the folders
+ * of -I, else those built into the command) and the generated catalog are taken apart into items
+ * (c_items.c). Kept is what the oracles' functions need, no more; what the prototypes need goes to
+ * the header. Every name that is declared gets the prefix, so that the two files can be dropped into
+ * any program, beside others of their kind.
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "c_items.h"
+#include "emit.h"
+#include "headers.h"
+
+struct standalone {
+    struct dag *dag;
+    const struct emit_options *options;
+    const char *catalog; /* the text of catalog.h */
+    struct table seen;   /* headers that were included */
+};
+
+/* A header's text, in the arena: from the first folder that has it, else the built-in one. */
+static const char *header_text(const struct standalone *s, const char *name)
+{
+    for (int i = 0; i < s->options->folder_count; i++) {
+        struct input input = {0};
+        dag_input_open(&input, dag_format(&s->dag->arena, "%s/%s", s->options->folders[i], name));
+        const char *text = input.error != 0 || input.bytes == NULL
+                               ? NULL : dag_copy(&s->dag->arena, input.bytes, input.length);
+        dag_input_close(&input);
+        if (text != NULL)
+            return text;
+    }
+    for (int i = 0; dagc_headers[i].name != NULL; i++)
+        if (strcmp(dagc_headers[i].name, name) == 0)
+            return dagc_headers[i].text;
+    return NULL;
+}
+
+static void include(struct c_items *items, const char *name, void *context)
+{
+    struct standalone *s = context;
+    if (dag_put(&s->dag->arena, &s->seen, name, 1) >= 0)
+        return;
+    const char *text = strcmp(name, "catalog.h") == 0 ? s->catalog : header_text(s, name);
+    if (text != NULL)
+        dag_items_add(items, name, text, include, s);
+    else
+        dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I", name);
+}
+
+/* The text in the arena; the buffer is freed. */
+static const char *settle(struct dag *dag, struct text *text)
+{
+    const char *copy = text->bytes == NULL ? "" : dag_copy(&dag->arena, text->bytes, text->length);
+    dag_text_free(text);
+    return copy;
+}
+
+static const char public_name[] = "<declarations>", private_name[] = "<functions>";
+
+static void collect(struct standalone *s, struct c_items *items)
+{
+    struct dag *dag = s->dag;
+    const unsigned char *reached = dag_emit_reached_tools(dag);
+    struct text catalog = {0}, declarations = {0}, functions = {0};
+    dag_emit_catalog_h(dag, &catalog);
+    s->catalog = settle(dag, &catalog);
+    dag_emit_externs(dag, &declarations);
+    for (int i = 0; i < dag->oracle_count; i++)
+        dag_emit_oracle_h(dag, &declarations, &dag->oracles[i], s->options);
+    dag_emit_accessors(dag, &functions);
+    dag_emit_callers(dag, &functions, reached);
+    dag_emit_known_macro(dag, &functions);
+    for (int i = 0; i < dag->oracle_count; i++)
+        dag_emit_oracle_c(dag, &functions, &dag->oracles[i], s->options);
+
+    include(items, dag->runtime_header, s);
+    include(items, "catalog.h", s);
+    if (header_text(s, "standalone.h") != NULL)
+        include(items, "standalone.h", s);
+    for (int i = 0; i < dag->tool_count; i++)
+        if (reached[i])
+            include(items, dag->tools[i].header, s);
+    dag_items_add(items, public_name, settle(dag, &declarations), include, s);
+    dag_items_add(items, private_name, settle(dag, &functions), include, s);
+}
+
+static void print_items(struct c_items *items, struct text *out, const char *prefix, int public_part)
+{
+    for (int i = 0; i < items->item_count; i++) {
+        struct c_item *item = &items->items[i];
+        if (item->kept && !item->shown && ((item->reached_by & C_PUBLIC) != 0) == public_part)
+            dag_items_print(items, item, out, prefix);
+    }
+}
+
+static int is_prefix(const char *text)
+{
+    int letters = 0;
+    for (const char *at = text; *at != '\0'; at++) {
+        letters |= (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z');
+        if (!((*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || *at == '_' ||
+              (at != text && *at >= '0' && *at <= '9')))
+            return 0;
+    }
+    return letters && strlen(text) <= NAME_MAX_LENGTH;
+}
+
+void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, const char *header_name,
+                         const struct emit_options *options)
+{
+    const char *prefix = options->prefix != NULL ? options->prefix : dag->oracles[0].name;
+    struct standalone s = {dag, options, NULL, {0}};
+    struct c_items items = {0};
+    if (!is_prefix(prefix)) {
+        dag_error(dag, dag_nowhere, "'%s' cannot begin a C name", prefix);
+        return;
+    }
+    items.dag = dag;
+    collect(&s, &items);
+    if (dag->error_count > 0)
+        return;
+    dag_items_keep(&items, private_name, C_PRIVATE);
+    dag_items_keep(&items, public_name, C_PUBLIC);
+    dag_items_keep(&items, "standalone.h", C_PUBLIC);
+
+    dag_emit_banner(dag, header);
+    dag_print(header, "#ifndef ");
+    dag_print_upper(header, prefix);
+    dag_print(header, "_H\n#define ");
+    dag_print_upper(header, prefix);
+    dag_print(header, "_H\n\n");
+    for (int i = 0; i < items.system_count; i++)
+        if (strcmp(items.system[i], "<math.h>") != 0)
+            dag_print(header, "#include %s\n", items.system[i]);
+    dag_print(header, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
+    print_items(&items, header, prefix, 1);
+    dag_print(header, "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
+
+    dag_emit_banner(dag, c);
+    dag_print(c, "#include \"%s\"\n\n#include <math.h>\n", header_name);
+    print_items(&items, c, prefix, 0);
+}

@@ -1,0 +1,146 @@
+/* emit_text.c - the oracles as a pass left them, for people: --dump=PASS and --emit=text.
+ *
+ * The listing is in the oracle's own language as far as that goes; what a pass has found out
+ * stands beside it in comments.
+ * SPDX-License-Identifier: MIT */
+#include "analyse.h"
+
+struct listing {
+    struct dag *dag;
+    struct text *out;
+    enum pass pass;
+    const struct oracle_graph *oracle;
+    unsigned char *sure;    /* by term * nodes + place: the level surely known before the node */
+    unsigned char *guarded; /* by place: every path to the node has passed a guard */
+};
+
+/* "x = 1, y = limit" before names are resolved. */
+static void print_written(const struct listing *listing, struct span arguments)
+{
+    struct dag *dag = listing->dag;
+    for (int i = 0; i < arguments.count; i++) {
+        const struct argument *argument = &dag->arguments[arguments.first + i];
+        dag_print(listing->out, "%s%s = %s", i > 0 ? ", " : "", argument->name,
+                  dag_value_text(dag, argument->expression));
+    }
+}
+
+static void print_rules(const struct listing *listing, const struct node *node)
+{
+    const struct dag *dag = listing->dag;
+    for (int i = node->rules.first; i < node->rules.first + node->rules.count; i++) {
+        const struct rule *rule = &dag->rules[i];
+        dag_print(listing->out, "    %s", rule->labels.count == 0 ? "otherwise" : "");
+        for (int l = 0; l < rule->labels.count; l++)
+            dag_print(listing->out, "%s%s", l > 0 ? " | " : "", dag->labels[rule->labels.first + l].name);
+        dag_print(listing->out, " -> %s;\n", rule->target.name);
+    }
+}
+
+static void print_arcs(const struct listing *listing, const struct node *node)
+{
+    static const char *const kinds[] = {"precise", "approximate", "other"};
+    const struct dag *dag = listing->dag;
+    const struct answer *answers = &dag->answers[dag->tools[node->tool].answers.first];
+    for (int i = 0; i < node->arcs.count; i++) {
+        const struct target *target = &dag->arcs[node->arcs.first + i].target;
+        dag_print(listing->out, "    %s -> %s; # %s%s\n", answers[i].name,
+                  dag_target_name(dag, target), kinds[answers[i].kind],
+                  target->kind == TARGET_DECISION ? ", decision" : "");
+    }
+}
+
+/* What is known before the node is asked. */
+static void print_known(const struct listing *listing, const struct node *node)
+{
+    const struct dag *dag = listing->dag;
+    int any = 0;
+    dag_print(listing->out, "    # known:");
+    for (int t = 0; t < dag->term_count; t++) {
+        const struct term *term = &dag->terms[t];
+        int level = listing->sure[t * listing->oracle->order.count + node->order];
+        if (level == 0)
+            continue;
+        dag_print(listing->out, "%s %s", any ? "," : "", term->name);
+        if (term->levels.count > 0)
+            dag_print(listing->out, " >= %s", dag->levels[term->levels.first + level - 1].name);
+        any = 1;
+    }
+    dag_print(listing->out, "%s; %sguarded\n", any ? "" : " nothing",
+              listing->guarded[node->order] ? "" : "not ");
+}
+
+static void print_node(const struct listing *listing, const struct node *node)
+{
+    struct dag *dag = listing->dag;
+    dag_print(listing->out, "  node %s = ", node->name);
+    if (listing->pass == PASS_PARSE) {
+        dag_print(listing->out, "%s(", node->tool_name);
+        print_written(listing, node->written);
+        dag_print(listing->out, ") {\n");
+        print_rules(listing, node);
+    } else {
+        dag_print(listing->out, "%s {", dag_call_text(dag, node));
+        if (listing->pass >= PASS_CHECK)
+            dag_print(listing->out, " # %d", node->order);
+        dag_print(listing->out, "\n");
+        if (listing->pass == PASS_ANALYSE)
+            print_known(listing, node);
+        print_arcs(listing, node);
+    }
+    dag_print(listing->out, "  }\n");
+}
+
+static void print_parameter(const struct listing *listing, const struct parameter *parameter)
+{
+    char value[32], low[32], high[32];
+    dag_print(listing->out, "  param %s : %s", parameter->name, parameter->type_name);
+    if ((parameter->given & PARAMETER_VALUE) != 0)
+        dag_print(listing->out, " = %s", dag_number(parameter->value, value));
+    if ((parameter->given & PARAMETER_RANGE) != 0)
+        dag_print(listing->out, " in [%s, %s]", dag_number(parameter->low, low),
+                  dag_number(parameter->high, high));
+    dag_print(listing->out, ";");
+    if (listing->pass >= PASS_RESOLVE)
+        dag_print(listing->out, " # %s", dag_unit_name(&listing->dag->types[parameter->type]));
+    dag_print(listing->out, "\n");
+}
+
+static void analyse(struct listing *listing)
+{
+    struct dag *dag = listing->dag;
+    int count = listing->oracle->order.count;
+    listing->sure = dag_alloc(&dag->arena, (size_t)count * (size_t)dag->term_count);
+    listing->guarded = dag_alloc(&dag->arena, (size_t)count);
+    for (int t = 0; t < dag->term_count; t++)
+        dag_sure_levels(dag, listing->oracle, t, listing->sure + t * count);
+    for (int i = 1; i < count; i++)
+        listing->guarded[i] = 1;
+    for (int i = 0; i < count; i++) {
+        const struct node *node = dag_node_at(dag, listing->oracle, i);
+        for (int a = node->arcs.first; a < node->arcs.first + node->arcs.count; a++)
+            if (dag->arcs[a].target.kind == TARGET_NODE && !dag->tools[node->tool].guards)
+                listing->guarded[dag->nodes[dag->arcs[a].target.index].order] &= listing->guarded[i];
+    }
+}
+
+void dag_emit_text(struct dag *dag, struct text *out, enum pass pass)
+{
+    struct listing listing = {dag, out, pass, NULL, NULL, NULL};
+    for (int i = 0; i < dag->oracle_count; i++) {
+        const struct oracle_graph *oracle = listing.oracle = &dag->oracles[i];
+        dag_print(out, "%soracle %s {\n", i > 0 ? "\n" : "", oracle->name);
+        for (int p = oracle->parameters.first; p < oracle->parameters.first + oracle->parameters.count; p++)
+            print_parameter(&listing, &dag->parameters[p]);
+        dag_print(out, "  start %s;\n", oracle->start.name != NULL ? oracle->start.name : "?");
+        if (pass == PASS_ANALYSE)
+            analyse(&listing);
+        int count = pass == PASS_PARSE ? oracle->drafts.count
+                  : pass == PASS_RESOLVE ? oracle->nodes.count : oracle->order.count;
+        for (int k = 0; k < count; k++)
+            print_node(&listing, pass == PASS_PARSE ? &dag->drafts[oracle->drafts.first + k]
+                               : pass == PASS_RESOLVE ? &dag->nodes[oracle->nodes.first + k]
+                                                      : dag_node_at(dag, oracle, k));
+        dag_print(out, "}\n");
+    }
+}

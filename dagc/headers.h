@@ -1,0 +1,13 @@
+/* headers.h - the runtime's headers built into the command, as the standard catalog is.
+ * SPDX-License-Identifier: MIT */
+#ifndef HEADERS_H
+#define HEADERS_H
+
+struct dag_header {
+    const char *name; /* as in an #include: "tools/larger.h" */
+    const char *text;
+};
+
+extern const struct dag_header dagc_headers[]; /* ends with a NULL name (dagc/embed_headers.sh makes it) */
+
+#endif
