@@ -290,9 +290,9 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
 #define REFINER_POLYGON_FACTOR_PI 3.14159265358979323846
 
 /* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
-#define REFINER_POLYGON_FACTOR_NEAR 2.0
+#define REFINER_POLYGON_FACTOR_NEAR 3.0
 
-#define REFINER_POLYGON_FACTOR_MIDDLE 6.0
+#define REFINER_POLYGON_FACTOR_MIDDLE 8.0
 
 #define REFINER_POLYGON_FACTOR_FAR 60.0
 
@@ -539,8 +539,10 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
  * stood between, mean over r. Dimensionless, in [0, 1].
  *
  * disc     the emitter as a disc of its area seen from the receiver's centre,
- *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and more),
- *          elements that cross each other's planes. [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and more; a
+ *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
+ *          polygon is computed instead; elements that cross each other's planes.
+ *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
  *          by a rule of as many points as the distance asks for; where they are nearer than their
@@ -564,6 +566,12 @@ REFINER_TOOL double refiner_form_factor_disc(struct refiner_discussion *d)
 REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum refiner_form_factor_level level)
 {
     if (d->terms.form_factor_level < level) {
+        if (level == REFINER_FORM_FACTOR_DISC) {
+            double reach = d->receiver->radius + d->emitter->radius;
+            const double *axis = refiner_term_axis(d);
+            if (refiner_dot3(axis, axis) < reach * reach)
+                level = REFINER_FORM_FACTOR_POLYGON;
+        }
         d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC
                                    ? refiner_form_factor_disc(d)
                                    : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
