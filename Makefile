@@ -3,6 +3,7 @@
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make demo     the main job on real scenes, pictures included
+# make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # SPDX-License-Identifier: MIT
 
 CC       = gcc
@@ -93,4 +94,5 @@ demo: all
 clean:
 	rm -rf $(BUILD)
 
+include install.mk
 -include $(OBJECTS:.o=.d) $(TESTS:=.d)
