@@ -33,7 +33,7 @@ install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
 
 uninstall:
 	rm -f $(addprefix $(TO)/,$(INSTALLED))
-	for folder in $(addprefix $(TO)/,$(FOLDERS)); do [ ! -d $$folder ] || rmdir $$folder; done
+	-for folder in $(addprefix $(TO)/,$(FOLDERS)); do [ ! -d $$folder ] || rmdir $$folder; done
 
 # PREFIX may differ from one run to the next.
 .PHONY: $(BUILD)/install/dagc.pc

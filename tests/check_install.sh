@@ -87,6 +87,7 @@ int main(void)
     d.emitter = &emitter;
     d.host = &host;
     emitter.centre[2] = 1;
+    receiver.vertices = emitter.vertices = 4; /* or they would be clusters */
     receiver.normal[2] = emitter.normal[2] = 1; /* turned away: no light */
     printf("%s %s %d\n", bf_oracle.name, own_oracle.name, bf_refine(&bf, &d) == DECISION_STOP);
     return 0;
@@ -118,6 +119,12 @@ if have pkg-config; then
     # shellcheck disable=SC2046,SC2086
     check "cc" cc $flags -o program main.c bf.c own.c $(pkg-config --cflags --libs dagc)
     check "the program" is "bf own 1" ./program
+    # A tool, a term and so a catalog.h of one's own.
+    cp "$top/examples/user_tool/"*.dag "$top/examples/user_tool/gap.h" "$top/examples/user_tool/near.h" .
+    check "catalog.h" dagc --emit=catalog-h -o catalog.h catalog.dag
+    check "dagc near_first" dagc -o near_first.c --header near_first.h near_first.dag
+    # shellcheck disable=SC2046,SC2086
+    check "cc with a catalog" cc $flags -I. -include catalog.h -c near_first.c $(pkg-config --cflags dagc)
     # shellcheck disable=SC2046,SC2086
     check "cc with libdagc" cc $flags -o load load.c $(pkg-config --cflags --libs dagc)
     check "libdagc" is own ./load
@@ -174,7 +181,7 @@ cd ..
 pages="$prefix/share/man/man1/dagc.1 $prefix/share/man/man5/dagc-language.5"
 if have groff; then
     for page in $pages; do
-        check "groff $page" sh -c "groff -man -mdoc -ww -z $page 2>&1 | tee said; [ ! -s said ]"
+        check "groff $page" sh -c "groff -mandoc -ww -z $page 2>&1 | tee said; [ ! -s said ]"
         check "words of $page" sh -c "groff -mdoc -Tascii -P-cbou $page | grep -q REFINEMENT -i"
     done
 fi
