@@ -191,6 +191,8 @@ if have man; then
         check "man $page" sh -c "man $page | grep -q DESCRIPTION"
     done
 fi
+sed -n -e '/^\.Bd/,/^\.Ed/{/^\./!p' -e '/^\.Ed/q' -e '}' "$prefix/share/man/man5/dagc-language.5" >example.dag
+check "the example of dagc-language(5)" dagc --emit=none -Werror example.dag
 dagc --help | sed -n 's/^  \(-[-a-zA-Z]*\).*/\1/p' | sort -u >options
 for name in $(cat options) $(dagc -W | sed -n 's/^  *\([a-z]*-[a-z-]*\) .*/\1/p'); do
     check "dagc(1) knows $name" sh -c "sed -e 's/\\\\-/-/g' -e 's/Fl -/--/g' -e 's/Fl /-/g' $prefix/share/man/man1/dagc.1 | grep -q -e '^\.It .*$name' -e '^\.Ic $name'"
@@ -205,6 +207,11 @@ for word in $(sed -n '/item_words\[\] =/,/;/p' "$top/dagc/parse.c" | grep -o '"[
     check "vim: $word" grep -qw "$word" "$top/dagc/editors/vim/syntax/dag.vim"
     check "VS Code: $word" grep -qw "$word" "$top/dagc/editors/vscode/syntaxes/dag.tmLanguage.json"
 done
+
+if have vim; then
+    check "vim" sh -c "vim -Nu NONE -es --cmd 'set rtp^=$top/dagc/editors/vim' -c 'syntax on' -c 'edit user/own.dag' \
+        -c 'call writefile([&filetype, synIDattr(synID(2, 1, 1), \"name\")], \"said\")' -c 'qa!' </dev/null; grep -qx dag said && grep -qx dagStructure said"
+fi
 
 # ---- and gone
 check uninstall make -C "$top" uninstall PREFIX="$prefix"

@@ -3,6 +3,7 @@
 #   dagc_add_refiner(TARGET graph.dag [CATALOG catalog.dag] [OPTIONS option...])
 #
 # compiles graph.dag with dagc into graph.c and graph.h, for the C sources of TARGET to include "graph.h".
+# A catalog of your own needs its own catalog.h: see FILES in dagc(1).
 # Also: DAGC_EXECUTABLE, DAGC_CATALOG (the standard one), DAGC_INCLUDE_DIR, and the library dagc::dagc, which is
 # the compiler itself. OPTIONS are dagc's, e.g. -Werror --instrument.
 # SPDX-License-Identifier: MIT
