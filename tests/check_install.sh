@@ -4,7 +4,8 @@
 # SPDX-License-Identifier: MIT
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
-build=$(cd "$(dirname "$(realpath "${DAGC:-$top/build/bin/dagc}")")/.." && pwd)
+dagc=$(realpath -e "${DAGC:-$top/build/bin/dagc}") || exit 2
+build=$(dirname "$(dirname "$dagc")")
 flags="-std=c11 -O2 -Wall -Wextra -Werror ${SANITIZE-}"
 tmp=$(mktemp -d) || exit 2
 trap 'rm -rf "$tmp"' EXIT
