@@ -4,6 +4,7 @@
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make demo     the main job on real scenes, pictures included
 # make bench    what the releases cost, in instructions
+# make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # SPDX-License-Identifier: MIT
 
 CC       = gcc
@@ -98,4 +99,5 @@ bench: all
 clean:
 	rm -rf $(BUILD)
 
+include install.mk
 -include $(OBJECTS:.o=.d) $(TESTS:=.d)

@@ -1,0 +1,48 @@
+# install.mk - make install, make uninstall. PREFIX is where things will stand when they are used, DESTDIR
+# a folder to put all of it into instead (what makers of packages need). No name of a folder gets into a file
+# but PREFIX into dagc.pc; the CMake package and the Make fragment find their folder themselves.
+# SPDX-License-Identifier: MIT
+
+PREFIX  = /usr/local
+DESTDIR =
+INSTALL = install
+TO      = $(DESTDIR)$(PREFIX)
+VERSION = $(shell sed -n 's/^.define DAGC_VERSION "\(.*\)"/\1/p' dagc/dag.h)
+
+MADE      = $(addprefix $(BUILD)/install/,dagc.pc dagcConfigVersion.cmake dagc.1 dagc-language.5)
+INSTALLED = bin/dagc bin/radiosity lib/libdagc.a lib/pkgconfig/dagc.pc \
+            $(addprefix lib/cmake/dagc/,dagcConfig.cmake dagcConfigVersion.cmake) \
+            $(addprefix include/dagc/,dag.h catalog.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk) \
+            share/man/man1/dagc.1 share/man/man5/dagc-language.5
+# The folders that are ours alone, the inner ones first.
+FOLDERS   = lib/cmake/dagc include/dagc/tools include/dagc/terms include/dagc share/dagc
+
+.PHONY: install uninstall
+install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
+	$(INSTALL) -d $(addprefix $(TO)/,$(sort $(dir $(INSTALLED))))
+	$(INSTALL) -m 755 $(BUILD)/bin/dagc $(BUILD)/bin/radiosity $(TO)/bin
+	$(INSTALL) -m 644 $(LIBDAGC) $(TO)/lib
+	$(INSTALL) -m 644 $(BUILD)/install/dagc.pc $(TO)/lib/pkgconfig
+	$(INSTALL) -m 644 dagc/package/dagcConfig.cmake $(BUILD)/install/dagcConfigVersion.cmake $(TO)/lib/cmake/dagc
+	$(INSTALL) -m 644 dagc/dag.h $(BUILD)/gen/catalog.h $(addprefix runtime/,$(filter-out tools/% terms/%,$(HEADERS))) $(TO)/include/dagc
+	$(INSTALL) -m 644 $(addprefix runtime/,$(filter tools/%,$(HEADERS))) $(TO)/include/dagc/tools
+	$(INSTALL) -m 644 $(addprefix runtime/,$(filter terms/%,$(HEADERS))) $(TO)/include/dagc/terms
+	$(INSTALL) -m 644 runtime/catalog.dag dagc/package/dagc.mk $(TO)/share/dagc
+	$(INSTALL) -m 644 $(BUILD)/install/dagc.1 $(TO)/share/man/man1
+	$(INSTALL) -m 644 $(BUILD)/install/dagc-language.5 $(TO)/share/man/man5
+
+uninstall:
+	rm -f $(addprefix $(TO)/,$(INSTALLED))
+	-for folder in $(addprefix $(TO)/,$(FOLDERS)); do [ ! -d $$folder ] || rmdir $$folder; done
+
+# PREFIX may differ from one run to the next.
+.PHONY: $(BUILD)/install/dagc.pc
+$(BUILD)/install/dagc.pc: dagc/package/dagc.pc.in
+	@mkdir -p $(@D)
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' $< > $@
+$(BUILD)/install/dagcConfigVersion.cmake: dagc/package/dagcConfigVersion.cmake.in dagc/dag.h
+	@mkdir -p $(@D)
+	sed 's|@VERSION@|$(VERSION)|' $< > $@
+$(BUILD)/install/dagc%: dagc/man/dagc% dagc/man/tables.sh dagc/dag.h $(wildcard dagc/*.def)
+	@mkdir -p $(@D)
+	sh dagc/man/tables.sh $(VERSION) $< > $@

@@ -1,0 +1,222 @@
+#!/bin/sh
+# check_install.sh - make install, and what it put there used from projects that know nothing of this folder.
+# DAGC names the command, in the build folder to install from. What a missing program does not let us try is said.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/.." && pwd)
+dagc=$(realpath -e "${DAGC:-$top/build/bin/dagc}") || exit 2
+build=$(dirname "$(dirname "$dagc")")
+flags="-std=c11 -O2 -Wall -Wextra -Werror ${SANITIZE-}"
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+unset DAGC RADIOSITY MAKEFLAGS MFLAGS MAKELEVEL BUILD CC CFLAGS CPPFLAGS LDFLAGS OPT WARN
+prefix=$tmp/usr
+count=0 bad=0
+
+check() { # NAME COMMAND...
+    name=$1
+    shift
+    count=$((count + 1))
+    if ! "$@" >"$tmp/out" 2>&1; then
+        bad=$((bad + 1))
+        echo "failed: $name"
+        head -n 20 "$tmp/out"
+    fi
+}
+have() { # PROGRAM
+    command -v "$1" >/dev/null && return
+    echo "skipped: $1 is not installed"
+    return 1
+}
+is() { # WANTED COMMAND...
+    wanted=$1
+    shift
+    got=$("$@")
+    [ "$got" = "$wanted" ] || { echo "'$got', not '$wanted'"; return 1; }
+}
+
+# ---- as a package is made: into a folder, from where it goes to its place
+check install make -C "$top" install BUILD="$build" PREFIX="$prefix" DESTDIR="$tmp/stage"
+[ -d "stage$prefix" ] || { echo "install: nothing to go on with"; exit 1; }
+mv "stage$prefix" usr
+for folder in usr/include/dagc usr/share/dagc usr/lib/pkgconfig usr/lib/cmake; do
+    check "$folder names no other place" sh -c "! grep -rF -e '$top' -e '$tmp/stage' $folder"
+done
+PATH=$prefix/bin:$PATH
+PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+MANPATH=$prefix/share/man
+export PATH PKG_CONFIG_PATH MANPATH
+version=$(dagc --version)
+
+# ---- a program with two refiners, one of them from a graph with an imported branch
+mkdir user
+cp "$top/examples/oracles/bf.dag" user
+cat >user/when_large.dag <<'END2'
+graph large(share : ratio = 0.05 in [0, inf]) exits (small precise, both precise) {
+  start energy;
+  node energy = transfer(relative = share) { dark | below -> small;  above -> guard; }
+  node guard  = can_split(min_share = 1e-5) { neither -> small;  receiver | both | emitter -> both; }
+}
+END2
+cat >user/own.dag <<'END2'
+import "when_large.dag";
+oracle own "for a test" {
+  start level;
+  node level = clusters() { surfaces -> much;  apart -> stop;
+                            receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }
+  node much  = large(share = 0.1) { small -> seen;  both -> subdivide_emitter; }
+  node seen  = visibility(rays = 4) { none -> stop;  partial | all -> form; }
+  node form  = form_factor() { done -> link; }
+}
+END2
+cat >user/main.c <<'END2'
+#include <stdio.h>
+#include "bf.h"
+#include "own.h"
+
+int main(void)
+{
+    struct bf_parameters bf;
+    struct own_parameters own;
+    struct element receiver = { 0 }, emitter = { 0 };
+    struct discussion d = { 0 };
+    const struct host host = { NULL, 1, 1, 0, 0 };
+    bf_defaults(&bf);
+    own_defaults(&own);
+    d.receiver = &receiver;
+    d.emitter = &emitter;
+    d.host = &host;
+    emitter.centre[2] = 1;
+    receiver.vertices = emitter.vertices = 4; /* or they would be clusters */
+    receiver.normal[2] = emitter.normal[2] = 1; /* turned away: no light */
+    printf("%s %s %d\n", bf_oracle.name, own_oracle.name, bf_refine(&bf, &d) == DECISION_STOP);
+    return 0;
+}
+END2
+cat >user/load.c <<'END2'
+#include "dag.h"
+
+int main(void)
+{
+    struct dag *dag = dag_load("own.dag", NULL, NULL, stderr);
+    if (dag == NULL)
+        return 1;
+    printf("%s\n", dag->oracles[0].name);
+    dag_free(dag);
+    return 0;
+}
+END2
+
+# ---- by hand, with pkg-config
+if have pkg-config; then
+    cp -r user by_hand && cd by_hand || exit 2
+    check "version" sh -c "[ '$version' = \"dagc \$(pkg-config --modversion dagc)\" ]"
+    check "-lm" sh -c "pkg-config --libs dagc | grep -q -e -lm"
+    check "the command" is "$prefix/bin/dagc" pkg-config --variable=dagc dagc
+    check "the catalog" dagc --emit=none --catalog "$(pkg-config --variable=catalog dagc)" own.dag
+    check "dagc bf" dagc -o bf.c --header bf.h bf.dag
+    check "dagc own" dagc -o own.c --header own.h own.dag
+    # shellcheck disable=SC2046,SC2086
+    check "cc" cc $flags -o program main.c bf.c own.c $(pkg-config --cflags --libs dagc)
+    check "the program" is "bf own 1" ./program
+    # A tool, a term and so a catalog.h of one's own.
+    cp "$top/examples/user_tool/"*.dag "$top/examples/user_tool/gap.h" "$top/examples/user_tool/near.h" .
+    check "catalog.h" dagc --emit=catalog-h -o catalog.h catalog.dag
+    check "dagc near_first" dagc -o near_first.c --header near_first.h near_first.dag
+    # shellcheck disable=SC2046,SC2086
+    check "cc with a catalog" cc $flags -I. -include catalog.h -c near_first.c $(pkg-config --cflags dagc)
+    # shellcheck disable=SC2046,SC2086
+    check "cc with libdagc" cc $flags -o load load.c $(pkg-config --cflags --libs dagc)
+    check "libdagc" is own ./load
+    cd ..
+fi
+
+# ---- with the Make fragment
+cp -r user by_make && cd by_make || exit 2
+cat >Makefile <<'END2'
+include ../usr/share/dagc/dagc.mk
+CFLAGS  = $(FLAGS) $(DAGC_CFLAGS)
+program: main.o bf.o own.o
+	$(CC) $(CFLAGS) -o $@ $^ $(DAGC_LIBS)
+main.o: bf.h own.h
+END2
+check "make" make FLAGS="$flags" DAGCFLAGS=-Werror
+check "make: the program" is "bf own 1" ./program
+check "make: up to date" make -q FLAGS="$flags"
+touch -d '+1 minute' when_large.dag
+check "make: an import is newer" sh -c "! make -q FLAGS='$flags'"
+cd ..
+
+# ---- with CMake
+if have cmake; then
+    cp -r user by_cmake && cd by_cmake || exit 2
+    cat >CMakeLists.txt <<'END2'
+cmake_minimum_required(VERSION 3.10)
+project(user C)
+find_package(dagc 0.1 REQUIRED)
+add_executable(program main.c)
+dagc_add_refiner(program bf.dag)
+dagc_add_refiner(program own.dag CATALOG ${DAGC_CATALOG} OPTIONS -Werror --instrument)
+add_executable(load load.c)
+target_link_libraries(load dagc::dagc)
+END2
+    check "cmake" cmake -S . -B out "-DCMAKE_PREFIX_PATH=$prefix" "-DCMAKE_C_FLAGS=$flags"
+    check "cmake: build" cmake --build out
+    check "cmake: the program" is "bf own 1" out/program
+    check "cmake: libdagc" is own out/load
+    touch -d '+1 minute' when_large.dag
+    check "cmake: an import is newer" sh -c "cmake --build out | grep -q 'dagc own.dag'"
+    sed -i 's/dagc 0.1/dagc 9/' CMakeLists.txt
+    check "cmake: another version" sh -c "! cmake -S . -B other -DCMAKE_PREFIX_PATH=$prefix"
+    cd ..
+fi
+
+# ---- radiosity finds dagc and the headers where it stands now
+cd user || exit 2
+check "radiosity" radiosity solve "$top/examples/scenes/furnace.obj" --oracle own.dag -q
+check "radiosity: both releases" radiosity solve "$top/examples/scenes/furnace.obj" --oracle own.dag --release dag -q
+cd ..
+
+# ---- the pages
+pages="$prefix/share/man/man1/dagc.1 $prefix/share/man/man5/dagc-language.5"
+if have groff; then
+    for page in $pages; do
+        check "groff $page" sh -c "groff -mandoc -ww -z $page 2>&1 | tee said; [ ! -s said ]"
+        check "words of $page" sh -c "groff -mdoc -Tascii -P-cbou $page | grep -q REFINEMENT -i"
+    done
+fi
+if have man; then
+    for page in "1 dagc" "5 dagc-language"; do
+        # shellcheck disable=SC2086
+        check "man $page" sh -c "man $page | grep -q DESCRIPTION"
+    done
+fi
+sed -n -e '/^\.Bd/,/^\.Ed/{/^\./!p' -e '/^\.Ed/q' -e '}' "$prefix/share/man/man5/dagc-language.5" >example.dag
+check "the example of dagc-language(5)" dagc --emit=none -Werror example.dag
+dagc --help | sed -n 's/^  \(-[-a-zA-Z]*\).*/\1/p' | sort -u >options
+for name in $(cat options) $(dagc -W | sed -n 's/^  *\([a-z]*-[a-z-]*\) .*/\1/p'); do
+    check "dagc(1) knows $name" sh -c "sed -e 's/\\\\-/-/g' -e 's/Fl -/--/g' -e 's/Fl /-/g' $prefix/share/man/man1/dagc.1 | grep -q -e '^\.It .*$name' -e '^\.Ic $name'"
+done
+
+# ---- the editors' files are well-formed and know the words of the language
+if have node; then
+    check "JSON" node -e 'for (const f of process.argv.slice(1)) JSON.parse(require("fs").readFileSync(f))' \
+        "$top"/dagc/editors/vscode/*.json "$top"/dagc/editors/vscode/syntaxes/*.json
+fi
+for word in $(sed -n '/item_words\[\] =/,/;/p' "$top/dagc/parse.c" | grep -o '"[a-z]*"' | tr -d '"') node start param otherwise exits; do
+    check "vim: $word" grep -qw "$word" "$top/dagc/editors/vim/syntax/dag.vim"
+    check "VS Code: $word" grep -qw "$word" "$top/dagc/editors/vscode/syntaxes/dag.tmLanguage.json"
+done
+
+if have vim; then
+    check "vim" sh -c "vim -Nu NONE -es --cmd 'set rtp^=$top/dagc/editors/vim' -c 'syntax on' -c 'edit user/own.dag' \
+        -c 'call writefile([&filetype, synIDattr(synID(2, 1, 1), \"name\")], \"said\")' -c 'qa!' </dev/null; grep -qx dag said && grep -qx dagStructure said"
+fi
+
+# ---- and gone
+check uninstall make -C "$top" uninstall PREFIX="$prefix"
+check "nothing is left" sh -c "find '$prefix' -type f | grep . && exit 1; [ ! -e '$prefix/share/dagc' ]"
+
+echo "install: $count checks, $bad failed"
+[ "$bad" = 0 ]
