@@ -250,7 +250,7 @@ double rays_exposed(const struct rays *rays, const struct element *e)
     enum { SIDE = 4, DIRECTIONS = 8, MOST = 6 };
     /* Two unit vectors across the normal, the first along the axis that is most across it. */
     const double *n = e->normal;
-    double u[3] = { 0, 0, 0 }, v[3], size;
+    double u[3] = { 0, 0, 0 }, v[3], size, direction[DIRECTIONS][3];
     int axis = fabs(n[0]) <= fabs(n[1]) ? fabs(n[0]) <= fabs(n[2]) ? 0 : 2 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2;
     int i, j, k, m, buried = 0;
     u[axis] = 1;
@@ -259,6 +259,11 @@ double rays_exposed(const struct rays *rays, const struct element *e)
     for (k = 0; k < 3; k++)
         v[k] /= size;
     cross3(u, v, n);
+    for (m = 0; m < DIRECTIONS; m++) { /* sines of cosine-spread directions: radius sqrt of the stratum's middle */
+        double angle = 2.39996322972865332 * m, r = sqrt((m + 0.5) / DIRECTIONS), z = sqrt(1 - r * r);
+        for (k = 0; k < 3; k++)
+            direction[m][k] = z * n[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
+    }
     for (i = 0; i < SIDE; i++)
         for (j = 0; j < SIDE; j++) {
             double s = (i + 0.5) / SIDE, t = (j + 0.5) / SIDE, p[3];
@@ -271,13 +276,8 @@ double rays_exposed(const struct rays *rays, const struct element *e)
                                         : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
                 p[k] = (p[k] + rays->host.ray_offset * n[k] - rays->origin[k]) * rays->scale;
             }
-            for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++) {
-                /* sines of cosine-spread directions: radius sqrt of the stratum's middle */
-                double angle = 2.39996322972865332 * m, r = sqrt((m + 0.5) / DIRECTIONS), z = sqrt(1 - r * r), w[3];
-                for (k = 0; k < 3; k++)
-                    w[k] = z * n[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
-                inside += meets_inside(rays, p, w);
-            }
+            for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
+                inside += meets_inside(rays, p, direction[m]);
             buried += inside >= MOST;
         }
     return 1 - buried / (double)(SIDE * SIDE);

@@ -45,33 +45,26 @@ static double largest(const double *v, uint32_t n)
     return most;
 }
 
+/* Room for `count` values in *list. Returns 0, or -1 and *list as it was. */
+static int enlarge(double **list, size_t count)
+{
+    double *moved = realloc(*list, count * sizeof *moved);
+    if (!moved)
+        return -1;
+    *list = moved;
+    return 0;
+}
+
 /* Give elements made since the last call their parent's radiosity. Returns 0 or -1. */
 static int make_room(struct solve *s)
 {
     uint32_t count = s->hierarchy.count, b = s->bands, i, k;
     if (count > s->room) {
         size_t room = (size_t)count + count / 4;
-        double *moved = realloc(s->radiosity, room * b * sizeof *moved);
         unsigned char *mark;
-        if (!moved)
+        if (enlarge(&s->radiosity, room * b) < 0 || enlarge(&s->irradiance, room * b) < 0 || enlarge(&s->row_scale, room) < 0
+            || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0)
             return -1;
-        s->radiosity = moved;
-        moved = realloc(s->irradiance, room * b * sizeof *moved);
-        if (!moved)
-            return -1;
-        s->irradiance = moved;
-        moved = realloc(s->row_scale, room * sizeof *moved);
-        if (!moved)
-            return -1;
-        s->row_scale = moved;
-        moved = realloc(s->row_gift, room * sizeof *moved);
-        if (!moved)
-            return -1;
-        s->row_gift = moved;
-        moved = realloc(s->exposed, room * sizeof *moved);
-        if (!moved)
-            return -1;
-        s->exposed = moved;
         mark = realloc(s->changed, room);
         if (!mark)
             return -1;
