@@ -21,7 +21,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 1
+#define RUNTIME_ABI 2
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 
@@ -43,6 +43,10 @@ struct element {
     double area;         /* m2; cluster: sum over its faces */
     double radius;       /* of the sphere around centre that holds the element (m) */
     double radiosity;    /* B, W/m2, largest band; cluster: area mean. Constant during a round */
+    double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
+    double reflectance;  /* rho, largest band; cluster: area mean */
+    double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
+    double allowance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     double cone;         /* cluster: cosine of the normal cone's half-angle, -1 for "any way" */
     double vertex[4][3]; /* surface: corners (m); cluster: [0] and [1] are the box's corners */
     uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
@@ -68,7 +72,11 @@ struct host {
      * segment i; bits from count on are 0. Called from many threads at once. */
     uint64_t (*occluded)(const struct host *host, int count, const struct segment *segments);
     double area;       /* of all faces, m2 */
+    double extent;     /* longest side of the scene's box (m) */
+    double exitance;   /* the largest E, W/m2 */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
+    double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
+    double importance; /* the largest Y; 1 where no view asks */
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
 };

@@ -103,6 +103,13 @@ static void measure_surface(struct element *e)
     e->cone = 1;
 }
 
+/* What a solver may say of an element later. */
+static void reset_fields(struct element *e)
+{
+    e->importance = 1;
+    e->allowance = INFINITY;
+}
+
 static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
 {
     struct element *e = &h->elements[index];
@@ -114,6 +121,7 @@ static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
     e->id = child_id(FACES, face);
     h->face_element[face] = index;
     measure_surface(e);
+    reset_fields(e);
 }
 
 /* Box, cone of normals, area of the faces in a range. Exactly equal normals give a cone of angle 0. */
@@ -123,6 +131,7 @@ static void measure_cluster(const struct builder *b, struct element *e, struct r
     uint32_t i;
     int k;
     box_empty(low, high);
+    reset_fields(e);
     e->black = 1;
     for (i = range.from; i < range.to; i++) {
         const struct face *f = &b->h->faces[b->order[i]];
@@ -367,6 +376,9 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
             c->depth = (uint8_t)(e->depth + 1);
             c->parent = element;
             c->radiosity = e->radiosity;
+            c->reflectance = e->reflectance;
+            c->importance = e->importance;
+            c->allowance = e->allowance;
             c->id = child_id(e->id, (uint32_t)i);
             measure_surface(c);
             memcpy(c->normal, e->normal, sizeof c->normal);

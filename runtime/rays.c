@@ -113,7 +113,7 @@ static double power_of_two(double x)
 
 static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
 {
-    double area = 0, emitted = 0, reflected = 0, size = 0, largest = 0;
+    double area = 0, emitted = 0, reflected = 0, brightest = 0, size = 0, largest = 0;
     uint32_t i;
     int k;
     for (i = 0; i < h->face_count; i++) {
@@ -121,6 +121,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         area += a;
         emitted += a * exitance[i];
         reflected += a * reflectance[i];
+        brightest = exitance[i] > brightest ? exitance[i] : brightest;
     }
     for (k = 0; k < 3; k++) {
         double side = h->high[k] - h->low[k];
@@ -132,7 +133,11 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->scale = 1 / power_of_two(size);
     rays->host.occluded = occluded;
     rays->host.area = area;
+    rays->host.extent = size;
+    rays->host.exitance = brightest;
+    rays->host.importance = 1;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
+    rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
     /* 2^-24 is half a unit in the last place of a float; input coordinates carry that much error. */
     rays->host.ray_offset = ldexp(size, -18);
     if (rays->host.ray_offset < ldexp(largest, -21))

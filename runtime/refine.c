@@ -16,22 +16,22 @@ enum { ROUND = 1 << 17, CHUNK = 64 };
 void link_store(struct link *link, const struct terms *terms)
 {
     link->form_factor = (float)terms->form_factor;
-    link->form_factor_level = terms->form_factor_level;
+    link->levels = (uint8_t)(terms->form_factor_level | terms->visibility_level << 4);
+    link->mark = terms->mark_level ? (uint8_t)terms->mark : 0;
     link->visibility = (uint16_t)(terms->visibility * LINK_VISIBLE + 0.5);
     if (link->visibility == 0 && terms->visibility > 0)
         link->visibility = 1;
     if (link->visibility == LINK_VISIBLE && terms->visibility < 1)
         link->visibility = LINK_VISIBLE - 1; /* all and none stay what rays found, not what rounding makes */
-    link->visibility_level = terms->visibility_level;
 }
 
 void link_recall(const struct link *link, struct terms *terms)
 {
     memset(terms, 0, sizeof *terms);
     terms->form_factor = (double)link->form_factor;
-    terms->form_factor_level = link->form_factor_level;
+    terms->form_factor_level = link->levels & 15;
     terms->visibility = link->visibility * (1.0 / LINK_VISIBLE);
-    terms->visibility_level = link->visibility_level;
+    terms->visibility_level = (unsigned char)(link->levels >> 4);
 }
 
 /* Room for `need` items of `size` bytes in *list. Returns 0, or -1 when there is none. */
@@ -100,71 +100,96 @@ static void discuss_round(struct refinement *r, int count)
             continue;
         if (o->decision[0] == DECISION_LINK) {
             back.visibility = o->link[0].visibility;
-            back.visibility_level = o->link[0].visibility_level;
+            back.levels = o->link[0].levels & 0xf0;
         }
         o->link[1] = back;
         o->decision[1] = discuss(r, &o->link[1]);
     }
 }
 
-/* Queue the pairs of the children of one element, which is the receiver or else the emitter, with the
- * other. An element paired with itself gives the pairs of its children with each other and themselves. */
-static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split_receiver, int both)
+enum { SPLIT_RECEIVER = 1, SPLIT_EMITTER = 2 };
+
+/* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
+ * itself gives the pairs of its children with each other and themselves. */
+static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both)
 {
     struct hierarchy *h = r->hierarchy;
-    uint32_t split = split_receiver ? receiver : emitter, i, j;
-    const struct element *e;
+    const struct element *e, *f;
     struct pair *q;
-    if (hierarchy_split(h, split) < 0)
+    uint32_t i, j, from_i = receiver, to_i = receiver + 1, from_j = emitter, to_j = emitter + 1;
+    if (receiver == emitter)
+        split = SPLIT_RECEIVER | SPLIT_EMITTER;
+    if ((split & SPLIT_RECEIVER && hierarchy_split(h, receiver) < 0) || (split & SPLIT_EMITTER && hierarchy_split(h, emitter) < 0))
         return -1;
-    e = &h->elements[split];
-    if (grow(&r->queue, &r->queue_capacity, r->queue_count + (size_t)e->children * e->children, sizeof *q) < 0)
+    e = &h->elements[receiver];
+    f = &h->elements[emitter];
+    if (split & SPLIT_RECEIVER) {
+        from_i = e->child;
+        to_i = e->child + e->children;
+    }
+    if (split & SPLIT_EMITTER) {
+        from_j = f->child;
+        to_j = f->child + f->children;
+    }
+    if (grow(&r->queue, &r->queue_capacity, r->queue_count + (size_t)(to_i - from_i) * (to_j - from_j), sizeof *q) < 0)
         return -1;
     q = r->queue + r->queue_count;
-    for (i = e->child; i < e->child + e->children; i++) {
+    for (i = from_i; i < to_i; i++) {
         if (receiver != emitter) {
-            *q++ = (struct pair){ split_receiver ? i : receiver, split_receiver ? emitter : i, (uint32_t)both };
+            for (j = from_j; j < to_j; j++)
+                *q++ = (struct pair){ i, j, (uint32_t)both };
             continue;
         }
         *q++ = (struct pair){ i, i, 0 };
-        for (j = e->child; j < i; j++)
+        for (j = from_j; j < i; j++)
             *q++ = (struct pair){ i, j, 1 };
     }
     r->queue_count = (size_t)(q - r->queue);
     return 0;
 }
 
-/* Carry out one decision about (receiver, emitter). */
-static int carry_out(struct refinement *r, const struct link *link, enum decision decision)
+/* Which elements of the pair as it stands a decision splits; `turned`: it was taken the other way round. */
+static int splits(enum decision decision, int turned)
 {
-    r->decided[decision]++;
     switch (decision) {
-    case DECISION_LINK:
-        if (grow(&r->links, &r->link_capacity, r->link_count + 1, sizeof *link) < 0)
-            return -1;
-        r->links[r->link_count++] = *link;
-        return 0;
     case DECISION_SUBDIVIDE_RECEIVER:
-        return subdivide(r, link->receiver, link->emitter, 1, 0);
+        return turned ? SPLIT_EMITTER : SPLIT_RECEIVER;
     case DECISION_SUBDIVIDE_EMITTER:
-        return subdivide(r, link->receiver, link->emitter, 0, 0);
+        return turned ? SPLIT_RECEIVER : SPLIT_EMITTER;
+    case DECISION_SUBDIVIDE_BOTH:
+        return SPLIT_RECEIVER | SPLIT_EMITTER;
+    case DECISION_LINK:
     case DECISION_STOP:
         break;
     }
     return 0;
 }
 
-/* Carry out both decisions about a pair; when both split the same element, its children stay paired both ways. */
+/* Carry out one decision about (receiver, emitter). */
+static int carry_out(struct refinement *r, const struct link *link, enum decision decision)
+{
+    int split = splits(decision, 0);
+    r->decided[decision]++;
+    if (split)
+        return subdivide(r, link->receiver, link->emitter, split, 0);
+    if (decision == DECISION_STOP)
+        return 0;
+    if (grow(&r->links, &r->link_capacity, r->link_count + 1, sizeof *link) < 0)
+        return -1;
+    r->links[r->link_count++] = *link;
+    return 0;
+}
+
+/* Carry out both decisions about a pair; when both split the same elements, the children stay paired both ways. */
 static int carry_out_both(struct refinement *r, const struct outcome *o)
 {
     enum decision there = (enum decision)o->decision[0], back = (enum decision)o->decision[1];
-    int splits_receiver = there == DECISION_SUBDIVIDE_RECEIVER && back == DECISION_SUBDIVIDE_EMITTER;
-    int splits_emitter = there == DECISION_SUBDIVIDE_EMITTER && back == DECISION_SUBDIVIDE_RECEIVER;
-    if (!splits_receiver && !splits_emitter)
+    int split = splits(there, 0);
+    if (!split || split != splits(back, 1))
         return carry_out(r, &o->link[0], there) < 0 || carry_out(r, &o->link[1], back) < 0 ? -1 : 0;
     r->decided[there]++;
     r->decided[back]++;
-    return subdivide(r, o->link[0].receiver, o->link[0].emitter, splits_receiver, 1);
+    return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1);
 }
 
 static void end_round(struct refinement *r)
@@ -214,7 +239,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 #pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
         for (i = 0; i < count; i++) {
             struct outcome *o = &r->outcomes[i];
-                o->link[0] = links[i];
+            o->link[0] = links[i];
             o->decision[1] = !changed || changed[links[i].receiver] || changed[links[i].emitter];
             o->decision[0] = o->decision[1] ? discuss(r, &o->link[0]) : (unsigned char)DECISION_LINK;
         }
@@ -244,8 +269,11 @@ int refinement_sort(struct refinement *r)
         free(sorted);
         return -1;
     }
-    for (i = 0; i < r->link_count; i++)
+    memset(r->marked, 0, sizeof r->marked);
+    for (i = 0; i < r->link_count; i++) {
         first[r->links[i].receiver + 2]++;
+        r->marked[r->links[i].mark]++;
+    }
     for (i = 2; i < elements + 2; i++)
         first[i] += first[i - 1];
     for (i = 0; i < r->link_count; i++)

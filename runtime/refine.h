@@ -14,10 +14,11 @@ struct link {
     uint32_t receiver, emitter; /* elements */
     float form_factor;
     uint16_t visibility; /* in units of 1 / LINK_VISIBLE */
-    uint8_t form_factor_level, visibility_level;
+    uint8_t levels; /* of the two: form factor in the low four bits, visibility in the high ones */
+    uint8_t mark;   /* what a tool marked it with, 0: nothing (tools/mark.h) */
 };
 
-enum { LINK_VISIBLE = 1 << 14 };
+enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
 
 /* A pair of elements still to be discussed. */
 struct pair {
@@ -55,6 +56,7 @@ struct refinement {
 
     uint64_t pairs, rounds; /* discussions held, rounds gone */
     uint64_t decided[8];    /* how often each decision was taken */
+    uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
     int failed;             /* out of memory: the links are incomplete */
 };
 

@@ -9,15 +9,17 @@
 /* The most segments that one call of `occluded` is given. */
 enum { HOST_SEGMENTS = SEGMENTS_MAX };
 
-/* Makes a host of its callbacks. `totals` is called once, here, to fill in area, irradiance, ray_offset and
- * flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
+/* Makes a host of its callbacks. `totals` is called once, here, to fill in the scene's
+ * totals (area to importance), ray_offset and flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
  * To give them data of your own, let `host` be the first member of a structure of yours. */
 static inline void host_open(struct host *host,
                              uint64_t (*occluded)(const struct host *host, int count, const struct segment *segments),
                              void (*totals)(struct host *host))
 {
     host->occluded = occluded;
-    host->area = host->irradiance = host->ray_offset = host->flat = 0;
+    host->area = host->extent = host->exitance = host->irradiance = host->radiosity = 0;
+    host->importance = 1;
+    host->ray_offset = host->flat = 0;
     totals(host);
 }
 

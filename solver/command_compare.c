@@ -111,8 +111,8 @@ static void print_difference(const struct panel *p)
     for (i = 0; i < 2; i++) {
         printf("  %-4s %s", release_names[order[i ? f->release : 0]], decision_name(f->decision[i]));
         if (f->decision[i] == DECISION_LINK)
-            printf(", F = %.9g (level %d), V = %.9g (level %d)", (double)f->link[i].form_factor, f->link[i].form_factor_level,
-                   f->link[i].visibility / (double)LINK_VISIBLE, f->link[i].visibility_level);
+            printf(", F = %.9g (level %d), V = %.9g (level %d)", (double)f->link[i].form_factor, f->link[i].levels & 15,
+                   f->link[i].visibility / (double)LINK_VISIBLE, f->link[i].levels >> 4);
         printf("\n");
     }
 }

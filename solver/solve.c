@@ -192,6 +192,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     for (i = 0; i < scene->face_count; i++) {
         brightest[i] = largest(&s->exitance[(size_t)i * s->bands], s->bands);
         whitest[i] = largest(&s->reflectance[(size_t)i * s->bands], s->bands);
+        s->hierarchy.elements[s->hierarchy.face_element[i]].reflectance = whitest[i];
         for (k = 0; k < s->bands; k++)
             s->radiosity[(size_t)s->hierarchy.face_element[i] * s->bands + k] = s->exitance[(size_t)i * s->bands + k];
     }

@@ -166,6 +166,9 @@ enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR
 /* visible fraction of segments between the two elements' mutually facing parts */
 enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64 };
 
+/* what the graph marked the pair with, kept by its link; 0: nothing */
+enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
+
 /* Everything a tool calls is inlined into the flat release, so that its local discussion can
  * live in registers; what is too large for that takes elements, never the discussion. */
 #if defined __GNUC__
@@ -811,6 +814,8 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     struct refiner_discussion d = *discussion;
     d.terms.axis[0] = d.terms.axis[1] = d.terms.axis[2] = 0;
     d.terms.axis_level = REFINER_AXIS_ABSENT;
+    d.terms.mark = 0;
+    d.terms.mark_level = REFINER_MARK_ABSENT;
 
     switch (refiner_tool_clusters(&d)) {
     case REFINER_CLUSTERS_SURFACES:

@@ -19,7 +19,8 @@ enum refiner_decision {
     REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
     REFINER_DECISION_STOP, /* The pair exchanges no light worth keeping. */
     REFINER_DECISION_SUBDIVIDE_RECEIVER, /* Ask again for each child of the receiver. */
-    REFINER_DECISION_SUBDIVIDE_EMITTER /* Ask again for each child of the emitter. */
+    REFINER_DECISION_SUBDIVIDE_EMITTER, /* Ask again for each child of the emitter. */
+    REFINER_DECISION_SUBDIVIDE_BOTH /* Ask again for each child of the one with each child of the other. */
 };
 
 /* The data manager: every term and the level it is known at. All zero: nothing is known. */
@@ -27,9 +28,11 @@ struct refiner_terms {
     double axis[3]; /* m */
     double form_factor; /* a plain number */
     double visibility; /* a plain number */
+    int mark; /* a plain number */
     unsigned char axis_level; /* enum axis_level */
     unsigned char form_factor_level; /* enum form_factor_level */
     unsigned char visibility_level; /* enum visibility_level */
+    unsigned char mark_level; /* enum mark_level */
 };
 
 /* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the host.
@@ -53,6 +56,10 @@ struct refiner_element {
     double area;         /* m2; cluster: sum over its faces */
     double radius;       /* of the sphere around centre that holds the element (m) */
     double radiosity;    /* B, W/m2, largest band; cluster: area mean. Constant during a round */
+    double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
+    double reflectance;  /* rho, largest band; cluster: area mean */
+    double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
+    double allowance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     double cone;         /* cluster: cosine of the normal cone's half-angle, -1 for "any way" */
     double vertex[4][3]; /* surface: corners (m); cluster: [0] and [1] are the box's corners */
     uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
@@ -78,7 +85,11 @@ struct refiner_host {
      * segment i; bits from count on are 0. Called from many threads at once. */
     uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments);
     double area;       /* of all faces, m2 */
+    double extent;     /* longest side of the scene's box (m) */
+    double exitance;   /* the largest E, W/m2 */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
+    double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
+    double importance; /* the largest Y; 1 where no view asks */
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
 };
@@ -95,15 +106,17 @@ struct refiner_discussion {
 /* The most segments that one call of `occluded` is given. */
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
 
-/* Makes a host of its callbacks. `totals` is called once, here, to fill in area, irradiance, ray_offset and
- * flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
+/* Makes a host of its callbacks. `totals` is called once, here, to fill in the scene's
+ * totals (area to importance), ray_offset and flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
  * To give them data of your own, let `host` be the first member of a structure of yours. */
 static inline void refiner_host_open(struct refiner_host *host,
                              uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments),
                              void (*totals)(struct refiner_host *host))
 {
     host->occluded = occluded;
-    host->area = host->irradiance = host->ray_offset = host->flat = 0;
+    host->area = host->extent = host->exitance = host->irradiance = host->radiosity = 0;
+    host->importance = 1;
+    host->ray_offset = host->flat = 0;
     totals(host);
 }
 
