@@ -94,6 +94,8 @@ static const char *decision_name(enum decision d)
         return "subdivide_receiver";
     case DECISION_SUBDIVIDE_EMITTER:
         return "subdivide_emitter";
+    case DECISION_SUBDIVIDE_BOTH:
+        return "subdivide_both";
     }
     return "?";
 }
