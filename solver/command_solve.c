@@ -10,6 +10,8 @@
 #include "progress.h"
 #include "report.h"
 #include "solve.h"
+#include "statistics.h"
+#include "statistics_file.h"
 #include "summary.h"
 
 static double seconds(void)
@@ -54,6 +56,11 @@ int command_solve(const struct options *o, const struct scene *scene)
         refiner_close(refiner);
         return 1;
     }
+    if (o->statistics && refiner_count(refiner, o->threads) < 0) {
+        report_error(o->statistics, 0, "out of memory for the statistics");
+        refiner_close(refiner);
+        return 1;
+    }
     progress_start(&progress, o->quiet);
     if (solve_open(&s, scene, &how, &cause) < 0) {
         report_error(o->scene, 0, "%s", cause);
@@ -69,6 +76,8 @@ int command_solve(const struct options *o, const struct scene *scene)
         if (!s.converged && !o->quiet)
             report_warning(o->scene, 0, "not converged after %d sweeps: residual %.1e", s.sweeps, s.residual);
         status = write_outputs(o, &s) < 0;
+        if (o->statistics && statistics_write(o->statistics, refiner) < 0)
+            status = 1;
         if (o->json && json_file_write(o->json, summary_json(o, &s, refiner, seconds() - start)) < 0)
             status = 1;
         if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
