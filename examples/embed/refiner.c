@@ -161,13 +161,16 @@ enum refiner_form_factor_answer {
 enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 
 /* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
-enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
+enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
 enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64 };
 
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
+
+/* the least and the largest F(x) over the receiver's points x: over its corners and centre, or none lies outside */
+enum refiner_form_factor_range_level { REFINER_FORM_FACTOR_RANGE_ABSENT, REFINER_FORM_FACTOR_RANGE_SAMPLED, REFINER_FORM_FACTOR_RANGE_BOUNDED };
 
 /* Everything a tool calls is inlined into the flat release, so that its local discussion can
  * live in registers; what is too large for that takes elements, never the discussion. */
@@ -538,6 +541,40 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }
 
+/* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
+ *
+ * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i subtends at x,
+ * Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et al. 1989]. The polygon is
+ * clipped at the receiver's plane; a point behind the emitter's plane sees nothing of it: F = 0. Dimensionless.
+ * Fails: at the polygon's own edges F jumps; there the edge is left out. */
+
+/* The part of s that the receiver's plane leaves in view; no corners: nothing. */
+static inline void refiner_point_factor_clip(struct refiner_polygon *q, const struct refiner_element *r, const struct refiner_element *s)
+{
+    q->n = 0;
+    if (r->vertices && s->vertices)
+        refiner_polygon_clip(q, (const double (*)[3])s->vertex, s->vertices, r->centre, r->normal);
+}
+
+/* F from the point x of r to q, the clipped s. */
+static inline double refiner_point_factor_at(const double x[3], const struct refiner_element *r, const struct refiner_element *s,
+                                     const struct refiner_polygon *q)
+{
+    double f;
+    if (q->n == 0 || !(refiner_height3(x, s->centre, s->normal) > 0))
+        return 0;
+    f = refiner_polygon_factor_point(x, r->normal, q);
+    return f > 0 ? f < 1 ? f : 1 : 0;
+}
+
+/* F from the receiver's centre. */
+REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, const struct refiner_element *s)
+{
+    struct refiner_polygon q;
+    refiner_point_factor_clip(&q, r, s);
+    return refiner_point_factor_at(r->centre, r, s, &q);
+}
+
 /* form_factor.h - term: F_rs, the fraction of the light leaving r that would meet s if nothing
  * stood between, mean over r. Dimensionless, in [0, 1].
  *
@@ -546,6 +583,10 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
  *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
  *          polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the receiver's plane
+ *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5 % for unit squares at
+ *          right angles with a common edge, +33 % for parallel ones at half their side (tests/check_terms.c).
+ *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
  *          by a rule of as many points as the distance asks for; where they are nearer than their
@@ -575,9 +616,9 @@ REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum 
             if (refiner_dot3(axis, axis) < reach * reach)
                 level = REFINER_FORM_FACTOR_POLYGON;
         }
-        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC
-                                   ? refiner_form_factor_disc(d)
-                                   : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
+        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC    ? refiner_form_factor_disc(d)
+                               : level == REFINER_FORM_FACTOR_POINT ? refiner_point_factor(d->receiver, d->emitter)
+                                                            : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
         d->terms.form_factor_level = (unsigned char)level;
     }
     return d->terms.form_factor;
@@ -816,6 +857,8 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     d.terms.axis_level = REFINER_AXIS_ABSENT;
     d.terms.mark = 0;
     d.terms.mark_level = REFINER_MARK_ABSENT;
+    d.terms.form_factor_range[0] = d.terms.form_factor_range[1] = 0;
+    d.terms.form_factor_range_level = REFINER_FORM_FACTOR_RANGE_ABSENT;
 
     switch (refiner_tool_clusters(&d)) {
     case REFINER_CLUSTERS_SURFACES:
