@@ -169,6 +169,18 @@ enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_RA
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 
+/* least and largest distance between points of the two: of their centres, or no two points are outside */
+enum refiner_distance_level { REFINER_DISTANCE_ABSENT, REFINER_DISTANCE_CENTRE, REFINER_DISTANCE_BOUND };
+
+/* least and largest cosine between the receiver's normal and the direction to the emitter */
+enum refiner_receiver_cosine_level { REFINER_RECEIVER_COSINE_ABSENT, REFINER_RECEIVER_COSINE_CENTRE, REFINER_RECEIVER_COSINE_BOUND };
+
+/* least and largest cosine between the emitter's normal and the direction to the receiver */
+enum refiner_emitter_cosine_level { REFINER_EMITTER_COSINE_ABSENT, REFINER_EMITTER_COSINE_CENTRE, REFINER_EMITTER_COSINE_BOUND };
+
+/* of F(x) at the receiver's centre x, in space */
+enum refiner_gradient_level { REFINER_GRADIENT_ABSENT, REFINER_GRADIENT_PRESENT };
+
 /* the least and the largest F(x) over the receiver's points x: over its corners and centre, or none lies outside */
 enum refiner_form_factor_range_level { REFINER_FORM_FACTOR_RANGE_ABSENT, REFINER_FORM_FACTOR_RANGE_SAMPLED, REFINER_FORM_FACTOR_RANGE_BOUNDED };
 
@@ -238,6 +250,29 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
     return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
 }
 
+/* plane_side.h - how an element lies to another's support plane.
+ * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get an exact answer. */
+
+/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of the elements' corners. */
+static inline double refiner_plane_side_flat(const struct refiner_element *r, const struct refiner_element *s, const struct refiner_host *host)
+{
+    return host->flat + (1 / 65536.0) * (r->radius + s->radius);
+}
+
+/* The lowest and the highest signed distance of the surface e from the plane of the surface `plane` (m). */
+static inline void refiner_plane_side_heights(const struct refiner_element *e, const struct refiner_element *plane, double *low, double *high)
+{
+    int i;
+    *low = *high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
+    for (i = 1; i < e->vertices; i++) {
+        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
+        if (h < *low)
+            *low = h;
+        if (h > *high)
+            *high = h;
+    }
+}
+
 /* support_planes.h - question: how do two surfaces lie to each other's support planes?
  *
  * away when one has no part in front of the other: no light can pass. A corner nearer to a
@@ -248,22 +283,14 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 static inline int refiner_support_planes_side(const struct refiner_element *e, const struct refiner_element *plane, double flat)
 {
     double low, high;
-    int i;
-    low = high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    for (i = 1; i < e->vertices; i++) {
-        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
-        if (h < low)
-            low = h;
-        if (h > high)
-            high = h;
-    }
+    refiner_plane_side_heights(e, plane, &low, &high);
     return high <= flat ? -1 : low < -flat ? 0 : 1;
 }
 
 REFINER_TOOL enum refiner_support_planes_answer refiner_tool_support_planes(struct refiner_discussion *d)
 {
     const struct refiner_element *r = d->receiver, *s = d->emitter;
-    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double flat = refiner_plane_side_flat(r, s, d->host);
     int side_r, side_s;
     side_r = refiner_support_planes_side(r, s, flat);
     if (side_r < 0)
@@ -857,6 +884,14 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     d.terms.axis_level = REFINER_AXIS_ABSENT;
     d.terms.mark = 0;
     d.terms.mark_level = REFINER_MARK_ABSENT;
+    d.terms.distance[0] = d.terms.distance[1] = 0;
+    d.terms.distance_level = REFINER_DISTANCE_ABSENT;
+    d.terms.receiver_cosine[0] = d.terms.receiver_cosine[1] = 0;
+    d.terms.receiver_cosine_level = REFINER_RECEIVER_COSINE_ABSENT;
+    d.terms.emitter_cosine[0] = d.terms.emitter_cosine[1] = 0;
+    d.terms.emitter_cosine_level = REFINER_EMITTER_COSINE_ABSENT;
+    d.terms.gradient[0] = d.terms.gradient[1] = d.terms.gradient[2] = 0;
+    d.terms.gradient_level = REFINER_GRADIENT_ABSENT;
     d.terms.form_factor_range[0] = d.terms.form_factor_range[1] = 0;
     d.terms.form_factor_range_level = REFINER_FORM_FACTOR_RANGE_ABSENT;
 
