@@ -19,7 +19,8 @@ EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(wildcard $(1)/*.c)))
-ORACLES   = $(notdir $(basename $(wildcard examples/oracles/*.dag)))
+# common.dag holds what they share, and no oracle.
+ORACLES   = $(filter-out common,$(notdir $(basename $(wildcard examples/oracles/*.dag))))
 FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,runtime) $(BUILD)/gen/catalog.o
@@ -55,7 +56,7 @@ $(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
 $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-c -o $@ $<
-$(BUILD)/gen/oracles/%.c: examples/oracles/%.dag $(BUILD)/bin/dagc
+$(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(BUILD)/bin/dagc
 	@mkdir -p $(@D)
 	$(BUILD)/bin/dagc -o $@ --header $(@:.c=.h) $<
 $(BUILD)/gen/builtin.c: solver/builtin.sh $(wildcard examples/oracles/*.dag) dagc/embed.sh

@@ -122,7 +122,8 @@ struct need {
     const char *term_name, *level_name; /* level_name NULL: none was written */
     struct where where, level_where;
     int term;  /* in terms */
-    int level; /* 1 is the coarsest (or "present"); the enums of catalog.h count alike */
+    int level; /* 1 is the coarsest (or "present"), 0 `absent` (of decisions): what a path has is
+                  kept, but not asked for; the enums of catalog.h count alike */
 };
 
 /* A parameter of an oracle, of a branch, or of a tool. */

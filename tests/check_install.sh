@@ -51,7 +51,7 @@ version=$(dagc --version)
 
 # ---- a program with two refiners, one of them from a graph with an imported branch
 mkdir user
-cp "$top/examples/oracles/bf.dag" user
+cp "$top/examples/oracles/bf.dag" "$top/examples/oracles/common.dag" user
 cat >user/when_large.dag <<'END2'
 graph large(share : ratio = 0.05 in [0, inf]) exits (small precise, both precise) {
   start energy;
@@ -81,7 +81,7 @@ int main(void)
     struct own_parameters own;
     struct element receiver = { 0 }, emitter = { 0 };
     struct discussion d = { 0 };
-    const struct host host = { NULL, 1, 1, 0, 0 };
+    static const struct host host;
     bf_defaults(&bf);
     own_defaults(&own);
     d.receiver = &receiver;
