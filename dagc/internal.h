@@ -26,7 +26,7 @@ enum {
     SOURCE_MAX_LENGTH = 64 << 20,  /* so that every offset and index is an int */
     VECTOR_MAX_LENGTH = 16,
     BRANCH_DEPTH = 64,             /* branches within branches */
-    NODES_MAX = 1 << 20,           /* of one oracle, branches expanded */
+    NODES_MAX = 1 << 16,           /* of a file's oracles that use branches, these expanded */
     ANSWERS_MAX = 256              /* an answer's number fits a byte */
 };
 

@@ -261,7 +261,9 @@ hostile "an import of a folder" 'cannot import "folder": Is a directory'
 awk 'BEGIN { print "oracle t { start a; node a = g0() { x -> drop; } }"; for (i = 0; i < 100; i++) print "graph g" i "() exits (x) { start a; node a = g" i + 1 "() { x -> x; } }"; print "graph g100() exits (x) { start a; node a = look() { otherwise -> x; } }" }' >hostile.dag
 hostile "graphs 100 deep" 'nested more than 64 deep'
 awk 'BEGIN { print "oracle t { start a; node a = g0() { x -> drop; } }"; for (i = 0; i < 40; i++) print "graph g" i "() exits (x) { start a; node a = g" i + 1 "() { x -> b; } node b = g" i + 1 "() { x -> x; } }"; print "graph g40() exits (x) { start a; node a = look() { otherwise -> x; } }" }' >hostile.dag
-hostile "graphs that double 40 times" 'would have 1048576 nodes or more'
+hostile "graphs that double 40 times" 'would have 65536 nodes or more'
+awk 'BEGIN { print "oracle t { start a; node a = g0() { x -> drop; } }"; print "oracle u { start a; node a = g0() { x -> drop; } }"; for (i = 0; i < 15; i++) print "graph g" i "() exits (x) { start a; node a = g" i + 1 "() { x -> b; } node b = g" i + 1 "() { x -> x; } }"; print "graph g15() exits (x) { start a; node a = look() { otherwise -> x; } }" }' >hostile.dag
+hostile "oracles too large together" 'those before it have 32768, and 65536 are the most'
 awk 'BEGIN { print "oracle t { start a; node a = g0(v = 1) { x -> drop; } }"; for (i = 0; i < 40; i++) print "graph g" i "(v : flux in [0, inf]) exits (x) { start a; node a = g" i + 1 "(v = v + v) { x -> x; } }"; print "graph g40(v : flux in [0, inf]) exits (x) { start a; node a = weigh(share = 1, most = v) { otherwise -> x; } }" }' >hostile.dag
 hostile "an expression that doubles 40 times" 'more than 1000 parts'
 awk 'BEGIN { print "oracle t { start a; node a = g0() { x -> drop; } }"; for (i = 0; i < 50000; i++) print "graph g" i "() exits (x) { start a; node a = g" (i + 1) % 50000 "() { x -> x; } }" }' >hostile.dag
