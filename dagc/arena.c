@@ -18,7 +18,7 @@ struct block {
 
 enum { BLOCK_SIZE = 32 * 1024 };
 
-static NO_RETURN void out_of_memory(struct arena *arena)
+void dag_out_of_memory(struct arena *arena)
 {
     longjmp(arena->protector->jump, 1);
 }
@@ -32,7 +32,7 @@ void *dag_alloc(struct arena *arena, size_t size)
         size_t room = need > BLOCK_SIZE ? need : BLOCK_SIZE;
         block = malloc(sizeof *block + room);
         if (block == NULL)
-            out_of_memory(arena);
+            dag_out_of_memory(arena);
         block->used = 0;
         block->size = room;
         block->next = arena->blocks;

@@ -6,6 +6,7 @@
  * the header. Every name that is declared gets the prefix, so that the two files can be dropped into
  * any program, beside others of their kind.
  * SPDX-License-Identifier: MIT */
+#include <errno.h>
 #include <string.h>
 
 #include "c_items.h"
@@ -19,17 +20,22 @@ struct standalone {
     struct table seen;   /* headers that were included */
 };
 
-/* A header's text, in the arena: from the first folder that has it, else the built-in one. */
+/* A header's text, in the arena: from the first folder that has it, else the built-in one. It becomes
+ * a source: the outputs depend on it as on the graph (--depfile). */
 static const char *header_text(const struct standalone *s, const char *name)
 {
+    struct dag *dag = s->dag;
     for (int i = 0; i < s->options->folder_count; i++) {
-        struct input input = {0};
-        dag_input_open(&input, dag_format(&s->dag->arena, "%s/%s", s->options->folders[i], name));
-        const char *text = input.error != 0 || input.bytes == NULL
-                               ? NULL : dag_copy(&s->dag->arena, input.bytes, input.length);
+        struct input input;
+        dag_input_open(&input, dag_format(&dag->arena, "%s/%s", s->options->folders[i], name));
+        if (input.error != ENOENT && input.error != ENOTDIR) {
+            dag->reading = input.owned; /* should memory run out, dag_free frees it */
+            int source = dag_read(dag, &input);
+            dag->reading = NULL;
+            dag_input_close(&input);
+            return source < 0 ? "" : dag->sources[source].text;
+        }
         dag_input_close(&input);
-        if (text != NULL)
-            return text;
     }
     for (int i = 0; dagc_headers[i].name != NULL; i++)
         if (strcmp(dagc_headers[i].name, name) == 0)
@@ -37,21 +43,33 @@ static const char *header_text(const struct standalone *s, const char *name)
     return NULL;
 }
 
-static void include(struct c_items *items, const char *name, void *context)
+static void include(struct c_items *items, const char *name, void *context);
+
+/* Takes the header in, once; 0: there is none of this name. */
+static int take(struct standalone *s, struct c_items *items, const char *name)
 {
-    struct standalone *s = context;
     if (dag_put(&s->dag->arena, &s->seen, name, 1) >= 0)
-        return;
+        return 1;
     const char *text = strcmp(name, "catalog.h") == 0 ? s->catalog : header_text(s, name);
     if (text != NULL)
         dag_items_add(items, name, text, include, s);
-    else
+    return text != NULL;
+}
+
+static void include(struct c_items *items, const char *name, void *context)
+{
+    struct standalone *s = context;
+    if (!take(s, items, name))
         dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I", name);
 }
 
-/* The text in the arena; the buffer is freed. */
+/* The text in the arena; the buffer is freed. A text that was cut short must not go on. */
 static const char *settle(struct dag *dag, struct text *text)
 {
+    if (text->failed) {
+        dag_text_free(text);
+        dag_out_of_memory(&dag->arena);
+    }
     const char *copy = text->bytes == NULL ? "" : dag_copy(&dag->arena, text->bytes, text->length);
     dag_text_free(text);
     return copy;
@@ -77,8 +95,7 @@ static void collect(struct standalone *s, struct c_items *items)
 
     include(items, dag->runtime_header, s);
     include(items, "catalog.h", s);
-    if (header_text(s, "standalone.h") != NULL)
-        include(items, "standalone.h", s);
+    take(s, items, "standalone.h"); /* a runtime need not have one */
     for (int i = 0; i < dag->tool_count; i++)
         if (reached[i])
             include(items, dag->tools[i].header, s);

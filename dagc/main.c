@@ -165,7 +165,7 @@ int main(int count, char **arguments)
     job.folders = calloc((size_t)count, sizeof *job.folders);
     if (job.folders == NULL) {
         fprintf(stderr, "dagc: error: out of memory\n");
-        return 1;
+        return diff ? 2 : 1;
     }
     int status = diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
     if (status == 0)

@@ -292,55 +292,6 @@ catalog_of answers
 check "300 answers" fails_with 1 'a tool has at most' "$dagc" --emit=catalog-h many.dag
 check "a chain of 10,000 nodes" sh -c "awk 'BEGIN { print \"oracle t { start n0;\"; for (i = 0; i < 9999; i++) print \"node n\" i \" = look() { left -> n\" i + 1 \"; right -> n9999; neither -> drop; }\"; print \"node n9999 = look() { otherwise -> keep; } }\" }' | timeout 5 $run -o chain.c -"
 
-# ---- memory that runs out, wherever it does
-cat >malloc.c <<'END'
-#define _GNU_SOURCE
-#include <dlfcn.h>
-#include <errno.h>
-#include <stdlib.h>
-static long left = -2;
-static int fails(void)
-{
-    if (left == -2) {
-        const char *at = getenv("FAIL_AT");
-        left = at != NULL ? atol(at) : -1;
-    }
-    return left >= 0 && left-- == 0;
-}
-void *malloc(size_t size)
-{
-    static void *(*next)(size_t);
-    if (next == NULL)
-        *(void **)&next = dlsym(RTLD_NEXT, "malloc");
-    return fails() ? (errno = ENOMEM, NULL) : next(size);
-}
-void *realloc(void *old, size_t size)
-{
-    static void *(*next)(void *, size_t);
-    if (next == NULL)
-        *(void **)&next = dlsym(RTLD_NEXT, "realloc");
-    return fails() ? (errno = ENOMEM, NULL) : next(old, size);
-}
-END
-if cc -shared -fPIC -o malloc.so malloc.c 2>/dev/null && LD_PRELOAD=$tmp/malloc.so "$dagc" --version >/dev/null 2>&1; then
-    out_of_memory() {
-        old
-        for at in $(seq 0 200); do
-            FAIL_AT=$at LD_PRELOAD=$tmp/malloc.so $run -o old.c --header old.h good.dag >stdout 2>stderr
-            got=$?
-            if [ $got = 0 ]; then
-                grep -q dagc old.c && [ "$at" -gt 5 ] && return 0
-                old
-            elif [ $got != 1 ] || ! untouched; then
-                echo "malloc number $at: exit $got"
-                cat stderr
-                return 1
-            fi
-        done
-    }
-    check "out of memory" out_of_memory
-fi
-
 # ---- the text compiles, in C and in C++
 mkdir gen gen/tools gen/terms
 cp "$here"/runtime/*.h gen
