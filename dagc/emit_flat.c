@@ -20,6 +20,7 @@ struct flat {
     struct text *out;
     const struct oracle_graph *oracle;
     enum flavour flavour;
+    const unsigned char *terms; /* see emit_options; NULL: all */
     int parts;                 /* how many functions; 1: all is in one */
     const char *at, *of;       /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
     unsigned char *sure;       /* by term and order (place_of): its level on every path to the node */
@@ -346,7 +347,7 @@ static void print_absent(const struct flat *flat)
     for (int i = 0; i < dag->term_count; i++) {
         const struct term *term = &dag->terms[i];
         int length = dag->types[term->type].length;
-        if (dag_is_kept(dag, i))
+        if (dag_is_kept(dag, i) || (flat->terms != NULL && !flat->terms[i]))
             continue;
         dag_print(flat->out, "    ");
         for (int k = 0; length > 1 && k < length; k++)
@@ -479,9 +480,10 @@ int dag_emit_states_facts(struct dag *dag)
 }
 
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
-                   enum flavour flavour)
+                   enum flavour flavour, const struct emit_options *options)
 {
     struct flat flat = open_flat(dag, out, oracle, flavour);
+    flat.terms = options->terms;
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);
     dag_print(out, "\n");

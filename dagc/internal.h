@@ -175,6 +175,7 @@ struct emit_options {
     const char *prefix;          /* of every name in it; NULL: the first oracle's name */
     const char *const *folders;  /* -I: where headers are looked for before the built-in ones */
     int folder_count;
+    const unsigned char *terms;  /* by term: is it in struct terms? NULL: all are */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */
@@ -184,7 +185,7 @@ void dag_emit_dot(struct dag *dag, struct text *out);
 void dag_emit_json(struct dag *dag, struct text *out);
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
-void dag_emit_catalog_h(const struct dag *dag, struct text *out);
+void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms); /* terms: as above */
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 void dag_emit_stub(struct dag *dag, struct text *out, const char *name); /* a tool's or term's header */
 

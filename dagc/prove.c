@@ -225,7 +225,7 @@ static int write_sources(struct proof *proof)
         dag->terms[i].header = "tools.h";
     for (int i = 0; i < dag->fact_count; i++)
         dag->facts[i].c = dag_format(&dag->arena, "d->record->facts[%d]", i);
-    dag_emit_catalog_h(dag, &catalog);
+    dag_emit_catalog_h(dag, &catalog, NULL);
     print_discussion(dag, &discussion, proof->width);
     dag_print(&oracle, "%s", embedded("oracle.h"));
     dag_print(&tools, "/* all are in discussion.h */\n");

@@ -43,7 +43,7 @@ FILE *__wrap_fopen(const char *path, const char *mode)
 static void emit_catalog(struct dag *dag)
 {
     struct text out = {0};
-    dag_emit_catalog_h(dag, &out);
+    dag_emit_catalog_h(dag, &out, NULL);
     dag_emit_catalog_c(dag, &out);
     dag_emit_catalog_doc(dag, &out);
     for (int i = 0; i < dag->tool_count; i++)
@@ -55,8 +55,8 @@ static void emit_catalog(struct dag *dag)
 
 static void emit_oracles(struct dag *dag)
 {
-    static const struct emit_options plain, watched = {1, 1, 0, NULL, NULL, 0},
-                                     alone = {1, 1, 1, "p", folders, 2};
+    static const struct emit_options plain, watched = {1, 1, 0, NULL, NULL, 0, NULL},
+                                     alone = {1, 1, 1, "p", folders, 2, NULL};
     struct text out = {0}, header = {0};
     dag_fingerprint(dag);
     for (int pass = 0; pass < PASSES; pass++)
