@@ -291,6 +291,7 @@ struct oracle_graph {
     struct span order;      /* in order: the reachable nodes, topologically from start */
     uint64_t fingerprint;   /* of what the graph decides: same number, same decisions */
     int use;                /* of a branch, in uses: the first place that uses it; -1: none */
+    unsigned char placed;   /* of a branch: some oracle holds a copy of it */
     unsigned char branch;   /* it is one */
     unsigned char bad;      /* a part was lost to a syntax error: names may seem to be missing */
 };

@@ -226,6 +226,7 @@ static int copy_branch(struct expansion *x, int parent, int draft, const char *n
     const struct node *node = &dag->drafts[draft];
     struct use use = {node->branch, name, node->tool_where, x->instances[parent].use};
     int index = new_instance(x, &dag->branches[node->branch]);
+    dag->branches[node->branch].placed = 1;
     struct instance *instance = &x->instances[index];
     instance->parent = parent;
     instance->draft = draft;

@@ -150,6 +150,7 @@ done
 check "--dump=parse of a graph that is wrong later" status 0 $run --dump=parse wrong.dag
 check "--dump=check of a graph that is wrong" fails_with 1 'a cycle' $run --dump=check wrong.dag
 check "--dump=parse is read again" sh -c "$run --dump=parse good.dag >again.dag && $run --dump=parse again.dag | cmp - again.dag"
+check "--dump=parse of branches is read again" sh -c "$run --dump=parse '$here/dump_parse_branch.dag' >again.dag && $run --dump=parse again.dag | cmp - again.dag && $run again.dag | grep -q \"\$($run '$here/dump_parse_branch.dag' | grep -o 'graph .*')\""
 check "--dump=resolve compiles to the same graph" sh -c "$run --dump=resolve -o again.dag good.dag && $run again.dag | grep -q \"\$($run good.dag | grep -o 'graph .*')\""
 check "--emit=catalog" sh -c "$dagc --emit=catalog catalog.dag | grep -q '^### weigh(most, share)'"
 if command -v dot >/dev/null; then
@@ -175,6 +176,9 @@ printf 'all: o\\ $$.c\ninclude dep.d\no\\ $$.c:\n\techo made\n' >dep.mk
 check "make reads odd names" sh -c 'rm -f o\ *; make -s -f dep.mk | grep -q made && touch "o \$.c" && [ -z "$(make -s -f dep.mk | grep made)" ] && sleep 0.1 && touch "a b#\$.dag" && make -s -f dep.mk | grep -q made'
 check "--depfile under the standard catalog" sh -c "$dagc -o dep.c --depfile dep.d small.dag && [ \"\$(cat dep.d)\" = 'dep.c: small.dag' ]"
 check "--depfile with --emit=none" sh -c "rm -f dep.c; $dagc --emit=none -o dep.c --depfile dep.d small.dag && [ ! -e dep.c ] && [ -s dep.d ]"
+check "--depfile with --standalone" status 0 $run --standalone -I none -I "$here/runtime" -o dep.c --header dep.h --depfile dep.d good.dag
+check "--depfile lists the headers that -I found" sh -c "grep -q '^dep.c dep.h: catalog.dag good.dag .*$here/runtime/discussion.h.* $here/runtime/tools/look.h' dep.d && grep -q '^$here/runtime/tools/look.h:' dep.d"
+check "--depfile names no header twice" [ "$(head -n 1 dep.d | tr ' ' '\n' | sort | uniq -d)" = "" ]
 check "--depfile is not written after an error" sh -c "rm -f dep.d; ! $run -o dep.c --depfile dep.d wrong.dag && [ ! -e dep.d ]"
 
 # ---- size: 10,000 nodes that share subgraphs and questions, with every analysis
