@@ -155,6 +155,10 @@ static void print_branch(const struct listing *listing, const struct oracle_grap
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass)
 {
     struct listing listing = {dag, out, pass, NULL, NULL, NULL};
+    if (pass == PASS_AVAILABILITY) {
+        dag_emit_availability(dag, out);
+        return;
+    }
     for (int i = 0; i < dag->branch_count && pass == PASS_PARSE; i++)
         print_branch(&listing, &dag->branches[i]);
     for (int i = 0; i < dag->oracle_count; i++) {

@@ -184,6 +184,7 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, c
 void dag_emit_dot(struct dag *dag, struct text *out);
 void dag_emit_json(struct dag *dag, struct text *out);
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
+void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availability */
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
 void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms); /* terms: as above */
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);

@@ -102,7 +102,7 @@ static void passes(struct dag *dag, void *context)
         if (stops(dag, job, PASS_CHECK))
             return;
         dag_analyse(dag);
-        if (stops(dag, job, PASS_ANALYSE))
+        if (stops(dag, job, PASS_ANALYSE) || stops(dag, job, PASS_AVAILABILITY))
             return;
     }
     dag_fingerprint(dag);

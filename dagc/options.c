@@ -99,10 +99,10 @@ static void print_option(int option)
              *value == '+' ? value + 1 : value);
     printf("  %-15s %s\n", left, options[option].help);
     for (int i = 0; option == OPTION_EMIT && i < EMITS; i++)
-        printf("                  %-10s %s%s\n", emits[i].name,
+        printf("                  %-12s %s%s\n", emits[i].name,
                emits[i].source == SOURCE_CATALOG ? "FILE.dag is a catalog: " : "", emits[i].says);
     for (int i = 0; option == OPTION_DUMP && i < PASSES; i++)
-        printf("                  %-10s %s\n", passes[i].name, passes[i].says);
+        printf("                  %-12s %s\n", passes[i].name, passes[i].says);
 }
 
 static void print_help(void)
