@@ -204,6 +204,9 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_TRACE:
         job->c.traced = 1;
         return -1;
+    case OPTION_LINES:
+        job->c.lines = 1;
+        return -1;
     case OPTION_STANDALONE:
         job->c.standalone = 1;
         return -1;
@@ -321,9 +324,9 @@ static const char *contradiction(const struct job *job)
         return "the source and the catalog cannot both be standard input";
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
-    if ((job->c.counted || job->c.traced || job->c.standalone || job->prove) &&
+    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove) &&
         (job->emit != EMIT_C || job->stop != PASSES))
-        return "--instrument, --trace, --standalone and --prove belong to C text";
+        return "--instrument, --trace, --lines, --standalone and --prove belong to C text";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
         return "--prove writes nothing";
     if (job->c.standalone && header == NULL)
