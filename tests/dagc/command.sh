@@ -108,6 +108,20 @@ for name in $names; do
     check "a case of -W$name" grep -qE "^#\\| .*\[-W(error=)?$name\]" "$here"/*.dag
     check "a case without -W$name" status 0 "$dagc" -Wno-$name -Wno-error=missing-term --version
 done
+# The golden file that shows a warning, with the switch behind its own arguments.
+switched() { # NAME SWITCHES STATUS PATTERN: the status ("": any), and what is said ("": not a word of NAME)
+    file=$(cd "$here" && grep -lE "^#\| .*(warning|error): .*\[-W(error=)?$1\]" ./*.dag | head -n 1)
+    arguments=$(sed -n 's/^# run: //p' "$here/$file" | sed "s|FILE|$file|")
+    (cd "$here" && exec "$dagc" $arguments $2) >stdout 2>stderr
+    got=$?
+    [ -z "$3" ] || [ $got = "$3" ] || { echo "exit $got, not $3"; return 1; }
+    if [ -n "$4" ]; then grep -qE "$4" stderr; else ! grep -qE "\[-W(error=)?$1\]" stderr; fi
+}
+for name in $names; do
+    check "-Werror=$name" switched $name -Werror=$name 1 "error: .*\[-W(error=)?$name\]"
+    check "-Wno-$name" switched $name -Wno-$name 0 ""
+    check "-Wno-error=$name" switched $name "-Werror -W$name -Wno-error=$name" "" "warning: .*\[-W$name\]"
+done
 check "warnings leave status 0" status 0 "$dagc" --catalog "$here/analysis_catalog.dag" --emit=none "$here/warn_twin_answers.dag"
 old
 check "-Werror" fails_with 1 'error: no path' "$dagc" -Werror --catalog catalog.dag -o old.c --header old.h good.dag
@@ -143,6 +157,9 @@ END
     check "odd characters in JSON" sh -c "$run --emit=json odd.dag | python3 -m json.tool"
     check "the catalog's tools in JSON" sh -c "python3 -c 'import json; g = json.load(open(\"good.json\")); assert [t[\"name\"] for t in g[\"catalog\"][\"tools\"]] == [\"look\", \"weigh\", \"tally\", \"measure\"]; assert len(g[\"oracles\"][0][\"nodes\"]) == 5'"
 fi
+check "--lines" sh -c "$run --lines '$here/emit_branch.dag' | grep -qF '/* emit_branch.dag:5, used at emit_branch.dag:10, used at emit_branch.dag:17 */'"
+check "no --lines" sh -c "! $run '$here/emit_branch.dag' | grep -qF 'emit_branch.dag:5'"
+check "--lines belong to C" status 2 $run --lines --emit=dot good.dag
 check "--emit=text is --dump=analyse" sh -c "$run --emit=text good.dag >a.txt && $run --dump=analyse good.dag | cmp - a.txt"
 for pass in parse resolve check; do
     check "--dump=$pass" sh -c "$run --dump=$pass good.dag | grep -q 'node a = look()'"
@@ -197,6 +214,10 @@ seconds() { # COMMAND...: how long it takes, in hundredths
 taken=$(seconds "$dagc" -Wall --catalog "$here/analysis_catalog.dag" -o big.c big.dag)
 check "10,000 nodes with all analyses in ${taken}0 ms" [ "$taken" -lt "${DAGC_BIG_LIMIT:-100}" ]
 check "10,000 nodes compile" [ -s big.c ]
+for what in --emit=dot --emit=json --emit=text --dump=parse --dump=availability "--lines --instrument --trace"; do
+    taken=$(seconds "$dagc" -Wno-all $what --catalog "$here/analysis_catalog.dag" -o big.out big.dag)
+    check "10,000 nodes, $what, in ${taken}0 ms" [ "$taken" -lt "${DAGC_BIG_LIMIT:-100}" ]
+done
 # ---- imports
 mkdir -p library sub/library
 cat >library/way.dag <<'END'
