@@ -25,11 +25,16 @@ static void print_doc(struct text *out, const char *doc)
 
 static void print_needs(struct dag *dag, struct text *out, const char *what, struct span needs)
 {
+    const char *gap = " ";
     if (needs.count == 0)
         return;
-    dag_print(out, "%s ", what);
-    for (int i = 0; i < needs.count; i++)
-        dag_print(out, "%s`%s`", i > 0 ? ", " : "", dag_need_text(dag, &dag->needs[needs.first + i]));
+    dag_print(out, "%s", what);
+    for (int i = needs.first; i < needs.first + needs.count; i++) {
+        const struct need *need = &dag->needs[i];
+        dag_print(out, need->level > 0 ? "%s`%s`" : "%s`%s` where it is known", gap,
+                  need->level > 0 ? dag_need_text(dag, need) : dag->terms[need->term].name);
+        gap = ", ";
+    }
     dag_print(out, ".\n\n");
 }
 

@@ -92,7 +92,7 @@ void options_print_study_help(FILE *out)
 void options_print_help(FILE *out)
 {
     fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
-          "       radiosity compare SCENE [options]      run an oracle's three releases side by side\n"
+          "       radiosity compare SCENE [options]      run an oracle's releases side by side\n"
           "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
           "       radiosity study stability|visibility   where methods fail, and by how much; `radiosity study --help`\n"
           "       radiosity oracles                      list the built-in oracles and their parameters\n"
