@@ -121,7 +121,7 @@ if have pkg-config; then
     check "cc" cc $flags -o program main.c bf.c own.c $(pkg-config --cflags --libs dagc)
     check "the program" is "bf own 1" ./program
     # A tool, a term and so a catalog.h of one's own.
-    cp "$top/examples/user_tool/"*.dag "$top/examples/user_tool/gap.h" "$top/examples/user_tool/near.h" .
+    cp "$top/examples/user_tool/"*.dag "$top/examples/user_tool/gap.h" "$top/examples/user_tool/beside.h" .
     check "catalog.h" dagc --emit=catalog-h -o catalog.h catalog.dag
     check "dagc near_first" dagc -o near_first.c --header near_first.h near_first.dag
     # shellcheck disable=SC2046,SC2086
