@@ -190,13 +190,13 @@ void dag_resolve_catalog(struct dag *dag)
     dag->resolved.facts = dag->fact_count;
     dag->resolved.callbacks = dag->callback_count;
     if (dag->runtime_header == NULL && dag->error_count == 0) {
-        struct where where = {dag->source_count - 1, 0, 0};
+        struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */
         dag_error(dag, where, "the catalog names no runtime");
         dag_note(dag, dag_nowhere, "add: runtime \"HEADER.h\" abi 1;  or, to extend the standard one: "
                                    "import standard;");
     }
     if (dag->decision_count == 0 && dag->error_count == 0) {
-        struct where where = {dag->source_count - 1, 0, 0};
+        struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */
         dag_error(dag, where, "the catalog declares no decision: no graph could end");
     }
 }

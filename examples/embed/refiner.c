@@ -51,7 +51,8 @@ struct refiner_polygon {
     double v[REFINER_POLYGON_MAX][3];
 };
 
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A polygon in the plane,
+ * whose corners lie on either side as rounding has it, may cross it more than twice: then what does not fit is left out. */
 static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
@@ -61,7 +62,7 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
     for (i = 0; i < n; i++) {
         const double *b = v[i];
         double g = refiner_height3(b, on, normal);
-        if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
+        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && count < REFINER_POLYGON_MAX) {
             double t = h / (h - g);
             out->v[count][0] = a[0] + t * (b[0] - a[0]);
             out->v[count][1] = a[1] + t * (b[1] - a[1]);
@@ -171,26 +172,8 @@ enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR
 /* visible fraction of segments between the two elements' mutually facing parts */
 enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
 
-/* sigma_V of the visibility as it is known: sqrt(v(1-v)/N), 1/N where all N rays agree, 0 when exact */
-enum refiner_visibility_error_level { REFINER_VISIBILITY_ERROR_ABSENT, REFINER_VISIBILITY_ERROR_PRESENT };
-
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
-
-/* least and largest distance between points of the two: of their centres, or no two points are outside */
-enum refiner_distance_level { REFINER_DISTANCE_ABSENT, REFINER_DISTANCE_CENTRE, REFINER_DISTANCE_BOUND };
-
-/* least and largest cosine between the receiver's normal and the direction to the emitter */
-enum refiner_receiver_cosine_level { REFINER_RECEIVER_COSINE_ABSENT, REFINER_RECEIVER_COSINE_CENTRE, REFINER_RECEIVER_COSINE_BOUND };
-
-/* least and largest cosine between the emitter's normal and the direction to the receiver */
-enum refiner_emitter_cosine_level { REFINER_EMITTER_COSINE_ABSENT, REFINER_EMITTER_COSINE_CENTRE, REFINER_EMITTER_COSINE_BOUND };
-
-/* of F(x) at the receiver's centre x, in space */
-enum refiner_gradient_level { REFINER_GRADIENT_ABSENT, REFINER_GRADIENT_PRESENT };
-
-/* the least and the largest F(x) over the receiver's points x: over its corners and centre, or none lies outside */
-enum refiner_form_factor_range_level { REFINER_FORM_FACTOR_RANGE_ABSENT, REFINER_FORM_FACTOR_RANGE_SAMPLED, REFINER_FORM_FACTOR_RANGE_BOUNDED };
 
 /* Everything a tool calls is inlined into the flat release, so that its local discussion can
  * live in registers; what is too large for that takes elements, never the discussion. */
@@ -928,18 +911,6 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     struct refiner_discussion d = *discussion;
     d.terms.axis[0] = d.terms.axis[1] = d.terms.axis[2] = 0;
     d.terms.axis_level = REFINER_AXIS_ABSENT;
-    d.terms.visibility_error = 0;
-    d.terms.visibility_error_level = REFINER_VISIBILITY_ERROR_ABSENT;
-    d.terms.distance[0] = d.terms.distance[1] = 0;
-    d.terms.distance_level = REFINER_DISTANCE_ABSENT;
-    d.terms.receiver_cosine[0] = d.terms.receiver_cosine[1] = 0;
-    d.terms.receiver_cosine_level = REFINER_RECEIVER_COSINE_ABSENT;
-    d.terms.emitter_cosine[0] = d.terms.emitter_cosine[1] = 0;
-    d.terms.emitter_cosine_level = REFINER_EMITTER_COSINE_ABSENT;
-    d.terms.gradient[0] = d.terms.gradient[1] = d.terms.gradient[2] = 0;
-    d.terms.gradient_level = REFINER_GRADIENT_ABSENT;
-    d.terms.form_factor_range[0] = d.terms.form_factor_range[1] = 0;
-    d.terms.form_factor_range_level = REFINER_FORM_FACTOR_RANGE_ABSENT;
 
     switch (refiner_tool_clusters(&d)) {
     case REFINER_CLUSTERS_SURFACES:
