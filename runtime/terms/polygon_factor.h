@@ -1,13 +1,15 @@
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
- * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
+ * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c), but for strips near
+ * each other, some hundred times as long as wide: 4e-3 (contour_factor.h does not have that, only the exact level uses it).
  * Source of the formulas: form_factor.h.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_POLYGON_FACTOR_H
 #define TERM_POLYGON_FACTOR_H
 
 #include "discussion.h"
+#include "terms/contour_factor.h"
 
 #define POLYGON_FACTOR_PI 3.14159265358979323846
 
@@ -16,7 +18,7 @@
 #define POLYGON_FACTOR_MIDDLE 8.0
 #define POLYGON_FACTOR_FAR 60.0
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
-#define POLYGON_FACTOR_EXACT 20.0
+#define POLYGON_FACTOR_EXACT 60.0
 
 /* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
  * wholly in front of p and faces it. [Lambert's formula] */
@@ -37,61 +39,6 @@ static inline double polygon_factor_point(const double p[3], const double n[3], 
         a[2] = b[2];
     }
     return sum * (-0.5 / POLYGON_FACTOR_PI);
-}
-
-/* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
-static inline double polygon_factor_line(const double p[3], const double a[3], const double u[3], double length)
-{
-    double w[3], c[3], x, h, y, z, sum;
-    sub3(w, p, a);
-    cross3(c, w, u);
-    x = dot3(w, u);
-    h = length3(c);
-    y = length - x;
-    z = y * y + h * h;
-    sum = -length;
-    if (z > 0)
-        sum += 0.5 * y * log(z);
-    z = x * x + h * h;
-    if (z > 0)
-        sum += 0.5 * x * log(z);
-    if (h > 0)
-        sum += h * (atan(y / h) + atan(x / h));
-    return sum;
-}
-
-/* The outer integral of one edge (from p, along e) against one edge (a, u, length), adaptive:
- * a five-point Gauss rule over the whole against itself over both halves. */
-struct polygon_factor_edge {
-    const double *p, *a;
-    double e[3], u[3], length;
-};
-
-static inline double polygon_factor_gauss(const struct polygon_factor_edge *g, double from, double to)
-{
-    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
-    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
-    double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    int i;
-    for (i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
-        p[0] = g->p[0] + s * g->e[0];
-        p[1] = g->p[1] + s * g->e[1];
-        p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i < 0 ? -i : i] * polygon_factor_line(p, g->a, g->u, g->length);
-    }
-    return sum * half;
-}
-
-static inline double polygon_factor_adapt(const struct polygon_factor_edge *g, double from, double to,
-                                          double whole, double tolerance, int depth)
-{
-    double middle = 0.5 * (from + to);
-    double left = polygon_factor_gauss(g, from, middle), right = polygon_factor_gauss(g, middle, to);
-    if (depth == 0 || fabs(left + right - whole) <= tolerance)
-        return left + right;
-    return polygon_factor_adapt(g, from, middle, left, tolerance, depth - 1)
-         + polygon_factor_adapt(g, middle, to, right, tolerance, depth - 1);
 }
 
 /* Multiply a polygon's corners by a power of two. */
@@ -118,7 +65,7 @@ OUTLINE double polygon_factor_contour(const struct polygon *p, const struct poly
         le = length3(e);
         for (j = 0; j < q->n; j++) {
             const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            struct polygon_factor_edge g;
+            struct contour_factor_edge g;
             double f[3], lf, aligned;
             sub3(f, q1, q0);
             lf = length3(f);
@@ -133,7 +80,7 @@ OUTLINE double polygon_factor_contour(const struct polygon *p, const struct poly
                 g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
             }
             sum += aligned / g.length
-                 * polygon_factor_adapt(&g, 0, 1, polygon_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
+                 * contour_factor_adapt(&g, 0, 1, contour_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
         }
     }
     return sum * (0.5 / POLYGON_FACTOR_PI);
@@ -207,7 +154,7 @@ static inline double polygon_factor_rule(const struct polygon *p, const double n
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius)
+static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area, int exact)
 {
     double up, down;
     int e;
@@ -216,7 +163,7 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
     down = 1 / up;
     polygon_factor_scale(p, down);
     polygon_factor_scale(q, down);
-    return polygon_factor_contour(p, q) * up * up;
+    return (exact ? contour_factor(p, q, area * down * down) : polygon_factor_contour(p, q)) * up * up;
 }
 
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
@@ -241,7 +188,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
     if (exact)
         exchange = distance > POLYGON_FACTOR_EXACT * small->radius ? polygon_factor_rule(&p, small->normal, &q, 2)
-                                                                   : polygon_factor_contour_at(&p, &q, large->radius);
+                                                                   : polygon_factor_contour_at(&p, &q, large->radius, r->area < s->area ? r->area : s->area, 1);
     else if (distance > POLYGON_FACTOR_FAR * small->radius)
         exchange = polygon_factor_rule(&p, small->normal, &q, 0);
     else if (distance > POLYGON_FACTOR_MIDDLE * small->radius)
@@ -249,7 +196,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     else if (distance > POLYGON_FACTOR_NEAR * small->radius)
         exchange = polygon_factor_rule(&p, small->normal, &q, 2);
     else
-        exchange = polygon_factor_contour_at(&p, &q, large->radius);
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, 0, 0);
     exchange /= r->area;
     return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }
