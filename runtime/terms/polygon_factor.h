@@ -1,8 +1,7 @@
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
- * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c), but for strips near
- * each other, some hundred times as long as wide: 4e-3 (contour_factor.h does not have that, only the exact level uses it).
+ * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
  * Source of the formulas: form_factor.h.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_POLYGON_FACTOR_H
@@ -50,40 +49,6 @@ static inline void polygon_factor_scale(struct polygon *p, double factor)
         p->v[i][1] *= factor;
         p->v[i][2] *= factor;
     }
-}
-
-/* A_p F_pq by the contour integral (m2). The shorter edge of each pair is the outer one: along it
- * the inner integral varies least. */
-OUTLINE double polygon_factor_contour(const struct polygon *p, const struct polygon *q)
-{
-    double sum = 0;
-    int i, j, k;
-    for (i = 0; i < p->n; i++) {
-        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
-        double e[3], le;
-        sub3(e, p1, p0);
-        le = length3(e);
-        for (j = 0; j < q->n; j++) {
-            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            struct contour_factor_edge g;
-            double f[3], lf, aligned;
-            sub3(f, q1, q0);
-            lf = length3(f);
-            aligned = dot3(e, f);
-            if (fabs(aligned) <= 1e-12 * le * lf)
-                continue;
-            g.p = le <= lf ? p0 : q0;
-            g.a = le <= lf ? q0 : p0;
-            g.length = le <= lf ? lf : le;
-            for (k = 0; k < 3; k++) {
-                g.e[k] = le <= lf ? e[k] : f[k];
-                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
-            }
-            sum += aligned / g.length
-                 * contour_factor_adapt(&g, 0, 1, contour_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
-        }
-    }
-    return sum * (0.5 / POLYGON_FACTOR_PI);
 }
 
 /* Integral over triangle abc with normal n of the factor to q (m2): 1, 3 or 6 points, exact to
@@ -154,7 +119,7 @@ static inline double polygon_factor_rule(const struct polygon *p, const double n
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area, int exact)
+static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area)
 {
     double up, down;
     int e;
@@ -163,7 +128,7 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
     down = 1 / up;
     polygon_factor_scale(p, down);
     polygon_factor_scale(q, down);
-    return (exact ? contour_factor(p, q, area * down * down) : polygon_factor_contour(p, q)) * up * up;
+    return contour_factor(p, q, area * down * down) * up * up;
 }
 
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
@@ -186,17 +151,12 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         return 0;
     if (distance < POLYGON_FACTOR_FAR * small->radius)
         distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
-    if (exact)
-        exchange = distance > POLYGON_FACTOR_EXACT * small->radius ? polygon_factor_rule(&p, small->normal, &q, 2)
-                                                                   : polygon_factor_contour_at(&p, &q, large->radius, r->area < s->area ? r->area : s->area, 1);
-    else if (distance > POLYGON_FACTOR_FAR * small->radius)
-        exchange = polygon_factor_rule(&p, small->normal, &q, 0);
-    else if (distance > POLYGON_FACTOR_MIDDLE * small->radius)
-        exchange = polygon_factor_rule(&p, small->normal, &q, 1);
-    else if (distance > POLYGON_FACTOR_NEAR * small->radius)
-        exchange = polygon_factor_rule(&p, small->normal, &q, 2);
+    if (distance <= (exact ? POLYGON_FACTOR_EXACT : POLYGON_FACTOR_NEAR) * small->radius)
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, r->area < s->area ? r->area : s->area);
     else
-        exchange = polygon_factor_contour_at(&p, &q, large->radius, 0, 0);
+        exchange = polygon_factor_rule(&p, small->normal, &q, exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
+                                                              : distance <= POLYGON_FACTOR_FAR * small->radius         ? 1
+                                                                                                                       : 0);
     exchange /= r->area;
     return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }
