@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "closed_forms.h"
+#include "hand.h"
 #include "make_pair.h"
 #include "oracles.h"
 #include "solve.h"
@@ -373,6 +374,7 @@ START_TEST(test_degenerate)
         { { 0, 0, 0 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 0, 0 } },       /* a roof on its edge */
         { { 0.5, 0.5, 1e-300 }, { 0.5, 0.6, 1e-300 }, { 0.6, 0.6, 1e-300 }, { 0.6, 0.5, 1e-300 } },
         { { 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 1 }, { 1, 0, 1 } },       /* a corner twice */
+        { { 0, 0, 1e-18 }, { 1, 0, -1e-18 }, { 1, 1, 1e-18 }, { 0, 1, -1e-18 } }, /* crosses the floor's plane four times */
         { { 0.25, 0.25, 0.5 }, { 0.25, 0.25 + 1e-12, 0.5 }, { 0.25 + 1e-12, 0.25 + 1e-12, 0.5 }, { 0.25 + 1e-12, 0.25, 0.5 } },
         { { -1e9, -1e9, 1 }, { -1e9, 1e9, 1 }, { 1e9, 1e9, 1 }, { 1e9, -1e9, 1 } },
     };
@@ -391,6 +393,14 @@ START_TEST(test_degenerate)
             for (k = 0; k < 4; k++)
                 ck_assert(said.f[k] >= 0 && said.f[k] <= 1);
             ck_assert(said.bounded[0] <= said.sampled[0] && said.sampled[1] <= said.bounded[1]);
+            if (j > i) {
+                struct discussion d = two_discussion(&t), e = d;
+                double there = t.a->area * term_form_factor(&d, FORM_FACTOR_CONTOUR), back;
+                e.receiver = t.b;
+                e.emitter = t.a;
+                back = t.b->area * term_form_factor(&e, FORM_FACTOR_CONTOUR);
+                ck_assert_msg(fabs(there - back) <= 1e-6 * there, "%d and %d: %g and %g m2", i, j, there, back);
+            }
             ck_assert(said.at_r[0] <= said.at_r[1] && said.at_s[0] <= said.at_s[1] && said.distance[0] <= said.distance[1]);
             two_close(&t);
         }
@@ -507,6 +517,14 @@ START_TEST(test_coplanar)
         ck_assert_int_eq(tool_coplanar(&d), COPLANAR_YES);
         ck_assert_int_eq(tool_support_planes(&d), SUPPORT_PLANES_AWAY);
         ck_assert_int_eq(tool_straddle(&d), STRADDLE_NONE);
+        for (k = FORM_FACTOR_POINT; k <= FORM_FACTOR_CONTOUR; k++) { /* by disc 1e-30 */
+            d = two_discussion(&t);
+            ck_assert(term_form_factor(&d, (enum form_factor_level)k) == 0);
+        }
+        ck_assert(hand_form_factor(t.a, t.b) == 0);
+        ck_assert(term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED)[1] == 0);
+        ck_assert(term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED)[1] == 0);
+        ck_assert(length3(term_gradient(&d)) == 0);
         oracle = oracles_open(oracles[i / 7], RELEASE_FLAT);
         ck_assert_ptr_nonnull(oracle);
         ck_assert_int_eq(solve_open(&s, &t.scene, &options, &cause), 0);

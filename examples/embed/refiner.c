@@ -51,7 +51,8 @@ struct refiner_polygon {
     double v[REFINER_POLYGON_MAX][3];
 };
 
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A quad that lies in the plane
+ * may cross it four times by rounding: then corners are left out. */
 static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
@@ -61,7 +62,7 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
     for (i = 0; i < n; i++) {
         const double *b = v[i];
         double g = refiner_height3(b, on, normal);
-        if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
+        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && count < REFINER_POLYGON_MAX) {
             double t = h / (h - g);
             out->v[count][0] = a[0] + t * (b[0] - a[0]);
             out->v[count][1] = a[1] + t * (b[1] - a[1]);
@@ -480,8 +481,7 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
- * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c), but for strips near
- * each other, some hundred times as long as wide: 4e-3 (contour_factor.h does not have that, only the exact level uses it).
+ * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
  * Source of the formulas: form_factor.h. */
 
 #define REFINER_POLYGON_FACTOR_PI 3.14159265358979323846
@@ -495,6 +495,11 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
 
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
 #define REFINER_POLYGON_FACTOR_EXACT 60.0
+
+/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
+#define REFINER_POLYGON_FACTOR_FAINT 1e-9
+
+#define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
  * wholly in front of p and faces it. [Lambert's formula] */
@@ -526,40 +531,6 @@ static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, doubl
         p->v[i][1] *= factor;
         p->v[i][2] *= factor;
     }
-}
-
-/* A_p F_pq by the contour integral (m2). The shorter edge of each pair is the outer one: along it
- * the inner integral varies least. */
-REFINER_OUTLINE double refiner_polygon_factor_contour(const struct refiner_polygon *p, const struct refiner_polygon *q)
-{
-    double sum = 0;
-    int i, j, k;
-    for (i = 0; i < p->n; i++) {
-        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
-        double e[3], le;
-        refiner_sub3(e, p1, p0);
-        le = refiner_length3(e);
-        for (j = 0; j < q->n; j++) {
-            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            struct refiner_contour_factor_edge g;
-            double f[3], lf, aligned;
-            refiner_sub3(f, q1, q0);
-            lf = refiner_length3(f);
-            aligned = refiner_dot3(e, f);
-            if (fabs(aligned) <= 1e-12 * le * lf)
-                continue;
-            g.p = le <= lf ? p0 : q0;
-            g.a = le <= lf ? q0 : p0;
-            g.length = le <= lf ? lf : le;
-            for (k = 0; k < 3; k++) {
-                g.e[k] = le <= lf ? e[k] : f[k];
-                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
-            }
-            sum += aligned / g.length
-                 * refiner_contour_factor_adapt(&g, 0, 1, refiner_contour_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
-        }
-    }
-    return sum * (0.5 / REFINER_POLYGON_FACTOR_PI);
 }
 
 /* Integral over triangle abc with normal n of the factor to q (m2): 1, 3 or 6 points, exact to
@@ -630,7 +601,7 @@ static inline double refiner_polygon_factor_rule(const struct refiner_polygon *p
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius, double area, int exact)
+static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius, double area)
 {
     double up, down;
     int e;
@@ -639,7 +610,38 @@ static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p
     down = 1 / up;
     refiner_polygon_factor_scale(p, down);
     refiner_polygon_factor_scale(q, down);
-    return (exact ? refiner_contour_factor(p, q, area * down * down) : refiner_polygon_factor_contour(p, q)) * up * up;
+    return refiner_contour_factor(p, q, area * down * down) * up * up;
+}
+
+/* The largest height of e's corners over the plane of `plane` (m). */
+static inline double refiner_polygon_factor_height(const struct refiner_element *e, const struct refiner_element *plane)
+{
+    double most = refiner_height3(e->vertex[0], plane->centre, plane->normal);
+    int i;
+    for (i = 1; i < e->vertices; i++) {
+        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
+        most = h > most ? h : most;
+    }
+    return most;
+}
+
+/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane, that F is 0, as for
+ * coplanar elements, not what sums of nothing leave. A plane is known the worse the narrower its element and the
+ * farther off the corner. */
+static inline int refiner_polygon_factor_hidden(const struct refiner_element *r, const struct refiner_element *s, double exchange)
+{
+    double away[3], reach, size, width = r->area / r->radius, flat;
+    int k;
+    if (!(exchange < REFINER_POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
+        return 0;
+    refiner_sub3(away, s->centre, r->centre);
+    reach = size = refiner_length3(away) + r->radius + s->radius;
+    for (k = 0; k < 3; k++)
+        size += fabs(r->centre[k]) + fabs(s->centre[k]);
+    if (s->area / s->radius < width)
+        width = s->area / s->radius;
+    flat = REFINER_POLYGON_FACTOR_FLAT * size * (1 + reach / width);
+    return refiner_polygon_factor_height(r, s) <= flat || refiner_polygon_factor_height(s, r) <= flat;
 }
 
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
@@ -648,7 +650,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct refiner_element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct refiner_polygon p, q;
-    double away[3], distance, exchange;
+    double away[3], distance, exchange, least;
     refiner_sub3(away, small->centre, large->centre);
     distance = refiner_length3(away) - large->radius;
     if (!exact && distance > REFINER_POLYGON_FACTOR_FAR * large->radius) {
@@ -662,19 +664,16 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
         return 0;
     if (distance < REFINER_POLYGON_FACTOR_FAR * small->radius)
         distance = refiner_polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
-    if (exact)
-        exchange = distance > REFINER_POLYGON_FACTOR_EXACT * small->radius ? refiner_polygon_factor_rule(&p, small->normal, &q, 2)
-                                                                   : refiner_polygon_factor_contour_at(&p, &q, large->radius, r->area < s->area ? r->area : s->area, 1);
-    else if (distance > REFINER_POLYGON_FACTOR_FAR * small->radius)
-        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, 0);
-    else if (distance > REFINER_POLYGON_FACTOR_MIDDLE * small->radius)
-        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, 1);
-    else if (distance > REFINER_POLYGON_FACTOR_NEAR * small->radius)
-        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, 2);
+    least = r->area < s->area ? r->area : s->area;
+    if (distance <= (exact ? REFINER_POLYGON_FACTOR_EXACT : REFINER_POLYGON_FACTOR_NEAR) * small->radius)
+        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least);
     else
-        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, 0, 0);
-    exchange /= r->area;
-    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
+        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, exact || distance <= REFINER_POLYGON_FACTOR_MIDDLE * small->radius ? 2
+                                                              : distance <= REFINER_POLYGON_FACTOR_FAR * small->radius         ? 1
+                                                                                                                       : 0);
+    if (!(exchange > 0) || refiner_polygon_factor_hidden(r, s, exchange))
+        return 0;
+    return (exchange < least ? exchange : least) / r->area;
 }
 
 /* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
@@ -707,8 +706,10 @@ static inline double refiner_point_factor_at(const double x[3], const struct ref
 REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, const struct refiner_element *s)
 {
     struct refiner_polygon q;
+    double f;
     refiner_point_factor_clip(&q, r, s);
-    return refiner_point_factor_at(r->centre, r, s, &q);
+    f = refiner_point_factor_at(r->centre, r, s, &q);
+    return q.n == 0 || refiner_polygon_factor_hidden(r, s, f * r->area) ? 0 : f;
 }
 
 /* form_factor.h - term: F_rs, the fraction of the light leaving r that would meet s if nothing
@@ -725,11 +726,11 @@ REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, con
  *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
- *          by a rule of as many points as the distance asks for; where they are nearer than their
- *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], its
- *          inner integral in closed form, the outer one adaptive. Relative error about 1e-5 or less,
- *          1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
- * contour  the same with the contour integral up to 20 sizes away, and nine or more points beyond. */
+ *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
+ *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
+ *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
+ *          4e-4 at the most (far pairs); 1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9. */
 
 REFINER_TOOL double refiner_form_factor_disc(struct refiner_discussion *d)
 {

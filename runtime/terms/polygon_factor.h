@@ -18,6 +18,9 @@
 #define POLYGON_FACTOR_FAR 60.0
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
 #define POLYGON_FACTOR_EXACT 60.0
+/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
+#define POLYGON_FACTOR_FAINT 1e-9
+#define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
  * wholly in front of p and faces it. [Lambert's formula] */
@@ -131,13 +134,44 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
     return contour_factor(p, q, area * down * down) * up * up;
 }
 
+/* The largest height of e's corners over the plane of `plane` (m). */
+static inline double polygon_factor_height(const struct element *e, const struct element *plane)
+{
+    double most = height3(e->vertex[0], plane->centre, plane->normal);
+    int i;
+    for (i = 1; i < e->vertices; i++) {
+        double h = height3(e->vertex[i], plane->centre, plane->normal);
+        most = h > most ? h : most;
+    }
+    return most;
+}
+
+/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane, that F is 0, as for
+ * coplanar elements, not what sums of nothing leave. A plane is known the worse the narrower its element and the
+ * farther off the corner. */
+static inline int polygon_factor_hidden(const struct element *r, const struct element *s, double exchange)
+{
+    double away[3], reach, size, width = r->area / r->radius, flat;
+    int k;
+    if (!(exchange < POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
+        return 0;
+    sub3(away, s->centre, r->centre);
+    reach = size = length3(away) + r->radius + s->radius;
+    for (k = 0; k < 3; k++)
+        size += fabs(r->centre[k]) + fabs(s->centre[k]);
+    if (s->area / s->radius < width)
+        width = s->area / s->radius;
+    flat = POLYGON_FACTOR_FLAT * size * (1 + reach / width);
+    return polygon_factor_height(r, s) <= flat || polygon_factor_height(s, r) <= flat;
+}
+
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
 OUTLINE double polygon_factor(const struct element *r, const struct element *s, int exact)
 {
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct polygon p, q;
-    double away[3], distance, exchange;
+    double away[3], distance, exchange, least;
     sub3(away, small->centre, large->centre);
     distance = length3(away) - large->radius;
     if (!exact && distance > POLYGON_FACTOR_FAR * large->radius) {
@@ -151,14 +185,16 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         return 0;
     if (distance < POLYGON_FACTOR_FAR * small->radius)
         distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
+    least = r->area < s->area ? r->area : s->area;
     if (distance <= (exact ? POLYGON_FACTOR_EXACT : POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = polygon_factor_contour_at(&p, &q, large->radius, r->area < s->area ? r->area : s->area);
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, least);
     else
         exchange = polygon_factor_rule(&p, small->normal, &q, exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
                                                               : distance <= POLYGON_FACTOR_FAR * small->radius         ? 1
                                                                                                                        : 0);
-    exchange /= r->area;
-    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
+    if (!(exchange > 0) || polygon_factor_hidden(r, s, exchange))
+        return 0;
+    return (exchange < least ? exchange : least) / r->area;
 }
 
 #endif

@@ -27,7 +27,7 @@ static void clip(poly *out, const struct element *e, const struct element *plane
     for (int i = 0; i < e->vertices; i++) {
         vec b = load(e->vertex[i]);
         double g = dot(n, minus(b, on));
-        if ((h > 0 && g < 0) || (h < 0 && g > 0))
+        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && out->n < 5)
             out->v[out->n++] = lerp(a, b, h / (h - g));
         if (g >= 0 && out->n < 5)
             out->v[out->n++] = b;
@@ -250,13 +250,32 @@ static double distance_to(vec p, const poly *q, vec normal)
     return inside ? fabs(dot(normal, minus(p, q->v[0]))) : sqrt(best);
 }
 
+static double highest(const struct element *e, const struct element *plane)
+{
+    vec on = load(plane->centre), n = load(plane->normal);
+    double most = -INFINITY;
+    for (int i = 0; i < e->vertices; i++)
+        most = fmax(most, dot(n, minus(load(e->vertex[i]), on)));
+    return most;
+}
+
+/* Coplanar to rounding, or one behind the other. */
+static int hidden(const struct element *r, const struct element *s)
+{
+    vec a = load(r->centre), b = load(s->centre);
+    double reach = norm(minus(b, a)) + r->radius + s->radius, width = fmin(s->area / s->radius, r->area / r->radius);
+    double size = reach + (fabs(a.x) + fabs(b.x)) + (fabs(a.y) + fabs(b.y)) + (fabs(a.z) + fabs(b.z));
+    double flat = 1 / 562949953421312.0 * size * (1 + reach / width);
+    return highest(r, s) <= flat || highest(s, r) <= flat;
+}
+
 double hand_form_factor(const struct element *r, const struct element *s)
 {
     int r_first = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct element *small = r_first ? r : s, *large = r_first ? s : r;
     vec centre = load(small->centre), n = load(small->normal), m = load(large->normal);
     vec away = minus(centre, load(large->centre));
-    double distance = norm(away) - large->radius, exchange;
+    double distance = norm(away) - large->radius, least = r->area < s->area ? r->area : s->area, exchange;
     poly p, q;
     if (distance > 60 * large->radius) {
         double c = -dot(n, away), k = dot(m, away), square = dot(away, away);
@@ -276,9 +295,10 @@ double hand_form_factor(const struct element *r, const struct element *s)
     else if (distance > 3 * small->radius)
         exchange = over(&p, n, &q, 2);
     else
-        exchange = contour_at_unit_size(&p, &q, large->radius, r->area < s->area ? r->area : s->area);
-    exchange /= r->area;
-    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
+        exchange = contour_at_unit_size(&p, &q, large->radius, least);
+    if (!(exchange > 0) || (exchange < 1e-9 * least && hidden(r, s)))
+        return 0;
+    return (exchange < least ? exchange : least) / r->area;
 }
 
 static uint64_t scramble(uint64_t x)
