@@ -67,16 +67,15 @@ struct segment {
 enum { SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 
 /* The convex hull of two surfaces: what light between them may cross (terms/shaft.h). */
-enum { SHAFT_PLANES = 22, SHAFT_POINTS = POLYGON_MAX + 1 };
+enum { SHAFT_PLANES = 28 };
 struct shaft {
     int planes;
     double normal[SHAFT_PLANES][3], offset[SHAFT_PLANES]; /* inside: normal . p <= offset, normals of length 1 */
-    double low[3], high[3];                               /* box around it, margin included (m) */
-    double margin;   /* what is so near to the hull counts as in it (m) */
-    double touch;    /* a plane that the hull crosses no deeper only touches it (m) */
-    double flat;     /* a quad that is bent more is two triangles (m) */
+    double low[3], high[3]; /* box around it, `reach` included (m) */
+    double reach;           /* what is farther from it does not meet it, whatever the tolerances (m) */
+    double margin, touch, slack, grow, flat; /* tolerances (m) */
     int points[2];   /* of the two ends: their corners, as far off the surface as rays start */
-    double end[2][SHAFT_POINTS][3], facing[2][3]; /* and their normals */
+    double end[2][POLYGON_MAX][3], facing[2][3]; /* and their normals */
 };
 
 /* The faces that may stand between the two elements of a pair, in ascending order. */

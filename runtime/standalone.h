@@ -4,7 +4,7 @@
  * Two are needed, those of host_open. The others may be left NULL; a graph that asks about shafts is
  * answered too_complex then, and extinction takes nothing away. To have them, set host.candidates and
  * host.corners (both or neither), and host.optical_depth, after host_open. candidates is given planes and a box: a face
- * may be left out when all its corners lie outside the box, or beyond one plane, normal . p > offset + margin;
+ * may be left out when all its corners lie outside the box, or beyond one plane, normal . p > offset + reach;
  * the refiner looks at the others more closely itself. Let discussion.blockers point at a structure that lives as long as the
  * discussion; with `known` 0 nothing is inherited, and BLOCKERS_INHERITED says that it holds the list of a pair of which
  * these two elements are parts.

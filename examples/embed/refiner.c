@@ -8,11 +8,6 @@
 
 #include <math.h>
 
-/* geometry.h - vectors, planes and clipped convex polygons, for tools and terms.
- *
- * Every expression here scales exactly: multiplying all coordinates by a power of two changes
- * no comparison and no dimensionless result by a single bit. */
-
 static inline double refiner_dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -42,14 +37,6 @@ static inline double refiner_height3(const double p[3], const double on[3], cons
 {
     return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
 }
-
-/* A quad cut by one plane has at most 5 corners. */
-enum { REFINER_POLYGON_MAX = 5 };
-
-struct refiner_polygon {
-    int n; /* 0, or 3 to POLYGON_MAX */
-    double v[REFINER_POLYGON_MAX][3];
-};
 
 /* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). */
 static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
@@ -168,6 +155,9 @@ enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_EX
 
 /* sigma_V of the visibility as it is known: sqrt(v(1-v)/N), 1/N where all N rays agree, 0 when exact */
 enum refiner_visibility_error_level { REFINER_VISIBILITY_ERROR_ABSENT, REFINER_VISIBILITY_ERROR_PRESENT };
+
+/* faces that may stand between the two; 9: too many to list */
+enum refiner_blockers_level { REFINER_BLOCKERS_ABSENT, REFINER_BLOCKERS_PRESENT };
 
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
@@ -847,6 +837,8 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     d.terms.axis_level = REFINER_AXIS_ABSENT;
     d.terms.visibility_error = 0;
     d.terms.visibility_error_level = REFINER_VISIBILITY_ERROR_ABSENT;
+    d.terms.blockers = 0;
+    d.terms.blockers_level = REFINER_BLOCKERS_ABSENT;
     d.terms.mark = 0;
     d.terms.mark_level = REFINER_MARK_ABSENT;
 

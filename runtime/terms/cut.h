@@ -8,7 +8,7 @@
 
 #include "discussion.h"
 
-enum { CUT_MAX = 32 };
+enum { CUT_MAX = 40 };
 
 struct cut {
     int n; /* 0: nothing is left */
