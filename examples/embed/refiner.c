@@ -159,6 +159,9 @@ enum refiner_visibility_error_level { REFINER_VISIBILITY_ERROR_ABSENT, REFINER_V
 /* faces that may stand between the two; 9: too many to list */
 enum refiner_blockers_level { REFINER_BLOCKERS_ABSENT, REFINER_BLOCKERS_PRESENT };
 
+/* the visibility by very many rays, or exact: what other answers are judged by */
+enum refiner_reference_level { REFINER_REFERENCE_ABSENT, REFINER_REFERENCE_PRESENT };
+
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 
@@ -839,6 +842,8 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     d.terms.visibility_error_level = REFINER_VISIBILITY_ERROR_ABSENT;
     d.terms.blockers = 0;
     d.terms.blockers_level = REFINER_BLOCKERS_ABSENT;
+    d.terms.reference = 0;
+    d.terms.reference_level = REFINER_REFERENCE_ABSENT;
     d.terms.mark = 0;
     d.terms.mark_level = REFINER_MARK_ABSENT;
 

@@ -43,12 +43,14 @@ struct refiner_terms {
     double visibility; /* a plain number */
     double visibility_error; /* a plain number */
     int blockers; /* a plain number */
+    double reference; /* a plain number */
     int mark; /* a plain number */
     unsigned char axis_level; /* enum axis_level */
     unsigned char form_factor_level; /* enum form_factor_level */
     unsigned char visibility_level; /* enum visibility_level */
     unsigned char visibility_error_level; /* enum visibility_error_level */
     unsigned char blockers_level; /* enum blockers_level */
+    unsigned char reference_level; /* enum reference_level */
     unsigned char mark_level; /* enum mark_level */
 };
 

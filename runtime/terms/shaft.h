@@ -119,7 +119,7 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
                              const struct host *host)
 {
     const struct element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
-    const double offset = host->ray_offset, deep = (r->depth + s->depth) * (1.0 / SHAFT_DEPTHS);
+    const double offset = host->ray_offset, deep = (r->depth + s->depth) * (1 / (double)SHAFT_DEPTHS);
     double under_r[3], under_s[3];
     struct polygon p, q;
     int end, i, k;

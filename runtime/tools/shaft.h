@@ -4,7 +4,8 @@
  * each other: both are true of every segment between them (terms/shaft.h proves it), and the visibility is then
  * known exactly, 1 or 0, so that no later tool casts a ray. uncertain: some face stands at the shaft's edge or in it, and
  * several together may hide all. too_complex: more than 8 do, or the elements are clusters, or the host has no
- * candidates. [Haines & Wallace 1994; Teller & Hanrahan 1993 for "visible" and "invisible"]
+ * candidates. Whatever the answer, tools/visibility.h may follow: it finds what is known and casts only what is not.
+ * [Haines & Wallace 1994; Teller & Hanrahan 1993 for "visible" and "invisible"]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_SHAFT_H
 #define TOOL_SHAFT_H
