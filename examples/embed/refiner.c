@@ -8,11 +8,6 @@
 
 #include <math.h>
 
-/* geometry.h - vectors, planes and clipped convex polygons, for tools and terms.
- *
- * Every expression here scales exactly: multiplying all coordinates by a power of two changes
- * no comparison and no dimensionless result by a single bit. */
-
 static inline double refiner_dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -43,16 +38,7 @@ static inline double refiner_height3(const double p[3], const double on[3], cons
     return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
 }
 
-/* A quad cut by one plane has at most 5 corners. */
-enum { REFINER_POLYGON_MAX = 5 };
-
-struct refiner_polygon {
-    int n; /* 0, or 3 to POLYGON_MAX */
-    double v[REFINER_POLYGON_MAX][3];
-};
-
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A quad that lies in the plane
- * may cross it four times by rounding: then corners are left out. */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). */
 static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
@@ -62,7 +48,7 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
     for (i = 0; i < n; i++) {
         const double *b = v[i];
         double g = refiner_height3(b, on, normal);
-        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && count < REFINER_POLYGON_MAX) {
+        if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
             double t = h / (h - g);
             out->v[count][0] = a[0] + t * (b[0] - a[0]);
             out->v[count][1] = a[1] + t * (b[1] - a[1]);
@@ -146,7 +132,7 @@ enum refiner_larger_answer {
     REFINER_LARGER_EMITTER /* precise */
 };
 
-/* Cast at least `rays` rays (4, 16 or 64) between the elements: how many arrive? */
+/* Cast at least `rays` rays (4, 16, 64, 256 or 1024) between the elements: how many arrive? */
 enum refiner_visibility_answer {
     REFINER_VISIBILITY_NONE, /* approximate */
     REFINER_VISIBILITY_PARTIAL, /* precise */
@@ -162,28 +148,22 @@ enum refiner_form_factor_answer {
 enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 
 /* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
-enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
+enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
-enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64 };
+enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
+
+/* sigma_V of the visibility as it is known: sqrt(v(1-v)/N), 1/N where all N rays agree, 0 when exact */
+enum refiner_visibility_error_level { REFINER_VISIBILITY_ERROR_ABSENT, REFINER_VISIBILITY_ERROR_PRESENT };
+
+/* faces that may stand between the two; 9: too many to list */
+enum refiner_blockers_level { REFINER_BLOCKERS_ABSENT, REFINER_BLOCKERS_PRESENT };
+
+/* the visibility by very many rays, or exact: what other answers are judged by */
+enum refiner_reference_level { REFINER_REFERENCE_ABSENT, REFINER_REFERENCE_PRESENT };
 
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
-
-/* least and largest distance between points of the two: of their centres, or no two points are outside */
-enum refiner_distance_level { REFINER_DISTANCE_ABSENT, REFINER_DISTANCE_CENTRE, REFINER_DISTANCE_BOUND };
-
-/* least and largest cosine between the receiver's normal and the direction to the emitter */
-enum refiner_receiver_cosine_level { REFINER_RECEIVER_COSINE_ABSENT, REFINER_RECEIVER_COSINE_CENTRE, REFINER_RECEIVER_COSINE_BOUND };
-
-/* least and largest cosine between the emitter's normal and the direction to the receiver */
-enum refiner_emitter_cosine_level { REFINER_EMITTER_COSINE_ABSENT, REFINER_EMITTER_COSINE_CENTRE, REFINER_EMITTER_COSINE_BOUND };
-
-/* of F(x) at the receiver's centre x, in space */
-enum refiner_gradient_level { REFINER_GRADIENT_ABSENT, REFINER_GRADIENT_PRESENT };
-
-/* the least and the largest F(x) over the receiver's points x: over its corners and centre, or none lies outside */
-enum refiner_form_factor_range_level { REFINER_FORM_FACTOR_RANGE_ABSENT, REFINER_FORM_FACTOR_RANGE_SAMPLED, REFINER_FORM_FACTOR_RANGE_BOUNDED };
 
 /* Everything a tool calls is inlined into the flat release, so that its local discussion can
  * live in registers; what is too large for that takes elements, never the discussion. */
@@ -251,29 +231,6 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
     return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
 }
 
-/* plane_side.h - how an element lies to another's support plane.
- * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get an exact answer. */
-
-/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of the elements' corners. */
-static inline double refiner_plane_side_flat(const struct refiner_element *r, const struct refiner_element *s, const struct refiner_host *host)
-{
-    return host->flat + (1 / 65536.0) * (r->radius + s->radius);
-}
-
-/* The lowest and the highest signed distance of the surface e from the plane of the surface `plane` (m). */
-static inline void refiner_plane_side_heights(const struct refiner_element *e, const struct refiner_element *plane, double *low, double *high)
-{
-    int i;
-    *low = *high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    for (i = 1; i < e->vertices; i++) {
-        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
-        if (h < *low)
-            *low = h;
-        if (h > *high)
-            *high = h;
-    }
-}
-
 /* support_planes.h - question: how do two surfaces lie to each other's support planes?
  *
  * away when one has no part in front of the other: no light can pass. A corner nearer to a
@@ -284,14 +241,22 @@ static inline void refiner_plane_side_heights(const struct refiner_element *e, c
 static inline int refiner_support_planes_side(const struct refiner_element *e, const struct refiner_element *plane, double flat)
 {
     double low, high;
-    refiner_plane_side_heights(e, plane, &low, &high);
+    int i;
+    low = high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
+    for (i = 1; i < e->vertices; i++) {
+        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
+        if (h < low)
+            low = h;
+        if (h > high)
+            high = h;
+    }
     return high <= flat ? -1 : low < -flat ? 0 : 1;
 }
 
 REFINER_TOOL enum refiner_support_planes_answer refiner_tool_support_planes(struct refiner_discussion *d)
 {
     const struct refiner_element *r = d->receiver, *s = d->emitter;
-    double flat = refiner_plane_side_flat(r, s, d->host);
+    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
     int side_r, side_s;
     side_r = refiner_support_planes_side(r, s, flat);
     if (side_r < 0)
@@ -315,169 +280,6 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
     return d->terms.axis;
 }
 
-/* contour_factor.h - the exchange area of two flat convex polygons by the double contour integral,
- *     A_p F_pq = (1 / 2 pi) sum over edges e of p, f of q of  e.f / |e||f|  int int ln |x - y| ds dt    (m2),
- * nothing between them, each wholly in front of the other. [Sparrow 1963]
- *
- * Of parallel edges the double integral is closed: with offset u along them and h across, differences of
- *     G(u) = (u^2 - h^2)/4 ln(u^2 + h^2) + u h atan(u/h) - 3/4 u^2.
- * Of others the inner integral is closed and the outer one adaptive: five Gauss points on the whole against five on
- * either half. The integrand is smooth but for the points of the outer edge that are nearest to the inner edge's ends
- * and to its line. The edge is cut there first; bisection then closes in on them as on the ends of an interval.
- *
- * Measured against closed forms (tests/check_closed_forms.c), parallel and perpendicular rectangles with sides and
- * distances from .01 to 100 at random: F is wrong by 3e-10 at the most; 1e-6 relative for slivers 1 : 10,000.
- * Fails: rounding costs as many digits as the ratio of the longest side to the shortest has: 2e-6 at 1 : 1,000,000.
- * Not Schroeder and Hanrahan's closed form of the whole [1993]: this is as exact as doubles let it be. */
-
-#define REFINER_CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
-
-/* Aimed at: error of F by one pair of edges. What rounding leaves of an integral of ln over a unit length. */
-#define REFINER_CONTOUR_FACTOR_ERROR 1e-11
-
-#define REFINER_CONTOUR_FACTOR_ROUNDING 2e-15
-
-enum { REFINER_CONTOUR_FACTOR_DEPTH = 40 };
-
-/* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
-static inline double refiner_contour_factor_line(const double p[3], const double a[3], const double u[3], double length)
-{
-    double w[3], c[3], x, h, y, z, sum;
-    refiner_sub3(w, p, a);
-    refiner_cross3(c, w, u);
-    x = refiner_dot3(w, u);
-    h = refiner_length3(c);
-    y = length - x;
-    z = y * y + h * h;
-    sum = -length;
-    if (z > 0)
-        sum += 0.5 * y * log(z);
-    z = x * x + h * h;
-    if (z > 0)
-        sum += 0.5 * x * log(z);
-    if (h > 0)
-        sum += h * (atan(y / h) + atan(x / h));
-    return sum;
-}
-
-/* An edge to integrate over (from p, along e) against another one (a, u, length). */
-struct refiner_contour_factor_edge {
-    const double *p, *a;
-    double e[3], u[3], length;
-};
-
-static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from, double to)
-{
-    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
-    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
-    double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    int i;
-    for (i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
-        p[0] = g->p[0] + s * g->e[0];
-        p[1] = g->p[1] + s * g->e[1];
-        p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i < 0 ? -i : i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
-    }
-    return sum * half;
-}
-
-static inline double refiner_contour_factor_adapt(const struct refiner_contour_factor_edge *g, double from, double to,
-                                          double whole, double tolerance, int depth)
-{
-    double middle = 0.5 * (from + to);
-    double left = refiner_contour_factor_gauss(g, from, middle), right = refiner_contour_factor_gauss(g, middle, to);
-    if (depth == 0 || fabs(left + right - whole) <= tolerance)
-        return left + right;
-    return refiner_contour_factor_adapt(g, from, middle, left, tolerance, depth - 1)
-         + refiner_contour_factor_adapt(g, middle, to, right, tolerance, depth - 1);
-}
-
-static inline double refiner_contour_factor_second(double u, double h)
-{
-    double z = u * u + h * h;
-    return (z > 0 ? 0.25 * (u * u - h * h) * log(z) : 0) + (h > 0 ? u * h * atan(u / h) : 0) - 0.75 * u * u;
-}
-
-/* int over the edge from p along e, 0 to 1, against the parallel edge (a, u, length). */
-static inline double refiner_contour_factor_parallel(const struct refiner_contour_factor_edge *g, double size)
-{
-    double w[3], c[3], along = refiner_dot3(g->e, g->u) > 0 ? size : -size, x, h;
-    refiner_sub3(w, g->p, g->a);
-    refiner_cross3(c, w, g->u);
-    h = refiner_length3(c);
-    x = refiner_dot3(w, g->u);
-    return (refiner_contour_factor_second(x + along, h) - refiner_contour_factor_second(x, h)
-            - refiner_contour_factor_second(x + along - g->length, h) + refiner_contour_factor_second(x - g->length, h)) / along;
-}
-
-/* int over the edge from p along e, 0 to 1, against the skew edge (a, u, length); `cross`: the square of the sine. */
-static inline double refiner_contour_factor_skew(const struct refiner_contour_factor_edge *g, double size, double cross, double tolerance)
-{
-    double at[5], w[3], sum = 0, eu = refiner_dot3(g->e, g->u), ew, swap;
-    int i, j;
-    refiner_sub3(w, g->a, g->p);
-    ew = refiner_dot3(w, g->e);
-    at[0] = 0;
-    at[1] = ew / (size * size);
-    at[2] = (ew + g->length * eu) / (size * size);
-    at[3] = (ew - eu * refiner_dot3(w, g->u)) / (size * size * cross);
-    at[4] = 1;
-    for (i = 1; i < 4; i++) {
-        at[i] = at[i] > 0 ? at[i] < 1 ? at[i] : 1 : 0;
-        for (j = i; j > 1 && at[j] < at[j - 1]; j--) {
-            swap = at[j];
-            at[j] = at[j - 1];
-            at[j - 1] = swap;
-        }
-    }
-    for (i = 0; i < 4; i++)
-        if (at[i + 1] > at[i])
-            sum += refiner_contour_factor_adapt(g, at[i], at[i + 1], refiner_contour_factor_gauss(g, at[i], at[i + 1]), tolerance,
-                                        REFINER_CONTOUR_FACTOR_DEPTH);
-    return sum;
-}
-
-/* A_p F_pq of polygons of a size about one; `area`: of the smaller. The shorter edge of each pair is the outer one: along it
- * the inner integral varies least. */
-REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, const struct refiner_polygon *q, double area)
-{
-    double sum = 0;
-    int i, j, k;
-    for (i = 0; i < p->n; i++) {
-        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
-        double e[3], le;
-        refiner_sub3(e, p1, p0);
-        le = refiner_length3(e);
-        for (j = 0; j < q->n; j++) {
-            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            struct refiner_contour_factor_edge g;
-            double f[3], c[3], lf, aligned, least, size, cross;
-            refiner_sub3(f, q1, q0);
-            lf = refiner_length3(f);
-            aligned = refiner_dot3(e, f);
-            if (!(fabs(aligned) > 1e-16 * le * lf))
-                continue;
-            g.p = le <= lf ? p0 : q0;
-            g.a = le <= lf ? q0 : p0;
-            g.length = le <= lf ? lf : le;
-            size = le <= lf ? le : lf;
-            for (k = 0; k < 3; k++) {
-                g.e[k] = le <= lf ? e[k] : f[k];
-                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
-            }
-            refiner_cross3(c, e, f);
-            cross = refiner_dot3(c, c) / (le * le * lf * lf);
-            least = REFINER_CONTOUR_FACTOR_ERROR * REFINER_CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
-            if (least < REFINER_CONTOUR_FACTOR_ROUNDING * g.length)
-                least = REFINER_CONTOUR_FACTOR_ROUNDING * g.length;
-            sum += aligned / g.length * (cross > 1e-26 ? refiner_contour_factor_skew(&g, size, cross, least)
-                                                       : refiner_contour_factor_parallel(&g, size));
-        }
-    }
-    return sum / REFINER_CONTOUR_FACTOR_TWO_PI;
-}
-
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
@@ -494,12 +296,7 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
 #define REFINER_POLYGON_FACTOR_FAR 60.0
 
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
-#define REFINER_POLYGON_FACTOR_EXACT 60.0
-
-/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
-#define REFINER_POLYGON_FACTOR_FAINT 1e-9
-
-#define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
+#define REFINER_POLYGON_FACTOR_EXACT 20.0
 
 /* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
  * wholly in front of p and faces it. [Lambert's formula] */
@@ -522,6 +319,61 @@ static inline double refiner_polygon_factor_point(const double p[3], const doubl
     return sum * (-0.5 / REFINER_POLYGON_FACTOR_PI);
 }
 
+/* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
+static inline double refiner_polygon_factor_line(const double p[3], const double a[3], const double u[3], double length)
+{
+    double w[3], c[3], x, h, y, z, sum;
+    refiner_sub3(w, p, a);
+    refiner_cross3(c, w, u);
+    x = refiner_dot3(w, u);
+    h = refiner_length3(c);
+    y = length - x;
+    z = y * y + h * h;
+    sum = -length;
+    if (z > 0)
+        sum += 0.5 * y * log(z);
+    z = x * x + h * h;
+    if (z > 0)
+        sum += 0.5 * x * log(z);
+    if (h > 0)
+        sum += h * (atan(y / h) + atan(x / h));
+    return sum;
+}
+
+/* The outer integral of one edge (from p, along e) against one edge (a, u, length), adaptive:
+ * a five-point Gauss rule over the whole against itself over both halves. */
+struct refiner_polygon_factor_edge {
+    const double *p, *a;
+    double e[3], u[3], length;
+};
+
+static inline double refiner_polygon_factor_gauss(const struct refiner_polygon_factor_edge *g, double from, double to)
+{
+    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
+    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
+    double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
+    int i;
+    for (i = -2; i <= 2; i++) {
+        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
+        p[0] = g->p[0] + s * g->e[0];
+        p[1] = g->p[1] + s * g->e[1];
+        p[2] = g->p[2] + s * g->e[2];
+        sum += weight[i < 0 ? -i : i] * refiner_polygon_factor_line(p, g->a, g->u, g->length);
+    }
+    return sum * half;
+}
+
+static inline double refiner_polygon_factor_adapt(const struct refiner_polygon_factor_edge *g, double from, double to,
+                                          double whole, double tolerance, int depth)
+{
+    double middle = 0.5 * (from + to);
+    double left = refiner_polygon_factor_gauss(g, from, middle), right = refiner_polygon_factor_gauss(g, middle, to);
+    if (depth == 0 || fabs(left + right - whole) <= tolerance)
+        return left + right;
+    return refiner_polygon_factor_adapt(g, from, middle, left, tolerance, depth - 1)
+         + refiner_polygon_factor_adapt(g, middle, to, right, tolerance, depth - 1);
+}
+
 /* Multiply a polygon's corners by a power of two. */
 static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, double factor)
 {
@@ -531,6 +383,40 @@ static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, doubl
         p->v[i][1] *= factor;
         p->v[i][2] *= factor;
     }
+}
+
+/* A_p F_pq by the contour integral (m2). The shorter edge of each pair is the outer one: along it
+ * the inner integral varies least. */
+REFINER_OUTLINE double refiner_polygon_factor_contour(const struct refiner_polygon *p, const struct refiner_polygon *q)
+{
+    double sum = 0;
+    int i, j, k;
+    for (i = 0; i < p->n; i++) {
+        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
+        double e[3], le;
+        refiner_sub3(e, p1, p0);
+        le = refiner_length3(e);
+        for (j = 0; j < q->n; j++) {
+            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
+            struct refiner_polygon_factor_edge g;
+            double f[3], lf, aligned;
+            refiner_sub3(f, q1, q0);
+            lf = refiner_length3(f);
+            aligned = refiner_dot3(e, f);
+            if (fabs(aligned) <= 1e-12 * le * lf)
+                continue;
+            g.p = le <= lf ? p0 : q0;
+            g.a = le <= lf ? q0 : p0;
+            g.length = le <= lf ? lf : le;
+            for (k = 0; k < 3; k++) {
+                g.e[k] = le <= lf ? e[k] : f[k];
+                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
+            }
+            sum += aligned / g.length
+                 * refiner_polygon_factor_adapt(&g, 0, 1, refiner_polygon_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
+        }
+    }
+    return sum * (0.5 / REFINER_POLYGON_FACTOR_PI);
 }
 
 /* Integral over triangle abc with normal n of the factor to q (m2): 1, 3 or 6 points, exact to
@@ -601,7 +487,7 @@ static inline double refiner_polygon_factor_rule(const struct refiner_polygon *p
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius, double area)
+static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius)
 {
     double up, down;
     int e;
@@ -610,38 +496,7 @@ static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p
     down = 1 / up;
     refiner_polygon_factor_scale(p, down);
     refiner_polygon_factor_scale(q, down);
-    return refiner_contour_factor(p, q, area * down * down) * up * up;
-}
-
-/* The largest height of e's corners over the plane of `plane` (m). */
-static inline double refiner_polygon_factor_height(const struct refiner_element *e, const struct refiner_element *plane)
-{
-    double most = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    int i;
-    for (i = 1; i < e->vertices; i++) {
-        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
-        most = h > most ? h : most;
-    }
-    return most;
-}
-
-/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane, that F is 0, as for
- * coplanar elements, not what sums of nothing leave. A plane is known the worse the narrower its element and the
- * farther off the corner. */
-static inline int refiner_polygon_factor_hidden(const struct refiner_element *r, const struct refiner_element *s, double exchange)
-{
-    double away[3], reach, size, width = r->area / r->radius, flat;
-    int k;
-    if (!(exchange < REFINER_POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
-        return 0;
-    refiner_sub3(away, s->centre, r->centre);
-    reach = size = refiner_length3(away) + r->radius + s->radius;
-    for (k = 0; k < 3; k++)
-        size += fabs(r->centre[k]) + fabs(s->centre[k]);
-    if (s->area / s->radius < width)
-        width = s->area / s->radius;
-    flat = REFINER_POLYGON_FACTOR_FLAT * size * (1 + reach / width);
-    return refiner_polygon_factor_height(r, s) <= flat || refiner_polygon_factor_height(s, r) <= flat;
+    return refiner_polygon_factor_contour(p, q) * up * up;
 }
 
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
@@ -650,7 +505,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct refiner_element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct refiner_polygon p, q;
-    double away[3], distance, exchange, least;
+    double away[3], distance, exchange;
     refiner_sub3(away, small->centre, large->centre);
     distance = refiner_length3(away) - large->radius;
     if (!exact && distance > REFINER_POLYGON_FACTOR_FAR * large->radius) {
@@ -664,52 +519,19 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
         return 0;
     if (distance < REFINER_POLYGON_FACTOR_FAR * small->radius)
         distance = refiner_polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
-    least = r->area < s->area ? r->area : s->area;
-    if (distance <= (exact ? REFINER_POLYGON_FACTOR_EXACT : REFINER_POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least);
+    if (exact)
+        exchange = distance > REFINER_POLYGON_FACTOR_EXACT * small->radius ? refiner_polygon_factor_rule(&p, small->normal, &q, 2)
+                                                                   : refiner_polygon_factor_contour_at(&p, &q, large->radius);
+    else if (distance > REFINER_POLYGON_FACTOR_FAR * small->radius)
+        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, 0);
+    else if (distance > REFINER_POLYGON_FACTOR_MIDDLE * small->radius)
+        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, 1);
+    else if (distance > REFINER_POLYGON_FACTOR_NEAR * small->radius)
+        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, 2);
     else
-        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, exact || distance <= REFINER_POLYGON_FACTOR_MIDDLE * small->radius ? 2
-                                                              : distance <= REFINER_POLYGON_FACTOR_FAR * small->radius         ? 1
-                                                                                                                       : 0);
-    if (!(exchange > 0) || refiner_polygon_factor_hidden(r, s, exchange))
-        return 0;
-    return (exchange < least ? exchange : least) / r->area;
-}
-
-/* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
- *
- * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i subtends at x,
- * Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et al. 1989]. The polygon is
- * clipped at the receiver's plane; a point behind the emitter's plane sees nothing of it: F = 0. Dimensionless.
- * Fails: at the polygon's own edges F jumps; there the edge is left out. */
-
-/* The part of s that the receiver's plane leaves in view; no corners: nothing. */
-static inline void refiner_point_factor_clip(struct refiner_polygon *q, const struct refiner_element *r, const struct refiner_element *s)
-{
-    q->n = 0;
-    if (r->vertices && s->vertices)
-        refiner_polygon_clip(q, (const double (*)[3])s->vertex, s->vertices, r->centre, r->normal);
-}
-
-/* F from the point x of r to q, the clipped s. */
-static inline double refiner_point_factor_at(const double x[3], const struct refiner_element *r, const struct refiner_element *s,
-                                     const struct refiner_polygon *q)
-{
-    double f;
-    if (q->n == 0 || !(refiner_height3(x, s->centre, s->normal) > 0))
-        return 0;
-    f = refiner_polygon_factor_point(x, r->normal, q);
-    return f > 0 ? f < 1 ? f : 1 : 0;
-}
-
-/* F from the receiver's centre. */
-REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, const struct refiner_element *s)
-{
-    struct refiner_polygon q;
-    double f;
-    refiner_point_factor_clip(&q, r, s);
-    f = refiner_point_factor_at(r->centre, r, s, &q);
-    return q.n == 0 || refiner_polygon_factor_hidden(r, s, f * r->area) ? 0 : f;
+        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius);
+    exchange /= r->area;
+    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }
 
 /* form_factor.h - term: F_rs, the fraction of the light leaving r that would meet s if nothing
@@ -720,17 +542,13 @@ REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, con
  *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
  *          polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
- * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the receiver's plane
- *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5 % for unit squares at
- *          right angles with a common edge, +33 % for parallel ones at half their side (tests/check_terms.c).
- *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
- *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
- *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
- *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
- *          4e-4 at the most (far pairs); 1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
- * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9. */
+ *          by a rule of as many points as the distance asks for; where they are nearer than their
+ *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], its
+ *          inner integral in closed form, the outer one adaptive. Relative error about 1e-5 or less,
+ *          1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ * contour  the same with the contour integral up to 20 sizes away, and nine or more points beyond. */
 
 REFINER_TOOL double refiner_form_factor_disc(struct refiner_discussion *d)
 {
@@ -753,9 +571,9 @@ REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum 
             if (refiner_dot3(axis, axis) < reach * reach)
                 level = REFINER_FORM_FACTOR_POLYGON;
         }
-        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC    ? refiner_form_factor_disc(d)
-                               : level == REFINER_FORM_FACTOR_POINT ? refiner_point_factor(d->receiver, d->emitter)
-                                                            : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
+        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC
+                                   ? refiner_form_factor_disc(d)
+                                   : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
         d->terms.form_factor_level = (unsigned char)level;
     }
     return d->terms.form_factor;
@@ -811,11 +629,15 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
  * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
  * smaller area over the number of segments, bounds the weight of parts that touch.
  *
- * rays_4, rays_16, rays_64: so many segments between points of the two elements' mutually facing
- * parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
- * scrambled by a hash of both path identities: no shared random state, so the answer depends on
- * the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the segments is missed with
- * probability (1-p)^N. */
+ * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
+ *             for it here gets four rays.
+ * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
+ *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
+ *             scrambled by a hash of both path identities: no shared random state, so the answer depends on
+ *             the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the
+ *             segments is missed with probability (1-p)^N.
+ * exact       from a shaft (tools/shaft.h) or an integral over the visible part (tools/exact_visibility.h), which alone
+ *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
 
 static inline uint64_t refiner_visibility_hash(uint64_t x)
 {
@@ -884,24 +706,26 @@ static inline void refiner_sampler_point(double out[3], const struct refiner_sam
     out[2] = a[2] + s * (b[2] - a[2]) + s * t * (c[2] - b[2]);
 }
 
-/* The visible fraction by `count` segments, a power of two up to SEGMENTS_MAX. */
+/* The visible fraction by `count` segments, a power of two up to VISIBILITY_MOST, cast in batches of SEGMENTS_MAX. */
 REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *receiver, const struct refiner_element *emitter,
                                const struct refiner_host *host, int count)
 {
-    /* Sobol' direction numbers, dimensions 1 to 4, the six leading bits: one per bit of the index. */
-    static const uint32_t direction[6][4] = {
+    /* Sobol' direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the index. */
+    static const uint32_t direction[12][4] = {
         { 0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u }, { 0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u },
         { 0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u }, { 0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u },
         { 0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u }, { 0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u },
+        { 0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u }, { 0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u },
+        { 0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u }, { 0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u },
+        { 0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u }, { 0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u },
     };
     const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
     struct refiner_segment segments[REFINER_SEGMENTS_MAX];
     double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
-    uint64_t blocked;
     struct refiner_sampler p, q;
     uint64_t hash = refiner_visibility_hash(r->id + refiner_visibility_hash(s->id));
     uint32_t digit[4];
-    int i, k;
+    int first, i, k;
     refiner_sampler_clip(&p, r, s);
     refiner_sampler_clip(&q, s, r);
     if (p.p.n == 0 || q.p.n == 0)
@@ -911,59 +735,81 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
         digit[k + 1] = (uint32_t)hash;
         hash = refiner_visibility_hash(hash);
     }
-    for (i = 0; i < count; i++) {
-        struct refiner_segment *g = &segments[i];
-        double v[3], cos_r, cos_s, square;
-        if (i > 0) { /* Gray code order: one digit changes from point to point */
-            const uint32_t *toggle = direction[0];
-            int bits;
-            for (bits = i; !(bits & 1); bits >>= 1)
-                toggle += 4;
-            digit[0] ^= toggle[0];
-            digit[1] ^= toggle[1];
-            digit[2] ^= toggle[2];
-            digit[3] ^= toggle[3];
+    for (first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
+        int batch = count - first < REFINER_SEGMENTS_MAX ? count - first : REFINER_SEGMENTS_MAX;
+        uint64_t blocked;
+        for (i = 0; i < batch; i++) {
+            struct refiner_segment *g = &segments[i];
+            double v[3], cos_r, cos_s, square;
+            if (first + i > 0) { /* Gray code order: one digit changes from point to point */
+                const uint32_t *toggle = direction[0];
+                int bits;
+                for (bits = first + i; !(bits & 1); bits >>= 1)
+                    toggle += 4;
+                digit[0] ^= toggle[0];
+                digit[1] ^= toggle[1];
+                digit[2] ^= toggle[2];
+                digit[3] ^= toggle[3];
+            }
+            refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
+            refiner_sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
+            refiner_sub3(v, g->to, g->from);
+            cos_r = refiner_dot3(r->normal, v);
+            cos_s = -refiner_dot3(s->normal, v);
+            square = refiner_dot3(v, v);
+            weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
+            g->from[0] += host->ray_offset * r->normal[0];
+            g->from[1] += host->ray_offset * r->normal[1];
+            g->from[2] += host->ray_offset * r->normal[2];
+            g->to[0] += host->ray_offset * s->normal[0];
+            g->to[1] += host->ray_offset * s->normal[1];
+            g->to[2] += host->ray_offset * s->normal[2];
         }
-        refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
-        refiner_sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
-        refiner_sub3(v, g->to, g->from);
-        cos_r = refiner_dot3(r->normal, v);
-        cos_s = -refiner_dot3(s->normal, v);
-        square = refiner_dot3(v, v);
-        weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
-        g->from[0] += host->ray_offset * r->normal[0];
-        g->from[1] += host->ray_offset * r->normal[1];
-        g->from[2] += host->ray_offset * r->normal[2];
-        g->to[0] += host->ray_offset * s->normal[0];
-        g->to[1] += host->ray_offset * s->normal[1];
-        g->to[2] += host->ray_offset * s->normal[2];
-    }
-    blocked = host->occluded(host, count, segments);
-    for (i = 0; i < count; i++) {
-        all += weight[i];
-        if (!(blocked >> i & 1))
-            seen += weight[i];
+        blocked = host->occluded(host, batch, segments);
+        for (i = 0; i < batch; i++) {
+            all += weight[i];
+            if (!(blocked >> i & 1))
+                seen += weight[i];
+        }
     }
     return all > 0 ? seen / all : 0;
+}
+
+/* The level that `rays` rays or more reach, and how many a level casts. */
+static inline enum refiner_visibility_level refiner_visibility_level_of(int rays)
+{
+    return rays <= 4 ? REFINER_VISIBILITY_RAYS_4 : rays <= 16 ? REFINER_VISIBILITY_RAYS_16 : rays <= 64 ? REFINER_VISIBILITY_RAYS_64
+         : rays <= 256 ? REFINER_VISIBILITY_RAYS_256 : REFINER_VISIBILITY_RAYS_1024;
+}
+
+static inline int refiner_visibility_rays_of(enum refiner_visibility_level level)
+{
+    return level <= REFINER_VISIBILITY_RAYS_4 ? 4 : level >= REFINER_VISIBILITY_RAYS_1024 ? 1024 : 1 << 2 * (level - REFINER_VISIBILITY_RAYS_4 + 1);
 }
 
 REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum refiner_visibility_level level)
 {
     if (d->terms.visibility_level < level) {
-        d->terms.visibility = refiner_visibility_rays(d->receiver, d->emitter, d->host,
-                                              level == REFINER_VISIBILITY_RAYS_4 ? 4 : level == REFINER_VISIBILITY_RAYS_16 ? 16 : 64);
-        d->terms.visibility_level = (unsigned char)level;
+        if (level < REFINER_VISIBILITY_RAYS_4)
+            level = REFINER_VISIBILITY_RAYS_4;
+        if (level > REFINER_VISIBILITY_RAYS_1024)
+            level = REFINER_VISIBILITY_RAYS_1024;
+        if (d->terms.visibility_level < level) {
+            d->terms.visibility = refiner_visibility_rays(d->receiver, d->emitter, d->host, refiner_visibility_rays_of(level));
+            d->terms.visibility_level = (unsigned char)level;
+        }
     }
     return d->terms.visibility;
 }
 
-/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16 or 64,
- * the next above `rays`. A ray that met something beside one that did not is proof of "partial";
- * "none" and "all" are the rays' opinion. [Turbet & Sillion, section 3.1.2] */
+/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
+ * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of "partial";
+ * "none" and "all" are the rays' opinion. What a shaft has
+ * settled (level exact) casts none. [Turbet & Sillion, section 3.1.2] */
 
 REFINER_TOOL enum refiner_visibility_answer refiner_tool_visibility(struct refiner_discussion *d, int rays)
 {
-    double v = refiner_term_visibility(d, rays <= 4 ? REFINER_VISIBILITY_RAYS_4 : rays <= 16 ? REFINER_VISIBILITY_RAYS_16 : REFINER_VISIBILITY_RAYS_64);
+    double v = refiner_term_visibility(d, refiner_visibility_level_of(rays));
     return v <= 0 ? REFINER_VISIBILITY_NONE : v < 1 ? REFINER_VISIBILITY_PARTIAL : REFINER_VISIBILITY_ALL;
 }
 
@@ -992,18 +838,14 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     struct refiner_discussion d = *discussion;
     d.terms.axis[0] = d.terms.axis[1] = d.terms.axis[2] = 0;
     d.terms.axis_level = REFINER_AXIS_ABSENT;
+    d.terms.visibility_error = 0;
+    d.terms.visibility_error_level = REFINER_VISIBILITY_ERROR_ABSENT;
+    d.terms.blockers = 0;
+    d.terms.blockers_level = REFINER_BLOCKERS_ABSENT;
+    d.terms.reference = 0;
+    d.terms.reference_level = REFINER_REFERENCE_ABSENT;
     d.terms.mark = 0;
     d.terms.mark_level = REFINER_MARK_ABSENT;
-    d.terms.distance[0] = d.terms.distance[1] = 0;
-    d.terms.distance_level = REFINER_DISTANCE_ABSENT;
-    d.terms.receiver_cosine[0] = d.terms.receiver_cosine[1] = 0;
-    d.terms.receiver_cosine_level = REFINER_RECEIVER_COSINE_ABSENT;
-    d.terms.emitter_cosine[0] = d.terms.emitter_cosine[1] = 0;
-    d.terms.emitter_cosine_level = REFINER_EMITTER_COSINE_ABSENT;
-    d.terms.gradient[0] = d.terms.gradient[1] = d.terms.gradient[2] = 0;
-    d.terms.gradient_level = REFINER_GRADIENT_ABSENT;
-    d.terms.form_factor_range[0] = d.terms.form_factor_range[1] = 0;
-    d.terms.form_factor_range_level = REFINER_FORM_FACTOR_RANGE_ABSENT;
 
     switch (refiner_tool_clusters(&d)) {
     case REFINER_CLUSTERS_SURFACES:
