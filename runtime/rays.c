@@ -135,7 +135,7 @@ static double power_of_two(double x)
 
 static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
 {
-    double area = 0, emitted = 0, reflected = 0, brightest = 0, size = 0, largest = 0;
+    double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0, largest = 0;
     uint32_t i;
     int k;
     for (i = 0; i < h->face_count; i++) {
@@ -144,6 +144,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         emitted += a * exitance[i];
         reflected += a * reflectance[i];
         brightest = exitance[i] > brightest ? exitance[i] : brightest;
+        whitest = reflectance[i] > whitest ? reflectance[i] : whitest;
     }
     for (k = 0; k < 3; k++) {
         double side = h->high[k] - h->low[k];
@@ -160,6 +161,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.area = area;
     rays->host.extent = size;
     rays->host.exitance = brightest;
+    rays->host.reflectance = whitest;
     rays->host.importance = 1;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;

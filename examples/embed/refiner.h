@@ -129,6 +129,7 @@ struct refiner_host {
     double area;       /* of all faces, m2 */
     double extent;     /* longest side of the scene's box (m) */
     double exitance;   /* the largest E, W/m2 */
+    double reflectance; /* the largest rho */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance; /* the largest Y; 1 where no view asks */
@@ -175,7 +176,7 @@ static inline void refiner_host_open(struct refiner_host *host,
                              void (*totals)(struct refiner_host *host))
 {
     host->occluded = occluded;
-    host->area = host->extent = host->exitance = host->irradiance = host->radiosity = 0;
+    host->area = host->extent = host->exitance = host->reflectance = host->irradiance = host->radiosity = 0;
     host->importance = 1;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;
