@@ -577,11 +577,12 @@ int stability_concentric(struct stability_trial *trial)
     return 0;
 }
 
-/* Plates so wide that their middle quarters see little else, E = 1 and 0, rho = .5 and .8; what those lack of
- * infinite ones falls as 1/width2. */
+/* Plates of `wide` x `wide` unit squares, so wide that the middle ones see little else, E = 1 and 0, rho = .5 and .8;
+ * what those lack of infinite ones falls as 1/wide2. */
 static int middle_at(struct stability_trial *trial, int level, double *value)
 {
-    double side = 4 << level;
+    int wide = 4 << level, i;
+    uint32_t middle = (uint32_t)(wide / 2 * wide + wide / 2) * 2;
     struct scene scene;
     struct solve s;
     int status;
@@ -589,11 +590,13 @@ static int middle_at(struct stability_trial *trial, int level, double *value)
         return -1;
     made_material(&scene, 0.5, 1);
     made_material(&scene, 0.8, 0);
-    made_quad(&scene, 0, -0.5 * side, -0.5 * side, 0, side, 0, 0, 0, side, 0);
-    made_quad(&scene, 1, -0.5 * side, -0.5 * side, 1, 0, side, 0, side, 0, 0);
+    for (i = 0; i < wide * wide; i++) {
+        made_quad(&scene, 0, i % wide, i / wide, 0, 1, 0, 0, 0, 1, 0);
+        made_quad(&scene, 1, i % wide, i / wide, 1, 0, 1, 0, 1, 0, 0);
+    }
     status = solved(trial, &scene, &s);
     if (status == 0) {
-        *value = radiosity_at(&s, 0, 2, 0.01, 0.01, 0);
+        *value = stability_radiosity(&s, middle);
         solve_close(&s);
     }
     made_close(&scene);
