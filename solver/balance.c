@@ -9,7 +9,8 @@
  * Part of a surface may be buried in a solid that stands on it, like the floor under a table leg. It
  * receives nothing and sends nothing; rays know that, but a mean over the whole element would send the missing light
  * a second time less. So x is the mean over the exposed part, and x = source + rho H / exposed, where H stays the
- * mean over all.
+ * mean over all. (A leaf found wholly buried has no weight in its parent, but may yet be linked by rays that did find
+ * it: closure gives it the irradiance of its face too.)
  * [Hanrahan et al. 1991, sections 4 and 5; Arvo et al. 1994, section 5.3 for the bound]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -80,9 +81,9 @@ static double pull(const struct solve *s, const struct balance *x, uint32_t e, c
         const double *source = &x->source[(x->by_element ? (size_t)e : (size_t)at->face) * b];
         const double *rho = &x->reflectance[(size_t)at->face * b];
         for (k = 0; k < b; k++) {
-            double exposed = s->exposed[e], next;
-            H[k] += spare[k] * s->row_gift[e];
-            next = source[k] + (exposed > 0 ? rho[k] * H[k] / exposed : 0);
+            double exposed = s->exposed[e], gift = spare[k] * s->row_gift[e], next;
+            H[k] += exposed > 0 ? gift : 0;
+            next = source[k] + rho[k] * (exposed > 0 ? H[k] / exposed : gift);
             moved += at->area * exposed * fabs(next - X[k]);
             X[k] = next;
         }

@@ -128,7 +128,7 @@ static void print_difference(const struct panel *p)
 static double solve_once(const struct options *o, const struct scene *scene, const struct refiner *refiner,
                          struct progress *progress, uint64_t *pairs, size_t *links)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure,
                                  .threads = o->threads, .progress = progress_show, .context = progress };
     struct solve s;
     const char *cause;

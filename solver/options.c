@@ -9,7 +9,7 @@
 #include "export.h"
 #include "options.h"
 
-enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
+enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
            FACES, JSON, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
 /* solve, compare, viewfactors, study stability, study visibility */
@@ -27,6 +27,10 @@ static const struct option {
     { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
     { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
+    { CLOSURE, "--closure", "none|rows", S | C, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an open\n"
+      "                             one; power is then no longer exchanged alike both ways (default none)" },
+    { STATISTICS, "--statistics", "FILE", S, "how often each answer of the oracle's graph was given: text, .csv, .json; - is\n"
+      "                             standard output. The graph is interpreted; what it decides is the same" },
     { THREADS, "--threads", "N", ALL | FAILURES | SIGHT, "threads to use (default: all processors); the result is the same" },
     { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT, "every face has two sides, not only materials named *_2s" },
     { OUT, "-o", "FILE", S | V | FAILURES | SIGHT, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
@@ -158,6 +162,7 @@ static int take(struct options *o, const struct option *p, char *value)
         if (i == RELEASES)
             return wrong("--release knows flat, dag and hand, not", value);
         o->release = (enum release)i;
+        o->release_given = 1;
         return 0;
     case SET:
         o->settings[o->setting_count++] = value;
@@ -169,6 +174,14 @@ static int take(struct options *o, const struct option *p, char *value)
         return 0;
     case ITERATIONS:
         return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
+    case CLOSURE:
+        if (strcmp(value, "none") != 0 && strcmp(value, "rows") != 0)
+            return wrong("--closure knows none and rows, not", value);
+        o->closure = *value == 'r' ? CLOSURE_ROWS : CLOSURE_NONE;
+        return 0;
+    case STATISTICS:
+        o->statistics = value;
+        return 0;
     case THREADS:
         return whole_number(value, 1, 1024, &o->threads) < 0 ? wrong("--threads takes a whole number from 1 to 1024, not", value) : 0;
     case REPEATS:
@@ -371,6 +384,10 @@ int options_parse(struct options *o, int count, char **arguments)
         return wrong("no scene is given", "");
     if (o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_UNKNOWN)
         return wrong("-o takes a file named .ply, .gltf, .glb or .obj, not", o->out);
+    if (o->statistics && o->release_given && o->release != RELEASE_DAG)
+        return wrong("--statistics counts what the interpreted graph does: it takes no --release but dag, not", release_names[o->release]);
+    if (o->statistics)
+        o->release = RELEASE_DAG;
     if ((o->mesh || o->view_given) && !o->image)
         return wrong("--mesh and --view are for a picture: add --image FILE.png", "");
     return 0;

@@ -4,6 +4,7 @@
 #define OPTIONS_H
 
 #include "oracles.h"
+#include "solve.h"
 #include "view.h"
 
 enum command { COMMAND_SOLVE, COMMAND_COMPARE, COMMAND_VIEWFACTORS, COMMAND_ORACLES, COMMAND_STUDY, COMMAND_HELP,
@@ -15,6 +16,9 @@ struct options {
     enum command command;
     const char *scene, *oracle;
     enum release release;
+    int release_given;
+    enum closure closure;
+    const char *statistics; /* NULL: not wanted */
     char **settings; /* [setting_count] "NAME=VALUE", owned */
     int setting_count;
     double tolerance;

@@ -103,8 +103,9 @@ static void close_row(void *context, const struct solve *s, uint32_t leaf, doubl
     double area;
     row = exposed_row(s, leaf, row, &area);
     rows->excess += row > 1 ? area * (row - 1) : 0;
-    rows->s->row_scale[leaf] = row > 1 || (row > 0 && s->closed > 0) ? 1 / row : 1;
-    rows->s->row_gift[leaf] = row > 0 || !(area > 0) || s->closed <= 0 || !(rows->seeing > 0) ? 0 : s->exposed[leaf] / rows->seeing;
+    rows->s->row_scale[leaf] = !(area > 0) ? 0 : row > 1 || (row > 0 && s->closed > 0) ? 1 / row : 1;
+    rows->s->row_gift[leaf] = row > 0 || s->closed <= 0 || !(rows->seeing > 0) ? 0
+                              : (area > 0 ? s->exposed[leaf] : 1) / rows->seeing;
 }
 
 static double largest(const double *v, uint32_t n)

@@ -51,7 +51,8 @@ struct refiner_polygon {
     double v[REFINER_POLYGON_MAX][3];
 };
 
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A polygon in the plane,
+ * whose corners lie on either side as rounding has it, may cross it more than twice: then what does not fit is left out. */
 static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
@@ -61,7 +62,7 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
     for (i = 0; i < n; i++) {
         const double *b = v[i];
         double g = refiner_height3(b, on, normal);
-        if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
+        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && count < REFINER_POLYGON_MAX) {
             double t = h / (h - g);
             out->v[count][0] = a[0] + t * (b[0] - a[0]);
             out->v[count][1] = a[1] + t * (b[1] - a[1]);
@@ -145,7 +146,7 @@ enum refiner_larger_answer {
     REFINER_LARGER_EMITTER /* precise */
 };
 
-/* Cast at least `rays` rays (4, 16 or 64) between the elements: how many arrive? */
+/* Cast at least `rays` rays (4, 16, 64, 256 or 1024) between the elements: how many arrive? */
 enum refiner_visibility_answer {
     REFINER_VISIBILITY_NONE, /* approximate */
     REFINER_VISIBILITY_PARTIAL, /* precise */
@@ -166,10 +167,10 @@ enum refiner_mark_answer {
 enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 
 /* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
-enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
+enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
-enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64 };
+enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
 
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
@@ -240,6 +241,29 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
     return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
 }
 
+/* plane_side.h - how an element lies to another's support plane.
+ * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get an exact answer. */
+
+/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of the elements' corners. */
+static inline double refiner_plane_side_flat(const struct refiner_element *r, const struct refiner_element *s, const struct refiner_host *host)
+{
+    return host->flat + (1 / 65536.0) * (r->radius + s->radius);
+}
+
+/* The lowest and the highest signed distance of the surface e from the plane of the surface `plane` (m). */
+static inline void refiner_plane_side_heights(const struct refiner_element *e, const struct refiner_element *plane, double *low, double *high)
+{
+    int i;
+    *low = *high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
+    for (i = 1; i < e->vertices; i++) {
+        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
+        if (h < *low)
+            *low = h;
+        if (h > *high)
+            *high = h;
+    }
+}
+
 /* support_planes.h - question: how do two surfaces lie to each other's support planes?
  *
  * away when one has no part in front of the other: no light can pass. A corner nearer to a
@@ -250,22 +274,14 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 static inline int refiner_support_planes_side(const struct refiner_element *e, const struct refiner_element *plane, double flat)
 {
     double low, high;
-    int i;
-    low = high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    for (i = 1; i < e->vertices; i++) {
-        double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
-        if (h < low)
-            low = h;
-        if (h > high)
-            high = h;
-    }
+    refiner_plane_side_heights(e, plane, &low, &high);
     return high <= flat ? -1 : low < -flat ? 0 : 1;
 }
 
 REFINER_TOOL enum refiner_support_planes_answer refiner_tool_support_planes(struct refiner_discussion *d)
 {
     const struct refiner_element *r = d->receiver, *s = d->emitter;
-    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double flat = refiner_plane_side_flat(r, s, d->host);
     int side_r, side_s;
     side_r = refiner_support_planes_side(r, s, flat);
     if (side_r < 0)
@@ -543,6 +559,40 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
 }
 
+/* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
+ *
+ * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i subtends at x,
+ * Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et al. 1989]. The polygon is
+ * clipped at the receiver's plane; a point behind the emitter's plane sees nothing of it: F = 0. Dimensionless.
+ * Fails: at the polygon's own edges F jumps; there the edge is left out. */
+
+/* The part of s that the receiver's plane leaves in view; no corners: nothing. */
+static inline void refiner_point_factor_clip(struct refiner_polygon *q, const struct refiner_element *r, const struct refiner_element *s)
+{
+    q->n = 0;
+    if (r->vertices && s->vertices)
+        refiner_polygon_clip(q, (const double (*)[3])s->vertex, s->vertices, r->centre, r->normal);
+}
+
+/* F from the point x of r to q, the clipped s. */
+static inline double refiner_point_factor_at(const double x[3], const struct refiner_element *r, const struct refiner_element *s,
+                                     const struct refiner_polygon *q)
+{
+    double f;
+    if (q->n == 0 || !(refiner_height3(x, s->centre, s->normal) > 0))
+        return 0;
+    f = refiner_polygon_factor_point(x, r->normal, q);
+    return f > 0 ? f < 1 ? f : 1 : 0;
+}
+
+/* F from the receiver's centre. */
+REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, const struct refiner_element *s)
+{
+    struct refiner_polygon q;
+    refiner_point_factor_clip(&q, r, s);
+    return refiner_point_factor_at(r->centre, r, s, &q);
+}
+
 /* form_factor.h - term: F_rs, the fraction of the light leaving r that would meet s if nothing
  * stood between, mean over r. Dimensionless, in [0, 1].
  *
@@ -551,6 +601,10 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
  *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
  *          polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the receiver's plane
+ *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5 % for unit squares at
+ *          right angles with a common edge, +33 % for parallel ones at half their side (tests/check_terms.c).
+ *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
  *          by a rule of as many points as the distance asks for; where they are nearer than their
@@ -580,9 +634,9 @@ REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum 
             if (refiner_dot3(axis, axis) < reach * reach)
                 level = REFINER_FORM_FACTOR_POLYGON;
         }
-        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC
-                                   ? refiner_form_factor_disc(d)
-                                   : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
+        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC    ? refiner_form_factor_disc(d)
+                               : level == REFINER_FORM_FACTOR_POINT ? refiner_point_factor(d->receiver, d->emitter)
+                                                            : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
         d->terms.form_factor_level = (unsigned char)level;
     }
     return d->terms.form_factor;
@@ -638,11 +692,15 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
  * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
  * smaller area over the number of segments, bounds the weight of parts that touch.
  *
- * rays_4, rays_16, rays_64: so many segments between points of the two elements' mutually facing
- * parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
- * scrambled by a hash of both path identities: no shared random state, so the answer depends on
- * the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the segments is missed with
- * probability (1-p)^N. */
+ * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
+ *             for it here gets four rays.
+ * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
+ *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
+ *             scrambled by a hash of both path identities: no shared random state, so the answer depends on
+ *             the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the
+ *             segments is missed with probability (1-p)^N.
+ * exact       from a shaft (tools/shaft.h) or an integral over the visible part (tools/exact_visibility.h), which alone
+ *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
 
 static inline uint64_t refiner_visibility_hash(uint64_t x)
 {
@@ -711,24 +769,26 @@ static inline void refiner_sampler_point(double out[3], const struct refiner_sam
     out[2] = a[2] + s * (b[2] - a[2]) + s * t * (c[2] - b[2]);
 }
 
-/* The visible fraction by `count` segments, a power of two up to SEGMENTS_MAX. */
+/* The visible fraction by `count` segments, a power of two up to VISIBILITY_MOST, cast in batches of SEGMENTS_MAX. */
 REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *receiver, const struct refiner_element *emitter,
                                const struct refiner_host *host, int count)
 {
-    /* Sobol' direction numbers, dimensions 1 to 4, the six leading bits: one per bit of the index. */
-    static const uint32_t direction[6][4] = {
+    /* Sobol' direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the index. */
+    static const uint32_t direction[12][4] = {
         { 0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u }, { 0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u },
         { 0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u }, { 0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u },
         { 0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u }, { 0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u },
+        { 0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u }, { 0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u },
+        { 0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u }, { 0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u },
+        { 0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u }, { 0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u },
     };
     const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
     struct refiner_segment segments[REFINER_SEGMENTS_MAX];
     double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
-    uint64_t blocked;
     struct refiner_sampler p, q;
     uint64_t hash = refiner_visibility_hash(r->id + refiner_visibility_hash(s->id));
     uint32_t digit[4];
-    int i, k;
+    int first, i, k;
     refiner_sampler_clip(&p, r, s);
     refiner_sampler_clip(&q, s, r);
     if (p.p.n == 0 || q.p.n == 0)
@@ -738,59 +798,81 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
         digit[k + 1] = (uint32_t)hash;
         hash = refiner_visibility_hash(hash);
     }
-    for (i = 0; i < count; i++) {
-        struct refiner_segment *g = &segments[i];
-        double v[3], cos_r, cos_s, square;
-        if (i > 0) { /* Gray code order: one digit changes from point to point */
-            const uint32_t *toggle = direction[0];
-            int bits;
-            for (bits = i; !(bits & 1); bits >>= 1)
-                toggle += 4;
-            digit[0] ^= toggle[0];
-            digit[1] ^= toggle[1];
-            digit[2] ^= toggle[2];
-            digit[3] ^= toggle[3];
+    for (first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
+        int batch = count - first < REFINER_SEGMENTS_MAX ? count - first : REFINER_SEGMENTS_MAX;
+        uint64_t blocked;
+        for (i = 0; i < batch; i++) {
+            struct refiner_segment *g = &segments[i];
+            double v[3], cos_r, cos_s, square;
+            if (first + i > 0) { /* Gray code order: one digit changes from point to point */
+                const uint32_t *toggle = direction[0];
+                int bits;
+                for (bits = first + i; !(bits & 1); bits >>= 1)
+                    toggle += 4;
+                digit[0] ^= toggle[0];
+                digit[1] ^= toggle[1];
+                digit[2] ^= toggle[2];
+                digit[3] ^= toggle[3];
+            }
+            refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
+            refiner_sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
+            refiner_sub3(v, g->to, g->from);
+            cos_r = refiner_dot3(r->normal, v);
+            cos_s = -refiner_dot3(s->normal, v);
+            square = refiner_dot3(v, v);
+            weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
+            g->from[0] += host->ray_offset * r->normal[0];
+            g->from[1] += host->ray_offset * r->normal[1];
+            g->from[2] += host->ray_offset * r->normal[2];
+            g->to[0] += host->ray_offset * s->normal[0];
+            g->to[1] += host->ray_offset * s->normal[1];
+            g->to[2] += host->ray_offset * s->normal[2];
         }
-        refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
-        refiner_sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
-        refiner_sub3(v, g->to, g->from);
-        cos_r = refiner_dot3(r->normal, v);
-        cos_s = -refiner_dot3(s->normal, v);
-        square = refiner_dot3(v, v);
-        weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
-        g->from[0] += host->ray_offset * r->normal[0];
-        g->from[1] += host->ray_offset * r->normal[1];
-        g->from[2] += host->ray_offset * r->normal[2];
-        g->to[0] += host->ray_offset * s->normal[0];
-        g->to[1] += host->ray_offset * s->normal[1];
-        g->to[2] += host->ray_offset * s->normal[2];
-    }
-    blocked = host->occluded(host, count, segments);
-    for (i = 0; i < count; i++) {
-        all += weight[i];
-        if (!(blocked >> i & 1))
-            seen += weight[i];
+        blocked = host->occluded(host, batch, segments);
+        for (i = 0; i < batch; i++) {
+            all += weight[i];
+            if (!(blocked >> i & 1))
+                seen += weight[i];
+        }
     }
     return all > 0 ? seen / all : 0;
+}
+
+/* The level that `rays` rays or more reach, and how many a level casts. */
+static inline enum refiner_visibility_level refiner_visibility_level_of(int rays)
+{
+    return rays <= 4 ? REFINER_VISIBILITY_RAYS_4 : rays <= 16 ? REFINER_VISIBILITY_RAYS_16 : rays <= 64 ? REFINER_VISIBILITY_RAYS_64
+         : rays <= 256 ? REFINER_VISIBILITY_RAYS_256 : REFINER_VISIBILITY_RAYS_1024;
+}
+
+static inline int refiner_visibility_rays_of(enum refiner_visibility_level level)
+{
+    return level <= REFINER_VISIBILITY_RAYS_4 ? 4 : level >= REFINER_VISIBILITY_RAYS_1024 ? 1024 : 1 << 2 * (level - REFINER_VISIBILITY_RAYS_4 + 1);
 }
 
 REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum refiner_visibility_level level)
 {
     if (d->terms.visibility_level < level) {
-        d->terms.visibility = refiner_visibility_rays(d->receiver, d->emitter, d->host,
-                                              level == REFINER_VISIBILITY_RAYS_4 ? 4 : level == REFINER_VISIBILITY_RAYS_16 ? 16 : 64);
-        d->terms.visibility_level = (unsigned char)level;
+        if (level < REFINER_VISIBILITY_RAYS_4)
+            level = REFINER_VISIBILITY_RAYS_4;
+        if (level > REFINER_VISIBILITY_RAYS_1024)
+            level = REFINER_VISIBILITY_RAYS_1024;
+        if (d->terms.visibility_level < level) {
+            d->terms.visibility = refiner_visibility_rays(d->receiver, d->emitter, d->host, refiner_visibility_rays_of(level));
+            d->terms.visibility_level = (unsigned char)level;
+        }
     }
     return d->terms.visibility;
 }
 
-/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16 or 64,
- * the next above `rays`. A ray that met something beside one that did not is proof of "partial";
- * "none" and "all" are the rays' opinion. [Turbet & Sillion, section 3.1.2] */
+/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
+ * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of "partial";
+ * "none" and "all" are the rays' opinion. What a shaft has
+ * settled (level exact) casts none. [Turbet & Sillion, section 3.1.2] */
 
 REFINER_TOOL enum refiner_visibility_answer refiner_tool_visibility(struct refiner_discussion *d, int rays)
 {
-    double v = refiner_term_visibility(d, rays <= 4 ? REFINER_VISIBILITY_RAYS_4 : rays <= 16 ? REFINER_VISIBILITY_RAYS_16 : REFINER_VISIBILITY_RAYS_64);
+    double v = refiner_term_visibility(d, refiner_visibility_level_of(rays));
     return v <= 0 ? REFINER_VISIBILITY_NONE : v < 1 ? REFINER_VISIBILITY_PARTIAL : REFINER_VISIBILITY_ALL;
 }
 

@@ -28,23 +28,11 @@ struct refiner_terms {
     double axis[3]; /* m */
     double form_factor; /* a plain number */
     double visibility; /* a plain number */
-    double visibility_error; /* a plain number */
     int mark; /* a plain number */
-    double distance[2]; /* m */
-    double receiver_cosine[2]; /* a plain number */
-    double emitter_cosine[2]; /* a plain number */
-    double gradient[3]; /* 1/m */
-    double form_factor_range[2]; /* a plain number */
     unsigned char axis_level; /* enum axis_level */
     unsigned char form_factor_level; /* enum form_factor_level */
     unsigned char visibility_level; /* enum visibility_level */
-    unsigned char visibility_error_level; /* enum visibility_error_level */
     unsigned char mark_level; /* enum mark_level */
-    unsigned char distance_level; /* enum distance_level */
-    unsigned char receiver_cosine_level; /* enum receiver_cosine_level */
-    unsigned char emitter_cosine_level; /* enum emitter_cosine_level */
-    unsigned char gradient_level; /* enum gradient_level */
-    unsigned char form_factor_range_level; /* enum form_factor_range_level */
 };
 
 /* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the host.
