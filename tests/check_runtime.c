@@ -263,7 +263,7 @@ START_TEST(test_reciprocity)
     struct refiner *refiner = refiner_compiled(&bf_guarded_oracle, "flat");
     const char *cause;
     size_t i, j, mutual = 0;
-    clutter(&scene, 60, 5);
+    clutter(&scene, 100, 5);
     ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
     ck_assert_int_eq(solve_run(&s, refiner, &cause), 0);
     for (i = 0; i < s.refinement.link_count; i++) {
