@@ -97,6 +97,7 @@ struct host {
     double area;       /* of all faces, m2 */
     double extent;     /* longest side of the scene's box (m) */
     double exitance;   /* the largest E, W/m2 */
+    double reflectance; /* the largest rho */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance; /* the largest Y; 1 where no view asks */

@@ -2,8 +2,8 @@
  *
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
- * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of the
- * largest coordinate), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
+ * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
+ * scene's size, more where faces are bent by the rounding of large coordinates), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
  * Rays travel in packets of 16.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -133,9 +133,24 @@ static double power_of_two(double x)
     return ldexp(1, e - 1);
 }
 
+/* How far the corners of faces lie off their planes at the most (m). */
+static double most_bent(const struct hierarchy *h)
+{
+    double most = 0;
+    uint32_t i, j;
+    for (i = 0; i < h->face_count; i++) {
+        const struct element *e = &h->elements[h->face_element[i]];
+        for (j = 0; j < e->vertices; j++) {
+            double off = fabs(height3(e->vertex[j], e->centre, e->normal));
+            most = off > most ? off : most;
+        }
+    }
+    return most;
+}
+
 static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
 {
-    double area = 0, emitted = 0, reflected = 0, brightest = 0, size = 0, largest = 0;
+    double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0, largest = 0, bent;
     uint32_t i;
     int k;
     for (i = 0; i < h->face_count; i++) {
@@ -144,6 +159,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         emitted += a * exitance[i];
         reflected += a * reflectance[i];
         brightest = exitance[i] > brightest ? exitance[i] : brightest;
+        whitest = reflectance[i] > whitest ? reflectance[i] : whitest;
     }
     for (k = 0; k < 3; k++) {
         double side = h->high[k] - h->low[k];
@@ -160,13 +176,18 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.area = area;
     rays->host.extent = size;
     rays->host.exitance = brightest;
+    rays->host.reflectance = whitest;
     rays->host.importance = 1;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
-    /* 2^-24 is half a unit in the last place of a float; input coordinates carry that much error. */
+    /* Coordinates that came as floats are off by up to 2^-25 of the largest, which bends quads that lie far from the
+     * origin. Rays keep off their own face by some times that, and by no more: there may be others near it. */
     rays->host.ray_offset = ldexp(size, -18);
-    if (rays->host.ray_offset < ldexp(largest, -21))
-        rays->host.ray_offset = ldexp(largest, -21);
+    bent = 4 * most_bent(h);
+    if (bent > ldexp(largest, -21))
+        bent = ldexp(largest, -21);
+    if (rays->host.ray_offset < bent)
+        rays->host.ray_offset = bent;
     rays->host.flat = 0.5 * rays->host.ray_offset;
 }
 
@@ -244,8 +265,8 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* Does the ray from p (Embree's coordinates) meet first the back of a one-sided face? */
-static int meets_inside(const struct rays *rays, const double p[3], const double direction[3])
+/* What the ray from p (Embree's coordinates) meets first. */
+static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3])
 {
     _Alignas(16) struct RTCRayHit query;
     float facing;
@@ -270,10 +291,21 @@ static int meets_inside(const struct rays *rays, const double p[3], const double
         rtcIntersect1(rays->scene, &context, &query);
 #endif
     }
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID || rays->two_sided[query.hit.primID])
-        return 0;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return RAY_LEAVES;
+    if (rays->two_sided[query.hit.primID])
+        return RAY_MEETS_FRONT;
     facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
-    return facing > 0;
+    return facing > 0 ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
+}
+
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3])
+{
+    double p[3];
+    int k;
+    for (k = 0; k < 3; k++)
+        p[k] = (from[k] - rays->origin[k]) * rays->scale;
+    return first_hit(rays, p, direction);
 }
 
 double rays_exposed(const struct rays *rays, const struct element *e)
@@ -308,7 +340,7 @@ double rays_exposed(const struct rays *rays, const struct element *e)
                 p[k] = (p[k] + rays->host.ray_offset * n[k] - rays->origin[k]) * rays->scale;
             }
             for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
-                inside += meets_inside(rays, p, direction[m]);
+                inside += first_hit(rays, p, direction[m]) == RAY_MEETS_BACK;
             buried += inside >= MOST;
         }
     return 1 - buried / (double)(SIDE * SIDE);

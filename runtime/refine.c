@@ -152,7 +152,17 @@ static void note_list(struct refinement *r, int i, const struct blockers *list, 
         r->found[i] = *list;
 }
 
-/* Discuss the pairs of the round. Visibility is the same both ways, so the second discussion starts with it. */
+/* What the link `there` says of the link back: visibility is the same both ways, and so is the exchange A_r F_rs = A_s F_sr,
+ * which is computed once and serves both: reciprocity holds to the rounding of a link's F. */
+static void turn(struct link *back, const struct link *there, const struct element *elements)
+{
+    double areas = elements[there->receiver].area / elements[there->emitter].area;
+    back->form_factor = (float)((double)there->form_factor * areas);
+    back->visibility = there->visibility;
+    back->levels = there->levels;
+}
+
+/* Discuss the pairs of the round, the second way round with what the first has found. */
 static void discuss_round(struct refinement *r, int count)
 {
     int i;
@@ -168,10 +178,8 @@ static void discuss_round(struct refinement *r, int count)
         o->link[0] = there;
         o->decision[0] = discuss(r, &o->link[0], &list);
         if (p->both) {
-            if (o->decision[0] == DECISION_LINK) {
-                back.visibility = o->link[0].visibility;
-                back.levels = o->link[0].levels & 0xf0;
-            }
+            if (o->decision[0] == DECISION_LINK)
+                turn(&back, &o->link[0], r->hierarchy->elements);
             o->link[1] = back;
             o->decision[1] = discuss(r, &o->link[1], &list);
         }

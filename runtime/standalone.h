@@ -25,7 +25,7 @@ static inline void host_open(struct host *host,
                              void (*totals)(struct host *host))
 {
     host->occluded = occluded;
-    host->area = host->extent = host->exitance = host->irradiance = host->radiosity = 0;
+    host->area = host->extent = host->exitance = host->reflectance = host->irradiance = host->radiosity = 0;
     host->importance = 1;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;
