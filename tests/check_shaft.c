@@ -367,9 +367,9 @@ START_TEST(test_truth)
                         else
                             wrong = met;
                         if (n < DOUBLE || met)
-                            wrong |= crosses_any(&w, &g[n], 0, 1e-12 * w.host->extent);
+                            wrong |= crosses_any(&w, &g[n], 0, w.host->ray_offset / 8192);
                     } else {
-                        wrong = !met || (n < DOUBLE && !crosses_any(&w, &g[n], 1e-12 * w.host->extent, 0));
+                        wrong = !met || (n < DOUBLE && !crosses_any(&w, &g[n], w.host->ray_offset / 8192, 0));
                     }
                     lies += wrong;
                     if (wrong && lies < 5)

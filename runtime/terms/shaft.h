@@ -24,7 +24,7 @@
  *
  * `grow` is 32 times what the coordinates lose in single precision, `margin` that or twice that. A shaft within a
  * shaft meets no other face: the hulls are nested, the enlarged faces depend on nothing, and every tolerance changes by
- * some roundings with each split of either element, so that the deeper pair has the stricter one. Hence
+ * some roundings (of large coordinates too) with each split of either element, so that the deeper pair has the stricter one. Hence
  * a list of candidates may be filtered, or made anew, with the same result. A quad bent by more than an eighth of `grow` is
  * taken for the two triangles that a ray caster makes of it.
  * Fails (says that a face meets, or does not cover, though it is not so): corners almost on the line of an edge, where no plane
@@ -134,8 +134,8 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
     int end, i, k;
     shaft->planes = 0;
     shaft->margin = offset * (0.5 - 0.25 * deep);
-    shaft->slack = offset * (1 / 16777216.0) * (2 - deep);
-    shaft->touch = offset * (1 / 16777216.0) * (3 + deep); /* more than slack */
+    shaft->slack = offset * (1 / 65536.0) * (2 - deep);
+    shaft->touch = offset * (1 / 65536.0) * (3 + deep); /* more than slack */
     if (!shaft_rises(r, s, shaft->touch) || !shaft_rises(s, r, shaft->touch))
         return 0;
     for (k = 0; k < 3; k++) { /* where one ends in the other's plane, rounding does not cut it */
