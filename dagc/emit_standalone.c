@@ -1,13 +1,12 @@
 /* emit_standalone.c - an oracle with all it needs: one .c and one .h, no other header but libc's.
  *
  * The texts of the runtime's header, of the tools' and of whatever they include (from the folders
- * of -I, else those built into the command) and the generated catalog are taken apart into items
+ * of -I, else those built into the command, headers.c) and the generated catalog are taken apart into items
  * (c_items.c). Kept is what the oracles' functions need, no more: to know which terms that are, all is
  * done twice, at first without those that nothing but their own clearing names. What the prototypes
  * need goes to the header. Every name that is declared gets the prefix, so that the two files can be dropped into
  * any program, beside others of their kind.
  * SPDX-License-Identifier: MIT */
-#include <errno.h>
 #include <string.h>
 
 #include "c_items.h"
@@ -24,29 +23,6 @@ struct standalone {
     int text_count;
 };
 
-/* A header's text, in the arena: from the first folder that has it, else the built-in one. It becomes
- * a source: the outputs depend on it as on the graph (--depfile). */
-static const char *header_text(const struct standalone *s, const char *name)
-{
-    struct dag *dag = s->dag;
-    for (int i = 0; i < s->options.folder_count; i++) {
-        struct input input;
-        dag_input_open(&input, dag_format(&dag->arena, "%s/%s", s->options.folders[i], name));
-        if (input.error != ENOENT && input.error != ENOTDIR) {
-            dag->reading = input.owned; /* should memory run out, dag_free frees it */
-            int source = dag_read(dag, &input);
-            dag->reading = NULL;
-            dag_input_close(&input);
-            return source < 0 ? "" : dag->sources[source].text;
-        }
-        dag_input_close(&input);
-    }
-    for (int i = 0; dagc_headers[i].name != NULL; i++)
-        if (strcmp(dagc_headers[i].name, name) == 0)
-            return dagc_headers[i].text;
-    return NULL;
-}
-
 static void include(struct c_items *items, const char *name, void *context);
 
 /* Takes the header in, once; 0: there is none of this name. */
@@ -60,7 +36,7 @@ static int take(struct standalone *s, struct c_items *items, const char *name)
         if (known < 0) {
             known = s->text_count;
             s->texts = dag_grow(&s->dag->arena, s->texts, s->text_count, sizeof *s->texts);
-            s->texts[s->text_count++] = header_text(s, name);
+            s->texts[s->text_count++] = dag_header_text(s->dag, name);
             dag_put(&s->dag->arena, &s->read, name, known);
         }
         text = s->texts[known];
