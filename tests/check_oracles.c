@@ -29,7 +29,7 @@ static void must(int done, const char *what)
 static void solve_with(struct solve *s, const struct scene *scene, const char *oracle, char *const *settings)
 {
     struct solve_options options = { .tolerance = 1e-5, .iterations = 100000, .threads = 2 };
-    struct refiner *r = oracles_open(oracle, strchr(oracle, 0x2f) ? RELEASE_DAG : RELEASE_FLAT);
+    struct refiner *r = oracles_open(oracle, RELEASE_FLAT);
     const char *cause;
     int n = 0;
     while (settings && settings[n])
@@ -76,7 +76,7 @@ static int table(const char *path)
             settings[n++] = word;
         if (strcmp(b->name, "viewfactors") == 0 || (getenv("ORACLES_ONLY") && !strstr(getenv("ORACLES_ONLY"), b->name)))
             continue;
-        solve_with(&s, &scene, getenv("ORACLES_FILE") ? getenv("ORACLES_FILE") : b->name, settings);
+        solve_with(&s, &scene, b->name, settings);
         free(given);
         error = power_error(&s, reference, 0, &all);
         if (getenv("ORACLES_FACES"))
@@ -84,9 +84,9 @@ static int table(const char *path)
                 printf("%zu rho %.3f area %.4f H %.5g ref %.5g +- %.2g exposed %.3f\n", i, s.reflectance[i * s.bands], s.hierarchy.elements[s.hierarchy.face_element[i]].area, s.irradiance[(size_t)s.hierarchy.face_element[i] * s.bands], reference[i * s.bands], noise[i * s.bands], s.exposed[s.hierarchy.face_element[i]]);
         for (quiet = 0, i = 0; i < scene.face_count; i++)
             quiet += s.reflectance[i * s.bands] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[i * s.bands];
-        printf("%-15s %9zu links %9.0f rays %7.2f s  error %.3f %% of %.4g W (reference's noise %.3f %%), %llu kept by a guard\n", b->name,
+        printf("%-15s %9zu links %9.0f rays %7.2f s  error %.3f %% of %.4g W (reference's noise %.3f %%), %llu kept by a guard; %.3g of its tolerance\n", b->name,
                s.refinement.link_count, (double)rays_count(s.rays).rays, s.seconds.refine + s.seconds.iterate, 100 * error / all,
-               all, 100 * quiet / all, (unsigned long long)s.refinement.marked[1]);
+               all, 100 * quiet / all, (unsigned long long)s.refinement.marked[1], error / (0.02 * rays_host(s.rays)->irradiance * rays_host(s.rays)->area));
         fflush(stdout);
         solve_close(&s);
     }
