@@ -25,6 +25,8 @@ const struct stability_method stability_methods[METHODS] = {
     [CORNERS] = { "corners", "range of F over the receiver: its values at the corners", BY_RULE, 0, NULL, { NULL } },
     [SAMPLED] = { "sampled", "range of F over the receiver: corners and centre", BY_RULE, 0, NULL, { NULL } },
     [BOUNDED] = { "bounded", "range of F over the receiver: bounds", BY_RULE, 0, NULL, { NULL } },
+    [LARGER] = { "larger", "split the element with the larger area", BY_RULE, 0, NULL, { NULL } },
+    [LONGER] = { "longer", "split the element with the larger diameter", BY_RULE, 0, NULL, { NULL } },
     [LINF_GAP] = { "gap", "refine while F_max - F_min is large [Lischinski 94]", BY_RULE, 0, NULL, { NULL } },
     [AREA_GAP] = { "A gap", "refine while A_r (F_max - F_min) is large", BY_RULE, 0, NULL, { NULL } },
     [BF_1991] = { "BF of 1991", "bf with an absolute threshold", BY_ORACLE, CLOSURE_NONE, "bf", { "relative=0", "epsilon=0.5", "min_share=1e-3", NULL } },

@@ -121,6 +121,80 @@ int stability_large_source(struct stability_trial *trial)
     return status;
 }
 
+/* The range of F over what is left of r, as a share of its largest value. */
+static double range_left(const struct element *r, const struct element *s)
+{
+    double range[2];
+    form_factor_range_sample(r, s, range);
+    return range[1] > 0 ? 1 - range[0] / range[1] : 0;
+}
+
+/* Split faces 0 (receiver) and 1 six times by the trial's rule, going on with the child nearest to the other
+ * element's centre; the error is the range of F over the receiver that is left. */
+static int split_six(struct stability_trial *trial, struct scene *scene)
+{
+    struct hierarchy h;
+    uint32_t pair[2];
+    int i, status = 0;
+    if (hierarchy_build(&h, scene->faces, scene->face_count) < 0)
+        return -1;
+    pair[0] = h.face_element[0];
+    pair[1] = h.face_element[1];
+    for (i = 0; i < 6 && status == 0; i++) {
+        const struct element *r = &h.elements[pair[0]], *s = &h.elements[pair[1]];
+        int which = trial->method == &stability_methods[LARGER] ? s->area > r->area
+                  : trial->method == &stability_methods[LONGER] ? s->radius > r->radius : !(range_left(r, s) > 0.1);
+        double best = INFINITY;
+        uint32_t c, child, nearest = 0;
+        status = hierarchy_split(&h, pair[which]);
+        child = h.elements[pair[which]].child;
+        for (c = 0; c < h.elements[pair[which]].children; c++) {
+            double v[3], square;
+            sub3(v, h.elements[child + c].centre, h.elements[pair[!which]].centre);
+            square = dot3(v, v);
+            if (square < best) {
+                best = square;
+                nearest = child + c;
+            }
+        }
+        if (status == 0)
+            pair[which] = nearest;
+    }
+    trial->error = range_left(&h.elements[pair[0]], &h.elements[pair[1]]);
+    hierarchy_free(&h);
+    return status;
+}
+
+/* A skirting of 4 m by 1 mm, a lamp of .3 by .3 over one end. */
+int stability_long_receiver(struct stability_trial *trial)
+{
+    struct scene scene;
+    int status;
+    if (begin(&scene) < 0)
+        return -1;
+    made_material(&scene, 0.5, 0);
+    made_quad(&scene, 0, 0, 0, 0, 4, 0, 0, 0, 1e-3, 0);
+    made_quad(&scene, 0, 0, -0.15, 0.5, 0, 0.3, 0, 0.3, 0, 0);
+    status = split_six(trial, &scene);
+    made_close(&scene);
+    return status;
+}
+
+/* A unit square under the edge of a square of 10: F varies over the small one. */
+int stability_large_source_split(struct stability_trial *trial)
+{
+    struct scene scene;
+    int status;
+    if (begin(&scene) < 0)
+        return -1;
+    made_material(&scene, 0.5, 0);
+    made_quad(&scene, 0, 4.5, 4.5, 0, 1, 0, 0, 0, 1, 0);
+    made_quad(&scene, 0, 5, 0, 1, 0, 10, 0, 10, 0, 0);
+    status = split_six(trial, &scene);
+    made_close(&scene);
+    return status;
+}
+
 /* The range of F(x) over a floor cell of width h by its edge, to a wall cell of width h on that edge. */
 static double touching_range(double h)
 {
