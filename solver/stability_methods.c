@@ -29,11 +29,11 @@ const struct stability_method stability_methods[METHODS] = {
     [LONGER] = { "longer", "split the element with the larger diameter", BY_RULE, 0, NULL, { NULL } },
     [LINF_GAP] = { "gap", "refine while F_max - F_min is large [Lischinski 94]", BY_RULE, 0, NULL, { NULL } },
     [AREA_GAP] = { "A gap", "refine while A_r (F_max - F_min) is large", BY_RULE, 0, NULL, { NULL } },
-    [BF_1991] = { "BF of 1991", "bf with an absolute threshold", BY_ORACLE, CLOSURE_NONE, "bf", { "relative=0", "epsilon=0.5", "min_share=1e-3", NULL } },
+    [BF_1991] = { "BF of 1991", "bf with an absolute threshold", BY_ORACLE, CLOSURE_NONE, "bf", { "relative=0", "epsilon=2", "min_share=5e-3", NULL } },
     [BF_NODES] = { "BF, A min", "bf with an absolute smallest area", BY_ORACLE, CLOSURE_NONE, "bf", { "min_share=0", "min_area=0.01", NULL } },
     [BF] = { "bf", "bf", BY_ORACLE, CLOSURE_NONE, "bf", { NULL } },
     [VIEWFACTORS] = { "viewfactors", "viewfactors, the oracle of `radiosity viewfactors`", BY_ORACLE, CLOSURE_NONE, "viewfactors", { NULL } },
     [BF_GUARDED] = { "bf_guarded", "bf_guarded, the default", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { NULL } },
-    [FINE] = { "bf_guarded fine", "the default with relative = .003 and min_share = 1e-6", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { "relative=0.003", "min_share=1e-6", NULL } },
+    [FINE] = { "bf_guarded fine", "the default with relative = .01 and min_share = 5e-6", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { "relative=0.01", "min_share=5e-6", NULL } },
     [CLOSED] = { "--closure rows", "the default with rows closed", BY_ORACLE, CLOSURE_ROWS, "bf_guarded", { NULL } },
 };

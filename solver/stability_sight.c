@@ -272,13 +272,6 @@ int stability_thin_wall(struct stability_trial *trial)
     return 0;
 }
 
-/* The wall stands where quarters of the floor meet. */
-int stability_wall_on_border(struct stability_trial *trial)
-{
-    return leaked(trial, 1, 0, 1, &trial->error);
-}
-
-/* It stands where no border of any quarter is. */
 int stability_wall_in_floor(struct stability_trial *trial)
 {
     return leaked(trial, 0.73, 0, 1, &trial->error);
