@@ -1,4 +1,4 @@
-/* rays.c - occlusion on Embree.
+/* rays.c - the host of a scene: occlusion on Embree, candidates and totals from the hierarchy.
  *
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
@@ -20,6 +20,7 @@
 #include <embree3/rtcore.h>
 #define EMBREE 3
 #endif
+#include "candidates.h"
 #include "rays.h"
 
 enum { PACKET = 16 };
@@ -33,6 +34,7 @@ struct tally {
 
 struct rays {
     struct host host; /* first, so that a host is its rays */
+    const struct hierarchy *hierarchy; /* borrowed */
     RTCDevice device;
     RTCScene scene;
     double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
@@ -103,6 +105,26 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
     return hits;
 }
 
+static const struct hierarchy *hierarchy_of(const struct host *host)
+{
+    return ((const struct rays *)(const void *)host)->hierarchy;
+}
+
+static int candidates(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces)
+{
+    return candidates_find(hierarchy_of(host), shaft, most, faces);
+}
+
+static void corners(const struct host *host, uint32_t face, struct polygon *polygon)
+{
+    candidates_corners(hierarchy_of(host), face, polygon);
+}
+
+static double optical_depth(const struct host *host, const struct segment *segment, uint32_t receiver, uint32_t emitter)
+{
+    return candidates_depth(hierarchy_of(host), segment, receiver, emitter, host->ray_offset);
+}
+
 /* The largest power of two not above x > 0. */
 static double power_of_two(double x)
 {
@@ -128,7 +150,7 @@ static double most_bent(const struct hierarchy *h)
 
 static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
 {
-    double area = 0, emitted = 0, reflected = 0, brightest = 0, size = 0, largest = 0, bent;
+    double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0, largest = 0, bent;
     uint32_t i;
     int k;
     for (i = 0; i < h->face_count; i++) {
@@ -137,6 +159,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         emitted += a * exitance[i];
         reflected += a * reflectance[i];
         brightest = exitance[i] > brightest ? exitance[i] : brightest;
+        whitest = reflectance[i] > whitest ? reflectance[i] : whitest;
     }
     for (k = 0; k < 3; k++) {
         double side = h->high[k] - h->low[k];
@@ -147,9 +170,13 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     }
     rays->scale = 1 / power_of_two(size);
     rays->host.occluded = occluded;
+    rays->host.candidates = candidates;
+    rays->host.corners = corners;
+    rays->host.optical_depth = optical_depth;
     rays->host.area = area;
     rays->host.extent = size;
     rays->host.exitance = brightest;
+    rays->host.reflectance = whitest;
     rays->host.importance = 1;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
@@ -208,6 +235,7 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     if (!rays)
         return NULL;
     rays->threads = threads;
+    rays->hierarchy = h;
     rays->tallies = calloc((size_t)threads, sizeof *rays->tallies);
     if (!rays->tallies) {
         free(rays);
