@@ -106,7 +106,7 @@ static const struct stability_case refine_cases[] = {
       { FAIL(CORNERS, 0, 0.9, 1, "maximum inside"), FAIL(SAMPLED, 1e-12, 0.5, 1, "maximum off the centre"), PASS(BOUNDED, 0) } },
     { "four_shadows", "four squares that shade a floor, on a mesh too coarse for two of them", "a lost shadow is told from a kept one",
       "smallest error over largest; of oracles, error in a shadow's middle", NULL, stability_four_shadows,
-      { FAIL(L2_NORM, 0.5, 0.5, 1, "all shadows alike"), FAIL(LINF_NORM, 0.5, 0.5, 1, "all shadows alike"), PASS(UMBRA, 0.5), FAIL(BF, 0.1, 0.11, 0.13, "shadows steer nothing"), PASS(BFV, 0.1), FAIL(RELATIVE, 0.1, 0.6, 0.75, "a shadow is lost"), PASS(GAP, 0.1), PASS(SMOOTH, 0.1), PASS(BF_GUARDED, 0.1) } },
+      { FAIL(L2_NORM, 0.5, 0.52, 0.56, "all shadows alike"), FAIL(LINF_NORM, 0.5, 0.68, 0.75, "all shadows alike"), PASS(UMBRA, 0.5), FAIL(BF, 0.1, 0.11, 0.13, "shadows steer nothing"), PASS(BFV, 0.1), FAIL(RELATIVE, 0.1, 0.6, 0.75, "a shadow is lost"), PASS(GAP, 0.1), PASS(SMOOTH, 0.1), PASS(BF_GUARDED, 0.1) } },
 };
 
 static const struct stability_case mesh_cases[] = {
