@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
 #include <limits.h>
-#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -131,13 +130,13 @@ static int whole_number(const char *text, int low, int high, int *value)
 }
 
 /* Rising numbers from low to high, parted by commas. Returns how many, or -1. */
-static int rising_list(const char *text, double low, double high, int whole, double list[STUDY_LIST])
+static int rising_list(const char *text, double low, double high, double list[STUDY_LIST])
 {
     int n = 0;
     for (;;) {
         char *end;
         double x = strtod(text, &end);
-        if (end == text || n == STUDY_LIST || !(x >= low && x <= high) || (whole && x != floor(x)) || (n && x <= list[n - 1]))
+        if (end == text || n == STUDY_LIST || !(x >= low && x <= high) || (n && x <= list[n - 1]))
             return -1;
         list[n++] = x;
         if (!*end)
@@ -146,6 +145,20 @@ static int rising_list(const char *text, double low, double high, int whole, dou
             return -1;
         text = end + 1;
     }
+}
+
+/* The numbers of rays that visibility is asked of; the graph's tools round others up. */
+static int power_of_four(double x)
+{
+    while (x > 1)
+        x /= 4;
+    return x == 1;
+}
+
+static int ends_with(const char *path, const char *end)
+{
+    size_t n = strlen(path), m = strlen(end);
+    return n >= m && strcmp(path + n - m, end) == 0;
 }
 
 static int take(struct options *o, const struct option *p, char *value)
@@ -223,15 +236,18 @@ static int take(struct options *o, const struct option *p, char *value)
         return 0;
     case CHART:
         o->chart = value;
-        return 0;
+        return ends_with(value, ".svg") || ends_with(value, ".png") ? 0 : wrong("--chart takes a file named .svg or .png, not", value);
     case THRESHOLDS:
-        o->threshold_count = rising_list(value, 1e-300, 1e300, 0, o->thresholds);
+        o->threshold_count = rising_list(value, 1e-300, 1e300, o->thresholds);
         return o->threshold_count < 0 ? wrong("--thresholds takes rising positive numbers parted by commas, 32 at the most, not", value) : 0;
     case RAYS:
-        o->ray_count = rising_list(value, 4, 1024, 1, list);
-        for (i = 0; i < o->ray_count; i++)
+        o->ray_count = rising_list(value, 4, 1024, list);
+        for (i = 0; i < o->ray_count; i++) {
             o->rays[i] = (int)list[i];
-        return o->ray_count < 0 ? wrong("--rays takes rising whole numbers from 4 to 1024 parted by commas, not", value) : 0;
+            if (!power_of_four(list[i]))
+                o->ray_count = -1;
+        }
+        return o->ray_count < 0 ? wrong("--rays takes some of 4,16,64,256,1024, rising, parted by commas, not", value) : 0;
     case QUIET:
         o->quiet = 1;
         return 0;
@@ -362,8 +378,12 @@ int options_parse(struct options *o, int count, char **arguments)
         p = find(arguments[i], &value);
         if (!p)
             return wrong("unknown option", arguments[i]);
-        if (!(p->commands & takes(o)))
-            return wrong(arguments[1], p->name[1] == '-' ? "has no such option" : "has no option of that letter");
+        if (!(p->commands & takes(o))) {
+            char command[64];
+            snprintf(command, sizeof command, "%s%s%s has no option", arguments[1], o->command == COMMAND_STUDY ? " " : "",
+                     o->command == COMMAND_STUDY ? arguments[2] : "");
+            return wrong(command, p->name);
+        }
         if (!p->argument && value)
             return wrong("no value goes with", p->name);
         if (p->argument && !value) {
@@ -379,6 +399,10 @@ int options_parse(struct options *o, int count, char **arguments)
     }
     if (o->command == COMMAND_ORACLES)
         return o->scene ? wrong("oracles takes no scene, but got", o->scene) : 0;
+    if (o->command == COMMAND_STUDY && o->study == STUDY_STABILITY && o->out && !ends_with(o->out, ".csv") && !ends_with(o->out, ".md"))
+        return wrong("-o takes a file named .csv or .md, not", o->out);
+    if (o->command == COMMAND_STUDY && o->study == STUDY_VISIBILITY && o->out && !ends_with(o->out, ".csv"))
+        return wrong("-o takes a file named .csv, not", o->out);
     if (o->command == COMMAND_STUDY && o->study == STUDY_STABILITY)
         return o->scene ? wrong("study stability makes its own scenes, but got", o->scene) : 0;
     if (!o->scene)
@@ -389,6 +413,8 @@ int options_parse(struct options *o, int count, char **arguments)
         return wrong("--statistics counts what the interpreted graph does: it takes no --release but dag, not", release_names[o->release]);
     if (o->statistics)
         o->release = RELEASE_DAG;
+    if (o->statistics && o->json && strcmp(o->statistics, "-") == 0 && strcmp(o->json, "-") == 0)
+        return wrong("--statistics - and --json - would mix on standard output: give one of them a file", "");
     if (o->mesh && !o->image)
         return wrong("--mesh is for a picture: add --image FILE.png", "");
     return 0;

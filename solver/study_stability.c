@@ -272,8 +272,6 @@ int study_stability(const struct options *o)
     struct results *results;
     struct atomic_file file;
     int g, cells, failing, wrong, status = 0;
-    if (o->out && format_of(o->out) == PLAIN)
-        return report_error(o->out, 0, "-o takes a file named .csv or .md") != 0;
     if (o->only && find(o->only) < 0)
         return 1;
     results = calloc((size_t)stability_group_count, sizeof *results);

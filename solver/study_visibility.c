@@ -221,7 +221,11 @@ static int write_chart(const struct options *o, const struct table *t)
     struct atomic_file file;
     FILE *f, *picture;
     size_t n, all = 0;
-    int fd;
+    int fd, i, drawn = 0;
+    for (i = 0; i < o->threshold_count; i++)
+        drawn += judge(&t->cells[i][0]).asked > 0;
+    if (!drawn)
+        return report_error(o->chart, 0, "no pair was tested, so there is nothing to draw; raise --thresholds, or try a scene of more faces");
     snprintf(script, sizeof script, "%s/radiosity-XXXXXX", folder && *folder ? folder : "/tmp");
     fd = mkstemp(script);
     f = fd < 0 ? NULL : fdopen(fd, "w");
@@ -244,16 +248,6 @@ static int write_chart(const struct options *o, const struct table *t)
     return report_error(o->chart, 0, "gnuplot, which draws it, is not there or failed");
 }
 
-/* The graph's tools take certain numbers of rays and round others up. */
-static int check_rays(const struct options *o)
-{
-    int k;
-    for (k = 0; k < o->ray_count; k++)
-        if (o->rays[k] != 4 && o->rays[k] != 16 && o->rays[k] != 64 && o->rays[k] != 256 && o->rays[k] != 1024)
-            return report_error("--rays", 0, "%d: visibility is asked of 4, 16, 64, 256 or 1024 rays", o->rays[k]);
-    return 0;
-}
-
 int study_visibility(const struct options *o, const struct scene *scene)
 {
     struct table *t = calloc(1, sizeof *t);
@@ -261,8 +255,6 @@ int study_visibility(const struct options *o, const struct scene *scene)
     int i, k, status = 1;
     if (!t)
         return report_error(o->scene, 0, "out of memory") ? 1 : 0;
-    if (check_rays(o) < 0)
-        goto done;
     progress_start(&progress, o->quiet);
     if (!o->quiet)
         print_head(stdout, o);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include "discussion.h"
 #include "tools/lot.h"
@@ -98,8 +99,11 @@ END_TEST
 /* What the graph cannot do is refused. */
 START_TEST(test_wrong)
 {
-    ck_assert_int_ne(run("--rays 5 2> /dev/null"), 0);
-    ck_assert_int_ne(run("--rays 16,4 2> /dev/null"), 0);
+    ck_assert_int_eq(WEXITSTATUS(run("--rays 5 2> /dev/null")), 2);
+    ck_assert_int_eq(WEXITSTATUS(run("--rays 16,4 2> /dev/null")), 2);
+    ck_assert_int_eq(WEXITSTATUS(run("--chart no.txt 2> /dev/null")), 2);
+    ck_assert_int_eq(WEXITSTATUS(run("-o no.txt 2> /dev/null")), 2);
+    ck_assert_int_eq(WEXITSTATUS(run("--only shared_edge 2> /dev/null")), 2);
     ck_assert_int_ne(run("--set nothing=1 2> /dev/null"), 0);
 }
 END_TEST
