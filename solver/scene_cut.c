@@ -51,6 +51,11 @@ struct part {
     double covered;   /* length of contacts there; 0: it is not to be cut */
 };
 
+/* Of a part: what becomes a face. */
+struct piece {
+    uint32_t corner[4], n;
+};
+
 struct cutter {
     const struct face *faces;
     struct hierarchy tree;
@@ -327,14 +332,12 @@ static double cover(const struct cutter *c, const struct part *p, const struct l
     for (i = 0; i < p->n; i++) {
         uint32_t j = (i + 1) % p->n;
         double a = along(c, p->vertex[i], l->direction), b = along(c, p->vertex[j], l->direction), t;
-        if ((h[i] < 0 && h[j] < 0) || (h[i] > 0 && h[j] > 0) || (!(h[i] < 0 || h[i] > 0) && (h[j] < 0 || h[j] > 0) && i == j))
-            continue;
-        if (!(h[i] < 0 || h[i] > 0))
-            t = a;
-        else if (!(h[j] < 0 || h[j] > 0))
-            t = b;
-        else
+        if ((h[i] < 0 && h[j] > 0) || (h[i] > 0 && h[j] < 0))
             t = a + h[i] / (h[i] - h[j]) * (b - a);
+        else if (h[i] < 0 || h[i] > 0)
+            continue;
+        else
+            t = a;
         from = fmin(from, t);
         to = fmax(to, t);
     }
@@ -343,7 +346,54 @@ static double cover(const struct cutter *c, const struct part *p, const struct l
     return covered >= COVER * (to - from) ? covered : 0;
 }
 
-/* Cut p along a line at heights h. Returns 0 when a side would be no polygon to speak of. */
+/* A part becomes quads and at most one triangle, cut off where the cut is shortest. Returns how many. */
+static uint32_t pieces(const struct part *p, struct piece *piece)
+{
+    uint32_t ring[CORNERS], rest[CORNERS], n = p->n, count = 0, i, j;
+    for (i = 0; i < n; i++)
+        ring[i] = i;
+    for (; n > 4; n -= 2) {
+        uint32_t best = 0;
+        double shortest = INFINITY;
+        for (i = 0; i < n; i++) {
+            double d[3];
+            sub3(d, p->vertex[ring[i]], p->vertex[ring[(i + 3) % n]]);
+            if (length3(d) < shortest) {
+                shortest = length3(d);
+                best = i;
+            }
+        }
+        for (j = 0; j < 4; j++)
+            piece[count].corner[j] = ring[(best + j) % n];
+        piece[count++].n = 4;
+        for (j = 3; j <= n; j++)
+            rest[j - 3] = ring[(best + j) % n];
+        memcpy(ring, rest, sizeof ring);
+    }
+    memcpy(piece[count].corner, ring, sizeof piece->corner);
+    piece[count].n = n;
+    return count + 1;
+}
+
+/* Do all of a part's pieces have an area to speak of? */
+static int sound(const struct part *p)
+{
+    struct piece piece[CORNERS / 2];
+    uint32_t count, i, j;
+    if (p->n < 3)
+        return 0;
+    count = pieces(p, piece);
+    for (i = 0; i < count; i++) {
+        double v[4][3];
+        for (j = 0; j < piece[i].n; j++)
+            memcpy(v[j], p->vertex[piece[i].corner[j]], sizeof v[j]);
+        if (polygon_degenerate(v, piece[i].n))
+            return 0;
+    }
+    return 1;
+}
+
+/* Cut p along a line at heights h. Returns 0 when a side would not be sound. */
 static int divide(const struct part *p, const double h[CORNERS], struct part side[2])
 {
     uint32_t i;
@@ -364,7 +414,7 @@ static int divide(const struct part *p, const double h[CORNERS], struct part sid
                 memcpy(side[s].vertex[side[s].n++], cut, sizeof cut);
         }
     }
-    return !polygon_degenerate(side[0].vertex, side[0].n) && !polygon_degenerate(side[1].vertex, side[1].n);
+    return sound(&side[0]) && sound(&side[1]);
 }
 
 /* Find where to cut a part: along the line with the most contact. */
@@ -383,55 +433,22 @@ static void look(const struct cutter *c, struct part *p)
     }
 }
 
-static int emit(struct cutter *c, const struct face *like, uint32_t n, const double *const *corner)
+static int emit(struct cutter *c, const struct face *like, const struct part *p, const struct piece *piece)
 {
     struct face f = *like;
     int back;
     memset(f.vertex, 0, sizeof f.vertex);
-    f.vertices = n;
+    f.vertices = piece->n;
     for (back = 0; back <= c->two_sided; back++) {
         uint32_t i;
         if (!room((void **)&c->out, c->out_count, &c->out_capacity, sizeof *c->out))
             return -1;
-        for (i = 0; i < n; i++)
-            memcpy(f.vertex[i], corner[back ? n - 1 - i : i], sizeof f.vertex[i]);
+        for (i = 0; i < piece->n; i++)
+            memcpy(f.vertex[i], p->vertex[piece->corner[back ? piece->n - 1 - i : i]], sizeof f.vertex[i]);
         f.back = (uint8_t)(like->back | back);
-        if (polygon_degenerate(f.vertex, n))
-            return 0;
         c->out[c->out_count++] = f;
     }
     return 0;
-}
-
-/* A part becomes quads and at most one triangle, cut off where the cut is shortest. */
-static int emit_part(struct cutter *c, const struct face *like, const struct part *p)
-{
-    const double *ring[CORNERS], *quad[4];
-    uint32_t n = p->n, i, j;
-    for (i = 0; i < n; i++)
-        ring[i] = p->vertex[i];
-    while (n > 4) {
-        uint32_t best = 0, left = 0;
-        double shortest = INFINITY;
-        const double *rest[CORNERS];
-        for (i = 0; i < n; i++) {
-            double d[3];
-            sub3(d, ring[i], ring[(i + 3) % n]);
-            if (length3(d) < shortest) {
-                shortest = length3(d);
-                best = i;
-            }
-        }
-        for (j = 0; j < 4; j++)
-            quad[j] = ring[(best + j) % n];
-        if (emit(c, like, 4, quad) < 0)
-            return -1;
-        for (j = 3; j <= n; j++)
-            rest[left++] = ring[(best + j) % n];
-        memcpy(ring, rest, left * sizeof *ring);
-        n = left;
-    }
-    return emit(c, like, n, ring);
 }
 
 /* Cut the face at hand along its lines. Returns the number of parts, 1 when it stays whole, or -1. */
@@ -457,9 +474,13 @@ static int cut(struct cutter *c)
         part[best] = side[0];
         part[count] = side[1];
     }
-    for (i = 0; i < count && count > 1; i++)
-        if (emit_part(c, f, &part[i]) < 0)
-            return -1;
+    for (i = 0; i < count && count > 1; i++) {
+        struct piece piece[CORNERS / 2];
+        uint32_t n = pieces(&part[i], piece), j;
+        for (j = 0; j < n; j++)
+            if (emit(c, f, &part[i], &piece[j]) < 0)
+                return -1;
+    }
     return (int)count;
 }
 
