@@ -136,6 +136,8 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.extent = size;
     rays->host.exitance = brightest;
     rays->host.importance = 1;
+    rays->host.faces = h->face_count;
+    rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
     /* 2^-24 is half a unit in the last place of a float; input coordinates carry that much error. */

@@ -80,7 +80,7 @@ static unsigned char discuss(const struct refinement *r, struct link *link)
     d.host = r->host;
     link_recall(link, &d.terms);
     decision = r->refiner->refine(r->refiner->state, &d);
-    if (decision == DECISION_LINK)
+    if (decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS)
         link_store(link, &d.terms);
     return (unsigned char)decision;
 }
@@ -98,7 +98,7 @@ static void discuss_round(struct refinement *r, int count)
         o->decision[0] = discuss(r, &o->link[0]);
         if (!p->both)
             continue;
-        if (o->decision[0] == DECISION_LINK) {
+        if (o->decision[0] == DECISION_LINK || o->decision[0] == DECISION_LINK_CLUSTERS) {
             back.visibility = o->link[0].visibility;
             back.levels = o->link[0].levels & 0xf0;
         }
@@ -159,6 +159,7 @@ static int splits(enum decision decision, int turned)
     case DECISION_SUBDIVIDE_BOTH:
         return SPLIT_RECEIVER | SPLIT_EMITTER;
     case DECISION_LINK:
+    case DECISION_LINK_CLUSTERS:
     case DECISION_STOP:
         break;
     }
@@ -250,7 +251,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
                 continue;
             }
             r->pairs++;
-            moved += o->decision[0] != DECISION_LINK || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            moved += (o->decision[0] != DECISION_LINK && o->decision[0] != DECISION_LINK_CLUSTERS) || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
             if (carry_out(r, &o->link[0], (enum decision)o->decision[0]) < 0)
                 return -1;
         }

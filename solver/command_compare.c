@@ -88,6 +88,8 @@ static const char *decision_name(enum decision d)
     switch (d) {
     case DECISION_LINK:
         return "link";
+    case DECISION_LINK_CLUSTERS:
+        return "link_clusters";
     case DECISION_STOP:
         return "stop";
     case DECISION_SUBDIVIDE_RECEIVER:

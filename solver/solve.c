@@ -226,6 +226,7 @@ static void gather(struct solve *s, uint32_t e)
         for (k = 0; k < b; k++)
             h[k] += weight * from[k];
     }
+    cluster_light_gather(&s->cluster_light, e, h);
     for (k = 0; k < b; k++)
         s->irradiance[(size_t)e * b + k] = h[k];
 }
@@ -249,8 +250,11 @@ static void visit_rows(struct solve *s, uint32_t e, double above, void (*visit)(
     const struct refinement *r = &s->refinement;
     size_t i;
     int c;
+    double beams[3] = { 0, 0, 0 };
     for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
         above += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
+    cluster_light_gather(&s->cluster_light, e, beams);
+    above += beams[0];
     for (c = 0; c < x->children; c++)
         visit_rows(s, x->child + (uint32_t)c, above, visit, context);
     if (!x->children)
@@ -376,6 +380,7 @@ static void sweep(struct solve *s, double *moved)
 {
     static const double nothing[3] = { 0, 0, 0 };
     uint32_t faces = s->scene->face_count, blocks = s->options.jacobi ? 1 : faces < BLOCKS ? faces : BLOCKS, block;
+    cluster_light_send(&s->cluster_light, s->radiosity);
 #pragma omp parallel num_threads(s->options.threads) private(block) if (s->refinement.link_count > LINKS_WORTH_THREADS)
     for (block = 0; block < blocks; block++) {
         uint32_t from = (uint32_t)((uint64_t)faces * block / blocks), to = (uint32_t)((uint64_t)faces * (block + 1) / blocks), i;
@@ -397,9 +402,20 @@ static int iterate(struct solve *s, const char **cause)
     uint32_t faces = s->scene->face_count, i, k;
     double *moved = malloc(faces * sizeof *moved), rho = largest(s->reflectance, faces * s->bands);
     int n;
+    double *ones = malloc((size_t)s->hierarchy.count * s->bands * sizeof *ones);
+    size_t at;
     *cause = "out of memory";
-    if (!moved)
+    cluster_light_close(&s->cluster_light);
+    if (!moved || !ones
+        || cluster_light_open(&s->cluster_light, &s->hierarchy, &s->refinement, (int)s->bands, s->options.threads) < 0) {
+        free(moved);
+        free(ones);
         return -1;
+    }
+    for (at = 0; at < (size_t)s->hierarchy.count * s->bands; at++)
+        ones[at] = 1;
+    cluster_light_send(&s->cluster_light, ones);
+    free(ones);
     cap_rows(s);
     s->converged = 0;
     for (n = 0; n < s->options.iterations && !s->converged; n++) {
@@ -497,6 +513,7 @@ struct solution solve_solution(const struct solve *s)
 void solve_close(struct solve *s)
 {
     refinement_close(&s->refinement);
+    cluster_light_close(&s->cluster_light);
     rays_close(s->rays);
     hierarchy_free(&s->hierarchy);
     free(s->radiosity);

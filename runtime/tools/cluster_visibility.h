@@ -1,0 +1,15 @@
+/* cluster_visibility.h - question: how many rays between two elements, one of them a cluster, arrive?
+ * SPDX-License-Identifier: MIT */
+#ifndef TOOL_CLUSTER_VISIBILITY_H
+#define TOOL_CLUSTER_VISIBILITY_H
+
+#include "discussion.h"
+#include "terms/cluster_visibility.h"
+
+TOOL enum cluster_visibility_answer tool_cluster_visibility(struct discussion *d, int rays)
+{
+    double v = term_cluster_visibility(d, rays <= 4 ? VISIBILITY_RAYS_4 : rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64);
+    return v <= 0 ? CLUSTER_VISIBILITY_NONE : v < 1 ? CLUSTER_VISIBILITY_PARTIAL : CLUSTER_VISIBILITY_ALL;
+}
+
+#endif

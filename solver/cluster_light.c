@@ -1,0 +1,135 @@
+/* cluster_light.c - see cluster_light.h. Invariant: what a face gathers is summed in the order of its own beams,
+ * then its clusters' from below; so the result does not depend on threads.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "cluster_light.h"
+
+static int is_beam(const struct hierarchy *h, const struct link *l)
+{
+    return !h->elements[l->receiver].vertices || !h->elements[l->emitter].vertices;
+}
+
+static struct cluster_beam beam(const struct hierarchy *h, const struct link *l)
+{
+    const struct element *r = &h->elements[l->receiver], *s = &h->elements[l->emitter];
+    struct cluster_beam b;
+    double v[3], square, distance;
+    int k;
+    sub3(v, s->centre, r->centre);
+    square = dot3(v, v);
+    distance = sqrt(square);
+    b.emitter = l->emitter;
+    for (k = 0; k < 3; k++)
+        b.towards[k] = (float)(v[k] / distance);
+    b.weight = (float)(l->visibility * (1.0 / LINK_VISIBLE) / square);
+    return b;
+}
+
+int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads)
+{
+    size_t i, n = 0;
+    uint32_t e;
+    int k;
+    memset(c, 0, sizeof *c);
+    c->hierarchy = h;
+    c->bands = bands;
+    c->threads = threads;
+    for (i = 0; i < r->link_count; i++)
+        n += (size_t)is_beam(h, &r->links[i]);
+    if (n == 0)
+        return 0;
+    c->elements = h->count;
+    c->beams = malloc(n * sizeof *c->beams);
+    c->first = malloc(((size_t)h->count + 1) * sizeof *c->first);
+    c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
+    c->normal = malloc((size_t)h->face_count * 3 * sizeof *c->normal);
+    c->sent = malloc((size_t)h->face_count * (size_t)bands * sizeof *c->sent);
+    if (!c->beams || !c->first || !c->arrives || !c->normal || !c->sent) {
+        cluster_light_close(c);
+        return -1;
+    }
+    for (e = 0; e < h->count; e++) {
+        c->first[e] = c->count;
+        for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
+            if (is_beam(h, &r->links[i]))
+                c->beams[c->count++] = beam(h, &r->links[i]);
+    }
+    c->first[h->count] = c->count;
+    for (e = 0; e < h->face_count; e++)
+        for (k = 0; k < 3; k++)
+            c->normal[3 * (size_t)e + (size_t)k] = h->elements[h->face_element[h->order[e]]].normal[k];
+    return 0;
+}
+
+void cluster_light_send(struct cluster_light *c, const double *radiosity)
+{
+    const struct hierarchy *h = c->hierarchy;
+    const double inverse_pi = 0.31830988618379067154;
+    size_t bands = (size_t)c->bands, i;
+    if (c->count == 0)
+        return;
+    for (i = 0; i < h->face_count; i++) {
+        uint32_t e = h->face_element[h->order[i]];
+        size_t k;
+        for (k = 0; k < bands; k++)
+            c->sent[i * bands + k] = inverse_pi * h->elements[e].area * radiosity[e * bands + k];
+    }
+#pragma omp parallel for schedule(dynamic, 256) num_threads(c->threads)
+    for (i = 0; i < c->count; i++) {
+        const struct cluster_beam *b = &c->beams[i];
+        const struct element *s = &h->elements[b->emitter];
+        double sum[3] = { 0, 0, 0 };
+        size_t k, f;
+        if (s->vertices) {
+            double cosine = -(s->normal[0] * b->towards[0] + s->normal[1] * b->towards[1] + s->normal[2] * b->towards[2]);
+            for (k = 0; k < bands && cosine > 0; k++)
+                sum[k] = inverse_pi * s->area * radiosity[b->emitter * bands + k] * cosine;
+        } else {
+            for (f = h->range[b->emitter].from; f < h->range[b->emitter].to; f++) {
+                const double *n = &c->normal[3 * f];
+                double cosine = -(n[0] * b->towards[0] + n[1] * b->towards[1] + n[2] * b->towards[2]);
+                for (k = 0; k < bands && cosine > 0; k++)
+                    sum[k] += c->sent[f * bands + k] * cosine;
+            }
+        }
+        for (k = 0; k < bands; k++)
+            c->arrives[i * bands + k] = b->weight * sum[k];
+    }
+}
+
+/* The beams of element e, on a surface with normal n. */
+static void add(const struct cluster_light *c, uint32_t e, const double n[3], double *h)
+{
+    size_t i, k, bands = (size_t)c->bands;
+    for (i = c->first[e]; i < c->first[e + 1]; i++) {
+        const struct cluster_beam *b = &c->beams[i];
+        double cosine = n[0] * b->towards[0] + n[1] * b->towards[1] + n[2] * b->towards[2];
+        for (k = 0; k < bands && cosine > 0; k++)
+            h[k] += c->arrives[i * bands + k] * cosine;
+    }
+}
+
+void cluster_light_gather(const struct cluster_light *c, uint32_t e, double *h)
+{
+    const struct element *elements = c->hierarchy->elements, *x = &elements[e];
+    if (c->count == 0 || e >= c->elements)
+        return;
+    add(c, e, x->normal, h);
+    if (x->depth > 0)
+        return;
+    while (e != 0) {
+        e = elements[e].parent;
+        add(c, e, x->normal, h);
+    }
+}
+
+void cluster_light_close(struct cluster_light *c)
+{
+    free(c->beams);
+    free(c->first);
+    free(c->arrives);
+    free(c->normal);
+    free(c->sent);
+    memset(c, 0, sizeof *c);
+}
