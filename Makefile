@@ -2,6 +2,7 @@
 # make check    the tests
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
+# make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make bench    what the releases cost, in instructions
 # make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
@@ -19,7 +20,8 @@ EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(wildcard $(1)/*.c)))
-ORACLES   = $(notdir $(basename $(wildcard examples/oracles/*.dag)))
+# common.dag holds what they share, and no oracle.
+ORACLES   = $(filter-out common,$(notdir $(basename $(wildcard examples/oracles/*.dag))))
 FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,runtime) $(BUILD)/gen/catalog.o
@@ -28,7 +30,9 @@ TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh)
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
-.PHONY: all check prove bench-size demo packages bench clean
+FUZZ_SECONDS = 60
+
+.PHONY: all check prove bench-size fuzz demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -55,7 +59,7 @@ $(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
 $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-c -o $@ $<
-$(BUILD)/gen/oracles/%.c: examples/oracles/%.dag $(BUILD)/bin/dagc
+$(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(BUILD)/bin/dagc
 	@mkdir -p $(@D)
 	$(BUILD)/bin/dagc -o $@ --header $(@:.c=.h) $<
 $(BUILD)/gen/builtin.c: solver/builtin.sh $(wildcard examples/oracles/*.dag) dagc/embed.sh
@@ -88,6 +92,19 @@ prove: commands
 	@sh tests/prove.sh $(BUILD)/bin/dagc 1000
 bench-size: commands
 	@sh tests/bench_size.sh $(BUILD)/bin/dagc
+
+# Everything once more, in a folder of its own: each object tells libFuzzer which branches it takes.
+FUZZ      = $(BUILD)/fuzz
+FUZZCC    = clang
+fuzz:
+	@echo 'int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }' | \
+	    $(FUZZCC) -x c -fsanitize=fuzzer,address -o /dev/null - || { \
+	    echo "make fuzz needs clang with libFuzzer: apt-get install clang libclang-rt-dev (or libclang-rt-NN-dev, NN as in clang --version)" >&2; exit 1; }
+	@$(MAKE) --no-print-directory BUILD=$(FUZZ) CC=$(FUZZCC) OPT="-O1 -g" \
+	    SANITIZE="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined" $(FUZZ)/fuzz_dagc
+	@sh tests/fuzz.sh $(FUZZ) $(FUZZ_SECONDS)
+$(BUILD)/fuzz_%: $(BUILD)/tests/fuzz_%.o $(LIBDAGC)
+	$(CC) $(LDFLAGS) -fsanitize=fuzzer -Wl,--wrap=fopen -o $@ $^ -lm
 
 demo: all
 	@sh examples/demo.sh $(BUILD)

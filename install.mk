@@ -12,10 +12,11 @@ VERSION = $(shell sed -n 's/^.define DAGC_VERSION "\(.*\)"/\1/p' dagc/dag.h)
 MADE      = $(addprefix $(BUILD)/install/,dagc.pc dagcConfigVersion.cmake dagc.1 dagc-language.5)
 INSTALLED = bin/dagc bin/radiosity lib/libdagc.a lib/pkgconfig/dagc.pc \
             $(addprefix lib/cmake/dagc/,dagcConfig.cmake dagcConfigVersion.cmake) \
-            $(addprefix include/dagc/,dag.h catalog.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk) \
+            $(addprefix include/dagc/,dag.h catalog.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk $(GRAPHS:examples/%=%)) \
             share/man/man1/dagc.1 share/man/man5/dagc-language.5
+GRAPHS    = $(wildcard examples/oracles/*.dag)
 # The folders that are ours alone, the inner ones first.
-FOLDERS   = lib/cmake/dagc include/dagc/tools include/dagc/terms include/dagc share/dagc
+FOLDERS   = lib/cmake/dagc include/dagc/tools include/dagc/terms include/dagc share/dagc/oracles share/dagc
 
 .PHONY: install uninstall
 install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
@@ -28,6 +29,7 @@ install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter tools/%,$(HEADERS))) $(TO)/include/dagc/tools
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter terms/%,$(HEADERS))) $(TO)/include/dagc/terms
 	$(INSTALL) -m 644 runtime/catalog.dag dagc/package/dagc.mk $(TO)/share/dagc
+	$(INSTALL) -m 644 $(GRAPHS) $(TO)/share/dagc/oracles
 	$(INSTALL) -m 644 $(BUILD)/install/dagc.1 $(TO)/share/man/man1
 	$(INSTALL) -m 644 $(BUILD)/install/dagc-language.5 $(TO)/share/man/man5
 

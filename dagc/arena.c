@@ -18,7 +18,7 @@ struct block {
 
 enum { BLOCK_SIZE = 32 * 1024 };
 
-static NO_RETURN void out_of_memory(struct arena *arena)
+void dag_out_of_memory(struct arena *arena)
 {
     longjmp(arena->protector->jump, 1);
 }
@@ -32,7 +32,7 @@ void *dag_alloc(struct arena *arena, size_t size)
         size_t room = need > BLOCK_SIZE ? need : BLOCK_SIZE;
         block = malloc(sizeof *block + room);
         if (block == NULL)
-            out_of_memory(arena);
+            dag_out_of_memory(arena);
         block->used = 0;
         block->size = room;
         block->next = arena->blocks;
@@ -105,11 +105,24 @@ int dag_protect(struct dag *dag, void (*body)(struct dag *dag, void *context), v
     return result;
 }
 
+/* A list that nothing was added to points here, not to NULL: C does not let `&list[0]` be taken of
+ * NULL, and an empty span asks for just that. Nothing is read or written through it. */
+static max_align_t nothing;
+
 struct dag *dag_new(void)
 {
     struct dag *dag = calloc(1, sizeof *dag);
-    if (dag != NULL)
-        dag->use = -1;
+    if (dag == NULL)
+        return NULL;
+    void *none = &nothing;
+    dag->types = none, dag->levels = none, dag->terms = none, dag->needs = none;
+    dag->answers = none, dag->tools = none, dag->decisions = none, dag->facts = none;
+    dag->callbacks = none, dag->parameters = none, dag->expressions = none;
+    dag->arguments = none, dag->labels = none, dag->rules = none, dag->arcs = none;
+    dag->drafts = none, dag->nodes = none, dag->uses = none, dag->order = none;
+    dag->oracles = none, dag->branches = none, dag->sources = none, dag->imports = none;
+    dag->diagnostics = none;
+    dag->use = -1;
     return dag;
 }
 

@@ -311,6 +311,12 @@ void dag_items_add(struct c_items *items, const char *name, const char *text,
 
 /* ---- what is needed, and under which name */
 
+/* Is it a member's name, given what stands before it? */
+static int is_member(const struct c_token *before)
+{
+    return before->kind == C_MARK && (*before->text == '.' || (*before->text == '>' && before->text[-1] == '-'));
+}
+
 /* The item that declares the name at a token; -1: nobody does, or it is a member. */
 static int declared_by(const struct c_items *items, const struct c_token *token, const struct c_token *before)
 {
@@ -321,7 +327,7 @@ static int declared_by(const struct c_items *items, const struct c_token *token,
     name[token->length] = '\0';
     if (is_tag_word(before))
         return dag_find(&items->tags, name);
-    if (before->kind == C_MARK && (*before->text == '.' || (*before->text == '>' && before->text[-1] == '-')))
+    if (is_member(before))
         return -1;
     return dag_find(&items->names, name);
 }
@@ -348,6 +354,8 @@ static void reach(struct c_items *items, int index, int reached_by)
             int by = declared_by(items, &token, &before);
             if (by >= 0)
                 reach(items, by, reached_by);
+            if (is_member(&before))
+                dag_put(&items->dag->arena, &items->members, copy_name(items, token.text), 1);
         }
         before = token;
     }

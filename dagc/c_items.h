@@ -27,6 +27,7 @@ struct c_items {
     struct c_file *files; int file_count;
     const char **system;  int system_count; /* <math.h> and the like, as written, once each */
     struct table tags, names;               /* what the items declare: the item */
+    struct table members;                   /* what kept items name after `.` or `->` */
 };
 
 /* Adds the items of a text. `include` is called for each #include "NAME" before what follows it. */

@@ -5,13 +5,19 @@
  * nodes that the start reaches; answers are searched last to first, so that a node is followed
  * by where its first answer leads, when nothing forbids it. It depends on the graph alone, not
  * on where in the source a node stands.
+ *
+ * A branch is searched where it is used, in each copy. One that no oracle holds is searched as it is
+ * written; a node in it that uses another branch has then an arc for each exit which that one
+ * can come to.
  * SPDX-License-Identifier: MIT */
 #include "internal.h"
 
 enum state { UNSEEN, OPEN, CLOSED };
 
 struct search {
-    unsigned char *state; /* of every node of the dag */
+    const struct node *nodes; /* the dag's nodes, or its drafts */
+    const unsigned char *exits; /* by answer: is it an exit that its branch comes to? NULL: no branches */
+    unsigned char *state; /* of every one of the nodes */
     int *stack;           /* the open nodes, from the root */
     int *next;            /* per open node: answers not yet followed */
     int *closed;          /* nodes in the order of closing */
@@ -39,7 +45,7 @@ static void report_cycle(struct dag *dag, const struct search *search, const str
     int first = search->depth - 1;
     if (is_known(dag, closing))
         return;
-    dag->use = dag->nodes[search->stack[search->depth - 1]].use;
+    dag->use = search->exits == NULL ? search->nodes[search->stack[search->depth - 1]].use : -1;
     if (dag_errors_full(dag)) {
         dag_error(dag, closing->target.where, "a cycle");
         dag->use = -1;
@@ -55,7 +61,7 @@ static void report_cycle(struct dag *dag, const struct search *search, const str
             path = dag_format(&dag->arena, "%s... (%d more) ... -> ", path, left);
             i += left;
         }
-        path = dag_format(&dag->arena, "%s%s -> ", path, dag->nodes[search->stack[first + i]].name);
+        path = dag_format(&dag->arena, "%s%s -> ", path, search->nodes[search->stack[first + i]].name);
     }
     dag_error(dag, closing->target.where, "a cycle: %s%s", path, closing->target.name);
     dag_note(dag, dag_nowhere, "a discussion would never end: every arc must lead nearer to a decision");
@@ -73,10 +79,19 @@ static int led_there(const struct dag *dag, const struct node *node, const struc
     return 0;
 }
 
-static void open_node(const struct dag *dag, struct search *search, int node)
+/* Does the arc lead anywhere? Not from an exit that is never come to. */
+static int leads_on(const struct dag *dag, const struct search *search, const struct node *node, const struct arc *arc)
+{
+    if (arc->target.kind != TARGET_NODE)
+        return 0;
+    return search->exits == NULL || node->branch < 0 ||
+           search->exits[dag->branches[node->branch].exits.first + (int)(arc - &dag->arcs[node->arcs.first])];
+}
+
+static void open_node(struct search *search, int node)
 {
     search->state[node] = OPEN;
-    search->next[search->depth] = dag->nodes[node].arcs.count;
+    search->next[search->depth] = search->nodes[node].arcs.count;
     search->stack[search->depth++] = node;
 }
 
@@ -84,7 +99,7 @@ static void search_from(struct dag *dag, struct search *search, int root)
 {
     if (search->state[root] != UNSEEN)
         return;
-    open_node(dag, search, root);
+    open_node(search, root);
     while (search->depth > 0) {
         int node = search->stack[search->depth - 1];
         int *next = &search->next[search->depth - 1];
@@ -94,13 +109,13 @@ static void search_from(struct dag *dag, struct search *search, int root)
             search->depth--;
             continue;
         }
-        const struct arc *arc = &dag->arcs[dag->nodes[node].arcs.first + --*next];
-        if (arc->target.kind != TARGET_NODE)
+        const struct arc *arc = &dag->arcs[search->nodes[node].arcs.first + --*next];
+        if (!leads_on(dag, search, &search->nodes[node], arc))
             continue;
         if (search->state[arc->target.index] == UNSEEN)
-            open_node(dag, search, arc->target.index);
+            open_node(search, arc->target.index);
         else if (search->state[arc->target.index] == OPEN &&
-                 !led_there(dag, &dag->nodes[node], arc))
+                 !led_there(dag, &search->nodes[node], arc))
             report_cycle(dag, search, arc);
     }
 }
@@ -121,14 +136,76 @@ static void check_oracle(struct dag *dag, struct search *search, struct oracle_g
         search_from(dag, search, i);
 }
 
+static struct search new_search(struct dag *dag, const struct node *nodes, int count)
+{
+    struct search search = {0};
+    search.nodes = nodes;
+    search.state = dag_alloc(&dag->arena, (size_t)count);
+    search.stack = dag_alloc(&dag->arena, (size_t)count * sizeof(int));
+    search.next = dag_alloc(&dag->arena, (size_t)count * sizeof(int));
+    search.closed = dag_alloc(&dag->arena, (size_t)count * sizeof(int));
+    return search;
+}
+
+/* ---- branches that no oracle holds */
+
+/* Marks the exits that a path from the branch's start comes to; those within it first. (Recursion:
+ * branches are nested at most BRANCH_DEPTH deep, and none uses itself.) */
+static void find_exits(struct dag *dag, int index, unsigned char *done, unsigned char *exits, unsigned char *seen, int *stack)
+{
+    const struct oracle_graph *branch = &dag->branches[index];
+    struct span drafts = branch->drafts;
+    int depth = 0;
+    if (done[index])
+        return;
+    done[index] = 1;
+    for (int i = drafts.first; i < drafts.first + drafts.count; i++)
+        if (dag->drafts[i].branch >= 0)
+            find_exits(dag, dag->drafts[i].branch, done, exits, seen, stack);
+    if (branch->start.kind == TARGET_NODE) {
+        seen[branch->start.index] = 1;
+        stack[depth++] = branch->start.index;
+    }
+    while (depth > 0) {
+        const struct node *draft = &dag->drafts[stack[--depth]];
+        for (int a = 0; a < draft->arcs.count; a++) {
+            const struct target *target = &dag->arcs[draft->arcs.first + a].target;
+            if (draft->branch >= 0 && !exits[dag->branches[draft->branch].exits.first + a])
+                continue;
+            if (target->kind == TARGET_EXIT)
+                exits[branch->exits.first + target->index] = 1;
+            else if (target->kind == TARGET_NODE && !seen[target->index]) {
+                seen[target->index] = 1;
+                stack[depth++] = target->index;
+            }
+        }
+    }
+}
+
+static void check_branches(struct dag *dag)
+{
+    struct search search = new_search(dag, dag->drafts, dag->draft_count);
+    unsigned char *exits = dag_alloc(&dag->arena, (size_t)dag->answer_count);
+    unsigned char *done = dag_alloc(&dag->arena, (size_t)dag->branch_count);
+    unsigned char *seen = dag_alloc(&dag->arena, (size_t)dag->draft_count);
+    for (int i = 0; i < dag->branch_count; i++)
+        find_exits(dag, i, done, exits, seen, search.stack);
+    search.exits = exits;
+    for (int i = 0; i < dag->branch_count; i++) {
+        struct span drafts = dag->branches[i].drafts;
+        search.closed_count = 0;
+        for (int n = drafts.first; n < drafts.first + drafts.count && !dag->branches[i].placed; n++)
+            search_from(dag, &search, n);
+    }
+}
+
+/* ---- */
+
 void dag_check_graph(struct dag *dag)
 {
-    size_t count = (size_t)dag->node_count;
-    struct search search = {0};
-    search.state = dag_alloc(&dag->arena, count);
-    search.stack = dag_alloc(&dag->arena, count * sizeof(int));
-    search.next = dag_alloc(&dag->arena, count * sizeof(int));
-    search.closed = dag_alloc(&dag->arena, count * sizeof(int));
+    struct search search = new_search(dag, dag->nodes, dag->node_count);
     for (int i = 0; i < dag->oracle_count; i++)
         check_oracle(dag, &search, &dag->oracles[i]);
+    if (!dag->recursive)
+        check_branches(dag);
 }

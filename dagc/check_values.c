@@ -24,7 +24,7 @@ static const char *range(struct dag *dag, double low, double high)
 static void check_parameter(struct dag *dag, struct parameter *parameter)
 {
     char text[32];
-    if (parameter->bad)
+    if (parameter->bad || parameter->type < 0) /* no type: the tool was lost to a syntax error */
         return;
     int integer = dag->types[parameter->type].base == BASE_INTEGER;
     if (parameter->low > parameter->high) {

@@ -33,11 +33,14 @@ struct where {
     int offset, length; /* bytes */
 };
 
+enum { LINES_STEP = 1024 };
+
 struct source {
     const char *name; /* as the user gave it */
     const char *base; /* without its directory: what generated files may mention */
     const char *text; /* NUL-terminated copy */
     int length;       /* bytes, without the NUL */
+    const int *lines; /* how many end before byte 0, LINES_STEP, 2 * LINES_STEP ... */
     unsigned char is_file; /* `name` is its path; else standard input or a text in memory */
     struct where importer;  /* the `import` that asked for it; nowhere: it was given */
     uint64_t device, inode; /* which file it is, however it is called */
@@ -122,7 +125,8 @@ struct need {
     const char *term_name, *level_name; /* level_name NULL: none was written */
     struct where where, level_where;
     int term;  /* in terms */
-    int level; /* 1 is the coarsest (or "present"); the enums of catalog.h count alike */
+    int level; /* 1 is the coarsest (or "present"), 0 `absent` (of decisions): what a path has is
+                  kept, but not asked for; the enums of catalog.h count alike */
 };
 
 /* A parameter of an oracle, of a branch, or of a tool. */
@@ -291,6 +295,7 @@ struct oracle_graph {
     struct span order;      /* in order: the reachable nodes, topologically from start */
     uint64_t fingerprint;   /* of what the graph decides: same number, same decisions */
     int use;                /* of a branch, in uses: the first place that uses it; -1: none */
+    unsigned char placed;   /* of a branch: some oracle holds a copy of it */
     unsigned char branch;   /* it is one */
     unsigned char bad;      /* a part was lost to a syntax error: names may seem to be missing */
 };

@@ -59,8 +59,8 @@ void dag_note(struct dag *dag, struct where where, const char *format, ...)
 
 int dag_line(const struct source *source, int offset)
 {
-    int line = 1;
-    for (int i = 0; i < offset; i++)
+    int line = 1 + source->lines[offset / LINES_STEP];
+    for (int i = offset / LINES_STEP * LINES_STEP; i < offset; i++)
         line += source->text[i] == '\n';
     return line;
 }

@@ -8,7 +8,6 @@
  * nothing can differ, so the work is polynomial in all but the answers that stay relevant; it is
  * capped, and a walk that was cut short says so.
  * SPDX-License-Identifier: MIT */
-#include <stdlib.h>
 #include <string.h>
 
 #include "analyse.h"
@@ -50,6 +49,8 @@ struct walk {
     int base_count, bytes;
     struct asked *trail;
     int trail_count;
+    unsigned char *kept; /* per item of the trail, kept_size bytes: what it has to put back */
+    size_t kept_size;
     uint64_t *seen;
     int states, cut;
     struct group groups[GROUPS_MAX];
@@ -366,12 +367,8 @@ static void branch(struct walk *walk, int s)
     const struct node *node = node_at(side, place);
     size_t terms = (size_t)side->dag->term_count;
     int reads = read_count(side->dag, node);
-    unsigned char *kept = malloc(2 * terms + (size_t)reads + 1);
+    unsigned char *kept = walk->kept + (size_t)walk->trail_count * walk->kept_size;
     struct asked *asked = &walk->trail[walk->trail_count];
-    if (kept == NULL) {
-        walk->cut = 1;
-        return;
-    }
     for (int k = 0; k < reads; k++)
         kept[2 * terms + (size_t)k] = level_read(side, node, k);
     asked->base = side->base[place];
@@ -393,7 +390,6 @@ static void branch(struct walk *walk, int s)
         }
     }
     walk->trail_count--;
-    free(kept);
 }
 
 /* Follows what is known on both sides, then asks the first thing that is not. */
@@ -464,8 +460,16 @@ static void compare(struct dag *other, void *context)
         walk->side[s].levels = dag_alloc(walk->arena, (size_t)dag->term_count + 1);
         walk->side[s].at = walk->side[s].oracle->start;
     }
-    walk->trail = dag_alloc(walk->arena, ((size_t)walk->side[0].oracle->order.count +
-                                          (size_t)walk->side[1].oracle->order.count + 1) * sizeof *walk->trail);
+    size_t most = (size_t)walk->side[0].oracle->order.count + (size_t)walk->side[1].oracle->order.count + 1;
+    int reads = 0;
+    for (int s = 0; s < SIDES; s++)
+        for (int i = 0; i < walk->side[s].oracle->order.count; i++) {
+            int more = read_count(walk->side[s].dag, node_at(&walk->side[s], i));
+            reads = more > reads ? more : reads;
+        }
+    walk->kept_size = 2 * (size_t)dag->term_count + (size_t)reads + 1;
+    walk->kept = dag_alloc(walk->arena, most * walk->kept_size);
+    walk->trail = dag_alloc(walk->arena, most * sizeof *walk->trail);
     walk->seen = dag_alloc(walk->arena, TABLE_SIZE * sizeof *walk->seen);
     fprintf(walk->out, "oracle %s\n", walk->side[0].oracle->name);
     request->result |= compare_parameters(walk);

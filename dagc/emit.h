@@ -28,7 +28,7 @@ void dag_emit_oracle_c(struct dag *dag, struct text *out, const struct oracle_gr
 
 /* One function (emit_flat.c). */
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
-                   enum flavour flavour);
+                   enum flavour flavour, const struct emit_options *options);
 int dag_emit_states_facts(struct dag *dag); /* does the text use the macro KNOWN? */
 /* What functions of many parts call instead of the tools; nothing when no oracle is that large. */
 void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned char *reached);

@@ -264,12 +264,12 @@ void dag_emit_oracle_c(struct dag *dag, struct text *c, const struct oracle_grap
                        const struct emit_options *options)
 {
     print_defaults(dag, c, oracle);
-    dag_emit_flat(dag, c, oracle, FLAVOUR_PLAIN);
+    dag_emit_flat(dag, c, oracle, FLAVOUR_PLAIN, options);
     dag_emit_counters_c(dag, c, oracle, options);
     if (options->counted)
-        dag_emit_flat(dag, c, oracle, FLAVOUR_COUNTED);
+        dag_emit_flat(dag, c, oracle, FLAVOUR_COUNTED, options);
     if (options->traced)
-        dag_emit_flat(dag, c, oracle, FLAVOUR_TRACED);
+        dag_emit_flat(dag, c, oracle, FLAVOUR_TRACED, options);
 }
 
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,

@@ -85,27 +85,32 @@ static void print_levels(const struct dag *dag, struct text *out, const struct t
     dag_print(out, " };\n");
 }
 
-static void print_terms(const struct dag *dag, struct text *out)
+static void print_terms(const struct dag *dag, struct text *out, const unsigned char *terms)
 {
+    int any = 0;
     dag_print(out, "\n/* The data manager: every term and the level it is known at. All zero: nothing"
                    " is known. */\nstruct terms {\n");
     for (int i = 0; i < dag->term_count; i++) {
         const struct term *term = &dag->terms[i];
         const struct type *type = &dag->types[term->type];
+        if (terms != NULL && !terms[i])
+            continue;
+        any = 1;
         dag_print(out, "    %s %s", c_type(type), term->name);
         if (type->length > 1)
             dag_print(out, "[%d]", type->length);
         dag_print(out, "; /* %s */\n", dag_unit_name(type));
     }
     for (int i = 0; i < dag->term_count; i++)
-        dag_print(out, "    unsigned char %s_level; /* enum %s_level */\n", dag->terms[i].name,
-                  dag->terms[i].name);
-    if (dag->term_count == 0)
-        dag_print(out, "    char none; /* the catalog declares no term */\n");
+        if (terms == NULL || terms[i])
+            dag_print(out, "    unsigned char %s_level; /* enum %s_level */\n", dag->terms[i].name,
+                      dag->terms[i].name);
+    if (!any)
+        dag_print(out, "    char none; /* there is no term */\n");
     dag_print(out, "};\n");
 }
 
-void dag_emit_catalog_h(const struct dag *dag, struct text *out)
+void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms)
 {
     print_banner(dag, out,
                  "Decisions, the answers of each tool, the levels of each term, the data manager.");
@@ -115,7 +120,7 @@ void dag_emit_catalog_h(const struct dag *dag, struct text *out)
         print_answers(dag, out, &dag->tools[i]);
     for (int i = 0; i < dag->term_count; i++)
         print_levels(dag, out, &dag->terms[i]);
-    print_terms(dag, out);
+    print_terms(dag, out, terms);
     dag_print(out, "\n#endif\n");
 }
 

@@ -1,12 +1,14 @@
 /* emit_catalog_doc.c - a catalog's documentation, in Markdown.
  *
  * A chapter each for decisions, tools, terms and types, in the order of the catalog: from what
- * an oracle is to decide to what things are measured in.
+ * an oracle is to decide to what things are measured in. What a tool or term computes, its formula, source and
+ * failings, is said in one place, the comment that opens its header; it is quoted here.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
 
 #include "analyse.h"
+#include "headers.h"
 
 /* Text that Markdown shows as it is, also in a table. */
 static void print_escaped(struct text *out, const char *text)
@@ -23,13 +25,39 @@ static void print_doc(struct text *out, const char *doc)
     }
 }
 
+/* The comment that opens a header, without its frame and its licence line; nothing when there is none. */
+static void print_comment(struct dag *dag, struct text *out, const char *header)
+{
+    const char *text = dag_header_text(dag, header), *end;
+    if (text == NULL || strncmp(text, "/*", 2) != 0 || (end = strstr(text, "*/")) == NULL)
+        return;
+    dag_print(out, "```text\n");
+    for (text += 2; text < end;) {
+        const char *stop = memchr(text, '\n', (size_t)(end - text));
+        if (stop == NULL)
+            stop = end;
+        for (int margin = 0; text < stop && margin < 3 && strchr(" *", *text) != NULL; margin++)
+            text++;
+        if (strncmp(text, "SPDX-", 5) != 0)
+            for (const char *at = text; at <= stop; at++)
+                dag_print(out, "%c", at < stop ? *at : '\n');
+        text = stop + 1;
+    }
+    dag_print(out, "```\n\n");
+}
+
 static void print_needs(struct dag *dag, struct text *out, const char *what, struct span needs)
 {
+    const char *gap = " ";
     if (needs.count == 0)
         return;
-    dag_print(out, "%s ", what);
-    for (int i = 0; i < needs.count; i++)
-        dag_print(out, "%s`%s`", i > 0 ? ", " : "", dag_need_text(dag, &dag->needs[needs.first + i]));
+    dag_print(out, "%s", what);
+    for (int i = needs.first; i < needs.first + needs.count; i++) {
+        const struct need *need = &dag->needs[i];
+        dag_print(out, need->level > 0 ? "%s`%s`" : "%s`%s` where it is known", gap,
+                  need->level > 0 ? dag_need_text(dag, need) : dag->terms[need->term].name);
+        gap = ", ";
+    }
     dag_print(out, ".\n\n");
 }
 
@@ -79,6 +107,7 @@ static void print_tools(struct dag *dag, struct text *out)
         print_doc(out, tool->doc);
         dag_print(out, "%s%s, in `%s`.\n\n", tool->kind == TOOL_COMMAND ? "A command" : "A question",
                   tool->guards ? " and a guard" : "", tool->header);
+        print_comment(dag, out, tool->header);
         print_parameters(dag, out, tool->parameters);
         dag_print(out, "| answer | kind |\n|---|---|\n");
         for (int a = tool->answers.first; a < tool->answers.first + tool->answers.count; a++)
@@ -113,6 +142,7 @@ static void print_terms(struct dag *dag, struct text *out)
             gap = " < ";
         }
         dag_print(out, "%s\n\n", term->levels.count > 0 ? "." : "");
+        print_comment(dag, out, term->header);
     }
 }
 

@@ -35,12 +35,14 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
         return;
     for (int i = 0; i < oracle->order.count; i++)
         arcs += node_at(dag, oracle, i)->arcs.count;
-    dag_print(out, "\n/* Nodes and arcs by number: their names, and the node that an arc leaves. */\n"
+    dag_print(out, "\n/* Nodes and arcs by number: their names, how far an arc's answer can be trusted, and the node that it\n"
+                   " * leaves. */\n"
                    "enum { %s_nodes = %d, %s_arcs = %d };\n"
                    "extern const char *const %s_node_names[%d];\n"
                    "extern const char *const %s_arc_names[%d];\n"
+                   "extern const char *const %s_arc_kinds[%d]; /* \"precise\", \"approximate\", \"other\" */\n"
                    "extern const int %s_arc_nodes[%d];\n",
-              name, oracle->order.count, name, arcs, name, oracle->order.count, name, arcs, name, arcs);
+              name, oracle->order.count, name, arcs, name, oracle->order.count, name, arcs, name, arcs, name, arcs);
     if (options->counted) {
         dag_print(out, "\n/* All zero before the first use. One structure per thread: nothing is locked. */\n"
                        "struct %s_counters {\n"
@@ -62,18 +64,27 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
     }
 }
 
+/* One line per arc: its answer's name or kind. */
+static void print_answers(const struct dag *dag, struct text *out, const struct oracle_graph *oracle, int kinds)
+{
+    static const char *const words[] = {"precise", "approximate", "other"}; /* by enum kind */
+    for (int i = 0; i < oracle->order.count; i++) {
+        const struct node *node = node_at(dag, oracle, i);
+        const struct answer *answers = &dag->answers[dag->tools[node->tool].answers.first];
+        for (int a = 0; a < node->arcs.count; a++)
+            dag_print(out, "    \"%s\",\n", kinds ? words[answers[a].kind] : answers[a].name);
+    }
+}
+
 static void print_names(const struct dag *dag, struct text *out, const struct oracle_graph *oracle)
 {
     dag_print(out, "\nconst char *const %s_node_names[] = {\n", oracle->name);
     for (int i = 0; i < oracle->order.count; i++)
         dag_print(out, "    \"%s\",\n", node_at(dag, oracle, i)->name);
     dag_print(out, "};\nconst char *const %s_arc_names[] = {\n", oracle->name);
-    for (int i = 0; i < oracle->order.count; i++) {
-        const struct node *node = node_at(dag, oracle, i);
-        const struct answer *answers = &dag->answers[dag->tools[node->tool].answers.first];
-        for (int a = 0; a < node->arcs.count; a++)
-            dag_print(out, "    \"%s\",\n", answers[a].name);
-    }
+    print_answers(dag, out, oracle, 0);
+    dag_print(out, "};\nconst char *const %s_arc_kinds[] = {\n", oracle->name);
+    print_answers(dag, out, oracle, 1);
     dag_print(out, "};\nconst int %s_arc_nodes[] = {\n", oracle->name);
     for (int i = 0; i < oracle->order.count; i++) {
         dag_print(out, "   ");

@@ -20,6 +20,8 @@ struct flat {
     struct text *out;
     const struct oracle_graph *oracle;
     enum flavour flavour;
+    const unsigned char *terms; /* see emit_options; NULL: all */
+    int lines;                  /* likewise */
     int parts;                 /* how many functions; 1: all is in one */
     const char *at, *of;       /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
     unsigned char *sure;       /* by term and order (place_of): its level on every path to the node */
@@ -269,12 +271,33 @@ static void print_watched(const struct flat *flat, const struct node *node)
                   flat->first_arc[node->order]);
 }
 
+/* "FILE:LINE", and for a copy out of a branch the places that use it, from the inside out. */
+static void print_place(const struct flat *flat, const struct node *node)
+{
+    const struct dag *dag = flat->dag;
+    struct where where = node->where;
+    const char *before = "    /* ";
+    for (int use = node->use;; use = dag->uses[use].outer) {
+        const struct source *source = &dag->sources[where.source];
+        dag_print(flat->out, "%s", before);
+        dag_print_comment(flat->out, source->base);
+        dag_print(flat->out, ":%d", dag_line(source, where.offset));
+        before = ", used at ";
+        if (use < 0)
+            break;
+        where = dag->uses[use].where;
+    }
+    dag_print(flat->out, " */\n");
+}
+
 static void print_node(const struct flat *flat, const struct node *node)
 {
     int block = dag_has_reads(flat->dag, node);
     dag_print(flat->out, "\n");
     if (flat->node_label[node->order] || (flat->parts > 1 && flat->entry[node->order]))
         dag_print(flat->out, "node_%s:\n", node->name);
+    if (flat->lines)
+        print_place(flat, node);
     print_known(flat, node);
     if (block) /* C++ may not jump past a constant: it gets a block */
         dag_print(flat->out, "    {\n");
@@ -346,7 +369,7 @@ static void print_absent(const struct flat *flat)
     for (int i = 0; i < dag->term_count; i++) {
         const struct term *term = &dag->terms[i];
         int length = dag->types[term->type].length;
-        if (dag_is_kept(dag, i))
+        if (dag_is_kept(dag, i) || (flat->terms != NULL && !flat->terms[i]))
             continue;
         dag_print(flat->out, "    ");
         for (int k = 0; length > 1 && k < length; k++)
@@ -479,9 +502,11 @@ int dag_emit_states_facts(struct dag *dag)
 }
 
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
-                   enum flavour flavour)
+                   enum flavour flavour, const struct emit_options *options)
 {
     struct flat flat = open_flat(dag, out, oracle, flavour);
+    flat.terms = options->terms;
+    flat.lines = options->lines;
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);
     dag_print(out, "\n");

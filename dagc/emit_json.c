@@ -54,7 +54,7 @@ static const char *comma(int *count)
 
 /* What the nodes and leaves that are reached use. */
 struct used {
-    unsigned char *tools, *decisions, *terms, *types;
+    unsigned char *tools, *decisions, *terms, *types, *facts, *callbacks;
 };
 
 static void use_needs(const struct dag *dag, struct used *used, struct span needs)
@@ -71,6 +71,24 @@ static void use_parameters(const struct dag *dag, struct used *used, struct span
         used->types[dag->parameters[i].type] = 1;
 }
 
+/* Facts, externs and what these read; terms are among the node's reads. */
+static void use_expression(const struct dag *dag, struct used *used, int expression)
+{
+    const struct expression *e = &dag->expressions[expression];
+    if (e->kind == EXPRESSION_FACT) {
+        used->facts[e->index] = 1;
+        used->types[dag->facts[e->index].type] = 1;
+    } else if (e->kind == EXPRESSION_EXTERN) {
+        used->callbacks[e->index] = 1;
+        used->types[dag->callbacks[e->index].type] = 1;
+        use_needs(dag, used, dag->callbacks[e->index].reads);
+    }
+    if (e->left >= 0)
+        use_expression(dag, used, e->left);
+    if (e->right >= 0)
+        use_expression(dag, used, e->right);
+}
+
 static struct used find_used(struct dag *dag)
 {
     struct used used;
@@ -78,9 +96,14 @@ static struct used find_used(struct dag *dag)
     used.decisions = dag_alloc(&dag->arena, (size_t)dag->decision_count);
     used.terms = dag_alloc(&dag->arena, (size_t)dag->term_count);
     used.types = dag_alloc(&dag->arena, (size_t)dag->type_count);
+    used.facts = dag_alloc(&dag->arena, (size_t)dag->fact_count);
+    used.callbacks = dag_alloc(&dag->arena, (size_t)dag->callback_count);
     for (int i = 0; i < dag->order_count; i++) {
         const struct node *node = &dag->nodes[dag->order[i]];
         used.tools[node->tool] = 1;
+        use_needs(dag, &used, node->reads);
+        for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
+            use_expression(dag, &used, dag->arguments[a].expression);
         for (int a = node->arcs.first; a < node->arcs.first + node->arcs.count; a++)
             if (dag->arcs[a].target.kind == TARGET_DECISION)
                 used.decisions[dag->arcs[a].target.index] = 1;
@@ -143,6 +166,9 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
         print_text(out, dag->levels[term->levels.first + i].name);
     }
     dag_print(out, "]");
+    print_number_field(out, "low", term->low);
+    print_number_field(out, "high", term->high);
+    print_field(out, ", ", "header", term->header);
     print_field(out, ", ", "doc", term->doc);
     dag_print(out, "}");
 }
@@ -181,6 +207,49 @@ static void print_decision(const struct dag *dag, struct text *out, const struct
     dag_print(out, "}");
 }
 
+/* What a fact and an extern have alike. */
+static void print_value(const struct dag *dag, struct text *out, const char *name, int type, double low, double high)
+{
+    print_field(out, "      {", "name", name);
+    print_field(out, ", ", "type", dag->types[type].name);
+    print_number_field(out, "low", low);
+    print_number_field(out, "high", high);
+}
+
+static void print_fact(const struct dag *dag, struct text *out, const struct fact *fact)
+{
+    print_value(dag, out, fact->name, fact->type, fact->low, fact->high);
+    print_field(out, ", ", "c", fact->c);
+    print_field(out, ", ", "doc", fact->doc);
+    dag_print(out, "}");
+}
+
+static void print_callback(const struct dag *dag, struct text *out, const struct callback *callback)
+{
+    print_value(dag, out, callback->name, callback->type, callback->low, callback->high);
+    print_needs(dag, out, "reads", callback->reads);
+    print_field(out, ", ", "doc", callback->doc);
+    dag_print(out, "}");
+}
+
+static void print_values(struct dag *dag, struct text *out, const struct used *used)
+{
+    int count = 0;
+    dag_print(out, "\n    ],\n    \"facts\": [");
+    for (int i = 0; i < dag->fact_count; i++)
+        if (used->facts[i]) {
+            dag_print(out, "%s", comma(&count));
+            print_fact(dag, out, &dag->facts[i]);
+        }
+    dag_print(out, "\n    ],\n    \"externs\": [");
+    count = 0;
+    for (int i = 0; i < dag->callback_count; i++)
+        if (used->callbacks[i]) {
+            dag_print(out, "%s", comma(&count));
+            print_callback(dag, out, &dag->callbacks[i]);
+        }
+}
+
 static void print_catalog(struct dag *dag, struct text *out)
 {
     struct used used = find_used(dag);
@@ -198,6 +267,7 @@ static void print_catalog(struct dag *dag, struct text *out)
             dag_print(out, "%s", comma(&count));
             print_term(dag, out, &dag->terms[i]);
         }
+    print_values(dag, out, &used);
     dag_print(out, "\n    ],\n    \"tools\": [");
     count = 0;
     for (int i = 0; i < dag->tool_count; i++)

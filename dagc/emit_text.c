@@ -5,6 +5,8 @@
  * SPDX-License-Identifier: MIT */
 #include "analyse.h"
 
+static const char *const kinds[] = {"precise", "approximate", "other"}; /* by enum kind */
+
 struct listing {
     struct dag *dag;
     struct text *out;
@@ -39,7 +41,6 @@ static void print_rules(const struct listing *listing, const struct node *node)
 
 static void print_arcs(const struct listing *listing, const struct node *node)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
     const struct dag *dag = listing->dag;
     const struct answer *answers = &dag->answers[dag->tools[node->tool].answers.first];
     for (int i = 0; i < node->arcs.count; i++) {
@@ -91,15 +92,22 @@ static void print_node(const struct listing *listing, const struct node *node)
     dag_print(listing->out, "  }\n");
 }
 
-static void print_parameter(const struct listing *listing, const struct parameter *parameter)
+/* NAME : TYPE = VALUE in [LOW, HIGH] */
+static void print_declared(const struct listing *listing, const struct parameter *parameter)
 {
     char value[32], low[32], high[32];
-    dag_print(listing->out, "  param %s : %s", parameter->name, parameter->type_name);
+    dag_print(listing->out, "%s : %s", parameter->name, parameter->type_name);
     if ((parameter->given & PARAMETER_VALUE) != 0)
         dag_print(listing->out, " = %s", dag_number(parameter->value, value));
     if ((parameter->given & PARAMETER_RANGE) != 0)
         dag_print(listing->out, " in [%s, %s]", dag_number(parameter->low, low),
                   dag_number(parameter->high, high));
+}
+
+static void print_parameter(const struct listing *listing, const struct parameter *parameter)
+{
+    dag_print(listing->out, "  param ");
+    print_declared(listing, parameter);
     dag_print(listing->out, ";");
     if (listing->pass >= PASS_RESOLVE)
         dag_print(listing->out, " # %s", dag_unit_name(&listing->dag->types[parameter->type]));
@@ -124,9 +132,35 @@ static void analyse(struct listing *listing)
     }
 }
 
+/* A branch as written; the passes after the parser have put it where it is used. */
+static void print_branch(const struct listing *listing, const struct oracle_graph *branch)
+{
+    const struct dag *dag = listing->dag;
+    dag_print(listing->out, "graph %s(", branch->name);
+    for (int i = 0; i < branch->parameters.count; i++) {
+        dag_print(listing->out, "%s", i > 0 ? ", " : "");
+        print_declared(listing, &dag->parameters[branch->parameters.first + i]);
+    }
+    dag_print(listing->out, ") exits (");
+    for (int i = 0; i < branch->exits.count; i++) {
+        const struct answer *exit = &dag->answers[branch->exits.first + i];
+        dag_print(listing->out, "%s%s %s", i > 0 ? ", " : "", exit->name, kinds[exit->kind]);
+    }
+    dag_print(listing->out, ") {\n  start %s;\n", branch->start.name != NULL ? branch->start.name : "?");
+    for (int i = 0; i < branch->drafts.count; i++)
+        print_node(listing, &dag->drafts[branch->drafts.first + i]);
+    dag_print(listing->out, "}\n\n");
+}
+
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass)
 {
     struct listing listing = {dag, out, pass, NULL, NULL, NULL};
+    if (pass == PASS_AVAILABILITY) {
+        dag_emit_availability(dag, out);
+        return;
+    }
+    for (int i = 0; i < dag->branch_count && pass == PASS_PARSE; i++)
+        print_branch(&listing, &dag->branches[i]);
     for (int i = 0; i < dag->oracle_count; i++) {
         const struct oracle_graph *oracle = listing.oracle = &dag->oracles[i];
         dag_print(out, "%soracle %s {\n", i > 0 ? "\n" : "", oracle->name);

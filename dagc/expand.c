@@ -122,9 +122,9 @@ static void check_branches(struct dag *dag)
     search.next = dag_alloc(&dag->arena, count * sizeof(int));
     for (int i = 0; i < dag->branch_count; i++)
         search_branches(dag, &search, i);
-    for (int i = 0; i < dag->oracle_count && !dag->recursive; i++) {
+    for (int i = 0, size = 0; i < dag->oracle_count && !dag->recursive; i++) {
         const struct oracle_graph *oracle = &dag->oracles[i];
-        int depth = 0, size = 0, uses = 0;
+        int depth = 0, before = size, uses = 0;
         for (int n = 0; n < oracle->drafts.count; n++) {
             const struct node *draft = &dag->drafts[oracle->drafts.first + n];
             measure(&search, draft, &depth, &size);
@@ -132,9 +132,12 @@ static void check_branches(struct dag *dag)
         }
         if (uses && size == NODES_MAX) {
             dag_error(dag, oracle->where, "with its graphs in place, the oracle '%s' would have %d "
-                      "nodes or more", oracle->name, NODES_MAX);
+                      "nodes or more", oracle->name, NODES_MAX - before);
+            if (before > 0)
+                dag_note(dag, dag_nowhere, "those before it have %d, and %d are the most", before, NODES_MAX);
             dag->recursive = 1;
-        }
+        } else if (!uses)
+            size = before;
     }
 }
 
@@ -223,6 +226,7 @@ static int copy_branch(struct expansion *x, int parent, int draft, const char *n
     const struct node *node = &dag->drafts[draft];
     struct use use = {node->branch, name, node->tool_where, x->instances[parent].use};
     int index = new_instance(x, &dag->branches[node->branch]);
+    dag->branches[node->branch].placed = 1;
     struct instance *instance = &x->instances[index];
     instance->parent = parent;
     instance->draft = draft;

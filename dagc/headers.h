@@ -8,6 +8,11 @@ struct dag_header {
     const char *text;
 };
 
+struct dag;
+
+/* A header's text, in the arena; NULL: there is none of this name. */
+const char *dag_header_text(struct dag *dag, const char *name);
+
 extern const struct dag_header dagc_headers[]; /* ends with a NULL name (dagc/embed_headers.sh makes it) */
 
 #endif

@@ -79,6 +79,8 @@ static int read_import(struct dag *dag, const struct import *import, int *fresh)
         dag_input_close(&input);
         if (input.error == 0)
             return source;
+        if (input.error == ENOMEM) /* it may well be there: no other of this name is meant */
+            dag_out_of_memory(&dag->arena);
     }
     cannot(dag, import, failure);
     return -1;

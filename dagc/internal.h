@@ -26,7 +26,7 @@ enum {
     SOURCE_MAX_LENGTH = 64 << 20,  /* so that every offset and index is an int */
     VECTOR_MAX_LENGTH = 16,
     BRANCH_DEPTH = 64,             /* branches within branches */
-    NODES_MAX = 1 << 20,           /* of one oracle, branches expanded */
+    NODES_MAX = 1 << 16,           /* of a file's oracles that use branches, these expanded */
     ANSWERS_MAX = 256              /* an answer's number fits a byte */
 };
 
@@ -43,6 +43,7 @@ int dag_protect(struct dag *dag, void (*body)(struct dag *dag, void *context), v
 struct dag *dag_new(void); /* NULL: out of memory */
 void *dag_alloc(struct arena *arena, size_t size); /* zeroed, aligned for anything */
 void *dag_grow(struct arena *arena, void *items, int count, size_t size);
+NO_RETURN void dag_out_of_memory(struct arena *arena); /* back to dag_protect */
 const char *dag_copy(struct arena *arena, const char *text, size_t length);
 const char *dag_format(struct arena *arena, const char *format, ...) PRINTF_LIKE(2, 3);
 const char *dag_vformat(struct arena *arena, const char *format, va_list arguments);
@@ -170,10 +171,12 @@ void dag_fingerprint(struct dag *dag);
 struct emit_options {
     int counted; /* --instrument: NAME_refine_counted */
     int traced;  /* --trace: NAME_refine_traced */
+    int lines;   /* --lines: a comment at each node says where it stands in its source */
     int standalone;              /* --standalone: all that it needs, in one .c and one .h */
     const char *prefix;          /* of every name in it; NULL: the first oracle's name */
     const char *const *folders;  /* -I: where headers are looked for before the built-in ones */
     int folder_count;
+    const unsigned char *terms;  /* by term: is it in struct terms? NULL: all are */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */
@@ -182,8 +185,9 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, c
 void dag_emit_dot(struct dag *dag, struct text *out);
 void dag_emit_json(struct dag *dag, struct text *out);
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
+void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availability */
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
-void dag_emit_catalog_h(const struct dag *dag, struct text *out);
+void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms); /* terms: as above */
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 void dag_emit_stub(struct dag *dag, struct text *out, const char *name); /* a tool's or term's header */
 

@@ -50,7 +50,7 @@ static void emit(struct dag *dag, struct job *job)
         dag_emit_catalog_doc(dag, out);
         break;
     case EMIT_CATALOG_H:
-        dag_emit_catalog_h(dag, out);
+        dag_emit_catalog_h(dag, out, NULL);
         break;
     case EMIT_CATALOG_C:
         dag_emit_catalog_c(dag, out);
@@ -102,7 +102,7 @@ static void passes(struct dag *dag, void *context)
         if (stops(dag, job, PASS_CHECK))
             return;
         dag_analyse(dag);
-        if (stops(dag, job, PASS_ANALYSE))
+        if (stops(dag, job, PASS_ANALYSE) || stops(dag, job, PASS_AVAILABILITY))
             return;
     }
     dag_fingerprint(dag);
@@ -165,7 +165,7 @@ int main(int count, char **arguments)
     job.folders = calloc((size_t)count, sizeof *job.folders);
     if (job.folders == NULL) {
         fprintf(stderr, "dagc: error: out of memory\n");
-        return 1;
+        return diff ? 2 : 1;
     }
     int status = diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
     if (status == 0)

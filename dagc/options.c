@@ -99,10 +99,10 @@ static void print_option(int option)
              *value == '+' ? value + 1 : value);
     printf("  %-15s %s\n", left, options[option].help);
     for (int i = 0; option == OPTION_EMIT && i < EMITS; i++)
-        printf("                  %-10s %s%s\n", emits[i].name,
+        printf("                  %-12s %s%s\n", emits[i].name,
                emits[i].source == SOURCE_CATALOG ? "FILE.dag is a catalog: " : "", emits[i].says);
     for (int i = 0; option == OPTION_DUMP && i < PASSES; i++)
-        printf("                  %-10s %s\n", passes[i].name, passes[i].says);
+        printf("                  %-12s %s\n", passes[i].name, passes[i].says);
 }
 
 static void print_help(void)
@@ -203,6 +203,9 @@ static int set_option(struct job *job, enum option option, const char *value)
         return -1;
     case OPTION_TRACE:
         job->c.traced = 1;
+        return -1;
+    case OPTION_LINES:
+        job->c.lines = 1;
         return -1;
     case OPTION_STANDALONE:
         job->c.standalone = 1;
@@ -321,9 +324,9 @@ static const char *contradiction(const struct job *job)
         return "the source and the catalog cannot both be standard input";
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
-    if ((job->c.counted || job->c.traced || job->c.standalone || job->prove) &&
+    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove) &&
         (job->emit != EMIT_C || job->stop != PASSES))
-        return "--instrument, --trace, --standalone and --prove belong to C text";
+        return "--instrument, --trace, --lines, --standalone and --prove belong to C text";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
         return "--prove writes nothing";
     if (job->c.standalone && header == NULL)

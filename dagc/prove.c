@@ -141,7 +141,7 @@ static void print_discussion(const struct dag *dag, struct text *out, int width)
 /* One call of a compiled function; fills in the terms it gives back. */
 static void print_run(const struct dag *dag, struct text *out, const struct emit_options *options)
 {
-    dag_print(out, "\n#include <stdlib.h>\nint prove_run(int oracle, int flavour, const double *values,"
+    dag_print(out, "\nint prove_run(int oracle, int flavour, const double *values,"
                    " struct prove_record *record);\n");
     for (int i = 0; i < dag->callback_count; i++)
         print_callback(dag, out, i);
@@ -163,14 +163,14 @@ static void print_run(const struct dag *dag, struct text *out, const struct emit
         dag_print(out, "    if (flavour == 0)\n        result = (int)%s_refine(&p, d);\n", name);
         if (options->counted)
             dag_print(out, "    if (flavour == 1) {\n"
-                           "        struct %s_counters *c = (struct %s_counters *)calloc(1, sizeof *c);\n"
-                           "        int calls = 0, arcs = 0, i;\n        if (c == NULL)\n            return -1;\n"
-                           "        result = (int)%s_refine_counted(&p, d, c);\n"
-                           "        for (i = 0; i < %s_nodes; i++)\n            calls += (int)c->calls[i];\n"
+                           "        static struct %s_counters c;\n"
+                           "        int calls = 0, arcs = 0, i;\n        memset(&c, 0, sizeof c);\n"
+                           "        result = (int)%s_refine_counted(&p, d, &c);\n"
+                           "        for (i = 0; i < %s_nodes; i++)\n            calls += (int)c.calls[i];\n"
                            "        for (i = 0; i < %s_arcs; i++)\n"
-                           "            if (c->arcs[i] > 0 && c->calls[%s_arc_nodes[i]] > 0)\n                arcs += (int)c->arcs[i];\n"
-                           "        d->record->watched = calls == arcs ? calls : -1;\n        free(c);\n    }\n",
-                      name, name, name, name, name, name);
+                           "            if (c.arcs[i] > 0 && c.calls[%s_arc_nodes[i]] > 0)\n                arcs += (int)c.arcs[i];\n"
+                           "        d->record->watched = calls == arcs ? calls : -1;\n    }\n",
+                      name, name, name, name, name);
         if (options->traced)
             dag_print(out, "    if (flavour == 2)\n        result = (int)%s_refine_traced(&p, d, prove_trace, d->record);\n",
                       name);
@@ -225,7 +225,7 @@ static int write_sources(struct proof *proof)
         dag->terms[i].header = "tools.h";
     for (int i = 0; i < dag->fact_count; i++)
         dag->facts[i].c = dag_format(&dag->arena, "d->record->facts[%d]", i);
-    dag_emit_catalog_h(dag, &catalog);
+    dag_emit_catalog_h(dag, &catalog, NULL);
     print_discussion(dag, &discussion, proof->width);
     dag_print(&oracle, "%s", embedded("oracle.h"));
     dag_print(&tools, "/* all are in discussion.h */\n");
@@ -285,7 +285,7 @@ static int build(struct proof *proof)
         return -1;
     proof->library = dlopen(library, RTLD_NOW | RTLD_LOCAL);
     if (proof->library == NULL) {
-        fprintf(stderr, "dagc: error: %s\n", dlerror());
+        fprintf(stderr, "dagc: error: cannot load what was compiled: %s\n", dlerror());
         return -1;
     }
     *(void **)&proof->run = dlsym(proof->library, "prove_run");

@@ -75,7 +75,8 @@ static void resolve_term(struct dag *dag, struct term *term)
         }
 }
 
-static void resolve_needs(struct dag *dag, struct span span)
+/* `decision`: it may read a term that is `absent`, which keeps what a path has without asking for it. */
+static void resolve_needs(struct dag *dag, struct span span, int decision)
 {
     for (int i = span.first; i < span.first + span.count; i++) {
         struct need *need = &dag->needs[i];
@@ -96,6 +97,8 @@ static void resolve_needs(struct dag *dag, struct span span)
         const struct term *term = &dag->terms[need->term];
         struct suggestion suggestion = {need->level_name, NULL, 0};
         need->level = 0;
+        if (decision && strcmp(need->level_name, "absent") == 0)
+            continue;
         for (int l = 0; l < term->levels.count; l++) {
             const char *name = dag->levels[term->levels.first + l].name;
             dag_suggest(&suggestion, name);
@@ -150,8 +153,8 @@ static void resolve_fact(struct dag *dag, struct fact *fact)
 static void resolve_tool(struct dag *dag, const struct tool *tool)
 {
     dag_resolve_parameters(dag, tool->parameters);
-    resolve_needs(dag, tool->reads);
-    resolve_needs(dag, tool->writes);
+    resolve_needs(dag, tool->reads, 0);
+    resolve_needs(dag, tool->writes, 0);
     if (tool->answers.count > ANSWERS_MAX) {
         dag_error(dag, tool->where, "a tool has at most %d answers", ANSWERS_MAX);
         return;
@@ -174,12 +177,12 @@ void dag_resolve_catalog(struct dag *dag)
     for (int i = dag->resolved.callbacks; i < dag->callback_count; i++) {
         struct callback *callback = &dag->callbacks[i];
         callback->type = scalar_type(dag, callback->type_name, callback->type_where);
-        resolve_needs(dag, callback->reads);
+        resolve_needs(dag, callback->reads, 0);
     }
     for (int i = dag->resolved.tools; i < dag->tool_count; i++)
         resolve_tool(dag, &dag->tools[i]);
     for (int i = dag->resolved.decisions; i < dag->decision_count; i++)
-        resolve_needs(dag, dag->decisions[i].reads);
+        resolve_needs(dag, dag->decisions[i].reads, 1);
     dag->resolved.types = dag->type_count;
     dag->resolved.terms = dag->term_count;
     dag->resolved.tools = dag->tool_count;
@@ -187,13 +190,13 @@ void dag_resolve_catalog(struct dag *dag)
     dag->resolved.facts = dag->fact_count;
     dag->resolved.callbacks = dag->callback_count;
     if (dag->runtime_header == NULL && dag->error_count == 0) {
-        struct where where = {dag->source_count - 1, 0, 0};
+        struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */
         dag_error(dag, where, "the catalog names no runtime");
         dag_note(dag, dag_nowhere, "add: runtime \"HEADER.h\" abi 1;  or, to extend the standard one: "
                                    "import standard;");
     }
     if (dag->decision_count == 0 && dag->error_count == 0) {
-        struct where where = {dag->source_count - 1, 0, 0};
+        struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */
         dag_error(dag, where, "the catalog declares no decision: no graph could end");
     }
 }

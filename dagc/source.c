@@ -62,6 +62,18 @@ static int check_text(struct dag *dag, int index)
     return index;
 }
 
+/* So that the line of an offset is found without counting from the start each time. */
+static const int *count_lines(struct dag *dag, const struct source *source)
+{
+    int *lines = dag_alloc(&dag->arena, (size_t)(source->length / LINES_STEP + 1) * sizeof *lines);
+    for (int i = 0, count = 0; i <= source->length; i++) {
+        if (i % LINES_STEP == 0)
+            lines[i / LINES_STEP] = count;
+        count += source->text[i] == '\n';
+    }
+    return lines;
+}
+
 static int add_source(struct dag *dag, const char *name)
 {
     const char *slash = strrchr(name, '/');
@@ -152,6 +164,7 @@ int dag_read_text(struct dag *dag, const char *name, const char *text, size_t le
     int index = add_source(dag, name);
     dag->sources[index].text = dag_copy(&dag->arena, text, length);
     dag->sources[index].length = (int)length;
+    dag->sources[index].lines = count_lines(dag, &dag->sources[index]);
     dag->sources[index].standard = text == dagc_standard_catalog;
     return check_text(dag, index);
 }

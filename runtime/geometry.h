@@ -46,7 +46,8 @@ struct polygon {
     double v[POLYGON_MAX][3];
 };
 
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A polygon in the plane,
+ * whose corners lie on either side as rounding has it, may cross it more than twice: then what does not fit is left out. */
 static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
@@ -56,7 +57,7 @@ static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n
     for (i = 0; i < n; i++) {
         const double *b = v[i];
         double g = height3(b, on, normal);
-        if ((h > 0 && g < 0) || (h < 0 && g > 0)) {
+        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && count < POLYGON_MAX) {
             double t = h / (h - g);
             out->v[count][0] = a[0] + t * (b[0] - a[0]);
             out->v[count][1] = a[1] + t * (b[1] - a[1]);

@@ -220,8 +220,8 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* Does the ray from p (Embree's coordinates) meet first the back of a one-sided face? */
-static int meets_inside(const struct rays *rays, const double p[3], const double direction[3])
+/* What the ray from p (Embree's coordinates) meets first. */
+static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3])
 {
     _Alignas(16) struct RTCRayHit query;
     float facing;
@@ -246,10 +246,21 @@ static int meets_inside(const struct rays *rays, const double p[3], const double
         rtcIntersect1(rays->scene, &context, &query);
 #endif
     }
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID || rays->two_sided[query.hit.primID])
-        return 0;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return RAY_LEAVES;
+    if (rays->two_sided[query.hit.primID])
+        return RAY_MEETS_FRONT;
     facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
-    return facing > 0;
+    return facing > 0 ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
+}
+
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3])
+{
+    double p[3];
+    int k;
+    for (k = 0; k < 3; k++)
+        p[k] = (from[k] - rays->origin[k]) * rays->scale;
+    return first_hit(rays, p, direction);
 }
 
 double rays_exposed(const struct rays *rays, const struct element *e)
@@ -284,7 +295,7 @@ double rays_exposed(const struct rays *rays, const struct element *e)
                 p[k] = (p[k] + rays->host.ray_offset * n[k] - rays->origin[k]) * rays->scale;
             }
             for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
-                inside += meets_inside(rays, p, direction[m]);
+                inside += first_hit(rays, p, direction[m]) == RAY_MEETS_BACK;
             buried += inside >= MOST;
         }
     return 1 - buried / (double)(SIDE * SIDE);

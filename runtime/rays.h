@@ -27,6 +27,11 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
  * first the back of a one-sided face, as from the floor under a table leg. 16 points. Thread-safe. */
 double rays_exposed(const struct rays *rays, const struct element *e);
 
+/* What the ray from a point into a direction (any length) meets first; the sides of a two-sided face are both
+ * fronts. The caller keeps the point off the surface it stands on (host.ray_offset). Thread-safe. */
+enum ray_fate { RAY_LEAVES, RAY_MEETS_FRONT, RAY_MEETS_BACK };
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3]);
+
 /* The services in the form that a discussion takes. Valid until rays_close. */
 const struct host *rays_host(const struct rays *rays);
 struct rays_count rays_count(const struct rays *rays);

@@ -1,6 +1,6 @@
-/* command_compare.c - `radiosity compare`: the three releases of an oracle on one scene.
+/* command_compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one where there is one.
  *
- * First one solve in which a refiner made of all three answers: each discusses every pair on a
+ * First one solve in which a refiner made of all of them answers: each discusses every pair on a
  * copy, and decisions and stored links are compared bit by bit. Then each release solves alone, in
  * turn, several times, and the medians of the refinement's seconds are compared.
  * SPDX-License-Identifier: MIT */
@@ -12,23 +12,22 @@
 #include "report.h"
 #include "solve.h"
 
-enum { ORDER = 3 };
-
-/* The order of the report: hand is the yardstick. */
-static const enum release order[ORDER] = { RELEASE_HAND, RELEASE_DAG, RELEASE_FLAT };
+/* The order of the report: the first that there is is the yardstick. */
+static const enum release order[RELEASES] = { RELEASE_HAND, RELEASE_DAG, RELEASE_FLAT };
 
 struct difference {
     int release;
     uint64_t receiver, emitter; /* identities */
     uint32_t face[2];
     int depth[2];
-    enum decision decision[2]; /* hand's, the release's */
+    enum decision decision[2]; /* the yardstick's, the release's */
     struct link link[2];
 };
 
 /* The state of a refiner that asks all releases. */
 struct panel {
-    struct refiner *releases[ORDER];
+    struct refiner *releases[RELEASES];
+    int count;
     uint64_t decisions, differences;
     struct difference first; /* by identities, so the same on any number of threads */
 };
@@ -61,7 +60,7 @@ static enum decision ask_all(const void *state, struct discussion *d)
     decision[0] = p->releases[0]->refine(p->releases[0]->state, d);
     if (decision[0] == DECISION_LINK)
         link_store(&link[0], &d->terms);
-    for (k = 1; k < ORDER; k++) {
+    for (k = 1; k < p->count; k++) {
         struct discussion other = start;
         decision[1] = p->releases[k]->refine(p->releases[k]->state, &other);
         memset(&link[1], 0, sizeof link[1]);
@@ -102,6 +101,12 @@ static const char *decision_name(enum decision d)
     return "?";
 }
 
+/* What release k of the panel is called. */
+static const char *name_of(const struct panel *p, int k)
+{
+    return release_names[order[RELEASES - p->count + k]];
+}
+
 static void print_difference(const struct panel *p)
 {
     const struct difference *f = &p->first;
@@ -113,10 +118,10 @@ static void print_difference(const struct panel *p)
     print_side(f, 1);
     printf(":\n");
     for (i = 0; i < 2; i++) {
-        printf("  %-4s %s", release_names[order[i ? f->release : 0]], decision_name(f->decision[i]));
+        printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_name(f->decision[i]));
         if (f->decision[i] == DECISION_LINK)
-            printf(", F = %.9g (level %d), V = %.9g (level %d)", (double)f->link[i].form_factor, f->link[i].levels & 15,
-                   f->link[i].visibility / (double)LINK_VISIBLE, f->link[i].levels >> 4);
+            printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d", (double)f->link[i].form_factor, f->link[i].levels & 15,
+                   f->link[i].visibility / (double)LINK_VISIBLE, f->link[i].levels >> 4, f->link[i].mark);
         printf("\n");
     }
 }
@@ -125,7 +130,7 @@ static void print_difference(const struct panel *p)
 static double solve_once(const struct options *o, const struct scene *scene, const struct refiner *refiner,
                          struct progress *progress, uint64_t *pairs, size_t *links)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure,
                                  .threads = o->threads, .progress = progress_show, .context = progress };
     struct solve s;
     const char *cause;
@@ -158,33 +163,33 @@ static double median(double *values, int n)
     return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-static int time_releases(const struct options *o, const struct scene *scene, struct panel *p, struct progress *progress, double seconds[ORDER])
+static int time_releases(const struct options *o, const struct scene *scene, struct panel *p, struct progress *progress, double seconds[RELEASES])
 {
-    double *times[ORDER] = { 0 };
+    double *times[RELEASES] = { 0 };
     uint64_t pairs;
     size_t links;
     int i, k, result = 0;
-    for (k = 0; k < ORDER; k++)
+    for (k = 0; k < p->count; k++)
         if (!(times[k] = malloc((size_t)o->repeats * sizeof **times)))
             result = report_error(o->scene, 0, "out of memory");
     for (i = 0; i < o->repeats && result == 0; i++)
-        for (k = 0; k < ORDER && result == 0; k++) {
+        for (k = 0; k < p->count && result == 0; k++) {
             times[k][i] = solve_once(o, scene, p->releases[k], progress, &pairs, &links);
             result = times[k][i] < 0 ? -1 : 0;
         }
-    for (k = 0; k < ORDER; k++) {
+    for (k = 0; k < p->count; k++) {
         seconds[k] = result == 0 ? median(times[k], o->repeats) : 0;
         free(times[k]);
     }
     return result;
 }
 
-static json_t *compare_json(const struct panel *p, size_t links, const double seconds[ORDER])
+static json_t *compare_json(const struct panel *p, size_t links, const double seconds[RELEASES])
 {
     json_t *releases = json_object();
     int k;
-    for (k = 0; k < ORDER; k++)
-        json_object_set_new(releases, release_names[order[k]],
+    for (k = 0; k < p->count; k++)
+        json_object_set_new(releases, name_of(p, k),
                             json_pack("{s:f, s:f}", "seconds", seconds[k], "ratio", seconds[k] / seconds[0]));
     return json_pack("{s:b, s:I, s:I, s:I, s:o}", "identical", p->differences == 0, "decisions", (json_int_t)p->decisions,
                      "links", (json_int_t)links, "differences", (json_int_t)p->differences, "releases", releases);
@@ -195,11 +200,12 @@ int command_compare(const struct options *o, const struct scene *scene)
     struct progress progress;
     struct panel panel = { 0 }, *at = &panel;
     struct refiner all = { .refine = ask_all, .state = &at, .oracle = o->oracle, .release = "all" };
-    double seconds[ORDER] = { 0 };
+    double seconds[RELEASES] = { 0 };
     size_t links = 0;
     int k, status = 1;
-    for (k = 0; k < ORDER; k++) {
-        panel.releases[k] = oracles_open(o->oracle, order[k]);
+    panel.count = oracles_by_hand(o->oracle) ? RELEASES : RELEASES - 1;
+    for (k = 0; k < panel.count; k++) {
+        panel.releases[k] = oracles_open(o->oracle, order[RELEASES - panel.count + k]);
         if (!panel.releases[k] || oracles_set(panel.releases[k], o->settings, o->setting_count) < 0)
             goto done;
     }
@@ -213,13 +219,13 @@ int command_compare(const struct options *o, const struct scene *scene)
     if (time_releases(o, scene, &panel, &progress, seconds) < 0)
         goto done;
     if (!o->quiet)
-        for (k = 0; k < ORDER; k++)
-            printf("  %-4s %9.3f s  %.3f\n", release_names[order[k]], seconds[k], seconds[k] / seconds[0]);
+        for (k = 0; k < panel.count; k++)
+            printf("  %-4s %9.3f s  %.3f\n", name_of(&panel, k), seconds[k], seconds[k] / seconds[0]);
     status = panel.differences != 0;
     if (o->json && json_file_write(o->json, compare_json(&panel, links, seconds)) < 0)
         status = 1;
 done:
-    for (k = 0; k < ORDER; k++)
+    for (k = 0; k < panel.count; k++)
         refiner_close(panel.releases[k]);
     return status;
 }

@@ -9,5 +9,10 @@
 int command_solve(const struct options *options, const struct scene *scene);
 int command_compare(const struct options *options, const struct scene *scene);
 int command_viewfactors(const struct options *options, const struct scene *scene);
+int command_study(const struct options *options); /* reads the scene itself, where the study has one */
+
+/* The studies. `options` holds what was asked: see options.h. */
+int study_stability(const struct options *options);
+int study_visibility(const struct options *options, const struct scene *scene);
 
 #endif

@@ -34,6 +34,12 @@ int main(int count, char **arguments)
         case COMMAND_HELP:
             options_print_help(stdout);
             break;
+        case COMMAND_STUDY_HELP:
+            options_print_study_help(stdout);
+            break;
+        case COMMAND_STUDY:
+            status = command_study(&o);
+            break;
         case COMMAND_VERSION:
             printf("radiosity %s\n", DAGC_VERSION);
             break;

@@ -9,10 +9,11 @@
 #include "export.h"
 #include "options.h"
 
-enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
-           FACES, JSON, REPEATS, QUIET, HELP, VERSION };
+enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
+           FACES, JSON, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
-enum { S = 1, C = 2, V = 4, ALL = S | C | V }; /* solve, compare, viewfactors */
+/* solve, compare, viewfactors, study stability, study visibility */
+enum { S = 1, C = 2, V = 4, FAILURES = 8, SIGHT = 16, ALL = S | C | V };
 
 static const struct option {
     enum key key;
@@ -22,13 +23,17 @@ static const struct option {
 } table[] = {
     { ORACLE, "--oracle", "NAME|FILE.dag", S | C, "the refinement oracle (default " DEFAULT_ORACLE "; see `radiosity oracles`)" },
     { RELEASE, "--release", "flat|dag|hand", S, "compiled graph (default), interpreted graph, or written by hand" },
-    { SET, "--set", "PARAM=VALUE", ALL, "set a parameter of the oracle; may be given many times" },
+    { SET, "--set", "PARAM=VALUE", ALL | SIGHT, "set a parameter of the oracle; may be given many times" },
     { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
     { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
-    { THREADS, "--threads", "N", ALL, "threads to use (default: all processors); the result is the same" },
-    { TWO_SIDED, "--two-sided", NULL, ALL, "every face has two sides, not only materials named *_2s" },
-    { OUT, "-o", "FILE", S | V, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv" },
+    { CLOSURE, "--closure", "none|rows", S | C, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an open\n"
+      "                             one; power is then no longer exchanged alike both ways (default none)" },
+    { STATISTICS, "--statistics", "FILE", S, "how often each answer of the oracle's graph was given: text, .csv, .json; - is\n"
+      "                             standard output. The graph is interpreted; what it decides is the same" },
+    { THREADS, "--threads", "N", ALL | FAILURES | SIGHT, "threads to use (default: all processors); the result is the same" },
+    { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT, "every face has two sides, not only materials named *_2s" },
+    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
     { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
     { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
     { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70)" },
@@ -36,19 +41,60 @@ static const struct option {
     { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
     { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
     { REPEATS, "--repeats", "N", C, "timed runs of each release (default 3)" },
-    { QUIET, "-q", NULL, ALL, "no progress, no summary, no warnings" },
-    { HELP, "--help", NULL, ALL, "this text" },
-    { VERSION, "--version", NULL, ALL, "the version" },
+    { ONLY, "--only", "CASE", FAILURES, "one case of `study stability`, by its name in the table" },
+    { THRESHOLDS, "--thresholds", "A,B,...", SIGHT, "projected areas below which visibility is tested (2,3,5,7.5,10,15)" },
+    { RAYS, "--rays", "N,M,...", SIGHT, "the rays whose answers are held against the reference (4,16,64)" },
+    { CHART, "--chart", "FILE", SIGHT, "a chart of the study, .svg or .png" },
+    { QUIET, "-q", NULL, ALL | FAILURES | SIGHT, "no progress, no summary, no warnings" },
+    { HELP, "--help", NULL, ALL | FAILURES | SIGHT, "this text" },
+    { VERSION, "--version", NULL, ALL | FAILURES | SIGHT, "the version" },
 };
 
 enum { OPTIONS = sizeof table / sizeof *table };
 
-void options_print_help(FILE *out)
+/* The options that any of `commands` takes. */
+static void print_options(FILE *out, int commands)
 {
     int i;
+    for (i = 0; i < OPTIONS; i++) {
+        const struct option *p = &table[i];
+        char left[64];
+        if (!(p->commands & commands))
+            continue;
+        snprintf(left, sizeof left, "%s%s%s", p->name, p->argument ? " " : "", p->argument ? p->argument : "");
+        fprintf(out, "  %-26s %s\n", left, p->help);
+    }
+}
+
+void options_print_study_help(FILE *out)
+{
+    fputs("usage: radiosity study stability [options]         where methods fail, and by how much\n"
+          "       radiosity study visibility SCENE [options]  how often few rays are wrong about visibility\n"
+          "\n"
+          "stability makes small scenes whose answer is known and on which published methods fail: elements that\n"
+          "share an edge, slivers, a blocker smaller than the gaps between rays, a bright furnace. Rows are the\n"
+          "scenes, columns the methods. A cell is the method's error, or `fails: why` when the error is above the\n"
+          "row's tolerance. The default oracle passes every row; that others fail is the finding, so the exit\n"
+          "status is 1 only when a method that must pass does not.\n"
+          "\n"
+          "    radiosity study stability\n"
+          "    radiosity study stability --only tiny_blocker\n"
+          "    radiosity study stability -o stability.md      # or .csv: every cell with error and tolerance\n"
+          "\n"
+          "visibility classifies the pairs of a scene by few rays, and again by so many that the answer is\n"
+          "trusted, as in section 5 of Turbet and Sillion:\n"
+          "\n"
+          "    radiosity study visibility examples/scenes/td.obj --thresholds 2,3,5,7.5,10,15 --rays 4,16,64\n"
+          "\n", out);
+    print_options(out, FAILURES | SIGHT);
+}
+
+void options_print_help(FILE *out)
+{
     fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
-          "       radiosity compare SCENE [options]      run an oracle's three releases side by side\n"
+          "       radiosity compare SCENE [options]      run an oracle's releases side by side\n"
           "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
+          "       radiosity study stability|visibility   where methods fail, and by how much; `radiosity study --help`\n"
           "       radiosity oracles                      list the built-in oracles and their parameters\n"
           "\n"
           "Light in a closed scene of diffuse surfaces, by hierarchical radiosity. SCENE is OBJ+MTL, PLY,\n"
@@ -60,12 +106,7 @@ void options_print_help(FILE *out)
           "    radiosity solve room.obj --set relative=0.02 --faces room.csv\n"
           "    radiosity solve room.obj --oracle bf --set relative=0 --set epsilon=0.02   # the BF of 1991\n"
           "\n", out);
-    for (i = 0; i < OPTIONS; i++) {
-        const struct option *p = &table[i];
-        char left[64];
-        snprintf(left, sizeof left, "%s%s%s", p->name, p->argument ? " " : "", p->argument ? p->argument : "");
-        fprintf(out, "  %-26s %s\n", left, p->help);
-    }
+    print_options(out, ~0);
     fputs("\nMessages go to standard error. Exit status: 0 done, 1 the scene, an oracle or a file is at fault\n"
           "(nothing half-written is left), or compared releases differ; 2 wrong usage.\n", out);
 }
@@ -88,8 +129,27 @@ static int whole_number(const char *text, int low, int high, int *value)
     return 0;
 }
 
+/* Rising numbers from low to high, parted by commas. Returns how many, or -1. */
+static int rising_list(const char *text, double low, double high, int whole, double list[STUDY_LIST])
+{
+    int n = 0;
+    for (;;) {
+        char *end;
+        double x = strtod(text, &end);
+        if (end == text || n == STUDY_LIST || !(x >= low && x <= high) || (whole && x != floor(x)) || (n && x <= list[n - 1]))
+            return -1;
+        list[n++] = x;
+        if (!*end)
+            return n;
+        if (*end != ',')
+            return -1;
+        text = end + 1;
+    }
+}
+
 static int take(struct options *o, const struct option *p, char *value)
 {
+    double list[STUDY_LIST];
     char *end;
     int i;
     switch (p->key) {
@@ -102,6 +162,7 @@ static int take(struct options *o, const struct option *p, char *value)
         if (i == RELEASES)
             return wrong("--release knows flat, dag and hand, not", value);
         o->release = (enum release)i;
+        o->release_given = 1;
         return 0;
     case SET:
         o->settings[o->setting_count++] = value;
@@ -113,6 +174,14 @@ static int take(struct options *o, const struct option *p, char *value)
         return 0;
     case ITERATIONS:
         return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
+    case CLOSURE:
+        if (strcmp(value, "none") != 0 && strcmp(value, "rows") != 0)
+            return wrong("--closure knows none and rows, not", value);
+        o->closure = *value == 'r' ? CLOSURE_ROWS : CLOSURE_NONE;
+        return 0;
+    case STATISTICS:
+        o->statistics = value;
+        return 0;
     case THREADS:
         return whole_number(value, 1, 1024, &o->threads) < 0 ? wrong("--threads takes a whole number from 1 to 1024, not", value) : 0;
     case REPEATS:
@@ -148,11 +217,25 @@ static int take(struct options *o, const struct option *p, char *value)
     case TWO_SIDED:
         o->two_sided = 1;
         return 0;
+    case ONLY:
+        o->only = value;
+        return 0;
+    case CHART:
+        o->chart = value;
+        return 0;
+    case THRESHOLDS:
+        o->threshold_count = rising_list(value, 1e-300, 1e300, 0, o->thresholds);
+        return o->threshold_count < 0 ? wrong("--thresholds takes rising positive numbers parted by commas, 32 at the most, not", value) : 0;
+    case RAYS:
+        o->ray_count = rising_list(value, 4, 1024, 1, list);
+        for (i = 0; i < o->ray_count; i++)
+            o->rays[i] = (int)list[i];
+        return o->ray_count < 0 ? wrong("--rays takes rising whole numbers from 4 to 1024 parted by commas, not", value) : 0;
     case QUIET:
         o->quiet = 1;
         return 0;
     case HELP:
-        o->command = COMMAND_HELP;
+        o->command = o->command == COMMAND_STUDY ? COMMAND_STUDY_HELP : COMMAND_HELP;
         return 0;
     case VERSION:
         o->command = COMMAND_VERSION;
@@ -184,9 +267,9 @@ static const struct option *find(const char *argument, char **value)
 
 static int command_of(const char *word, enum command *command)
 {
-    static const char *const names[] = { "solve", "compare", "viewfactors", "oracles" };
+    static const char *const names[] = { "solve", "compare", "viewfactors", "oracles", "study" };
     int i;
-    for (i = 0; i < 4; i++)
+    for (i = 0; i < 5; i++)
         if (strcmp(word, names[i]) == 0) {
             *command = (enum command)i;
             return 0;
@@ -194,9 +277,42 @@ static int command_of(const char *word, enum command *command)
     return -1;
 }
 
+/* `radiosity study WORD`: which study. Returns 0 or the exit status. */
+static int study_of(struct options *o, const char *word)
+{
+    static const char *const names[] = { "stability", "visibility" };
+    static const double thresholds[] = { 2, 3, 5, 7.5, 10, 15 };
+    static const int rays[] = { 4, 16, 64 };
+    int i;
+    if (!word)
+        return wrong("study what? `radiosity study --help` tells", "");
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
+        o->command = COMMAND_STUDY_HELP;
+        return 0;
+    }
+    for (i = 0; i < 2 && strcmp(word, names[i]) != 0; i++)
+        ;
+    if (i == 2)
+        return wrong("study knows stability and visibility, not", word);
+    o->study = (enum study)i;
+    memcpy(o->thresholds, thresholds, sizeof thresholds);
+    memcpy(o->rays, rays, sizeof rays);
+    o->threshold_count = sizeof thresholds / sizeof *thresholds;
+    o->ray_count = sizeof rays / sizeof *rays;
+    return 0;
+}
+
+/* The bits of the table's options that go with the command. */
+static int takes(const struct options *o)
+{
+    return o->command < COMMAND_ORACLES ? 1 << o->command
+         : o->command != COMMAND_STUDY  ? ~0
+         : o->study == STUDY_STABILITY  ? FAILURES : SIGHT;
+}
+
 int options_parse(struct options *o, int count, char **arguments)
 {
-    int i, only_files = 0, status;
+    int i = 2, only_files = 0, status;
     memset(o, 0, sizeof *o);
     o->oracle = DEFAULT_ORACLE;
     o->tolerance = 1e-4;
@@ -223,7 +339,13 @@ int options_parse(struct options *o, int count, char **arguments)
     }
     if (command_of(arguments[1], &o->command) < 0)
         return wrong("unknown command", arguments[1]);
-    for (i = 2; i < count; i++) {
+    if (o->command == COMMAND_STUDY) {
+        status = study_of(o, arguments[i]);
+        if (status || o->command == COMMAND_STUDY_HELP)
+            return status;
+        i++;
+    }
+    for (; i < count; i++) {
         char *value;
         const struct option *p;
         if (only_files || arguments[i][0] != '-' || !arguments[i][1]) {
@@ -239,7 +361,7 @@ int options_parse(struct options *o, int count, char **arguments)
         p = find(arguments[i], &value);
         if (!p)
             return wrong("unknown option", arguments[i]);
-        if (o->command < COMMAND_ORACLES && !(p->commands & 1 << o->command))
+        if (!(p->commands & takes(o)))
             return wrong(arguments[1], p->name[1] == '-' ? "has no such option" : "has no option of that letter");
         if (!p->argument && value)
             return wrong("no value goes with", p->name);
@@ -251,15 +373,21 @@ int options_parse(struct options *o, int count, char **arguments)
         status = take(o, p, value);
         if (status)
             return status;
-        if (o->command == COMMAND_HELP || o->command == COMMAND_VERSION)
+        if (o->command >= COMMAND_HELP)
             return 0;
     }
     if (o->command == COMMAND_ORACLES)
         return o->scene ? wrong("oracles takes no scene, but got", o->scene) : 0;
+    if (o->command == COMMAND_STUDY && o->study == STUDY_STABILITY)
+        return o->scene ? wrong("study stability makes its own scenes, but got", o->scene) : 0;
     if (!o->scene)
         return wrong("no scene is given", "");
     if (o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_UNKNOWN)
         return wrong("-o takes a file named .ply, .gltf, .glb or .obj, not", o->out);
+    if (o->statistics && o->release_given && o->release != RELEASE_DAG)
+        return wrong("--statistics counts what the interpreted graph does: it takes no --release but dag, not", release_names[o->release]);
+    if (o->statistics)
+        o->release = RELEASE_DAG;
     if ((o->mesh || o->view_given) && !o->image)
         return wrong("--mesh and --view are for a picture: add --image FILE.png", "");
     return 0;

@@ -4,14 +4,21 @@
 #define OPTIONS_H
 
 #include "oracles.h"
+#include "solve.h"
 #include "view.h"
 
-enum command { COMMAND_SOLVE, COMMAND_COMPARE, COMMAND_VIEWFACTORS, COMMAND_ORACLES, COMMAND_HELP, COMMAND_VERSION };
+enum command { COMMAND_SOLVE, COMMAND_COMPARE, COMMAND_VIEWFACTORS, COMMAND_ORACLES, COMMAND_STUDY, COMMAND_HELP,
+               COMMAND_STUDY_HELP, COMMAND_VERSION };
+enum study { STUDY_STABILITY, STUDY_VISIBILITY };
+enum { STUDY_LIST = 32 };
 
 struct options {
     enum command command;
     const char *scene, *oracle;
     enum release release;
+    int release_given;
+    enum closure closure;
+    const char *statistics; /* NULL: not wanted */
     char **settings; /* [setting_count] "NAME=VALUE", owned */
     int setting_count;
     double tolerance;
@@ -20,11 +27,18 @@ struct options {
     int width, height;
     struct view view;
     int view_given;
+    enum study study;       /* of COMMAND_STUDY, and the rest of this block with it */
+    const char *only;       /* stability: the case to run; NULL: all */
+    const char *chart;      /* visibility: where the drawing goes; NULL: not wanted */
+    double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
+    int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
+    int threshold_count, ray_count;
 };
 
 /* Returns 0, or the exit status 2 after a message on stderr. */
 int options_parse(struct options *o, int count, char **arguments);
 void options_print_help(FILE *out);
+void options_print_study_help(FILE *out);
 void options_free(struct options *o);
 
 #endif

@@ -28,12 +28,25 @@ static const struct builtin *find_builtin(const char *name)
     return NULL;
 }
 
-static struct refiner *open_hand(const char *oracle)
+static const struct oracle *find_hand(const char *oracle)
 {
     size_t i;
     for (i = 0; i < sizeof hand_oracles / sizeof *hand_oracles; i++)
         if (strcmp(hand_oracles[i]->name, oracle) == 0)
-            return refiner_compiled(hand_oracles[i], "hand");
+            return hand_oracles[i];
+    return NULL;
+}
+
+int oracles_by_hand(const char *oracle)
+{
+    return find_hand(oracle) != NULL;
+}
+
+static struct refiner *open_hand(const char *oracle)
+{
+    const struct oracle *hand = find_hand(oracle);
+    if (hand)
+        return refiner_compiled(hand, "hand");
     report_error(oracle, 0, "no hand-written release of this oracle; use --release flat or dag");
     return NULL;
 }

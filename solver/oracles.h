@@ -15,6 +15,9 @@ extern const char *const release_names[RELEASES]; /* "flat", "dag", "hand" */
  * system's `cc` and loaded. Returns NULL after a message on stderr. */
 struct refiner *oracles_open(const char *oracle, enum release release);
 
+/* Is there a hand-written release of this oracle? */
+int oracles_by_hand(const char *oracle);
+
 /* Apply the count texts "NAME=VALUE" to a refiner. Returns 0, or -1 after a message. */
 int oracles_set(struct refiner *refiner, char *const *settings, int count);
 

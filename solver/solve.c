@@ -1,33 +1,21 @@
-/* solve.c - the radiosity iteration over links, and Hanrahan's multigridding around it.
+/* solve.c - Hanrahan's multigridding around the radiosity iteration: refine, solve, let the oracle see the new
+ * radiosities, refine again, until no link changes.
  *
- * A sweep gathers H_r += F V B_s over the links of every element, pushes it down to the leaves, where
- * B = E + rho H, and pulls area means up. A sweep goes through the faces in blocks; within a block all
- * gather first and are updated then, so the result is the same for any number of threads. One block
- * is Jacobi's method, many are Gauss-Seidel's. With rows at most 1 a sweep contracts by rho, the largest reflectance, so
- * the error left is about residual * rho / (1 - rho), which is what the tolerance is held against.
- *
- * Part of a surface may be buried in a solid that stands on it, like the floor under a table leg. It
- * receives nothing and sends nothing; rays know that, but a mean over the whole element would send the missing light
- * a second time less. So B is the mean over the exposed part, and B = E + rho H / exposed, where H stays the mean over all.
- *
- * No point sees more than everything, so the sums of F V over a leaf's links (its row) are at most 1; yet a
- * leaf near an edge, whose ancestors' links bring their mean, can exceed that, and then a bright enough
- * scene gains power in every reflection and the iteration diverges. So rows are capped: a leaf above 1 is scaled to 1
- * and the power that takes away is given to the leaves of the same face between 1/2 and 1, by the room they
- * have. That moves power within a face and makes none; rows below 1/2 are shadow, not error, and
- * stay dark. Where the mean row of a whole face exceeds 1, by the noise of its rays, the cap is that mean (cutting
- * noise on one side would lose power), but at most 1 + (1 - rho) / 2: so the iteration converges whatever
- * the oracle does.
- * [Hanrahan et al. 1991, sections 4 and 5; Arvo et al. 1994, section 5.3 for the bound; cap: derived here]
+ * The equation is solved in balance.c; what is done about rows that sum to more or less than 1 stands in
+ * rows.c; what the oracles see of a solution in publish.c.
+ * [Hanrahan et al. 1991, sections 4 and 5]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include "balance.h"
+#include "enclosure.h"
+#include "publish.h"
+#include "rows.h"
 #include "solve.h"
 
-#define STALE 0.02
-enum { BLOCKS = 16, PASSES = 32, LINKS_WORTH_THREADS = 1 << 16 };
+enum { PASSES = 32 };
 
 static double seconds(void)
 {
@@ -63,7 +51,8 @@ static int make_room(struct solve *s)
         size_t room = (size_t)count + count / 4;
         unsigned char *mark;
         if (enlarge(&s->radiosity, room * b) < 0 || enlarge(&s->irradiance, room * b) < 0 || enlarge(&s->row_scale, room) < 0
-            || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0)
+            || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0 || enlarge(&s->least, room * b) < 0
+            || enlarge(&s->most, room * b) < 0)
             return -1;
         mark = realloc(s->changed, room);
         if (!mark)
@@ -104,56 +93,6 @@ static void expose(struct solve *s, uint32_t first)
     }
 }
 
-/* The weight of child j in the mean radiosity of e: its share of the exposed area, or of all when none is exposed. */
-static double share(const struct solve *s, uint32_t j, uint32_t e)
-{
-    double part = s->hierarchy.elements[j].area / s->hierarchy.elements[e].area;
-    return s->exposed[e] > 0 ? part * s->exposed[j] / s->exposed[e] : part;
-}
-
-/* Before the first solve the oracles see what the light is likely to be: E + rho H with the mean irradiance. */
-static void guess(struct solve *s)
-{
-    uint32_t i, k;
-    for (i = 0; i < s->scene->face_count; i++) {
-        struct element *e = &s->hierarchy.elements[s->hierarchy.face_element[i]];
-        for (k = 0; k < s->bands; k++) {
-            size_t at = (size_t)i * s->bands + k;
-            double b = s->exitance[at] + s->reflectance[at] * rays_host(s->rays)->irradiance;
-            e->radiosity = b > e->radiosity ? b : e->radiosity;
-        }
-    }
-}
-
-/* Area means of the clusters, and what the oracles see of every element. They see a value that is
- * within STALE of the true one, so that passes end; changed[] marks the elements that they see grow.
- * Children follow their parents. */
-static void publish(struct solve *s)
-{
-    uint32_t b = s->bands, i, k;
-    double seen;
-    int c;
-    for (i = s->hierarchy.count; i-- > 0;) {
-        struct element *e = &s->hierarchy.elements[i];
-        if (!e->vertices) {
-            for (k = 0; k < b; k++)
-                s->radiosity[(size_t)i * b + k] = s->irradiance[(size_t)i * b + k] = 0;
-            for (c = 0; c < e->children; c++) {
-                uint32_t j = e->child + (uint32_t)c;
-                double sent = share(s, j, i), received = s->hierarchy.elements[j].area / e->area;
-                for (k = 0; k < b; k++) {
-                    s->radiosity[(size_t)i * b + k] += sent * s->radiosity[(size_t)j * b + k];
-                    s->irradiance[(size_t)i * b + k] += received * s->irradiance[(size_t)j * b + k];
-                }
-            }
-        }
-        seen = largest(&s->radiosity[(size_t)i * b], b);
-        s->changed[i] = seen > (1 + STALE) * e->radiosity;
-        if (s->changed[i] || seen < (1 - STALE) * e->radiosity)
-            e->radiosity = seen;
-    }
-}
-
 static void take_materials(struct solve *s)
 {
     const struct scene *scene = s->scene;
@@ -187,7 +126,8 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     if (!s->exitance || !s->reflectance || !brightest || !whitest || make_room(s) < 0)
         goto fail;
     take_materials(s);
-    for (i = 0; options->unit && i < s->hierarchy.count; i++)
+    /* What emits nothing now or later may be left out of a row only while nobody asks what a row sums to. */
+    for (i = 0; (options->unit || options->closure != CLOSURE_NONE) && i < s->hierarchy.count; i++)
         s->hierarchy.elements[i].black = 0;
     for (i = 0; i < scene->face_count; i++) {
         brightest[i] = largest(&s->exitance[(size_t)i * s->bands], s->bands);
@@ -200,7 +140,9 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     s->rays = rays_open(&s->hierarchy, brightest, whitest, options->threads, cause);
     if (!s->rays)
         goto fail;
-    guess(s);
+    publish_guess(s);
+    if (options->closure != CLOSURE_NONE)
+        s->closed = enclosure_decide(s);
     free(brightest);
     free(whitest);
     s->seconds.build = seconds() - start;
@@ -212,228 +154,20 @@ fail:
     return -1;
 }
 
-/* What element e gathers over its own links, into irradiance[e]. */
-static void gather(struct solve *s, uint32_t e)
-{
-    const struct refinement *r = &s->refinement;
-    size_t i;
-    double h[3] = { 0, 0, 0 };
-    uint32_t b = s->bands, k;
-    for (i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
-        const struct link *l = &r->links[i];
-        double weight = (double)l->form_factor * (l->visibility * (1.0 / LINK_VISIBLE));
-        const double *from = &s->radiosity[(size_t)l->emitter * b];
-        for (k = 0; k < b; k++)
-            h[k] += weight * from[k];
-    }
-    cluster_light_gather(&s->cluster_light, e, h);
-    for (k = 0; k < b; k++)
-        s->irradiance[(size_t)e * b + k] = h[k];
-}
-
-static void gather_below(struct solve *s, uint32_t e)
-{
-    const struct element *x = &s->hierarchy.elements[e];
-    int c;
-    gather(s, e);
-    for (c = 0; c < x->children; c++)
-        gather_below(s, x->child + (uint32_t)c);
-}
-
-struct rows;
-
-/* Call visit(context, leaf, sum of F V over its links and its ancestors') for the leaves below e. */
-static void visit_rows(struct solve *s, uint32_t e, double above, void (*visit)(struct solve *, uint32_t, double, struct rows *),
-                       struct rows *context)
-{
-    const struct element *x = &s->hierarchy.elements[e];
-    const struct refinement *r = &s->refinement;
-    size_t i;
-    int c;
-    double beams[3] = { 0, 0, 0 };
-    for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-        above += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
-    cluster_light_gather(&s->cluster_light, e, beams);
-    above += beams[0];
-    for (c = 0; c < x->children; c++)
-        visit_rows(s, x->child + (uint32_t)c, above, visit, context);
-    if (!x->children)
-        visit(s, e, above, context);
-}
-
-/* What the rows of one face come to. A row counts per exposed area: what is buried sees nothing. */
-struct rows {
-    double cap, sum, area; /* sum: of A exposed row (m2); area: of A exposed (m2) */
-    double excess, room;   /* above the cap; between ROW_SHADOW of the cap and the cap (m2) */
-};
-#define ROW_SHADOW 0.5
-
-/* The row of a leaf per exposed area, and that area (m2); 0 when all of it is buried. */
-static double exposed_row(const struct solve *s, uint32_t leaf, double row, double *area)
-{
-    *area = s->hierarchy.elements[leaf].area * s->exposed[leaf];
-    return s->exposed[leaf] > 0 ? row / s->exposed[leaf] : 0;
-}
-
-static void sum_row(struct solve *s, uint32_t leaf, double row, struct rows *rows)
-{
-    double area;
-    row = exposed_row(s, leaf, row, &area);
-    s->leaves++;
-    if (!(area > 0))
-        return;
-    rows->sum += area * row;
-    rows->area += area;
-    s->row_low = row < s->row_low ? row : s->row_low;
-    s->row_high = row > s->row_high ? row : s->row_high;
-}
-
-static void weigh_row(struct solve *s, uint32_t leaf, double row, struct rows *rows)
-{
-    double area;
-    row = exposed_row(s, leaf, row, &area);
-    if (row > rows->cap)
-        rows->excess += area * (row - rows->cap);
-    else if (row > ROW_SHADOW * rows->cap)
-        rows->room += area * (rows->cap - row);
-}
-
-static void cap_row(struct solve *s, uint32_t leaf, double row, struct rows *rows)
-{
-    double area, most = rows->excess > rows->room ? rows->excess : rows->room;
-    row = exposed_row(s, leaf, row, &area);
-    s->row_scale[leaf] = row > rows->cap ? rows->cap / row : 1;
-    s->row_gift[leaf] = row > ROW_SHADOW * rows->cap && row < rows->cap ? s->exposed[leaf] * (rows->cap - row) / most : 0;
-}
-
-/* Rows of all leaves: their range, and the factors that cap them. */
-static void cap_rows(struct solve *s)
-{
-    uint32_t i;
-    s->leaves = 0;
-    s->row_low = INFINITY;
-    s->row_high = s->row_excess = 0;
-    for (i = 0; i < s->scene->face_count; i++) {
-        uint32_t e = s->hierarchy.face_element[i];
-        double most = 1 + 0.5 * (1 - largest(&s->reflectance[(size_t)i * s->bands], s->bands));
-        struct rows rows = { 1, 0, 0, 0, 0 };
-        visit_rows(s, e, 0, sum_row, &rows);
-        if (rows.sum > rows.area)
-            rows.cap = rows.sum < most * rows.area ? rows.sum / rows.area : most;
-        visit_rows(s, e, 0, weigh_row, &rows);
-        visit_rows(s, e, 0, cap_row, &rows);
-        s->row_excess += rows.excess / rays_host(s->rays)->area;
-    }
-}
-
-/* Push irradiance down to the leaves and cap it there; removed[band] gathers the power that takes away. */
-static void push(struct solve *s, uint32_t e, const double above[3], double removed[3])
-{
-    const struct element *x = &s->hierarchy.elements[e];
-    uint32_t b = s->bands, k;
-    double *H = &s->irradiance[(size_t)e * b], h[3];
-    int c;
-    for (k = 0; k < b; k++)
-        h[k] = above[k] + H[k];
-    for (c = 0; c < x->children; c++)
-        push(s, x->child + (uint32_t)c, h, removed);
-    for (k = 0; k < b && !x->children; k++) {
-        H[k] = h[k] * s->row_scale[e];
-        removed[k] += x->area * (h[k] - H[k]);
-    }
-}
-
-/* B = E + rho H at the leaves, means above. Returns sum A |dB| over the leaves. */
-static double pull(struct solve *s, uint32_t e, const double removed[3])
-{
-    const struct element *x = &s->hierarchy.elements[e];
-    uint32_t b = s->bands, k;
-    double *B = &s->radiosity[(size_t)e * b], *H = &s->irradiance[(size_t)e * b], moved = 0;
-    int c;
-    if (!x->children) {
-        const double *E = &s->exitance[(size_t)x->face * b], *rho = &s->reflectance[(size_t)x->face * b];
-        for (k = 0; k < b; k++) {
-            double exposed = s->exposed[e], next;
-            H[k] += removed[k] * s->row_gift[e];
-            next = E[k] + (exposed > 0 ? rho[k] * H[k] / exposed : 0);
-            moved += x->area * exposed * fabs(next - B[k]);
-            B[k] = next;
-        }
-        return moved;
-    }
-    for (k = 0; k < b; k++)
-        B[k] = H[k] = 0;
-    for (c = 0; c < x->children; c++) {
-        uint32_t j = x->child + (uint32_t)c;
-        double sent = share(s, j, e), received = s->hierarchy.elements[j].area / x->area;
-        moved += pull(s, j, removed);
-        for (k = 0; k < b; k++) {
-            B[k] += sent * s->radiosity[(size_t)j * b + k];
-            H[k] += received * s->irradiance[(size_t)j * b + k];
-        }
-    }
-    return moved;
-}
-
-/* One sweep over all faces. moved[face] receives sum A |dB|. */
-static void sweep(struct solve *s, double *moved)
-{
-    static const double nothing[3] = { 0, 0, 0 };
-    uint32_t faces = s->scene->face_count, blocks = s->options.jacobi ? 1 : faces < BLOCKS ? faces : BLOCKS, block;
-    cluster_light_send(&s->cluster_light, s->radiosity);
-#pragma omp parallel num_threads(s->options.threads) private(block) if (s->refinement.link_count > LINKS_WORTH_THREADS)
-    for (block = 0; block < blocks; block++) {
-        uint32_t from = (uint32_t)((uint64_t)faces * block / blocks), to = (uint32_t)((uint64_t)faces * (block + 1) / blocks), i;
-#pragma omp for schedule(dynamic, 8)
-        for (i = from; i < to; i++)
-            gather_below(s, s->hierarchy.face_element[i]);
-#pragma omp for schedule(dynamic, 64)
-        for (i = from; i < to; i++) {
-            double removed[3] = { 0, 0, 0 };
-            push(s, s->hierarchy.face_element[i], nothing, removed);
-            moved[i] = pull(s, s->hierarchy.face_element[i], removed);
-        }
-    }
-}
-
-/* Sweeps until the error they leave is below the tolerance. Returns 0 or -1. */
+/* Solve for the radiosities over the links as they are. Returns 0 or -1. */
 static int iterate(struct solve *s, const char **cause)
 {
-    uint32_t faces = s->scene->face_count, i, k;
-    double *moved = malloc(faces * sizeof *moved), rho = largest(s->reflectance, faces * s->bands);
-    int n;
-    double *ones = malloc((size_t)s->hierarchy.count * s->bands * sizeof *ones);
-    size_t at;
-    *cause = "out of memory";
+    struct balance light = { .bands = s->bands, .value = s->radiosity, .irradiance = s->irradiance,
+                             .source = s->exitance, .reflectance = s->reflectance };
     cluster_light_close(&s->cluster_light);
-    if (!moved || !ones
-        || cluster_light_open(&s->cluster_light, &s->hierarchy, &s->refinement, (int)s->bands, s->options.threads) < 0) {
-        free(moved);
-        free(ones);
+    if (cluster_light_open(&s->cluster_light, &s->hierarchy, &s->refinement, (int)s->bands, s->options.threads) < 0)
         return -1;
-    }
-    for (at = 0; at < (size_t)s->hierarchy.count * s->bands; at++)
-        ones[at] = 1;
-    cluster_light_send(&s->cluster_light, ones);
-    free(ones);
-    cap_rows(s);
-    s->converged = 0;
-    for (n = 0; n < s->options.iterations && !s->converged; n++) {
-        double change = 0, power = 0;
-        sweep(s, moved);
-        s->sweeps++;
-        for (i = 0; i < faces; i++) {
-            uint32_t e = s->hierarchy.face_element[i];
-            change += moved[i];
-            for (k = 0; k < s->bands; k++)
-                power += s->hierarchy.elements[e].area * s->exposed[e] * s->radiosity[(size_t)e * s->bands + k];
-        }
-        s->residual = power > 0 ? change / power : 0;
-        s->converged = s->residual * rho <= s->options.tolerance * (1 - rho);
-        if (s->options.progress)
-            s->options.progress(s->options.context, s, "solve");
-    }
-    free(moved);
+    rows_scale(s);
+    *cause = "out of memory";
+    if (balance_solve(s, &light) < 0)
+        return -1;
+    s->converged = light.converged;
+    s->residual = light.residual;
     return 0;
 }
 
@@ -521,6 +255,8 @@ void solve_close(struct solve *s)
     free(s->row_scale);
     free(s->row_gift);
     free(s->exposed);
+    free(s->least);
+    free(s->most);
     free(s->changed);
     free(s->exitance);
     free(s->reflectance);

@@ -13,11 +13,18 @@
 
 struct solve;
 
+/* What is done about rows, the sums of F V over what a leaf sees (rows.c). */
+enum closure {
+    CLOSURE_NONE, /* rows above 1 are capped, each face keeping its power */
+    CLOSURE_ROWS  /* every row is 1 in a closed scene, at most 1 in an open one */
+};
+
 struct solve_options {
     double tolerance; /* relative L1 error of B that iteration may leave, > 0 */
     int iterations;   /* sweeps per solve at the most */
     int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
     int threads;
+    enum closure closure;
     int unit;         /* ignore the materials: every face has B = 1 and stays so (view factors) */
     void (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress, which may be NULL */
@@ -38,7 +45,8 @@ struct solve {
     uint32_t bands;
     double *radiosity, *irradiance; /* [room * bands], element by element */
     double *exitance, *reflectance; /* [face_count * bands] */
-    unsigned char *changed;         /* [room]: the oracles see a radiosity that has grown since the links were discussed */
+    double *least, *most;           /* [room * bands]: smallest and largest radiosity of the exposed leaves below */
+    unsigned char *changed;         /* [room]: the oracles see a radiosity or spread that has grown since the links were discussed */
     uint32_t room;                  /* elements that the arrays above have place for */
     uint32_t started;               /* elements whose radiosity has a value */
 
@@ -49,8 +57,13 @@ struct solve {
     double emitted, absorbed; /* W, all bands */
     double *exposed;          /* [room]: the share of the element that is not buried in a solid */
     double *row_scale;        /* [room]: leaves only, the factor that caps its row at 1 */
-    double *row_gift;         /* [room]: leaves only, its share of the power capped off its face, per area (1/m2) */
+    double *row_gift;         /* [room]: leaves only, its share of the power capped off its face, or under closure of the
+                                 irradiance of its face when it has no row of its own, per area (1/m2) */
     double row_low, row_high; /* smallest and largest sum of F V over a leaf's links, before the cap; 1 in a closed scene */
+    double row_defect, row_defect_most; /* |row - 1| before the cap or closure, per exposed area: mean and largest */
+    double row_blind;         /* exposed leaves without any link (m2) */
+    int closed;               /* with closure: 1 when no ray leaves the scene (enclosure.c), else 0 */
+    uint64_t closed_rays;     /* the rays that say so */
     double row_excess;        /* what the cap moved: sum A (row - 1) over rows above 1, as a share of the scene's area */
     struct solve_seconds seconds;
 };

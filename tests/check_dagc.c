@@ -484,6 +484,12 @@ START_TEST(command)
 }
 END_TEST
 
+START_TEST(memory)
+{
+    run("%s/memory.sh %s%s", folder, dagc, "");
+}
+END_TEST
+
 int main(int count, char **arguments)
 {
     (void)count;
@@ -508,6 +514,7 @@ int main(int count, char **arguments)
     tcase_add_test(library, mutations);
     tcase_add_test(scripts, messages);
     tcase_add_test(scripts, command);
+    tcase_add_test(scripts, memory);
     suite_add_tcase(suite, library);
     suite_add_tcase(suite, scripts);
     SRunner *runner = srunner_create(suite);

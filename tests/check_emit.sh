@@ -37,6 +37,7 @@ says() { # TEXT COMMAND...
 
 # ---- proofs
 for oracle in "$top"/examples/oracles/*.dag; do
+    [ "${oracle##*/}" != common.dag ] || continue # branches alone
     check "prove ${oracle##*/}" "$dagc" --prove --instrument --trace "$oracle"
 done
 check "prove a user's tool and term" "$dagc" --prove --instrument --trace "$top/examples/user_tool/near_first.dag"
@@ -64,7 +65,8 @@ check "nothing stays behind" sh -c "TMPDIR=$tmp $dagc -Wno-all --catalog $catalo
 
 # ---- differences
 bf=$top/examples/oracles/bf.dag
-sed 's/none -> stop;  partial | all -> form/none -> stop; partial -> subdivide_receiver; all -> form/' "$bf" >other.dag
+cp "$bf" other.dag # beside another common.dag
+sed 's/none -> hidden;  partial | all -> form/none -> hidden; partial -> subdivide_receiver; all -> form/' "$top/examples/oracles/common.dag" >common.dag
 check "diff: the same" status 0 "$dagc" diff "$bf" "$bf"
 check "diff: different" status 1 "$dagc" diff "$bf" other.dag
 check "diff: the witness" says 'visibility(rays = rays): partial' "$dagc" diff "$bf" other.dag
@@ -113,6 +115,15 @@ check "refiner.c is what dagc makes" cmp made/refiner.c "$embed/refiner.c"
 check "refiner.h is what dagc makes" cmp made/refiner.h "$embed/refiner.h"
 [ -x "$engine" ] && check "the engine's decisions" sh -c "$engine $top/examples/oracles/bf_guarded.dag >wanted"
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
+# Without a term, with one: struct terms has no more than that.
+echo 'oracle cluster { start a; node a = clusters() { receiver -> subdivide_receiver; emitter -> subdivide_emitter; otherwise -> stop; } }' >cluster.dag
+echo 'oracle dark { start a; node a = transfer(relative = 1) { otherwise -> stop; } }' >dark.dag
+for oracle in cluster dark; do
+    check "standalone $oracle" "$dagc" -Wno-all --standalone --instrument --trace -o $oracle.c --header $oracle.h $oracle.dag
+done
+check "no term" says '^    char none; ' cat cluster.h
+check "one term is there" grep -q '^    double form_factor;' dark.h
+check "another is not" sh -c "! grep -q 'visibility_level;' dark.h"
 for oracle in bf bf_guarded viewfactors; do
     check "standalone $oracle" "$dagc" --standalone --instrument --trace -o $oracle.c --header $oracle.h "$top/examples/oracles/$oracle.dag"
 done
@@ -122,7 +133,7 @@ for compiler in "gcc -std=c99" "clang -std=c99" "tcc" "g++ -x c++ -std=c++17" "c
         echo "skipped: ${compiler%% *} is not installed"
         continue
     fi
-    for oracle in bf bf_guarded viewfactors near_first; do
+    for oracle in bf bf_guarded viewfactors near_first cluster dark; do
         check "$compiler $oracle" $compiler $warnings -O2 -c -o $oracle.o $oracle.c
         # shellcheck disable=SC2016
         [ "$compiler" = tcc ] || check "symbols of $oracle" sh -c "! nm -g --defined-only $oracle.o | grep -v ' ${oracle}_'"

@@ -51,7 +51,7 @@ version=$(dagc --version)
 
 # ---- a program with two refiners, one of them from a graph with an imported branch
 mkdir user
-cp "$top/examples/oracles/bf.dag" user
+cp "$top/examples/oracles/bf.dag" "$top/examples/oracles/common.dag" user
 cat >user/when_large.dag <<'END2'
 graph large(share : ratio = 0.05 in [0, inf]) exits (small precise, both precise) {
   start energy;
@@ -81,7 +81,7 @@ int main(void)
     struct own_parameters own;
     struct element receiver = { 0 }, emitter = { 0 };
     struct discussion d = { 0 };
-    const struct host host = { NULL, 1, 1, 0, 0 };
+    static const struct host host;
     bf_defaults(&bf);
     own_defaults(&own);
     d.receiver = &receiver;
@@ -121,7 +121,7 @@ if have pkg-config; then
     check "cc" cc $flags -o program main.c bf.c own.c $(pkg-config --cflags --libs dagc)
     check "the program" is "bf own 1" ./program
     # A tool, a term and so a catalog.h of one's own.
-    cp "$top/examples/user_tool/"*.dag "$top/examples/user_tool/gap.h" "$top/examples/user_tool/near.h" .
+    cp "$top/examples/user_tool/"*.dag "$top/examples/user_tool/gap.h" "$top/examples/user_tool/beside.h" .
     check "catalog.h" dagc --emit=catalog-h -o catalog.h catalog.dag
     check "dagc near_first" dagc -o near_first.c --header near_first.h near_first.dag
     # shellcheck disable=SC2046,SC2086

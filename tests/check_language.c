@@ -356,7 +356,7 @@ START_TEST(same_bits)
     fprintf(out, "};\nconst int oracle_count = %d;\n", ORACLES);
     fclose(out);
     run("cp -r tests/dagc/runtime/* tests/dagc/compare/main.c runtime/oracle.h runtime/tool_table.h "
-        "runtime/refiner.h runtime/refiner.c runtime/interpreter.c %s%s%s", place, "", "");
+        "runtime/refiner.h runtime/refiner.c runtime/program.h runtime/interpreter.c runtime/arguments.c runtime/statistics.[ch] %s%s%s", place, "", "");
     run("%s --emit=catalog-h -o %s/catalog.h %s", dagc, place, catalog);
     run("%s --emit=catalog-c -o %s/catalog.c %s", dagc, place, catalog);
     snprintf(top, sizeof top, "%s -Wno-all --catalog %s --header %s/oracles.h", dagc, catalog, place);

@@ -41,7 +41,8 @@ int main(int count, char **arguments)
 {
     struct interpretation how = { 0 };
     struct refiner *dag, *flat = refiner_compiled(&near_first_oracle, "flat");
-    const struct host host = { occluded, 6, 4, 1e-6, 1e-9 };
+    const struct host host = { .occluded = occluded, .area = 6, .extent = 1, .exitance = 1, .irradiance = 4, .radiosity = 1,
+                               .importance = 1, .ray_offset = 1e-6, .flat = 1e-9 };
     int decided[DECISIONS] = { 0 }, i, wrong = 0;
     how.path = count > 1 ? arguments[1] : "near_first.dag";
     dag = refiner_interpret(&how, stderr);

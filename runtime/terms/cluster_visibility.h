@@ -108,11 +108,13 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
     return total > 0 ? seen / total : 0;
 }
 
+/* The term is `visibility`, at a level of rays up to 64. */
 TOOL double term_cluster_visibility(struct discussion *d, enum visibility_level level)
 {
+    if (level > VISIBILITY_RAYS_64)
+        level = VISIBILITY_RAYS_64;
     if (d->terms.visibility_level < level) {
-        d->terms.visibility = cluster_rays(d->receiver, d->emitter, d->host,
-                                           level == VISIBILITY_RAYS_4 ? 4 : level == VISIBILITY_RAYS_16 ? 16 : 64);
+        d->terms.visibility = cluster_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level));
         d->terms.visibility_level = (unsigned char)level;
     }
     return d->terms.visibility;

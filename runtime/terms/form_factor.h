@@ -6,6 +6,10 @@
  *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
  *          polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the receiver's plane
+ *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5 % for unit squares at
+ *          right angles with a common edge, +33 % for parallel ones at half their side (tests/check_terms.c).
+ *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
  *          by a rule of as many points as the distance asks for; where they are nearer than their
@@ -19,6 +23,7 @@
 
 #include "discussion.h"
 #include "terms/axis.h"
+#include "terms/point_factor.h"
 #include "terms/polygon_factor.h"
 
 TOOL double form_factor_disc(struct discussion *d)
@@ -42,9 +47,9 @@ TOOL double term_form_factor(struct discussion *d, enum form_factor_level level)
             if (dot3(axis, axis) < reach * reach)
                 level = FORM_FACTOR_POLYGON;
         }
-        d->terms.form_factor = level == FORM_FACTOR_DISC
-                                   ? form_factor_disc(d)
-                                   : polygon_factor(d->receiver, d->emitter, level == FORM_FACTOR_CONTOUR);
+        d->terms.form_factor = level == FORM_FACTOR_DISC    ? form_factor_disc(d)
+                               : level == FORM_FACTOR_POINT ? point_factor(d->receiver, d->emitter)
+                                                            : polygon_factor(d->receiver, d->emitter, level == FORM_FACTOR_CONTOUR);
         d->terms.form_factor_level = (unsigned char)level;
     }
     return d->terms.form_factor;

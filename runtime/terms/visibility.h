@@ -4,11 +4,15 @@
  * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
  * smaller area over the number of segments, bounds the weight of parts that touch.
  *
- * rays_4, rays_16, rays_64: so many segments between points of the two elements' mutually facing
- * parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
- * scrambled by a hash of both path identities: no shared random state, so the answer depends on
- * the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the segments is missed with
- * probability (1-p)^N.
+ * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
+ *             for it here gets four rays.
+ * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
+ *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
+ *             scrambled by a hash of both path identities: no shared random state, so the answer depends on
+ *             the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the
+ *             segments is missed with probability (1-p)^N.
+ * exact       from a shaft (tools/shaft.h) or an integral over the visible part (tools/exact_visibility.h), which alone
+ *             make it. Who asks for it here, where it is not known, gets 1024 rays.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_VISIBILITY_H
 #define TERM_VISIBILITY_H
@@ -82,24 +86,28 @@ static inline void sampler_point(double out[3], const struct sampler *q, double 
     out[2] = a[2] + s * (b[2] - a[2]) + s * t * (c[2] - b[2]);
 }
 
-/* The visible fraction by `count` segments, a power of two up to SEGMENTS_MAX. */
+enum { VISIBILITY_MOST = 4096 }; /* rays that the net has digits for */
+
+/* The visible fraction by `count` segments, a power of two up to VISIBILITY_MOST, cast in batches of SEGMENTS_MAX. */
 OUTLINE double visibility_rays(const struct element *receiver, const struct element *emitter,
                                const struct host *host, int count)
 {
-    /* Sobol' direction numbers, dimensions 1 to 4, the six leading bits: one per bit of the index. */
-    static const uint32_t direction[6][4] = {
+    /* Sobol' direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the index. */
+    static const uint32_t direction[12][4] = {
         { 0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u }, { 0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u },
         { 0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u }, { 0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u },
         { 0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u }, { 0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u },
+        { 0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u }, { 0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u },
+        { 0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u }, { 0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u },
+        { 0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u }, { 0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u },
     };
     const struct element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
     struct segment segments[SEGMENTS_MAX];
     double weight[SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
-    uint64_t blocked;
     struct sampler p, q;
     uint64_t hash = visibility_hash(r->id + visibility_hash(s->id));
     uint32_t digit[4];
-    int i, k;
+    int first, i, k;
     sampler_clip(&p, r, s);
     sampler_clip(&q, s, r);
     if (p.p.n == 0 || q.p.n == 0)
@@ -109,48 +117,69 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
         digit[k + 1] = (uint32_t)hash;
         hash = visibility_hash(hash);
     }
-    for (i = 0; i < count; i++) {
-        struct segment *g = &segments[i];
-        double v[3], cos_r, cos_s, square;
-        if (i > 0) { /* Gray code order: one digit changes from point to point */
-            const uint32_t *toggle = direction[0];
-            int bits;
-            for (bits = i; !(bits & 1); bits >>= 1)
-                toggle += 4;
-            digit[0] ^= toggle[0];
-            digit[1] ^= toggle[1];
-            digit[2] ^= toggle[2];
-            digit[3] ^= toggle[3];
+    for (first = 0; first < count; first += SEGMENTS_MAX) {
+        int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;
+        uint64_t blocked;
+        for (i = 0; i < batch; i++) {
+            struct segment *g = &segments[i];
+            double v[3], cos_r, cos_s, square;
+            if (first + i > 0) { /* Gray code order: one digit changes from point to point */
+                const uint32_t *toggle = direction[0];
+                int bits;
+                for (bits = first + i; !(bits & 1); bits >>= 1)
+                    toggle += 4;
+                digit[0] ^= toggle[0];
+                digit[1] ^= toggle[1];
+                digit[2] ^= toggle[2];
+                digit[3] ^= toggle[3];
+            }
+            sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
+            sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
+            sub3(v, g->to, g->from);
+            cos_r = dot3(r->normal, v);
+            cos_s = -dot3(s->normal, v);
+            square = dot3(v, v);
+            weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
+            g->from[0] += host->ray_offset * r->normal[0];
+            g->from[1] += host->ray_offset * r->normal[1];
+            g->from[2] += host->ray_offset * r->normal[2];
+            g->to[0] += host->ray_offset * s->normal[0];
+            g->to[1] += host->ray_offset * s->normal[1];
+            g->to[2] += host->ray_offset * s->normal[2];
         }
-        sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
-        sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
-        sub3(v, g->to, g->from);
-        cos_r = dot3(r->normal, v);
-        cos_s = -dot3(s->normal, v);
-        square = dot3(v, v);
-        weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
-        g->from[0] += host->ray_offset * r->normal[0];
-        g->from[1] += host->ray_offset * r->normal[1];
-        g->from[2] += host->ray_offset * r->normal[2];
-        g->to[0] += host->ray_offset * s->normal[0];
-        g->to[1] += host->ray_offset * s->normal[1];
-        g->to[2] += host->ray_offset * s->normal[2];
-    }
-    blocked = host->occluded(host, count, segments);
-    for (i = 0; i < count; i++) {
-        all += weight[i];
-        if (!(blocked >> i & 1))
-            seen += weight[i];
+        blocked = host->occluded(host, batch, segments);
+        for (i = 0; i < batch; i++) {
+            all += weight[i];
+            if (!(blocked >> i & 1))
+                seen += weight[i];
+        }
     }
     return all > 0 ? seen / all : 0;
+}
+
+/* The level that `rays` rays or more reach, and how many a level casts. */
+static inline enum visibility_level visibility_level_of(int rays)
+{
+    return rays <= 4 ? VISIBILITY_RAYS_4 : rays <= 16 ? VISIBILITY_RAYS_16 : rays <= 64 ? VISIBILITY_RAYS_64
+         : rays <= 256 ? VISIBILITY_RAYS_256 : VISIBILITY_RAYS_1024;
+}
+
+static inline int visibility_rays_of(enum visibility_level level)
+{
+    return level <= VISIBILITY_RAYS_4 ? 4 : level >= VISIBILITY_RAYS_1024 ? 1024 : 1 << 2 * (level - VISIBILITY_RAYS_4 + 1);
 }
 
 TOOL double term_visibility(struct discussion *d, enum visibility_level level)
 {
     if (d->terms.visibility_level < level) {
-        d->terms.visibility = visibility_rays(d->receiver, d->emitter, d->host,
-                                              level == VISIBILITY_RAYS_4 ? 4 : level == VISIBILITY_RAYS_16 ? 16 : 64);
-        d->terms.visibility_level = (unsigned char)level;
+        if (level < VISIBILITY_RAYS_4)
+            level = VISIBILITY_RAYS_4;
+        if (level > VISIBILITY_RAYS_1024)
+            level = VISIBILITY_RAYS_1024;
+        if (d->terms.visibility_level < level) {
+            d->terms.visibility = visibility_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level));
+            d->terms.visibility_level = (unsigned char)level;
+        }
     }
     return d->terms.visibility;
 }

@@ -8,7 +8,7 @@
 
 TOOL enum cluster_visibility_answer tool_cluster_visibility(struct discussion *d, int rays)
 {
-    double v = term_cluster_visibility(d, rays <= 4 ? VISIBILITY_RAYS_4 : rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64);
+    double v = term_cluster_visibility(d, visibility_level_of(rays));
     return v <= 0 ? CLUSTER_VISIBILITY_NONE : v < 1 ? CLUSTER_VISIBILITY_PARTIAL : CLUSTER_VISIBILITY_ALL;
 }
 

@@ -8,27 +8,20 @@
 #define TOOL_SUPPORT_PLANES_H
 
 #include "discussion.h"
+#include "terms/plane_side.h"
 
 /* -1: e lies behind the plane of `plane`, 0: crosses it, 1: lies in front. */
 static inline int support_planes_side(const struct element *e, const struct element *plane, double flat)
 {
     double low, high;
-    int i;
-    low = high = height3(e->vertex[0], plane->centre, plane->normal);
-    for (i = 1; i < e->vertices; i++) {
-        double h = height3(e->vertex[i], plane->centre, plane->normal);
-        if (h < low)
-            low = h;
-        if (h > high)
-            high = h;
-    }
+    plane_side_heights(e, plane, &low, &high);
     return high <= flat ? -1 : low < -flat ? 0 : 1;
 }
 
 TOOL enum support_planes_answer tool_support_planes(struct discussion *d)
 {
     const struct element *r = d->receiver, *s = d->emitter;
-    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double flat = plane_side_flat(r, s, d->host);
     int side_r, side_s;
     side_r = support_planes_side(r, s, flat);
     if (side_r < 0)

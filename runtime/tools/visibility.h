@@ -1,6 +1,7 @@
-/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16 or 64,
- * the next above `rays`. A ray that met something beside one that did not is proof of "partial";
- * "none" and "all" are the rays' opinion. [Turbet & Sillion, section 3.1.2]
+/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
+ * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of "partial";
+ * "none" and "all" are the rays' opinion. What a shaft has
+ * settled (level exact) casts none. [Turbet & Sillion, section 3.1.2]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_VISIBILITY_H
 #define TOOL_VISIBILITY_H
@@ -10,7 +11,7 @@
 
 TOOL enum visibility_answer tool_visibility(struct discussion *d, int rays)
 {
-    double v = term_visibility(d, rays <= 4 ? VISIBILITY_RAYS_4 : rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64);
+    double v = term_visibility(d, visibility_level_of(rays));
     return v <= 0 ? VISIBILITY_NONE : v < 1 ? VISIBILITY_PARTIAL : VISIBILITY_ALL;
 }
 

@@ -76,6 +76,8 @@ static enum decision refine(const void *state, struct discussion *d)
             return DECISION_SUBDIVIDE_RECEIVER;
         if (split_s)
             return DECISION_SUBDIVIDE_EMITTER;
+        d->terms.mark = 1;
+        d->terms.mark_level = MARK_PRESENT;
     }
 
     int level = p->rays <= 4 ? VISIBILITY_RAYS_4 : p->rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64;

@@ -84,6 +84,7 @@ static enum decision refine(const void *state, struct discussion *d)
             return (r_crosses ? split_r : !split_s) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
         return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
     }
+    int stuck = brought > limit;
 
     int bright = brought > faint;
     int level = !bright || p->rays <= 4 ? VISIBILITY_RAYS_4 : p->rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64;
@@ -103,9 +104,16 @@ static enum decision refine(const void *state, struct discussion *d)
         if (v <= 0)
             return DECISION_STOP;
     }
-    if (bright && (doubtful || v < 1) && brought > half && (split_r || split_s))
-        return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+    if (bright && (doubtful || v < 1) && brought > half) {
+        if (split_r || split_s)
+            return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+        stuck = 1;
+    }
 
+    if (stuck) {
+        d->terms.mark = 1;
+        d->terms.mark_level = MARK_PRESENT;
+    }
     d->terms.visibility = v;
     d->terms.visibility_level = (unsigned char)level;
     d->terms.form_factor = known == FORM_FACTOR_POLYGON ? f : hand_form_factor(r, s);

@@ -27,7 +27,7 @@ static void clip(poly *out, const struct element *e, const struct element *plane
     for (int i = 0; i < e->vertices; i++) {
         vec b = load(e->vertex[i]);
         double g = dot(n, minus(b, on));
-        if ((h > 0 && g < 0) || (h < 0 && g > 0))
+        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && out->n < 5)
             out->v[out->n++] = lerp(a, b, h / (h - g));
         if (g >= 0 && out->n < 5)
             out->v[out->n++] = b;

@@ -1,4 +1,4 @@
-/* make_scene.h - small scenes made in memory, for tests.
+/* make_scene.h - small scenes made in memory, for tests and studies.
  * SPDX-License-Identifier: MIT */
 #ifndef MAKE_SCENE_H
 #define MAKE_SCENE_H
@@ -7,15 +7,17 @@
 #include <string.h>
 #include "scene.h"
 
-enum { MADE_FACES = 512, MADE_MATERIALS = 16 };
+enum { MADE_FACES = 4096, MADE_MATERIALS = 16 };
 
-static inline void made_open(struct scene *s)
+/* An empty scene with room for that many. Returns 0, or -1 when out of memory. */
+static inline int made_open(struct scene *s)
 {
     memset(s, 0, sizeof *s);
     s->faces = calloc(MADE_FACES, sizeof *s->faces);
     s->materials = calloc(MADE_MATERIALS, sizeof *s->materials);
     s->inputs = calloc(MADE_FACES, sizeof *s->inputs);
     s->bands = 1;
+    return s->faces && s->materials && s->inputs ? 0 : -1;
 }
 
 /* A grey material. Returns its index. */

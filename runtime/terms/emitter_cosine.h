@@ -1,0 +1,29 @@
+/* emitter_cosine.h - term: the cosine between the emitter's normal and the direction from its point to the other's, least and
+ * largest. Dimensionless, in [-1, 1]; negative where the other lies behind. For a cluster, of any of its normals.
+ *
+ * centre  both are the cosine between the centres, 0 where these coincide; a cluster's normal is its cone's axis.
+ * bound   no two points have a cosine outside (cosine_bound.h); of surfaces, the least is exact where all of the other lies in front.
+ * SPDX-License-Identifier: MIT */
+#ifndef TERM_EMITTER_COSINE_H
+#define TERM_EMITTER_COSINE_H
+
+#include "discussion.h"
+#include "terms/axis.h"
+#include "terms/cosine_bound.h"
+
+TOOL const double *term_emitter_cosine(struct discussion *d, enum emitter_cosine_level level)
+{
+    if (d->terms.emitter_cosine_level < level) {
+        double range[2];
+        if (level == EMITTER_COSINE_CENTRE)
+            range[0] = range[1] = -cosine_centre(d->emitter->normal, term_axis(d));
+        else
+            cosine_bound(d->emitter, d->receiver, range);
+        d->terms.emitter_cosine[0] = range[0];
+        d->terms.emitter_cosine[1] = range[1];
+        d->terms.emitter_cosine_level = (unsigned char)level;
+    }
+    return d->terms.emitter_cosine;
+}
+
+#endif

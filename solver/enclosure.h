@@ -1,0 +1,12 @@
+/* enclosure.h - is the scene closed?
+ * SPDX-License-Identifier: MIT */
+#ifndef ENCLOSURE_H
+#define ENCLOSURE_H
+
+#include "solve.h"
+
+/* 1 when no ray from any face's front leaves the scene or meets the black back of a one-sided face, else 0. Counts the
+ * rays in closed_rays. */
+int enclosure_decide(struct solve *s);
+
+#endif
