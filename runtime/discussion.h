@@ -6,7 +6,7 @@
  * it was computed at. A tool that needs a term asks term_NAME(d, level) (terms/NAME.h), which
  * computes the term when it is absent or coarser. [Turbet & Sillion, sections 3 and 4.1]
  *
- * Invariant: a tool reads the pair and the host and writes nothing but terms. So pairs can be
+ * Invariant: a tool reads the pair and the host and writes nothing but terms (the list of term blockers among them). So pairs can be
  * discussed in any order and on any thread, and the result is the same.
  *
  * This header is C11 and C++11, needs libm only, and allocates nothing. Units: metres, W/m2.
@@ -66,6 +66,28 @@ struct segment {
 
 enum { SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 
+/* The convex hull of two surfaces: what light between them may cross (terms/shaft.h). */
+enum { SHAFT_PLANES = 28 };
+struct shaft {
+    int planes;
+    double normal[SHAFT_PLANES][3], offset[SHAFT_PLANES]; /* inside: normal . p <= offset, normals of length 1 */
+    double low[3], high[3]; /* box around it, `reach` included (m) */
+    double reach;           /* what is farther from it does not meet it, whatever the tolerances (m) */
+    double margin, touch, slack, grow, flat; /* tolerances (m) */
+    int points[2];   /* of the two ends: their corners, as far off the surface as rays start */
+    double end[2][POLYGON_MAX][3], facing[2][3]; /* and their normals */
+};
+
+/* The faces that may stand between the two elements of a pair, in ascending order. */
+enum { BLOCKERS_MAX = 8, BLOCKERS_TOO_MANY = BLOCKERS_MAX + 1 };
+enum { BLOCKERS_UNKNOWN, BLOCKERS_INHERITED, BLOCKERS_OWN };
+struct blockers {
+    int count;             /* or BLOCKERS_TOO_MANY */
+    unsigned char known;   /* not at all; of a pair that holds this one; of this pair */
+    unsigned char covered; /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
+    uint32_t face[BLOCKERS_MAX];
+};
+
 /* What the program around the refiner provides. */
 struct host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
@@ -74,6 +96,7 @@ struct host {
     double area;       /* of all faces, m2 */
     double extent;     /* longest side of the scene's box (m) */
     double exitance;   /* the largest E, W/m2 */
+    double reflectance; /* the largest rho */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance; /* the largest Y; 1 where no view asks */
@@ -81,12 +104,23 @@ struct host {
     const struct element *const *elements; /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
+
+    /* For the tools that look into a shaft; NULL: the host has none of it, and they answer too_complex.
+     * Lists in `faces` up to `most` faces that may meet the shaft and returns how many; more than `most` when
+     * there may be more. It may list a face too many, never one too few; terms/shaft.h helps. */
+    int (*candidates)(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces);
+    /* The corners of a face that `candidates` listed. */
+    void (*corners)(const struct host *host, uint32_t face, struct polygon *polygon);
+    /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that hold one of two faces
+     * (tools/extinction.h). NULL: 0. */
+    double (*optical_depth)(const struct host *host, const struct segment *segment, uint32_t receiver, uint32_t emitter);
 };
 
 struct discussion {
     const struct element *receiver, *emitter;
     const struct host *host;
     struct terms terms; /* the data manager; all zero: nothing is known yet */
+    struct blockers *blockers; /* where term blockers keeps its list; may hold an inherited one. NULL: nothing is kept */
 };
 
 #endif

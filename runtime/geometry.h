@@ -46,8 +46,8 @@ struct polygon {
     double v[POLYGON_MAX][3];
 };
 
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A polygon in the plane,
- * whose corners lie on either side as rounding has it, may cross it more than twice: then what does not fit is left out. */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A quad that lies in the plane
+ * may cross it four times by rounding: then corners are left out. */
 static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {

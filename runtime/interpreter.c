@@ -176,6 +176,7 @@ struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors
     r->oracle = p->dag->oracles[index].name;
     r->doc = p->dag->oracles[index].doc;
     r->release = "dag";
+    r->reads = oracle_reads(p->dag, index);
     r->prepare = program_prepare;
     for (i = 0; i < r->parameter_count; i++)
         if (r->parameters[i].integer) {

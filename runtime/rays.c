@@ -1,9 +1,9 @@
-/* rays.c - occlusion on Embree.
+/* rays.c - the host of a scene: occlusion on Embree, candidates and totals from the hierarchy.
  *
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
- * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of the
- * largest coordinate), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
+ * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
+ * scene's size, more where faces are bent by the rounding of large coordinates), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
  * Rays travel in packets of 16.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -20,6 +20,7 @@
 #include <embree3/rtcore.h>
 #define EMBREE 3
 #endif
+#include "candidates.h"
 #include "rays.h"
 
 enum { PACKET = 16 };
@@ -33,6 +34,7 @@ struct tally {
 
 struct rays {
     struct host host; /* first, so that a host is its rays */
+    const struct hierarchy *hierarchy; /* borrowed */
     RTCDevice device;
     RTCScene scene;
     double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
@@ -103,6 +105,26 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
     return hits;
 }
 
+static const struct hierarchy *hierarchy_of(const struct host *host)
+{
+    return ((const struct rays *)(const void *)host)->hierarchy;
+}
+
+static int candidates(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces)
+{
+    return candidates_find(hierarchy_of(host), shaft, most, faces);
+}
+
+static void corners(const struct host *host, uint32_t face, struct polygon *polygon)
+{
+    candidates_corners(hierarchy_of(host), face, polygon);
+}
+
+static double optical_depth(const struct host *host, const struct segment *segment, uint32_t receiver, uint32_t emitter)
+{
+    return candidates_depth(hierarchy_of(host), segment, receiver, emitter, host->ray_offset);
+}
+
 /* The largest power of two not above x > 0. */
 static double power_of_two(double x)
 {
@@ -111,9 +133,24 @@ static double power_of_two(double x)
     return ldexp(1, e - 1);
 }
 
+/* How far the corners of faces lie off their planes at the most (m). */
+static double most_bent(const struct hierarchy *h)
+{
+    double most = 0;
+    uint32_t i, j;
+    for (i = 0; i < h->face_count; i++) {
+        const struct element *e = &h->elements[h->face_element[i]];
+        for (j = 0; j < e->vertices; j++) {
+            double off = fabs(height3(e->vertex[j], e->centre, e->normal));
+            most = off > most ? off : most;
+        }
+    }
+    return most;
+}
+
 static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
 {
-    double area = 0, emitted = 0, reflected = 0, brightest = 0, size = 0, largest = 0;
+    double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0, largest = 0, bent;
     uint32_t i;
     int k;
     for (i = 0; i < h->face_count; i++) {
@@ -122,6 +159,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         emitted += a * exitance[i];
         reflected += a * reflectance[i];
         brightest = exitance[i] > brightest ? exitance[i] : brightest;
+        whitest = reflectance[i] > whitest ? reflectance[i] : whitest;
     }
     for (k = 0; k < 3; k++) {
         double side = h->high[k] - h->low[k];
@@ -132,18 +170,26 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     }
     rays->scale = 1 / power_of_two(size);
     rays->host.occluded = occluded;
+    rays->host.candidates = candidates;
+    rays->host.corners = corners;
+    rays->host.optical_depth = optical_depth;
     rays->host.area = area;
     rays->host.extent = size;
     rays->host.exitance = brightest;
+    rays->host.reflectance = whitest;
     rays->host.importance = 1;
     rays->host.faces = h->face_count;
     rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
-    /* 2^-24 is half a unit in the last place of a float; input coordinates carry that much error. */
+    /* Coordinates that came as floats are off by up to 2^-25 of the largest, which bends quads that lie far from the
+     * origin. Rays keep off their own face by some times that, and by no more: there may be others near it. */
     rays->host.ray_offset = ldexp(size, -18);
-    if (rays->host.ray_offset < ldexp(largest, -21))
-        rays->host.ray_offset = ldexp(largest, -21);
+    bent = 4 * most_bent(h);
+    if (bent > ldexp(largest, -21))
+        bent = ldexp(largest, -21);
+    if (rays->host.ray_offset < bent)
+        rays->host.ray_offset = bent;
     rays->host.flat = 0.5 * rays->host.ray_offset;
 }
 
@@ -191,6 +237,7 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     if (!rays)
         return NULL;
     rays->threads = threads;
+    rays->hierarchy = h;
     rays->tallies = calloc((size_t)threads, sizeof *rays->tallies);
     if (!rays->tallies) {
         free(rays);

@@ -1,4 +1,4 @@
-/* rays.h - the host services of a scene: occlusion by Embree, totals for the oracles.
+/* rays.h - the host services of a scene: occlusion by Embree, candidates from the clusters, totals for the oracles.
  * Embree 3 or 4, whichever the system has, is known to rays.c alone.
  * SPDX-License-Identifier: MIT */
 #ifndef RAYS_H
@@ -18,7 +18,8 @@ struct rays_count {
 /* Build the occlusion structure over the faces; those marked `back` cast no shadow of their own, for
  * their front stands at the same place and every face occludes from both sides.
  * exitance and reflectance: scene totals for host.irradiance, [face_count] largest band each.
- * `threads`: how many threads may ask at once. The faces are only read during the call.
+ * `threads`: how many threads may ask at once. The hierarchy is borrowed until rays_close; it
+ * may be split meanwhile, but not while a discussion goes on.
  * Returns NULL when Embree fails; *cause then names the reason (a constant string). */
 struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
                        int threads, const char **cause);

@@ -5,7 +5,11 @@
  * appended, elements split, and the children's pairs queued. Invariant: links, their order and the
  * element indices depend on the scene, the oracle and its parameters alone, never on threads,
  * timing or release. Taking from the end keeps the queue short: a few rounds' worth, not the square of the faces.
- * [Hanrahan et al. 1991, section 4, for the recursion; rounds: derived here]
+ *
+ * Where the oracle looks into the shaft between two elements, the candidates it found are handed on: a list
+ * stands once in a pool, with the number of pairs that hold it. A pair whose discussion made none hands on what it
+ * was given; an overflowed list is not kept. Lists spare work and change no answer (terms/shaft.h).
+ * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited candidates; rounds: derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -62,15 +66,70 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
     r->threads = threads;
     r->round = malloc(ROUND * sizeof *r->round);
     r->outcomes = malloc(ROUND * sizeof *r->outcomes);
-    if (!r->round || !r->outcomes) {
+    r->found = malloc(ROUND * sizeof *r->found); /* pages that no oracle fills cost nothing */
+    if (!r->round || !r->outcomes || !r->found) {
         refinement_close(r);
         return -1;
     }
     return 0;
 }
 
-/* One discussion; the link's values go in and come out. */
-static unsigned char discuss(const struct refinement *r, struct link *link)
+/* ---- the pool of lists; only between rounds */
+
+static void hold(struct refinement *r, uint32_t list, uint32_t holders)
+{
+    if (list)
+        r->pool[list].holders += holders;
+}
+
+static void let_go(struct refinement *r, uint32_t list)
+{
+    if (list && --r->pool[list].holders == 0) {
+        r->pool[list].next = r->pool_free;
+        r->pool_free = list;
+    }
+}
+
+/* A place for the list, held once; 0 when there is none: then the pairs below make theirs anew. */
+static uint32_t keep(struct refinement *r, const struct blockers *list)
+{
+    uint32_t at = r->pool_free;
+    if (at) {
+        r->pool_free = r->pool[at].next;
+    } else {
+        at = r->pool_count ? r->pool_count : 1;
+        if (at >= UINT32_MAX / 2 || grow(&r->pool, &r->pool_capacity, (size_t)at + 1, sizeof *r->pool) < 0)
+            return 0;
+        r->pool_count = at + 1;
+    }
+    r->pool[at].list = *list;
+    r->pool[at].list.known = BLOCKERS_INHERITED;
+    r->pool[at].holders = 1;
+    return at;
+}
+
+/* What the pairs below pair i of the round are given, held once more; `list`: what it was given itself. */
+static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
+{
+    const struct outcome *o = &r->outcomes[i];
+    if (o->listed && r->found[i].count <= BLOCKERS_MAX && !(r->found[i].count == 0 && r->found[i].covered))
+        return keep(r, &r->found[i]);
+    if (o->listed)
+        return 0;
+    hold(r, list, 1);
+    return list;
+}
+
+/* ---- discussions */
+
+/* Does the decision make a link? */
+static int links(unsigned char decision)
+{
+    return decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS;
+}
+
+/* One discussion; the link's values go in and come out, and so does the pair's list. */
+static unsigned char discuss(const struct refinement *r, struct link *link, struct blockers *list)
 {
     const struct element *elements = r->hierarchy->elements;
     struct discussion d;
@@ -78,14 +137,38 @@ static unsigned char discuss(const struct refinement *r, struct link *link)
     d.receiver = &elements[link->receiver];
     d.emitter = &elements[link->emitter];
     d.host = r->host;
+    d.blockers = list;
     link_recall(link, &d.terms);
     decision = r->refiner->refine(r->refiner->state, &d);
-    if (decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS)
+    if (links((unsigned char)decision))
         link_store(link, &d.terms);
     return (unsigned char)decision;
 }
 
-/* Discuss the pairs of the round. Visibility is the same both ways, so the second discussion starts with it. */
+static int divides(unsigned char decision)
+{
+    return !links(decision) && decision != DECISION_STOP;
+}
+
+/* After the discussions of pair i: keep the list for the pairs below, if there will be any. */
+static void note_list(struct refinement *r, int i, const struct blockers *list, int divided)
+{
+    r->outcomes[i].listed = list->known == BLOCKERS_OWN && divided;
+    if (r->outcomes[i].listed)
+        r->found[i] = *list;
+}
+
+/* What the link `there` says of the link back: visibility is the same both ways, and so is the exchange A_r F_rs = A_s F_sr,
+ * which is computed once and serves both: reciprocity holds to the rounding of a link's F. */
+static void turn(struct link *back, const struct link *there, const struct element *elements)
+{
+    double areas = elements[there->receiver].area / elements[there->emitter].area;
+    back->form_factor = (float)((double)there->form_factor * areas);
+    back->visibility = there->visibility;
+    back->levels = there->levels;
+}
+
+/* Discuss the pairs of the round, the second way round with what the first has found. */
 static void discuss_round(struct refinement *r, int count)
 {
     int i;
@@ -94,24 +177,27 @@ static void discuss_round(struct refinement *r, int count)
         const struct pair *p = &r->round[i];
         struct outcome *o = &r->outcomes[i];
         struct link there = { p->receiver, p->emitter, 0, 0, 0, 0 }, back = { p->emitter, p->receiver, 0, 0, 0, 0 };
+        struct blockers list;
+        list.known = BLOCKERS_UNKNOWN;
+        if (p->list)
+            list = r->pool[p->list].list;
         o->link[0] = there;
-        o->decision[0] = discuss(r, &o->link[0]);
-        if (!p->both)
-            continue;
-        if (o->decision[0] == DECISION_LINK || o->decision[0] == DECISION_LINK_CLUSTERS) {
-            back.visibility = o->link[0].visibility;
-            back.levels = o->link[0].levels & 0xf0;
+        o->decision[0] = discuss(r, &o->link[0], &list);
+        if (p->both) {
+            if (links(o->decision[0]))
+                turn(&back, &o->link[0], r->hierarchy->elements);
+            o->link[1] = back;
+            o->decision[1] = discuss(r, &o->link[1], &list);
         }
-        o->link[1] = back;
-        o->decision[1] = discuss(r, &o->link[1]);
+        note_list(r, i, &list, divides(o->decision[0]) || (p->both && divides(o->decision[1])));
     }
 }
 
 enum { SPLIT_RECEIVER = 1, SPLIT_EMITTER = 2 };
 
 /* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
- * itself gives the pairs of its children with each other and themselves. */
-static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both)
+ * itself gives the pairs of its children with each other and themselves. They hold `list`. */
+static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both, uint32_t list)
 {
     struct hierarchy *h = r->hierarchy;
     const struct element *e, *f;
@@ -137,13 +223,14 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
     for (i = from_i; i < to_i; i++) {
         if (receiver != emitter) {
             for (j = from_j; j < to_j; j++)
-                *q++ = (struct pair){ i, j, (uint32_t)both };
+                *q++ = (struct pair){ i, j, (uint32_t)both & 1u, list & 0x7fffffffu };
             continue;
         }
-        *q++ = (struct pair){ i, i, 0 };
+        *q++ = (struct pair){ i, i, 0, list & 0x7fffffffu };
         for (j = from_j; j < i; j++)
-            *q++ = (struct pair){ i, j, 1 };
+            *q++ = (struct pair){ i, j, 1, list & 0x7fffffffu };
     }
+    hold(r, list, (uint32_t)((size_t)(q - r->queue) - r->queue_count));
     r->queue_count = (size_t)(q - r->queue);
     return 0;
 }
@@ -167,12 +254,12 @@ static int splits(enum decision decision, int turned)
 }
 
 /* Carry out one decision about (receiver, emitter). */
-static int carry_out(struct refinement *r, const struct link *link, enum decision decision)
+static int carry_out(struct refinement *r, const struct link *link, enum decision decision, uint32_t list)
 {
     int split = splits(decision, 0);
     r->decided[decision]++;
     if (split)
-        return subdivide(r, link->receiver, link->emitter, split, 0);
+        return subdivide(r, link->receiver, link->emitter, split, 0, list);
     if (decision == DECISION_STOP)
         return 0;
     if (grow(&r->links, &r->link_capacity, r->link_count + 1, sizeof *link) < 0)
@@ -182,15 +269,15 @@ static int carry_out(struct refinement *r, const struct link *link, enum decisio
 }
 
 /* Carry out both decisions about a pair; when both split the same elements, the children stay paired both ways. */
-static int carry_out_both(struct refinement *r, const struct outcome *o)
+static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_t list)
 {
     enum decision there = (enum decision)o->decision[0], back = (enum decision)o->decision[1];
     int split = splits(there, 0);
     if (!split || split != splits(back, 1))
-        return carry_out(r, &o->link[0], there) < 0 || carry_out(r, &o->link[1], back) < 0 ? -1 : 0;
+        return carry_out(r, &o->link[0], there, list) < 0 || carry_out(r, &o->link[1], back, list) < 0 ? -1 : 0;
     r->decided[there]++;
     r->decided[back]++;
-    return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1);
+    return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
 }
 
 static void end_round(struct refinement *r)
@@ -211,9 +298,12 @@ static int drain(struct refinement *r)
         for (i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             int both = (int)r->round[i].both;
+            uint32_t list = hand_on(r, i, r->round[i].list);
             r->pairs += both ? 2 : 1;
-            if ((both ? carry_out_both(r, o) : carry_out(r, &o->link[0], (enum decision)o->decision[0])) < 0)
+            if ((both ? carry_out_both(r, o, list) : carry_out(r, &o->link[0], (enum decision)o->decision[0], list)) < 0)
                 return -1;
+            let_go(r, list);
+            let_go(r, r->round[i].list);
         }
         end_round(r);
     }
@@ -222,7 +312,7 @@ static int drain(struct refinement *r)
 
 int refinement_start(struct refinement *r)
 {
-    struct pair root = { 0, 0, 0 };
+    struct pair root = { 0, 0, 0, 0 };
     if (grow(&r->queue, &r->queue_capacity, 1, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
@@ -240,20 +330,26 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 #pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
         for (i = 0; i < count; i++) {
             struct outcome *o = &r->outcomes[i];
+            struct blockers list;
+            list.known = BLOCKERS_UNKNOWN;
             o->link[0] = links[i];
             o->decision[1] = !changed || changed[links[i].receiver] || changed[links[i].emitter];
-            o->decision[0] = o->decision[1] ? discuss(r, &o->link[0]) : (unsigned char)DECISION_LINK;
+            o->decision[0] = o->decision[1] ? discuss(r, &o->link[0], &list) : (unsigned char)DECISION_LINK;
+            note_list(r, i, &list, divides(o->decision[0]));
         }
         for (i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
+            uint32_t list;
             if (!o->decision[1]) {
                 r->links[r->link_count++] = o->link[0];
                 continue;
             }
             r->pairs++;
-            moved += (o->decision[0] != DECISION_LINK && o->decision[0] != DECISION_LINK_CLUSTERS) || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
-            if (carry_out(r, &o->link[0], (enum decision)o->decision[0]) < 0)
+            moved += !links(o->decision[0]) || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            list = hand_on(r, i, 0);
+            if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
                 return -1;
+            let_go(r, list);
         }
         end_round(r);
     }
@@ -294,5 +390,7 @@ void refinement_close(struct refinement *r)
     free(r->queue);
     free(r->round);
     free(r->outcomes);
+    free(r->found);
+    free(r->pool);
     memset(r, 0, sizeof *r);
 }

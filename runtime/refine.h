@@ -23,13 +23,22 @@ enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
 /* A pair of elements still to be discussed. */
 struct pair {
     uint32_t receiver, emitter;
-    uint32_t both; /* 1: discuss it the other way round too */
+    uint32_t both : 1;  /* 1: discuss it the other way round too */
+    uint32_t list : 31; /* in the pool: candidates of a pair that holds this one; 0: none */
 };
 
 /* What came of a pair, or of a link discussed again: [0] as it stands, [1] the other way round. */
 struct outcome {
     struct link link[2];
     unsigned char decision[2];
+    unsigned char listed; /* refinement.found holds the pair's candidates */
+};
+
+/* A list of candidates that waiting pairs hold, or a place for one. */
+struct pooled {
+    struct blockers list;
+    uint32_t holders; /* 0: free */
+    uint32_t next;    /* free: the next free one, 0: none */
 };
 
 struct refinement;
@@ -53,6 +62,11 @@ struct refinement {
     size_t queue_count, queue_capacity;
     struct pair *round;       /* the pairs of this round */
     struct outcome *outcomes; /* and what came of them */
+    struct blockers *found;   /* and the candidates, where outcome.listed */
+
+    struct pooled *pool; /* [pool_count], [0] unused: lists that pairs hand on to the pairs below them */
+    uint32_t pool_count, pool_free; /* first free one, 0: none */
+    size_t pool_capacity;
 
     uint64_t pairs, rounds; /* discussions held, rounds gone */
     uint64_t decided[8];    /* how often each decision was taken */

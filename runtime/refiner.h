@@ -8,12 +8,16 @@
 
 /* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long as
  * no parameter is set meanwhile. */
+/* What an oracle reads that a solver need not provide to others. */
+enum { REFINER_READS_IMPORTANCE = 1, REFINER_READS_ALLOWANCE = 2 };
+
 struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
     const void *state; /* a parameter structure, or the interpreter's program */
     const char *oracle, *release, *doc;
     const struct oracle_parameter *parameters; /* [parameter_count] */
     int parameter_count;
+    unsigned reads;                           /* REFINER_READS_..., as far as the graph is known: see oracle_reads */
     void *block;                              /* owned: where parameters[i].offset points into */
     void (*prepare)(struct refiner *refiner); /* after a parameter has changed; may be NULL */
     void (*release_state)(struct refiner *refiner);
@@ -50,6 +54,11 @@ struct interpretation {
 /* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and so is a
  * tool, term or fact that the program was built without. */
 struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors);
+
+/* Which of the facts receiver.importance and receiver.allowance the graph's expressions read, for refiner.reads. The
+ * interpreter sets it; a compiled oracle does not know its graph, so whoever has that sets it. */
+struct dag;
+unsigned oracle_reads(const struct dag *dag, int oracle);
 
 /* Set a parameter. Returns NULL when done, else the cause as a phrase ("no such parameter", ...). */
 const char *refiner_set(struct refiner *refiner, const char *name, double value);

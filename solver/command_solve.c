@@ -43,7 +43,8 @@ static int write_outputs(const struct options *o, const struct solve *s)
 int command_solve(const struct options *o, const struct scene *scene)
 {
     struct progress progress;
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure, .view = o->view_given ? &o->view : NULL,
+                                 .aspect = o->width / (double)o->height,
                                  .threads = o->threads, .progress = progress_show, .context = &progress };
     struct refiner *refiner = oracles_open(o->oracle, o->release);
     struct solve s;
@@ -55,6 +56,11 @@ int command_solve(const struct options *o, const struct scene *scene)
     if (oracles_set(refiner, o->settings, o->setting_count) < 0) {
         refiner_close(refiner);
         return 1;
+    }
+    if (o->view_given && !o->image && !(refiner->reads & REFINER_READS_IMPORTANCE)) {
+        report_error("--view", 0, "is for a picture, or for an oracle that reads importance: add --image FILE.png");
+        refiner_close(refiner);
+        return 2;
     }
     if (o->statistics && refiner_count(refiner, o->threads) < 0) {
         report_error(o->statistics, 0, "out of memory for the statistics");

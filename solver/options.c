@@ -36,7 +36,8 @@ static const struct option {
     { OUT, "-o", "FILE", S | V | FAILURES | SIGHT, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
     { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
     { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
-    { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70)" },
+    { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70); of the picture,\n"
+      "                             and of an oracle that asks what is important to it" },
     { MESH, "--mesh", NULL, S, "draw the edges of the elements over the picture" },
     { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
     { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
@@ -388,8 +389,8 @@ int options_parse(struct options *o, int count, char **arguments)
         return wrong("--statistics counts what the interpreted graph does: it takes no --release but dag, not", release_names[o->release]);
     if (o->statistics)
         o->release = RELEASE_DAG;
-    if ((o->mesh || o->view_given) && !o->image)
-        return wrong("--mesh and --view are for a picture: add --image FILE.png", "");
+    if (o->mesh && !o->image)
+        return wrong("--mesh is for a picture: add --image FILE.png", "");
     return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "builtin.h"
 #include "compile_oracle.h"
+#include "dag.h"
 #include "hand.h"
 #include "oracles.h"
 #include "report.h"
@@ -51,6 +52,16 @@ static struct refiner *open_hand(const char *oracle)
     return NULL;
 }
 
+/* What a compiled oracle reads, its graph being the text (NULL: the file's). */
+static void know_reads(struct refiner *r, const char *path, const char *text, const char *name)
+{
+    struct dag *dag = text ? dag_load_text(path, text, strlen(text), NULL, NULL, NULL) : dag_load(path, NULL, NULL, NULL);
+    int index = dag ? dag_oracle(dag, name) : -1;
+    if (r && index >= 0)
+        r->reads = oracle_reads(dag, index);
+    dag_free(dag);
+}
+
 struct refiner *oracles_open(const char *oracle, enum release release)
 {
     const struct builtin *b = find_builtin(oracle);
@@ -63,11 +74,15 @@ struct refiner *oracles_open(const char *oracle, enum release release)
         return open_hand(oracle);
     if (release == RELEASE_DAG)
         return refiner_interpreted(oracle, b ? b->text : NULL, b ? b->name : NULL, stderr);
-    if (!b)
-        return compile_oracle(oracle);
+    if (!b) {
+        r = compile_oracle(oracle);
+        know_reads(r, oracle, NULL, NULL);
+        return r;
+    }
     r = refiner_compiled(b->flat, "flat");
     if (!r)
         report_error(oracle, 0, "out of memory");
+    know_reads(r, oracle, b->text, b->name);
     return r;
 }
 

@@ -11,6 +11,7 @@
 #include <time.h>
 #include "balance.h"
 #include "enclosure.h"
+#include "importance.h"
 #include "publish.h"
 #include "rows.h"
 #include "solve.h"
@@ -109,7 +110,7 @@ static void take_materials(struct solve *s)
 int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options, const char **cause)
 {
     size_t values;
-    double *brightest = NULL, *whitest = NULL, start = seconds();
+    double *brightest = NULL, start = seconds();
     uint32_t i, k;
     memset(s, 0, sizeof *s);
     *cause = "out of memory";
@@ -122,8 +123,8 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     s->exitance = malloc(values * sizeof *s->exitance);
     s->reflectance = malloc(values * sizeof *s->reflectance);
     brightest = malloc(scene->face_count * sizeof *brightest);
-    whitest = malloc(scene->face_count * sizeof *whitest);
-    if (!s->exitance || !s->reflectance || !brightest || !whitest || make_room(s) < 0)
+    s->whitest = malloc(scene->face_count * sizeof *s->whitest);
+    if (!s->exitance || !s->reflectance || !brightest || !s->whitest || make_room(s) < 0)
         goto fail;
     take_materials(s);
     /* What emits nothing now or later may be left out of a row only while nobody asks what a row sums to. */
@@ -131,25 +132,23 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
         s->hierarchy.elements[i].black = 0;
     for (i = 0; i < scene->face_count; i++) {
         brightest[i] = largest(&s->exitance[(size_t)i * s->bands], s->bands);
-        whitest[i] = largest(&s->reflectance[(size_t)i * s->bands], s->bands);
-        s->hierarchy.elements[s->hierarchy.face_element[i]].reflectance = whitest[i];
+        s->whitest[i] = largest(&s->reflectance[(size_t)i * s->bands], s->bands);
+        s->hierarchy.elements[s->hierarchy.face_element[i]].reflectance = s->whitest[i];
         for (k = 0; k < s->bands; k++)
             s->radiosity[(size_t)s->hierarchy.face_element[i] * s->bands + k] = s->exitance[(size_t)i * s->bands + k];
     }
     publish(s);
-    s->rays = rays_open(&s->hierarchy, brightest, whitest, options->threads, cause);
+    s->rays = rays_open(&s->hierarchy, brightest, s->whitest, options->threads, cause);
     if (!s->rays)
         goto fail;
     publish_guess(s);
     if (options->closure != CLOSURE_NONE)
         s->closed = enclosure_decide(s);
     free(brightest);
-    free(whitest);
     s->seconds.build = seconds() - start;
     return 0;
 fail:
     free(brightest);
-    free(whitest);
     solve_close(s);
     return -1;
 }
@@ -214,6 +213,10 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     int64_t changed = 1;
+    int importance = s->options.view && refiner->reads & REFINER_READS_IMPORTANCE;
+    *cause = "out of memory";
+    if (importance && importance_start(s) < 0)
+        return -1;
     if (solve_refine(s, refiner, cause) < 0)
         return -1;
     for (s->passes = 0; changed > 0 && s->passes < PASSES; s->passes++) {
@@ -222,6 +225,8 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
         if (iterate(s, cause) < 0)
             return -1;
         publish(s);
+        if (importance && importance_solve(s) < 0)
+            return -1;
         middle = seconds();
         *cause = "out of memory while refining; a coarser oracle parameter needs less";
         first = s->hierarchy.count;
@@ -255,6 +260,8 @@ void solve_close(struct solve *s)
     free(s->row_scale);
     free(s->row_gift);
     free(s->exposed);
+    free(s->whitest);
+    importance_free(s);
     free(s->least);
     free(s->most);
     free(s->changed);

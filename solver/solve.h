@@ -10,6 +10,7 @@
 #include "refine.h"
 #include "scene.h"
 #include "solution.h"
+#include "view.h"
 
 struct solve;
 
@@ -25,6 +26,8 @@ struct solve_options {
     int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
     int threads;
     enum closure closure;
+    const struct view *view; /* whose picture counts, for oracles that read importance; NULL: every place counts alike */
+    double aspect;    /* width of that picture over its height */
     int unit;         /* ignore the materials: every face has B = 1 and stays so (view factors) */
     void (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress, which may be NULL */
@@ -33,6 +36,17 @@ struct solve_options {
 /* Seconds by the clock in each phase. */
 struct solve_seconds {
     double build, refine, iterate, in_rays; /* in_rays: inside Embree, mean over threads, part of refine */
+};
+
+/* What the view makes of light (importance.c): [room], element by element. */
+struct importance {
+    double *response;   /* r, the share that is in the picture */
+    double *source, *carried, *irradiance; /* rho r, Z = rho Y, and what Z irradiates */
+    double *value;      /* Y */
+    uint32_t room, started;
+    int sweeps;         /* 0: no importance was asked for */
+    double largest, mean; /* of Y over the leaves, the mean by area */
+    double seen;        /* area in the picture (m2) */
 };
 
 struct solve {
@@ -45,6 +59,8 @@ struct solve {
     uint32_t bands;
     double *radiosity, *irradiance; /* [room * bands], element by element */
     double *exitance, *reflectance; /* [face_count * bands] */
+    double *whitest;                /* [face_count]: reflectance of the largest band */
+    struct importance importance;
     double *least, *most;           /* [room * bands]: smallest and largest radiosity of the exposed leaves below */
     unsigned char *changed;         /* [room]: the oracles see a radiosity or spread that has grown since the links were discussed */
     uint32_t room;                  /* elements that the arrays above have place for */

@@ -15,7 +15,7 @@
 enum stability_kind {
     BY_FACTOR, /* the form factor of a pair, `number` says which */
     BY_RAYS,   /* the visibility of a pair, by `number` rays; 0 and -1: see the table */
-    BY_ORACLE, /* all: a solution with this oracle and these settings */
+    BY_ORACLE, /* all: a solution with this oracle and these settings, `number` its closure */
     BY_RULE    /* a rule that only some cases know; they look at the method itself */
 };
 
@@ -34,8 +34,9 @@ struct stability_method {
 enum {
     NO_METHOD, KERNEL, CULLED, DISC, POINT, POLYGON, CONTOUR,
     FRONTS, FIXED_EPSILON, RAYS_4, RAYS_16, RAYS_64,
-    NORMALISED, JACOBI, NAIVE_STOP, ONE_PLANE, KEPT, L2_NORM, LINF_NORM, UMBRA,
-    BF_1991, BF_NODES, BF, VIEWFACTORS, BF_GUARDED,
+    NORMALISED, JACOBI, SWEEPS_JACOBI, NAIVE_STOP, ONE_PLANE, L2_NORM, LINF_NORM, UMBRA,
+    CORNERS, SAMPLED, BOUNDED, LINF_GAP, AREA_GAP,
+    BF_1991, BF_NODES, BF, VIEWFACTORS, BF_GUARDED, FINE, CLOSED,
     METHODS
 };
 extern const struct stability_method stability_methods[METHODS];
@@ -116,7 +117,11 @@ double stability_random(unsigned *seed);
 #define STABILITY_MEASURES(M) \
     M(shared_edge) M(shared_edge_halved) M(close_parallel) M(half_apart) M(row_sum) M(straddle) M(straddle_children) \
     M(coplanar) M(sliver) M(sliver_standing) M(scale_far) M(degenerate_factor) M(closed_forms) \
-    M(tiny_blocker) M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero)
+    M(tiny_blocker) M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) \
+    M(furnace_95) M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) M(open_plates) \
+    M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) M(hollow_sphere) M(concentric) M(wide_plates) \
+    M(brightness) M(scale) M(large_source) M(touching_cells) M(range_centre) M(range_quarter) M(four_shadows) \
+    M(bent_quad) M(no_area)
 #define M(name) int stability_##name(struct stability_trial *trial);
 STABILITY_MEASURES(M)
 #undef M

@@ -85,10 +85,74 @@ static const struct stability_case sight_cases[] = {
       { FAIL(FIXED_EPSILON, 1e-2, 0.01, 100, "float steps of .06 m"), PASS(RAYS_4, 1e-2), PASS(RAYS_64, 1e-2), PASS(BF, 1e-2), PASS(BF_GUARDED, 1e-2) } },
 };
 
+static const struct stability_case refine_cases[] = {
+    { "brightness", "a furnished room, E times 1024", "the same links, B times 1024 exactly", "change of the number of links", "links", stability_brightness,
+      { FAIL(BF_1991, 0, 1, 1000, "absolute threshold"), PASS(BF, 0), PASS(BF_GUARDED, 0) } },
+    { "scale", "a furnished room of 4 mm, 4 m, 4,000 km", "the same links and B", "change of the number of links", "links", stability_scale,
+      { FAIL(BF_NODES, 0, 0.5, 1, "absolute smallest area"), PASS(BF, 0), PASS(BF_GUARDED, 0) } },
+    { "large_source", "a unit square under a square of 10, 1 above", "H = mean of F(x) (closed form)", "relative error of H", "links", stability_large_source,
+      { PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3) } },
+    { "touching_cells", "cells that touch at an edge, halved four times; two plates", "the measure falls; what a guard keeps whole is marked",
+      "share of the measure that is left; of heavy links without a mark", "heavy links", stability_touching_cells,
+      { FAIL(LINF_GAP, 0.1, 0.99, 1.01, "F spans .07 to .5 always"), PASS(AREA_GAP, 0.1), PASS(BF, 0), PASS(BF_GUARDED, 0) } },
+    { "range_centre", "a small source close over the middle of a receiver", "the largest F(x) is found", "share of the largest F(x) missed", NULL, stability_range_centre,
+      { FAIL(CORNERS, 0, 0.9, 1, "maximum inside"), PASS(SAMPLED, 1e-12), PASS(BOUNDED, 0) } },
+    { "range_quarter", "the same over no special point", "the largest F(x) is found", "share of the largest F(x) missed", NULL, stability_range_quarter,
+      { FAIL(CORNERS, 0, 0.9, 1, "maximum inside"), FAIL(SAMPLED, 1e-12, 0.5, 1, "maximum off the centre"), PASS(BOUNDED, 0) } },
+    { "four_shadows", "four squares that shade a floor, on a mesh too coarse for two of them", "a lost shadow is told from a kept one",
+      "smallest error over largest; of oracles, error in a shadow's middle", "links", stability_four_shadows,
+      { FAIL(L2_NORM, 0.5, 0.5, 1, "all shadows alike"), FAIL(LINF_NORM, 0.5, 0.5, 1, "all shadows alike"), PASS(UMBRA, 0.5), PASS(BF, 0.1), PASS(BF_GUARDED, 0.1) } },
+};
+
+static const struct stability_case mesh_cases[] = {
+    { "bent_quad", "a quad with its corners far out of plane", "as its two triangles, to the bit", "relative difference of B", "links", stability_bent_quad,
+      { FAIL(ONE_PLANE, 0, 1e-3, 1, "it has no plane"), PASS(BF, 0), PASS(BF_GUARDED, 0) } },
+    { "no_area", "triangles without area in a scene file", "dropped and counted, the rest as without them", "relative difference of B", "links", stability_no_area,
+      { PASS(BF, 0), PASS(BF_GUARDED, 0) } },
+};
+
+static const struct stability_case balance_cases[] = {
+    { "furnace_95", "a cube, E = 1 and rho = .95 everywhere", "B = 20", "largest relative error of B", "links", stability_furnace_95,
+      { FAIL(DISC, 1e-3, 0.58, 0.6, "B = 31.7"), PASS(POLYGON, 1e-3), PASS(CONTOUR, 1e-6), PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3), PASS(CLOSED, 1e-4) } },
+    { "furnace_98", "the same, rho = .98", "B = 50", "largest relative error of B", "links", stability_furnace_98,
+      { FAIL(DISC, 1e-3, 18, 21, "B = 1035"), PASS(POLYGON, 1e-3), PASS(CONTOUR, 1e-6), PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3), PASS(CLOSED, 1e-4) } },
+    { "furnace_99", "the same, rho = .99", "B = 100", "largest relative error of B", "links", stability_furnace_99,
+      { FAIL(DISC, 1e-3, INFINITY, INFINITY, "diverges"), PASS(POLYGON, 1e-3), PASS(CONTOUR, 1e-6), PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3), PASS(CLOSED, 1e-4) } },
+    { "furnace_box", "a box 2 x 1 x 1, rho = .99", "B = 100", "largest relative error of B", "links", stability_furnace_box,
+      { PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3), PASS(CLOSED, 1e-4) } },
+    { "furnace_L", "an L-shaped room, rho = .99", "B = 100", "largest relative error of B", "links", stability_furnace_L,
+      { PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3), PASS(CLOSED, 1e-4) } },
+    { "near_white", "a cube, E = 1 and rho = .999, to 1e-3", "B = 1000", "largest relative error of B", "sweeps", stability_near_white,
+      { FAIL(JACOBI, 2e-3, 0.85, 0.95, "rho^100 = .9"), FAIL(NAIVE_STOP, 2e-3, 0.4, 0.6, "bound is dB/(1-rho)"), PASS(BF_GUARDED, 2e-3) } },
+    { "sweeps", "a cube, rho = .5, .9, .99 and .999, to 1e-3", "Jacobi takes 10, 66, 687, 6904", "sweeps over Jacobi's ln 1e-3 / ln rho", "sweeps", stability_sweeps,
+      { PASS(SWEEPS_JACOBI, 1.05), PASS(BF_GUARDED, 1) } },
+    { "open_plates", "two parallel unit squares 1 apart, E = 1, rho = .5", "mean B = 1.111165, no power gained", "relative error of B", "links", stability_open_plates,
+      { FAIL(NORMALISED, 1e-3, 0.79, 0.81, "B = 2"), PASS(BF, 1e-3), PASS(BF_GUARDED, 1e-3), PASS(FINE, 1e-3), PASS(CLOSED, 1e-3) } },
+    { "plates_profile", "the same", "B = 1.1333, 1.1003, 1.0770 at centre, edge and corner", "largest relative error", "links", stability_plates_profile,
+      { PASS(BF, 5e-2), PASS(BF_GUARDED, 5e-2), PASS(FINE, 2e-2), PASS(CLOSED, 5e-2) } },
+    { "plates_edge", "two unit squares at right angles, E = 1, rho = .5", "mean B = 1.1159537, 4/3 at the edge", "largest relative error", "links", stability_plates_edge,
+      { PASS(BF, 2e-1), PASS(BF_GUARDED, 2e-1), PASS(FINE, 2e-1), PASS(CLOSED, 2e-1) } },
+    { "cube", "a cube, rho = .5, its ceiling E = 1", "mean B = 1.1043616, .1712161, .1811056", "largest relative error", "links", stability_cube,
+      { FAIL(POLYGON, 1e-2, 0.06, 0.07, "one element a face"), FAIL(CONTOUR, 1e-2, 0.06, 0.07, "one element a face"), PASS(BF, 5e-2), PASS(BF_GUARDED, 5e-2), PASS(FINE, 5e-3), PASS(CLOSED, 5e-2) } },
+    { "cavity", "a cube open at one face, walls of emissivity .1 and .5", "the opening seems .3483681 and .8111445", "largest relative error", "links", stability_cavity,
+      { FAIL(POLYGON, 1e-2, 0.02, 0.03, "one element a face"), FAIL(CONTOUR, 1e-2, 0.02, 0.03, "one element a face"), PASS(BF, 1e-1), PASS(BF_GUARDED, 1e-1), PASS(FINE, 1e-2), PASS(CLOSED, 5e-2) } },
+    { "sphere", "a sphere of uneven E and rho", "H = <E> / (1 - <rho>) everywhere", "relative error of H in the dark half", "links", stability_sphere,
+      { PASS(BF, 1e-2), PASS(BF_GUARDED, 1e-2), PASS(CLOSED, 1e-2) } },
+    { "hollow_sphere", "half of a sphere open, emissivity .1", "B = .1818", "relative error of B", "links", stability_hollow_sphere,
+      { PASS(BF, 1e-2), PASS(BF_GUARDED, 1e-2), PASS(CLOSED, 1e-2) } },
+    { "concentric", "spheres of radius 1/2 and 1, E = 1 within, rho = .5", "B = 10/9 and 2/9", "relative error of B without", "links", stability_concentric,
+      { PASS(BF, 1e-2), PASS(BF_GUARDED, 1e-2), PASS(CLOSED, 1e-2) } },
+    { "wide_plates", "plates of 8 x 8 and 16 x 16 unit squares 1 apart, E = 1 and 0, rho = .5 and .8", "infinite: B = (E1 + rho1 E2) / (1 - rho1 rho2)", "relative error of B in the middle", "links", stability_wide_plates,
+      { PASS(BF, 1e-2), PASS(BF_GUARDED, 1e-2), PASS(CLOSED, 2e-2) } },
+};
+
 #define GROUP(title, cases) { title, cases, sizeof cases / sizeof *cases }
 
 const struct stability_group stability_groups[] = {
     GROUP("form factors", factor_cases),
     GROUP("visibility", sight_cases),
+    GROUP("refinement", refine_cases),
+    GROUP("meshes", mesh_cases),
+    GROUP("balance", balance_cases),
 };
 const int stability_group_count = sizeof stability_groups / sizeof *stability_groups;

@@ -10,7 +10,6 @@ double stability_factor(const struct stability_method *method, const struct elem
 {
     struct discussion d;
     double axis[3], square, cos_r, cos_s, kernel;
-    struct polygon q;
     memset(&d, 0, sizeof d);
     d.receiver = r;
     d.emitter = s;
@@ -26,8 +25,7 @@ double stability_factor(const struct stability_method *method, const struct elem
     case FACTOR_DISC:
         return form_factor_disc(&d);
     case FACTOR_POINT:
-        polygon_clip(&q, (const double (*)[3])s->vertex, s->vertices, r->centre, r->normal);
-        return q.n && height3(r->centre, s->centre, s->normal) > 0 ? polygon_factor_point(r->centre, r->normal, &q) : 0;
+        return point_factor(r, s);
     case FACTOR_POLYGON:
         return polygon_factor(r, s, 0);
     case FACTOR_CONTOUR:
@@ -39,7 +37,8 @@ double stability_factor(const struct stability_method *method, const struct elem
 int stability_solve(struct solve *s, const struct scene *scene, const struct stability_trial *trial, int unit)
 {
     const struct stability_method *m = trial->method;
-    struct solve_options how = { .tolerance = 1e-6, .iterations = 100000, .threads = trial->threads, .unit = unit };
+    struct solve_options how = { .tolerance = 1e-6, .iterations = 100000, .threads = trial->threads, .unit = unit,
+                                 .closure = (enum closure)m->number };
     struct refiner *refiner = oracles_open(m->oracle, RELEASE_FLAT);
     const char *cause;
     int n = 0, status;

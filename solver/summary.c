@@ -39,6 +39,14 @@ static json_t *marks_json(const struct solve *s)
     return all;
 }
 
+static json_t *importance_json(const struct solve *s)
+{
+    const struct importance *y = &s->importance;
+    if (!y->sweeps)
+        return json_null();
+    return json_pack("{s:i, s:f, s:f, s:f}", "sweeps", y->sweeps, "largest", y->largest, "mean", y->mean, "area_seen", y->seen);
+}
+
 static json_t *closure_json(const struct solve *s)
 {
     if (s->options.closure == CLOSURE_NONE)
@@ -53,7 +61,7 @@ json_t *summary_json(const struct options *o, const struct solve *s, const struc
 {
     struct rays_count rays = rays_count(s->rays);
     return json_pack("{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
-                     " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
+                     " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
                      "scene", o->scene, "oracle", r->oracle, "release", r->release, "parameters", parameters_json(r),
                      "threads", o->threads, "bands", (int)s->bands, "faces", (int)s->scene->input_count,
                      "elements", (int)s->hierarchy.count, "leaves", (int)s->leaves,
@@ -63,7 +71,7 @@ json_t *summary_json(const struct options *o, const struct solve *s, const struc
                      "iterations", s->sweeps, "converged", s->converged, "residual", s->residual,
                      "power_emitted", s->emitted, "power_absorbed", s->absorbed, "power_imbalance", imbalance(s),
                      "row_sums", "smallest", s->row_low, "largest", s->row_high, "excess_moved", s->row_excess,
-                     "defect_mean", s->row_defect, "defect_largest", s->row_defect_most, "closure", closure_json(s),
+                     "defect_mean", s->row_defect, "defect_largest", s->row_defect_most, "closure", closure_json(s), "importance", importance_json(s),
                      "seconds", "build", s->seconds.build, "refine", s->seconds.refine, "in_rays", s->seconds.in_rays,
                      "iterate", s->seconds.iterate, "output", output_seconds, "peak_memory_mb", peak_megabytes());
 }
@@ -110,6 +118,9 @@ void summary_print(const struct options *o, const struct solve *s, const struct 
     print_marks(s);
     printf("solution  %d passes, %d sweeps, residual %.1e, %s\n", s->passes, s->sweeps, s->residual,
            s->converged ? "converged" : "NOT converged: allow more --iterations, or loosen --tolerance");
+    if (s->importance.sweeps)
+        printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; %d of the sweeps\n",
+               s->importance.seen, s->importance.mean, s->importance.largest, s->importance.sweeps);
     printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", s->emitted, s->absorbed, 100 * fabs(imbalance(s)),
            imbalance(s) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s);

@@ -8,6 +8,7 @@
 #include "make_scene.h"
 #include "rays.h"
 #include "refine.h"
+#include "solve.h"
 #include "tools/clusters.h"
 #include "tools/support_planes.h"
 #include "tools/visibility.h"
@@ -251,6 +252,42 @@ START_TEST(test_link)
 }
 END_TEST
 
+extern const struct oracle bf_guarded_oracle;
+
+/* A_r F_rs = A_s F_sr, to the rounding of two floats, and V the same, for every two elements linked both ways. */
+START_TEST(test_reciprocity)
+{
+    struct solve_options how = { .tolerance = 1e-4, .iterations = 100, .threads = 2 };
+    struct scene scene;
+    struct solve s;
+    struct refiner *refiner = refiner_compiled(&bf_guarded_oracle, "flat");
+    const char *cause;
+    size_t i, j, mutual = 0;
+    clutter(&scene, 100, 5);
+    ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
+    ck_assert_int_eq(solve_run(&s, refiner, &cause), 0);
+    for (i = 0; i < s.refinement.link_count; i++) {
+        const struct link *there = &s.refinement.links[i];
+        const struct element *elements = s.hierarchy.elements;
+        for (j = s.refinement.first_link[there->emitter]; j < s.refinement.first_link[there->emitter + 1]; j++) {
+            const struct link *back = &s.refinement.links[j];
+            double a = elements[there->receiver].area * (double)there->form_factor;
+            double b = elements[back->receiver].area * (double)back->form_factor;
+            if (back->emitter != there->receiver)
+                continue;
+            mutual++;
+            ck_assert_double_le(fabs(a - b), 2e-7 * (a + b));
+            if ((there->levels & 0xf0) == (back->levels & 0xf0))
+                ck_assert_uint_eq(there->visibility, back->visibility);
+        }
+    }
+    ck_assert_uint_gt(mutual, 1000);
+    solve_close(&s);
+    refiner_close(refiner);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("runtime");
@@ -264,6 +301,7 @@ int main(void)
     tcase_add_loop_test(c, test_visibility, 0, 2);
     tcase_add_test(c, test_buried);
     tcase_add_test(c, test_link);
+    tcase_add_test(c, test_reciprocity);
     suite_add_tcase(suite, c);
     runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -428,6 +428,197 @@ START_TEST(test_statistics)
 }
 END_TEST
 
+/* BF with a threshold by importance; `%s`: that threshold. */
+static const char weighted[] =
+    "oracle weighted \"bf for a view\" { start level;\n"
+    "  node level = clusters() { surfaces -> planes;  apart -> stop;  receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node planes = support_planes() { away -> stop;  otherwise -> energy; }\n"
+    "  node energy = transfer(relative = %s) { dark -> stop;  below -> few;  above -> guard; }\n"
+    "  node guard = can_split(min_share = 2e-4) { both -> side;  neither -> few;\n"
+    "                         receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node side = larger() { receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node few = visibility(rays = 16) { none -> stop;  partial | all -> form; }\n"
+    "  node form = form_factor() { done -> link; }\n"
+    "}\n";
+
+static void solve_view(struct solve *s, const struct scene *scene, const char *threshold, struct solve_options options)
+{
+    char text[2048];
+    const char *cause;
+    struct refiner *r;
+    snprintf(text, sizeof text, weighted, threshold);
+    r = refiner_interpreted("weighted.dag", text, NULL, stderr);
+    ck_assert_ptr_nonnull(r);
+    ck_assert_uint_eq(r->reads, REFINER_READS_IMPORTANCE);
+    ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_run(s, r, &cause), 0);
+    ck_assert_int_eq(s->converged, 1);
+    refiner_close(r);
+}
+
+/* x := A^-1 x, by elimination with pivots; A [n * n] is lost. */
+static void eliminate(double *a, double *x, size_t n)
+{
+    size_t i, j, k;
+    for (k = 0; k < n; k++) {
+        size_t p = k;
+        for (i = k + 1; i < n; i++)
+            p = fabs(a[i * n + k]) > fabs(a[p * n + k]) ? i : p;
+        for (j = k; p != k && j < n; j++) {
+            double keep = a[k * n + j];
+            a[k * n + j] = a[p * n + j];
+            a[p * n + j] = keep;
+        }
+        if (p != k) {
+            double keep = x[k];
+            x[k] = x[p];
+            x[p] = keep;
+        }
+        for (i = k + 1; i < n; i++) {
+            double f = a[i * n + k] / a[k * n + k];
+            for (j = k; j < n && f != 0; j++)
+                a[i * n + j] -= f * a[k * n + j];
+            x[i] -= f * x[k];
+        }
+    }
+    for (k = n; k-- > 0;) {
+        for (j = k + 1; j < n; j++)
+            x[k] -= a[k * n + j] * x[j];
+        x[k] /= a[k * n + k];
+    }
+}
+
+/* The share of leaf j in what element e sends, 0 when it is not below e. */
+static double part_of(const struct solve *s, uint32_t j, uint32_t e)
+{
+    uint32_t up = j;
+    while (up > e)
+        up = s->hierarchy.elements[up].parent;
+    return up == e ? s->hierarchy.elements[j].area * s->exposed[j] / (s->hierarchy.elements[e].area * s->exposed[e]) : 0;
+}
+
+static const struct view into_the_corner = { .eye = { 3.9, 4.9, 2.9 }, .at = { 0, 0, 0 }, .fov = 25 };
+
+/* Importance by sweeps over the links is that of the same links written out as one matrix and solved at once. */
+START_TEST(test_importance_dense)
+{
+    struct scene scene;
+    struct solve s;
+    struct solve_options options = quick(1);
+    uint32_t *leaf, n = 0, i, j, up;
+    double *a, *y, worst = 0;
+    size_t l;
+    options.tolerance = 1e-9;
+    options.closure = CLOSURE_ROWS; /* no gifts among leaves, which a matrix row does not show */
+    options.view = &into_the_corner;
+    options.aspect = 1.5;
+    furnished(&scene, 1);
+    solve_view(&s, &scene, "0.1 / max(receiver.importance, 0.01)", options);
+    leaf = malloc(s.hierarchy.count * sizeof *leaf);
+    for (i = 0; i < s.hierarchy.count; i++)
+        if (s.hierarchy.elements[i].vertices && !s.hierarchy.elements[i].children)
+            leaf[n++] = i;
+    a = calloc((size_t)n * n, sizeof *a);
+    y = calloc(n, sizeof *y);
+    ck_assert_uint_gt(n, 100);
+    for (i = 0; i < n; i++) {
+        a[(size_t)i * n + i] = 1;
+        y[i] = s.importance.response[leaf[i]];
+        ck_assert(s.row_gift[leaf[i]] == 0 || !(s.exposed[leaf[i]] > 0));
+        for (up = leaf[i]; s.exposed[leaf[i]] > 0 && s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
+            for (l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++) {
+                const struct link *link = &s.refinement.links[l];
+                double f = (double)link->form_factor * link->visibility / LINK_VISIBLE * s.row_scale[leaf[i]] / s.exposed[leaf[i]];
+                for (j = 0; j < n; j++)
+                    a[(size_t)i * n + j] -= f * part_of(&s, leaf[j], link->emitter) * s.hierarchy.elements[leaf[j]].reflectance;
+            }
+    }
+    eliminate(a, y, n);
+    for (i = 0; i < n; i++)
+        worst = s.exposed[leaf[i]] > 0 ? fmax(worst, fabs(s.importance.value[leaf[i]] - y[i])) : worst;
+    printf("importance of %u leaves: at most %.1e from the direct solution; from %.3g in the mean to %.3g\n", n, worst,
+           s.importance.mean, s.importance.largest);
+    ck_assert_double_le(worst, 1e-6 * s.importance.largest);
+    ck_assert_double_gt(s.importance.seen, 0.5);
+    ck_assert_double_lt(s.importance.seen, 0.5 * rays_host(s.rays)->area);
+    for (i = 0; i < s.hierarchy.count; i++) {
+        double share = fmax(s.importance.value[i] / s.importance.largest, 1e-4);
+        ck_assert_double_le(fabs(s.hierarchy.elements[i].importance - share), 0.0201 * share);
+    }
+    free(a);
+    free(y);
+    free(leaf);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* <r, B> = <Y, E>: what the picture holds is what the light that is emitted means to it. Exact to rounding where links
+ * are reciprocal: two plates, linked alike both ways. In a room as good as its links. */
+START_TEST(test_importance_dual)
+{
+    static const struct view down = { .eye = { 0.5, 0.5, 0.9 }, .at = { 0.4, 0.5, 0 }, .fov = 40 };
+    struct scene scene;
+    struct solve s;
+    struct solve_options options = quick(1);
+    double left = 0, right = 0;
+    uint32_t i;
+    options.tolerance = 1e-9;
+    options.view = _i ? &into_the_corner : &down;
+    options.aspect = 1;
+    if (_i) {
+        furnished(&scene, 1);
+    } else {
+        made_open(&scene);
+        made_material(&scene, 0.5, 1);
+        made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+        made_quad(&scene, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+    }
+    solve_view(&s, &scene, "0.05 + 0 * receiver.importance", options);
+    for (i = 0; i < s.hierarchy.count; i++) {
+        const struct element *e = &s.hierarchy.elements[i];
+        if (e->children || !e->vertices)
+            continue;
+        left += e->area * s.exposed[i] * s.importance.response[i] * s.radiosity[i];
+        right += e->area * s.exposed[i] * s.importance.value[i] * s.exitance[e->face];
+    }
+    printf("what the picture holds: %.9g W by light, %.9g W by importance\n", left, right);
+    ck_assert_double_gt(left, 0.1);
+    ck_assert_double_le(fabs(left / right - 1), _i ? 0.05 : 1e-6);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* An oracle that weighs by importance spends less on what the picture does not hold, and gets the picture's light as
+ * well as the oracle that refines everywhere. */
+START_TEST(test_importance_pays)
+{
+    struct scene scene;
+    struct solve s[2];
+    struct solve_options options = quick(1);
+    double sum[2] = { 0, 0 };
+    uint32_t i;
+    int k;
+    options.view = &into_the_corner;
+    options.aspect = 1;
+    furnished(&scene, 1);
+    for (k = 0; k < 2; k++) {
+        solve_view(&s[k], &scene, k ? "0.02 / max(receiver.importance, 0.01)" : "0.02 + 0 * receiver.importance", options);
+        for (i = 0; i < s[k].hierarchy.count; i++)
+            if (s[k].hierarchy.elements[i].vertices && !s[k].hierarchy.elements[i].children)
+                sum[k] += s[k].hierarchy.elements[i].area * s[k].importance.response[i] * s[k].radiosity[i];
+    }
+    printf("in the picture %.5g W by %zu links, %.5g W by %zu links of importance\n", sum[0], s[0].refinement.link_count,
+           sum[1], s[1].refinement.link_count);
+    ck_assert_double_le(fabs(sum[1] / sum[0] - 1), 0.03);
+    ck_assert_double_le((double)s[1].refinement.link_count, 0.75 * (double)s[0].refinement.link_count);
+    for (k = 0; k < 2; k++)
+        solve_close(&s[k]);
+    made_close(&scene);
+}
+END_TEST
+
 /* Brightness and epsilon times 1000: the same links. */
 START_TEST(test_brightness)
 {
@@ -549,6 +740,9 @@ int main(void)
     tcase_add_loop_test(c, test_plates, 0, 2);
     tcase_add_loop_test(c, test_same_links, 0, 2);
     tcase_add_test(c, test_statistics);
+    tcase_add_test(c, test_importance_dense);
+    tcase_add_loop_test(c, test_importance_dual, 0, 2);
+    tcase_add_test(c, test_importance_pays);
     tcase_add_test(c, test_brightness);
     tcase_add_loop_test(c, test_scale, 0, 2);
     tcase_add_test(c, test_methods);

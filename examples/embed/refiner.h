@@ -14,6 +14,19 @@
 extern "C" {
 #endif
 
+/* geometry.h - vectors, planes and clipped convex polygons, for tools and terms.
+ *
+ * Every expression here scales exactly: multiplying all coordinates by a power of two changes
+ * no comparison and no dimensionless result by a single bit. */
+
+/* A quad cut by one plane has at most 5 corners. */
+enum { REFINER_POLYGON_MAX = 5 };
+
+struct refiner_polygon {
+    int n; /* 0, or 3 to POLYGON_MAX */
+    double v[REFINER_POLYGON_MAX][3];
+};
+
 /* The leaves of every graph. */
 enum refiner_decision {
     REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
@@ -43,7 +56,7 @@ struct refiner_terms {
  * it was computed at. A tool that needs a term asks term_NAME(d, level) (terms/NAME.h), which
  * computes the term when it is absent or coarser. [Turbet & Sillion, sections 3 and 4.1]
  *
- * Invariant: a tool reads the pair and the host and writes nothing but terms. So pairs can be
+ * Invariant: a tool reads the pair and the host and writes nothing but terms (the list of term blockers among them). So pairs can be
  * discussed in any order and on any thread, and the result is the same.
  *
  * This header is C11 and C++11, needs libm only, and allocates nothing. Units: metres, W/m2. */
@@ -79,6 +92,29 @@ struct refiner_segment {
 
 enum { REFINER_SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 
+/* The convex hull of two surfaces: what light between them may cross (terms/shaft.h). */
+enum { REFINER_SHAFT_PLANES = 28 };
+
+struct refiner_shaft {
+    int planes;
+    double normal[REFINER_SHAFT_PLANES][3], offset[REFINER_SHAFT_PLANES]; /* inside: normal . p <= offset, normals of length 1 */
+    double low[3], high[3]; /* box around it, `reach` included (m) */
+    double reach;           /* what is farther from it does not meet it, whatever the tolerances (m) */
+    double margin, touch, slack, grow, flat; /* tolerances (m) */
+    int points[2];   /* of the two ends: their corners, as far off the surface as rays start */
+    double end[2][REFINER_POLYGON_MAX][3], facing[2][3]; /* and their normals */
+};
+
+/* The faces that may stand between the two elements of a pair, in ascending order. */
+enum { REFINER_BLOCKERS_MAX = 8, REFINER_BLOCKERS_TOO_MANY = REFINER_BLOCKERS_MAX + 1 };
+
+struct refiner_blockers {
+    int count;             /* or BLOCKERS_TOO_MANY */
+    unsigned char known;   /* not at all; of a pair that holds this one; of this pair */
+    unsigned char covered; /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
+    uint32_t face[REFINER_BLOCKERS_MAX];
+};
+
 /* What the program around the refiner provides. */
 struct refiner_host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
@@ -87,21 +123,41 @@ struct refiner_host {
     double area;       /* of all faces, m2 */
     double extent;     /* longest side of the scene's box (m) */
     double exitance;   /* the largest E, W/m2 */
+    double reflectance; /* the largest rho */
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance; /* the largest Y; 1 where no view asks */
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
+
+    /* For the tools that look into a shaft; NULL: the host has none of it, and they answer too_complex.
+     * Lists in `faces` up to `most` faces that may meet the shaft and returns how many; more than `most` when
+     * there may be more. It may list a face too many, never one too few; terms/shaft.h helps. */
+    int (*candidates)(const struct refiner_host *host, const struct refiner_shaft *shaft, int most, uint32_t *faces);
+    /* The corners of a face that `candidates` listed. */
+    void (*corners)(const struct refiner_host *host, uint32_t face, struct refiner_polygon *polygon);
+    /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that hold one of two faces
+     * (tools/extinction.h). NULL: 0. */
+    double (*optical_depth)(const struct refiner_host *host, const struct refiner_segment *segment, uint32_t receiver, uint32_t emitter);
 };
 
 struct refiner_discussion {
     const struct refiner_element *receiver, *emitter;
     const struct refiner_host *host;
     struct refiner_terms terms; /* the data manager; all zero: nothing is known yet */
+    struct refiner_blockers *blockers; /* where term blockers keeps its list; may hold an inherited one. NULL: nothing is kept */
 };
 
-/* standalone.h - the two callbacks by which a program that ships a generated refiner describes itself.
- * dagc --standalone puts this into the generated header; within the project rays.c fills in the host. */
+/* standalone.h - the callbacks by which a program that ships a generated refiner describes itself.
+ * dagc --standalone puts this into the generated header; within the project rays.c fills in the host.
+ *
+ * Two are needed, those of host_open. The others may be left NULL; a graph that asks about shafts is
+ * answered too_complex then, and extinction takes nothing away. To have them, set host.candidates and
+ * host.corners (both or neither), and host.optical_depth, after host_open. candidates is given planes and a box: a face
+ * may be left out when all its corners lie outside the box, or beyond one plane, normal . p > offset + reach;
+ * the refiner looks at the others more closely itself. Let discussion.blockers point at a structure that lives as long as the
+ * discussion; with `known` 0 nothing is inherited, and BLOCKERS_INHERITED says that it holds the list of a pair of which
+ * these two elements are parts. */
 
 /* The most segments that one call of `occluded` is given. */
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
@@ -114,9 +170,12 @@ static inline void refiner_host_open(struct refiner_host *host,
                              void (*totals)(struct refiner_host *host))
 {
     host->occluded = occluded;
-    host->area = host->extent = host->exitance = host->irradiance = host->radiosity = 0;
+    host->area = host->extent = host->exitance = host->reflectance = host->irradiance = host->radiosity = 0;
     host->importance = 1;
     host->ray_offset = host->flat = 0;
+    host->candidates = NULL;
+    host->corners = NULL;
+    host->optical_depth = NULL;
     totals(host);
 }
 

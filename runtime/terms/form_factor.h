@@ -12,11 +12,11 @@
  *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
- *          by a rule of as many points as the distance asks for; where they are nearer than their
- *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], its
- *          inner integral in closed form, the outer one adaptive. Relative error about 1e-5 or less,
- *          1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
- * contour  the same with the contour integral up to 20 sizes away, and nine or more points beyond.
+ *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
+ *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
+ *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
+ *          4e-4 at the most (far pairs); 1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_FORM_FACTOR_H
 #define TERM_FORM_FACTOR_H

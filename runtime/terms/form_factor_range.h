@@ -38,6 +38,10 @@ OUTLINE void form_factor_range_sample(const struct element *r, const struct elem
     int i, k;
     point_factor_clip(&q, r, s);
     range[0] = range[1] = point_factor_at(r->centre, r, s, &q);
+    if (q.n == 0 || polygon_factor_hidden(r, s, range[1] * r->area)) {
+        range[0] = range[1] = 0;
+        return;
+    }
     for (i = 0; i < r->vertices; i++) {
         double x[3];
         for (k = 0; k < 3; k++)
@@ -142,7 +146,7 @@ OUTLINE void form_factor_range_bound(const struct element *r, const struct eleme
     b.r = r;
     b.s = s;
     point_factor_clip(&b.q, r, s);
-    if (b.q.n == 0)
+    if (b.q.n == 0 || polygon_factor_hidden(r, s, point_factor_at(r->centre, r, s, &b.q) * r->area))
         return;
     b.lowest = INFINITY;
     for (i = 0; i < b.q.n; i++) {

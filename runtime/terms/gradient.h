@@ -13,8 +13,11 @@
 OUTLINE void gradient_at_centre(const struct element *r, const struct element *s, double gradient[3])
 {
     struct polygon q;
+    double f = 0;
     point_factor_clip(&q, r, s);
-    if (q.n == 0 || !(height3(r->centre, s->centre, s->normal) > 0) || !(point_factor_gradient(r->centre, r->normal, &q, gradient) > 0))
+    if (q.n && height3(r->centre, s->centre, s->normal) > 0)
+        f = point_factor_gradient(r->centre, r->normal, &q, gradient);
+    if (!(f > 0) || polygon_factor_hidden(r, s, f * r->area))
         gradient[0] = gradient[1] = gradient[2] = 0;
 }
 

@@ -34,8 +34,10 @@ static inline double point_factor_at(const double x[3], const struct element *r,
 OUTLINE double point_factor(const struct element *r, const struct element *s)
 {
     struct polygon q;
+    double f;
     point_factor_clip(&q, r, s);
-    return point_factor_at(r->centre, r, s, &q);
+    f = point_factor_at(r->centre, r, s, &q);
+    return q.n == 0 || polygon_factor_hidden(r, s, f * r->area) ? 0 : f;
 }
 
 #endif

@@ -8,6 +8,7 @@
 #define TERM_POLYGON_FACTOR_H
 
 #include "discussion.h"
+#include "terms/contour_factor.h"
 
 #define POLYGON_FACTOR_PI 3.14159265358979323846
 
@@ -16,7 +17,10 @@
 #define POLYGON_FACTOR_MIDDLE 8.0
 #define POLYGON_FACTOR_FAR 60.0
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
-#define POLYGON_FACTOR_EXACT 20.0
+#define POLYGON_FACTOR_EXACT 60.0
+/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
+#define POLYGON_FACTOR_FAINT 1e-9
+#define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
  * wholly in front of p and faces it. [Lambert's formula] */
@@ -39,61 +43,6 @@ static inline double polygon_factor_point(const double p[3], const double n[3], 
     return sum * (-0.5 / POLYGON_FACTOR_PI);
 }
 
-/* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
-static inline double polygon_factor_line(const double p[3], const double a[3], const double u[3], double length)
-{
-    double w[3], c[3], x, h, y, z, sum;
-    sub3(w, p, a);
-    cross3(c, w, u);
-    x = dot3(w, u);
-    h = length3(c);
-    y = length - x;
-    z = y * y + h * h;
-    sum = -length;
-    if (z > 0)
-        sum += 0.5 * y * log(z);
-    z = x * x + h * h;
-    if (z > 0)
-        sum += 0.5 * x * log(z);
-    if (h > 0)
-        sum += h * (atan(y / h) + atan(x / h));
-    return sum;
-}
-
-/* The outer integral of one edge (from p, along e) against one edge (a, u, length), adaptive:
- * a five-point Gauss rule over the whole against itself over both halves. */
-struct polygon_factor_edge {
-    const double *p, *a;
-    double e[3], u[3], length;
-};
-
-static inline double polygon_factor_gauss(const struct polygon_factor_edge *g, double from, double to)
-{
-    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
-    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
-    double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    int i;
-    for (i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
-        p[0] = g->p[0] + s * g->e[0];
-        p[1] = g->p[1] + s * g->e[1];
-        p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i < 0 ? -i : i] * polygon_factor_line(p, g->a, g->u, g->length);
-    }
-    return sum * half;
-}
-
-static inline double polygon_factor_adapt(const struct polygon_factor_edge *g, double from, double to,
-                                          double whole, double tolerance, int depth)
-{
-    double middle = 0.5 * (from + to);
-    double left = polygon_factor_gauss(g, from, middle), right = polygon_factor_gauss(g, middle, to);
-    if (depth == 0 || fabs(left + right - whole) <= tolerance)
-        return left + right;
-    return polygon_factor_adapt(g, from, middle, left, tolerance, depth - 1)
-         + polygon_factor_adapt(g, middle, to, right, tolerance, depth - 1);
-}
-
 /* Multiply a polygon's corners by a power of two. */
 static inline void polygon_factor_scale(struct polygon *p, double factor)
 {
@@ -103,40 +52,6 @@ static inline void polygon_factor_scale(struct polygon *p, double factor)
         p->v[i][1] *= factor;
         p->v[i][2] *= factor;
     }
-}
-
-/* A_p F_pq by the contour integral (m2). The shorter edge of each pair is the outer one: along it
- * the inner integral varies least. */
-OUTLINE double polygon_factor_contour(const struct polygon *p, const struct polygon *q)
-{
-    double sum = 0;
-    int i, j, k;
-    for (i = 0; i < p->n; i++) {
-        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
-        double e[3], le;
-        sub3(e, p1, p0);
-        le = length3(e);
-        for (j = 0; j < q->n; j++) {
-            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            struct polygon_factor_edge g;
-            double f[3], lf, aligned;
-            sub3(f, q1, q0);
-            lf = length3(f);
-            aligned = dot3(e, f);
-            if (fabs(aligned) <= 1e-12 * le * lf)
-                continue;
-            g.p = le <= lf ? p0 : q0;
-            g.a = le <= lf ? q0 : p0;
-            g.length = le <= lf ? lf : le;
-            for (k = 0; k < 3; k++) {
-                g.e[k] = le <= lf ? e[k] : f[k];
-                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
-            }
-            sum += aligned / g.length
-                 * polygon_factor_adapt(&g, 0, 1, polygon_factor_gauss(&g, 0, 1), 1e-9 * g.length, 24);
-        }
-    }
-    return sum * (0.5 / POLYGON_FACTOR_PI);
 }
 
 /* Integral over triangle abc with normal n of the factor to q (m2): 1, 3 or 6 points, exact to
@@ -207,7 +122,7 @@ static inline double polygon_factor_rule(const struct polygon *p, const double n
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius)
+static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area)
 {
     double up, down;
     int e;
@@ -216,7 +131,38 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
     down = 1 / up;
     polygon_factor_scale(p, down);
     polygon_factor_scale(q, down);
-    return polygon_factor_contour(p, q) * up * up;
+    return contour_factor(p, q, area * down * down) * up * up;
+}
+
+/* The largest height of e's corners over the plane of `plane` (m). */
+static inline double polygon_factor_height(const struct element *e, const struct element *plane)
+{
+    double most = height3(e->vertex[0], plane->centre, plane->normal);
+    int i;
+    for (i = 1; i < e->vertices; i++) {
+        double h = height3(e->vertex[i], plane->centre, plane->normal);
+        most = h > most ? h : most;
+    }
+    return most;
+}
+
+/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane, that F is 0, as for
+ * coplanar elements, not what sums of nothing leave. A plane is known the worse the narrower its element and the
+ * farther off the corner. */
+static inline int polygon_factor_hidden(const struct element *r, const struct element *s, double exchange)
+{
+    double away[3], reach, size, width = r->area / r->radius, flat;
+    int k;
+    if (!(exchange < POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
+        return 0;
+    sub3(away, s->centre, r->centre);
+    reach = size = length3(away) + r->radius + s->radius;
+    for (k = 0; k < 3; k++)
+        size += fabs(r->centre[k]) + fabs(s->centre[k]);
+    if (s->area / s->radius < width)
+        width = s->area / s->radius;
+    flat = POLYGON_FACTOR_FLAT * size * (1 + reach / width);
+    return polygon_factor_height(r, s) <= flat || polygon_factor_height(s, r) <= flat;
 }
 
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
@@ -225,7 +171,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct polygon p, q;
-    double away[3], distance, exchange;
+    double away[3], distance, exchange, least;
     sub3(away, small->centre, large->centre);
     distance = length3(away) - large->radius;
     if (!exact && distance > POLYGON_FACTOR_FAR * large->radius) {
@@ -239,19 +185,16 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         return 0;
     if (distance < POLYGON_FACTOR_FAR * small->radius)
         distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
-    if (exact)
-        exchange = distance > POLYGON_FACTOR_EXACT * small->radius ? polygon_factor_rule(&p, small->normal, &q, 2)
-                                                                   : polygon_factor_contour_at(&p, &q, large->radius);
-    else if (distance > POLYGON_FACTOR_FAR * small->radius)
-        exchange = polygon_factor_rule(&p, small->normal, &q, 0);
-    else if (distance > POLYGON_FACTOR_MIDDLE * small->radius)
-        exchange = polygon_factor_rule(&p, small->normal, &q, 1);
-    else if (distance > POLYGON_FACTOR_NEAR * small->radius)
-        exchange = polygon_factor_rule(&p, small->normal, &q, 2);
+    least = r->area < s->area ? r->area : s->area;
+    if (distance <= (exact ? POLYGON_FACTOR_EXACT : POLYGON_FACTOR_NEAR) * small->radius)
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, least);
     else
-        exchange = polygon_factor_contour_at(&p, &q, large->radius);
-    exchange /= r->area;
-    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
+        exchange = polygon_factor_rule(&p, small->normal, &q, exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
+                                                              : distance <= POLYGON_FACTOR_FAR * small->radius         ? 1
+                                                                                                                       : 0);
+    if (!(exchange > 0) || polygon_factor_hidden(r, s, exchange))
+        return 0;
+    return (exchange < least ? exchange : least) / r->area;
 }
 
 #endif

@@ -92,30 +92,74 @@ static double adapt(const edges *g, double from, double to, double whole, int de
     return adapt(g, from, middle, left, depth - 1) + adapt(g, middle, to, right, depth - 1);
 }
 
-static double contour(const poly *p, const poly *q)
+/* Twice integrated ln sqrt(u^2 + h^2). */
+static double twice_integrated(double u, double h)
+{
+    double z = u * u + h * h;
+    return (z > 0 ? 0.25 * (u * u - h * h) * log(z) : 0) + (h > 0 ? u * h * atan(u / h) : 0) - 0.75 * u * u;
+}
+
+static double parallel(const edges *g, double size)
+{
+    vec w = minus(g->p, g->a);
+    double x = dot(w, g->u), h = norm(cross(w, g->u)), along = dot(g->e, g->u) > 0 ? size : -size;
+    return (twice_integrated(x + along, h) - twice_integrated(x, h) - twice_integrated(x + along - g->length, h)
+            + twice_integrated(x - g->length, h)) / along;
+}
+
+/* Cut where the outer edge is nearest to the inner one's ends and to its line. */
+static double skew(const edges *g, double size, double sine2)
+{
+    vec w = minus(g->a, g->p);
+    double eu = dot(g->e, g->u), ew = dot(w, g->e), from = 0, sum = 0;
+    double cut[4] = { ew / (size * size), (ew + g->length * eu) / (size * size),
+                      (ew - eu * dot(w, g->u)) / (size * size * sine2), 1 };
+    for (int i = 0; i < 4; i++) {
+        double to = 1;
+        int best = 3;
+        for (int k = 0; k < 3; k++) {
+            double c = cut[k] > 0 ? cut[k] : 0;
+            if (c < to) {
+                to = c;
+                best = k;
+            }
+        }
+        cut[best] = 1;
+        if (to > from)
+            sum += adapt(g, from, to, gauss5(g, from, to), 40);
+        from = to;
+    }
+    return sum;
+}
+
+static double contour(const poly *p, const poly *q, double area)
 {
     double sum = 0;
     for (int i = 0; i < p->n; i++) {
         vec p0 = p->v[i], e = minus(p->v[(i + 1) % p->n], p0);
         double le = norm(e);
         for (int j = 0; j < q->n; j++) {
-            vec q0 = q->v[j], f = minus(q->v[(j + 1) % q->n], q0);
-            double lf = norm(f), aligned = dot(e, f);
+            vec q0 = q->v[j], f = minus(q->v[(j + 1) % q->n], q0), c = cross(e, f);
+            double lf = norm(f), aligned = dot(e, f), sine2 = dot(c, c) / (le * le * lf * lf), size;
             edges g;
-            if (fabs(aligned) <= 1e-12 * le * lf)
+            if (!(fabs(aligned) > 1e-16 * le * lf))
                 continue;
             if (le <= lf)
-                g = (edges){ p0, e, q0, { f.x / lf, f.y / lf, f.z / lf }, lf, 1e-9 * lf };
+                g = (edges){ p0, e, q0, { f.x / lf, f.y / lf, f.z / lf }, lf, 0 };
             else
-                g = (edges){ q0, f, p0, { e.x / le, e.y / le, e.z / le }, le, 1e-9 * le };
-            sum += aligned / g.length * adapt(&g, 0, 1, gauss5(&g, 0, 1), 24);
+                g = (edges){ q0, f, p0, { e.x / le, e.y / le, e.z / le }, le, 0 };
+            size = le <= lf ? le : lf;
+            g.tolerance = 1e-11 * 6.28318530717958647693 * area * g.length / fabs(aligned);
+            if (g.tolerance < 2e-15 * g.length)
+                g.tolerance = 2e-15 * g.length;
+            sum += aligned / g.length * (sine2 > 1e-26 ? skew(&g, size, sine2) : parallel(&g, size));
         }
     }
-    return sum * (0.5 / 3.14159265358979323846);
+    return sum / 6.28318530717958647693;
 }
 
 /* Logarithms round alike at every scale when the size is always about one. */
-static double contour_at_unit_size(poly *p, poly *q, double radius)
+static double contour_at_unit_size(poly *p, poly *q, double radius, double area)
 {
     int e;
     frexp(radius, &e);
@@ -124,7 +168,7 @@ static double contour_at_unit_size(poly *p, poly *q, double radius)
         p->v[i] = (vec){ p->v[i].x * down, p->v[i].y * down, p->v[i].z * down };
     for (int i = 0; i < q->n; i++)
         q->v[i] = (vec){ q->v[i].x * down, q->v[i].y * down, q->v[i].z * down };
-    return contour(p, q) * up * up;
+    return contour(p, q, area * down * down) * up * up;
 }
 
 /* One orbit of a symmetric triangle rule: three points with barycentric weight w at one corner. */
@@ -206,13 +250,32 @@ static double distance_to(vec p, const poly *q, vec normal)
     return inside ? fabs(dot(normal, minus(p, q->v[0]))) : sqrt(best);
 }
 
+static double highest(const struct element *e, const struct element *plane)
+{
+    vec on = load(plane->centre), n = load(plane->normal);
+    double most = -INFINITY;
+    for (int i = 0; i < e->vertices; i++)
+        most = fmax(most, dot(n, minus(load(e->vertex[i]), on)));
+    return most;
+}
+
+/* Coplanar to rounding, or one behind the other. */
+static int hidden(const struct element *r, const struct element *s)
+{
+    vec a = load(r->centre), b = load(s->centre);
+    double reach = norm(minus(b, a)) + r->radius + s->radius, width = fmin(s->area / s->radius, r->area / r->radius);
+    double size = reach + (fabs(a.x) + fabs(b.x)) + (fabs(a.y) + fabs(b.y)) + (fabs(a.z) + fabs(b.z));
+    double flat = 1 / 562949953421312.0 * size * (1 + reach / width);
+    return highest(r, s) <= flat || highest(s, r) <= flat;
+}
+
 double hand_form_factor(const struct element *r, const struct element *s)
 {
     int r_first = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct element *small = r_first ? r : s, *large = r_first ? s : r;
     vec centre = load(small->centre), n = load(small->normal), m = load(large->normal);
     vec away = minus(centre, load(large->centre));
-    double distance = norm(away) - large->radius, exchange;
+    double distance = norm(away) - large->radius, least = r->area < s->area ? r->area : s->area, exchange;
     poly p, q;
     if (distance > 60 * large->radius) {
         double c = -dot(n, away), k = dot(m, away), square = dot(away, away);
@@ -232,9 +295,10 @@ double hand_form_factor(const struct element *r, const struct element *s)
     else if (distance > 3 * small->radius)
         exchange = over(&p, n, &q, 2);
     else
-        exchange = contour_at_unit_size(&p, &q, large->radius);
-    exchange /= r->area;
-    return exchange > 0 ? exchange < 1 ? exchange : 1 : 0;
+        exchange = contour_at_unit_size(&p, &q, large->radius, least);
+    if (!(exchange > 0) || (exchange < 1e-9 * least && hidden(r, s)))
+        return 0;
+    return (exchange < least ? exchange : least) / r->area;
 }
 
 static uint64_t scramble(uint64_t x)

@@ -1,0 +1,71 @@
+/* blockers.h - term: how many faces may stand between the two elements, 0 to 8, or 9: too many to be worth a list.
+ *
+ * The faces themselves are kept in d->blockers, in ascending order. A list is made by the host, from all
+ * faces, or filtered from that of a pair which holds this one: a shaft within a shaft meets no other face. Both ways
+ * give the same list (shaft.h says why), and it is the same for a pair either way round. [Haines & Wallace 1994]
+ * Fails (too many): clusters; a host without candidates; more than 8 faces.
+ * SPDX-License-Identifier: MIT */
+#ifndef TERM_BLOCKERS_H
+#define TERM_BLOCKERS_H
+
+#include "discussion.h"
+#include "terms/shaft.h"
+
+OUTLINE void blockers_find(const struct element *r, const struct element *s, const struct host *host, struct blockers *list)
+{
+    struct shaft shaft;
+    int found, i, j;
+    if (list->known == BLOCKERS_OWN)
+        return;
+    found = list->known == BLOCKERS_INHERITED ? list->count : -1;
+    list->known = BLOCKERS_OWN;
+    list->covered = 0;
+    list->count = BLOCKERS_TOO_MANY;
+    if (!r->vertices || !s->vertices || !host->candidates || !host->corners)
+        return;
+    list->count = 0;
+    if (!shaft_open(&shaft, r, s, host)) {
+        list->covered = 1;
+        return;
+    }
+    if (found < 0)
+        found = host->candidates(host, &shaft, BLOCKERS_MAX, list->face);
+    if (found > BLOCKERS_MAX) {
+        list->count = BLOCKERS_TOO_MANY;
+        return;
+    }
+    for (i = 0; i < found; i++) {
+        uint32_t face = list->face[i];
+        struct polygon p;
+        host->corners(host, face, &p);
+        if (!shaft_meets(&shaft, (const double (*)[3])p.v, p.n, NULL))
+            continue;
+        list->covered |= (unsigned char)shaft_covered(&shaft, (const double (*)[3])p.v, p.n);
+        for (j = list->count++; j > 0 && list->face[j - 1] > face; j--)
+            list->face[j] = list->face[j - 1];
+        list->face[j] = face;
+    }
+}
+
+/* The list; `own` is where it goes when the discussion keeps none. */
+TOOL const struct blockers *blockers_list(struct discussion *d, struct blockers *own)
+{
+    struct blockers *list = d->blockers ? d->blockers : own;
+    if (list == own)
+        own->known = BLOCKERS_UNKNOWN;
+    blockers_find(d->receiver, d->emitter, d->host, list);
+    d->terms.blockers = list->count;
+    d->terms.blockers_level = BLOCKERS_PRESENT;
+    return list;
+}
+
+TOOL int term_blockers(struct discussion *d)
+{
+    if (d->terms.blockers_level < BLOCKERS_PRESENT) {
+        struct blockers own;
+        (void)blockers_list(d, &own);
+    }
+    return d->terms.blockers;
+}
+
+#endif
