@@ -26,7 +26,7 @@ FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,runtime) $(BUILD)/gen/catalog.o
 SOLVER    = $(call objects,solver) $(call objects,tests/hand) $(FLAT) $(BUILD)/gen/builtin.o
-TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c))
+TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c tests/stability/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh)
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
@@ -68,7 +68,7 @@ $(BUILD)/gen/builtin.c: solver/builtin.sh $(wildcard examples/oracles/*.dag) dag
 
 $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
-$(BUILD)/tests/check_%: $(BUILD)/tests/check_%.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(TESTS): %: %.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 $(BUILD)/tests/embed_engine: $(BUILD)/tests/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)

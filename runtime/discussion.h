@@ -73,7 +73,7 @@ struct shaft {
     double normal[SHAFT_PLANES][3], offset[SHAFT_PLANES]; /* inside: normal . p <= offset, normals of length 1 */
     double low[3], high[3]; /* box around it, `reach` included (m) */
     double reach;           /* what is farther from it does not meet it, whatever the tolerances (m) */
-    double margin, touch, slack, grow, flat; /* tolerances (m) */
+    double margin, touch, slack, grow, flat, nests; /* tolerances (m) */
     int points[2];   /* of the two ends: their corners, as far off the surface as rays start */
     double end[2][POLYGON_MAX][3], facing[2][3]; /* and their normals */
 };
@@ -84,6 +84,7 @@ enum { BLOCKERS_UNKNOWN, BLOCKERS_INHERITED, BLOCKERS_OWN };
 struct blockers {
     int count;             /* or BLOCKERS_TOO_MANY */
     unsigned char known;   /* not at all; of a pair that holds this one; of this pair */
+    unsigned char handed;  /* own: good for the pairs below this one */
     unsigned char covered; /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
     uint32_t face[BLOCKERS_MAX];
 };

@@ -8,7 +8,7 @@
  *
  * Where the oracle looks into the shaft between two elements, the candidates it found are handed on: a list
  * stands once in a pool, with the number of pairs that hold it. A pair whose discussion made none hands on what it
- * was given; an overflowed list is not kept. Lists spare work and change no answer (terms/shaft.h).
+ * was given; a list that overflowed, or does not hold below, is not kept. Lists spare work and change no answer (terms/shaft.h).
  * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited candidates; rounds: derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -117,7 +117,7 @@ static uint32_t keep(struct refinement *r, const struct blockers *list)
 static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 {
     const struct outcome *o = &r->outcomes[i];
-    if (o->listed && r->found[i].count <= BLOCKERS_MAX && !(r->found[i].count == 0 && r->found[i].covered))
+    if (o->listed && r->found[i].handed)
         return keep(r, &r->found[i]);
     if (o->listed)
         return 0;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include "allowance.h"
 #include "balance.h"
 #include "enclosure.h"
 #include "importance.h"
@@ -16,7 +17,8 @@
 #include "rows.h"
 #include "solve.h"
 
-enum { PASSES = 32 };
+/* Where the solver lowers thresholds a pass may be one step of them. */
+enum { PASSES = 32, PASSES_OF_ALLOWANCE = 200 };
 
 static double seconds(void)
 {
@@ -210,30 +212,57 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     return 0;
 }
 
+/* Discuss the links of changed elements again and make room for what comes of it. Returns how many changed, or -1. */
+static int64_t refine_again(struct solve *s, const char **cause)
+{
+    uint32_t first = s->hierarchy.count;
+    int64_t changed = refinement_again(&s->refinement, s->changed);
+    *cause = "out of memory while refining; a coarser oracle parameter needs less";
+    if (changed < 0 || (changed > 0 && refinement_sort(&s->refinement) < 0) || make_room(s) < 0)
+        return -1;
+    expose(s, first);
+    return changed;
+}
+
+/* Under error control: lower allowances until some link changes for it, or nothing is left to be gained. Returns how many
+ * links changed, or -1. */
+static int64_t refine_for_error(struct solve *s, const char **cause)
+{
+    *cause = "out of memory";
+    if (allowance_estimate(s) < 0)
+        return -1;
+    for (;;) {
+        uint32_t lowered = allowance_lower(s);
+        int64_t changed = refine_again(s, cause);
+        if (changed != 0 || lowered == 0)
+            return changed;
+        memset(s->changed, 0, s->hierarchy.count);
+    }
+}
+
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     int64_t changed = 1;
     int importance = s->options.view && refiner->reads & REFINER_READS_IMPORTANCE;
+    double error = allowance_target(refiner, rays_host(s->rays));
     *cause = "out of memory";
     if (importance && importance_start(s) < 0)
         return -1;
+    if (error > 0)
+        allowance_start(s, error);
     if (solve_refine(s, refiner, cause) < 0)
         return -1;
-    for (s->passes = 0; changed > 0 && s->passes < PASSES; s->passes++) {
+    for (s->passes = 0; changed > 0 && s->passes < (error > 0 ? PASSES_OF_ALLOWANCE : PASSES); s->passes++) {
         double start = seconds(), middle;
-        uint32_t first;
         if (iterate(s, cause) < 0)
             return -1;
         publish(s);
         if (importance && importance_solve(s) < 0)
             return -1;
         middle = seconds();
-        *cause = "out of memory while refining; a coarser oracle parameter needs less";
-        first = s->hierarchy.count;
-        changed = refinement_again(&s->refinement, s->changed);
-        if (changed < 0 || (changed > 0 && refinement_sort(&s->refinement) < 0) || make_room(s) < 0)
+        changed = error > 0 ? refine_for_error(s, cause) : refine_again(s, cause);
+        if (changed < 0)
             return -1;
-        expose(s, first);
         s->seconds.iterate += middle - start;
         s->seconds.refine += seconds() - middle;
     }
@@ -262,6 +291,7 @@ void solve_close(struct solve *s)
     free(s->exposed);
     free(s->whitest);
     importance_free(s);
+    allowance_free(s);
     free(s->least);
     free(s->most);
     free(s->changed);

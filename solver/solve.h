@@ -49,6 +49,19 @@ struct importance {
     double seen;        /* area in the picture (m2) */
 };
 
+/* The mark by which graphs say that a link was too large and could not be split (runtime/tools/mark.h). */
+enum { LINK_GUARDED = 1 };
+
+/* Error control (allowance.c). */
+struct defect;
+struct allowance {
+    double target;     /* the error of radiosity to be held (W/m2); 0: nobody asked */
+    struct defect *defect; /* [room]: of the leaves */
+    uint32_t room;
+    double largest;    /* of the estimates (W/m2) */
+    double area;       /* of the leaves whose estimate is above the target (m2) */
+};
+
 struct solve {
     struct scene const *scene; /* borrowed */
     struct solve_options options;
@@ -61,6 +74,7 @@ struct solve {
     double *exitance, *reflectance; /* [face_count * bands] */
     double *whitest;                /* [face_count]: reflectance of the largest band */
     struct importance importance;
+    struct allowance allowance;
     double *least, *most;           /* [room * bands]: smallest and largest radiosity of the exposed leaves below */
     unsigned char *changed;         /* [room]: the oracles see a radiosity or spread that has grown since the links were discussed */
     uint32_t room;                  /* elements that the arrays above have place for */

@@ -35,7 +35,7 @@ enum {
     NO_METHOD, KERNEL, CULLED, DISC, POINT, POLYGON, CONTOUR,
     FRONTS, FIXED_EPSILON, RAYS_4, RAYS_16, RAYS_64,
     NORMALISED, JACOBI, SWEEPS_JACOBI, NAIVE_STOP, ONE_PLANE, L2_NORM, LINF_NORM, UMBRA,
-    CORNERS, SAMPLED, BOUNDED, LINF_GAP, AREA_GAP,
+    CORNERS, SAMPLED, BOUNDED, LARGER, LONGER, LINF_GAP, AREA_GAP,
     BF_1991, BF_NODES, BF, VIEWFACTORS, BF_GUARDED, FINE, CLOSED,
     METHODS
 };
@@ -120,7 +120,7 @@ double stability_random(unsigned *seed);
     M(tiny_blocker) M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) \
     M(furnace_95) M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) M(open_plates) \
     M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) M(hollow_sphere) M(concentric) M(wide_plates) \
-    M(brightness) M(scale) M(large_source) M(touching_cells) M(range_centre) M(range_quarter) M(four_shadows) \
+    M(brightness) M(scale) M(large_source) M(large_source_split) M(touching_cells) M(long_receiver) M(range_centre) M(range_quarter) M(four_shadows) \
     M(bent_quad) M(no_area)
 #define M(name) int stability_##name(struct stability_trial *trial);
 STABILITY_MEASURES(M)

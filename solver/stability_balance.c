@@ -159,6 +159,7 @@ static int sweep_furnace(struct stability_trial *trial, double rho, struct solve
         refiner_close(refiner);
         return -1;
     }
+    (void)refiner_set(refiner, "relative", 1); /* six elements are as good as many here */
     how.threads = trial->threads;
     made_material(&scene, rho, 1);
     made_room(&scene, white, 1, 1, 1);
@@ -581,7 +582,7 @@ int stability_concentric(struct stability_trial *trial)
  * what those lack of infinite ones falls as 1/wide2. */
 static int middle_at(struct stability_trial *trial, int level, double *value)
 {
-    int wide = 4 << level, i;
+    int wide = 3 << level, i;
     uint32_t middle = (uint32_t)(wide / 2 * wide + wide / 2) * 2;
     struct scene scene;
     struct solve s;

@@ -15,28 +15,22 @@ static int begin(struct scene *s)
     return -1;
 }
 
-/* A room with a lamp that hangs in it and a box on its floor. */
+/* A floor with a table on it, and a lamp above. */
 static int furnished(struct scene *s, double exitance, double scale)
 {
-    uint32_t m[6] = { 0, 0, 0, 0, 0, 0 };
     if (begin(s) < 0)
         return -1;
     made_material(s, 0.6, 0);
     made_material(s, 0.2, exitance);
-    made_material(s, 0.3, 0);
-    made_room(s, m, 4, 5, 3);
+    made_quad(s, 0, 0, 0, 0, 4, 0, 0, 0, 5, 0);
     made_quad(s, 1, 1, 2, 2.5, 0, 1, 0, 1, 0, 0);
-    made_quad(s, 1, 1, 2, 2.5, 1, 0, 0, 0, 1, 0);
-    made_quad(s, 2, 1.3, 1, 1, 1, 0, 0, 0, 1.5, 0);
-    made_quad(s, 2, 1.3, 1, 0, 1, 0, 0, 0, 0, 1);
-    made_quad(s, 2, 1.3, 2.5, 0, 0, 0, 1, 1, 0, 0);
-    made_quad(s, 2, 1.3, 1, 0, 0, 0, 1, 0, 1.5, 0);
-    made_quad(s, 2, 2.3, 1, 0, 0, 1.5, 0, 0, 0, 1);
+    made_quad(s, 0, 1.3, 1, 1, 1, 0, 0, 0, 1.5, 0);
+    made_quad(s, 0, 1.3, 1, 1, 0, 1.5, 0, 1, 0, 0);
     made_scale(s, scale);
     return 0;
 }
 
-/* Solve the room, and again with E and all lengths multiplied by powers of two. The error is 0 when the links are the
+/* Solve the scene, and again with E and all lengths multiplied by powers of two. The error is 0 when the links are the
  * same to the bit and B is multiplied exactly, else what the number of links changes by, and 1 when only bits do. */
 static int changed(struct stability_trial *trial, double brighter, double larger)
 {
@@ -117,6 +111,80 @@ int stability_large_source(struct stability_trial *trial)
         trial->count = (double)s.refinement.link_count;
         solve_close(&s);
     }
+    made_close(&scene);
+    return status;
+}
+
+/* The range of F over what is left of r, as a share of its largest value. */
+static double range_left(const struct element *r, const struct element *s)
+{
+    double range[2];
+    form_factor_range_sample(r, s, range);
+    return range[1] > 0 ? 1 - range[0] / range[1] : 0;
+}
+
+/* Split faces 0 (receiver) and 1 six times by the trial's rule, going on with the child nearest to the other
+ * element's centre; the error is the range of F over the receiver that is left. */
+static int split_six(struct stability_trial *trial, struct scene *scene)
+{
+    struct hierarchy h;
+    uint32_t pair[2];
+    int i, status = 0;
+    if (hierarchy_build(&h, scene->faces, scene->face_count) < 0)
+        return -1;
+    pair[0] = h.face_element[0];
+    pair[1] = h.face_element[1];
+    for (i = 0; i < 6 && status == 0; i++) {
+        const struct element *r = &h.elements[pair[0]], *s = &h.elements[pair[1]];
+        int which = trial->method == &stability_methods[LARGER] ? s->area > r->area
+                  : trial->method == &stability_methods[LONGER] ? s->radius > r->radius : !(range_left(r, s) > 0.1);
+        double best = INFINITY;
+        uint32_t c, child, nearest = 0;
+        status = hierarchy_split(&h, pair[which]);
+        child = h.elements[pair[which]].child;
+        for (c = 0; c < h.elements[pair[which]].children; c++) {
+            double v[3], square;
+            sub3(v, h.elements[child + c].centre, h.elements[pair[!which]].centre);
+            square = dot3(v, v);
+            if (square < best) {
+                best = square;
+                nearest = child + c;
+            }
+        }
+        if (status == 0)
+            pair[which] = nearest;
+    }
+    trial->error = range_left(&h.elements[pair[0]], &h.elements[pair[1]]);
+    hierarchy_free(&h);
+    return status;
+}
+
+/* A skirting of 4 m by 1 mm, a lamp of .3 by .3 over one end. */
+int stability_long_receiver(struct stability_trial *trial)
+{
+    struct scene scene;
+    int status;
+    if (begin(&scene) < 0)
+        return -1;
+    made_material(&scene, 0.5, 0);
+    made_quad(&scene, 0, 0, 0, 0, 4, 0, 0, 0, 1e-3, 0);
+    made_quad(&scene, 0, 0, -0.15, 0.5, 0, 0.3, 0, 0.3, 0, 0);
+    status = split_six(trial, &scene);
+    made_close(&scene);
+    return status;
+}
+
+/* A unit square under the edge of a square of 10: F varies over the small one. */
+int stability_large_source_split(struct stability_trial *trial)
+{
+    struct scene scene;
+    int status;
+    if (begin(&scene) < 0)
+        return -1;
+    made_material(&scene, 0.5, 0);
+    made_quad(&scene, 0, 4.5, 4.5, 0, 1, 0, 0, 0, 1, 0);
+    made_quad(&scene, 0, 5, 0, 1, 0, 10, 0, 10, 0, 0);
+    status = split_six(trial, &scene);
     made_close(&scene);
     return status;
 }

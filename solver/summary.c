@@ -5,9 +5,6 @@
 #include <sys/resource.h>
 #include "summary.h"
 
-/* The mark by which graphs say that a link was too large and could not be split (runtime/tools/mark.h). */
-enum { MARK_GUARD = 1 };
-
 static double peak_megabytes(void)
 {
     struct rusage usage;
@@ -47,6 +44,14 @@ static json_t *importance_json(const struct solve *s)
     return json_pack("{s:i, s:f, s:f, s:f}", "sweeps", y->sweeps, "largest", y->largest, "mean", y->mean, "area_seen", y->seen);
 }
 
+static json_t *error_json(const struct solve *s)
+{
+    const struct allowance *a = &s->allowance;
+    if (!(a->target > 0))
+        return json_null();
+    return json_pack("{s:f, s:f, s:f}", "target", a->target, "largest", a->largest, "area_above", a->area);
+}
+
 static json_t *closure_json(const struct solve *s)
 {
     if (s->options.closure == CLOSURE_NONE)
@@ -61,17 +66,18 @@ json_t *summary_json(const struct options *o, const struct solve *s, const struc
 {
     struct rays_count rays = rays_count(s->rays);
     return json_pack("{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
-                     " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
+                     " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
                      "scene", o->scene, "oracle", r->oracle, "release", r->release, "parameters", parameters_json(r),
                      "threads", o->threads, "bands", (int)s->bands, "faces", (int)s->scene->input_count,
                      "elements", (int)s->hierarchy.count, "leaves", (int)s->leaves,
                      "links", (json_int_t)s->refinement.link_count, "pairs", (json_int_t)s->refinement.pairs,
-                     "guard_hits", (json_int_t)s->refinement.marked[MARK_GUARD], "marks", marks_json(s),
+                     "guard_hits", (json_int_t)s->refinement.marked[LINK_GUARDED], "marks", marks_json(s),
                      "rays", (json_int_t)rays.rays, "rounds", (json_int_t)s->refinement.rounds, "passes", s->passes,
                      "iterations", s->sweeps, "converged", s->converged, "residual", s->residual,
                      "power_emitted", s->emitted, "power_absorbed", s->absorbed, "power_imbalance", imbalance(s),
                      "row_sums", "smallest", s->row_low, "largest", s->row_high, "excess_moved", s->row_excess,
                      "defect_mean", s->row_defect, "defect_largest", s->row_defect_most, "closure", closure_json(s), "importance", importance_json(s),
+                     "error", error_json(s),
                      "seconds", "build", s->seconds.build, "refine", s->seconds.refine, "in_rays", s->seconds.in_rays,
                      "iterate", s->seconds.iterate, "output", output_seconds, "peak_memory_mb", peak_megabytes());
 }
@@ -84,7 +90,7 @@ static void print_marks(const struct solve *s)
         if (s->refinement.marked[i])
             printf("marks     %llu links (%.2g %%) with mark %d%s\n", (unsigned long long)s->refinement.marked[i],
                    100 * (double)s->refinement.marked[i] / (double)s->refinement.link_count, i,
-                   i == MARK_GUARD ? ": a guard kept them from being split, as the oracle asked" : "");
+                   i == LINK_GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
 }
 
 static void print_rows(const struct solve *s)
@@ -121,6 +127,9 @@ void summary_print(const struct options *o, const struct solve *s, const struct 
     if (s->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; %d of the sweeps\n",
                s->importance.seen, s->importance.mean, s->importance.largest, s->importance.sweeps);
+    if (s->allowance.target > 0)
+        printf("error     estimated %.3g W/m2 at the most, %.3g were asked for; above that are %.3g m2%s\n", s->allowance.largest,
+               s->allowance.target, s->allowance.area, s->allowance.area > 0 ? ", which nothing more can split" : "");
     printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", s->emitted, s->absorbed, 100 * fabs(imbalance(s)),
            imbalance(s) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s);

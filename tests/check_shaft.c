@@ -40,8 +40,8 @@ static double between(uint64_t *seed, double low, double high)
 
 /* ---- scenes */
 
-enum { KINDS = 9 };
-static const char *const kinds[KINDS] = { "room with boxes", "rotated room", "quads", "triangles", "tiles", "wedges", "cornell", "maze_8", "room" };
+enum { KINDS = 11, LOADED = 8 };
+static const char *const kinds[KINDS] = { "room with boxes", "rotated room", "quads", "triangles", "tiles", "wedges", "bent quads", "far room", "cornell", "maze_8", "room" };
 
 /* A closed box that stands on z, front outside. */
 static void add_box(struct scene *s, double x, double y, double z, double a, double b, double c)
@@ -79,13 +79,31 @@ static void make(struct scene *s, int kind, uint64_t *seed)
     switch (kind) {
     case 0:
     case 1:
+    case 7:
         made_room(s, wall, 4, 5, 3);
         for (i = 0; i < 5; i++)
             add_box(s, between(seed, 0, 3), between(seed, 0, 4), i < 3 ? 0 : between(seed, 0, 2), between(seed, 0.1, 1),
                     between(seed, 0.1, 1), between(seed, 0.1, 1));
         add_box(s, 0, 0, 0, 0.5, 1, 1); /* flush with two walls and the floor */
-        if (kind == 1)
+        if (kind > 0)
             rotate(s, seed);
+        for (i = 0; i < (int)s->face_count && kind == 7; i++)
+            for (k = 0; k < 4; k++)
+                s->faces[i].vertex[k][0] += 3000; /* a thousand times its size from the origin */
+        break;
+    case 6: /* as bent as a quad may be that is read in one piece */
+        for (i = 0; i < 40; i++) {
+            double v[9], p[4][3];
+            for (k = 0; k < 9; k++)
+                v[k] = k < 3 ? random_unit(seed) : 0.6 * (random_unit(seed) - 0.5);
+            for (k = 0; k < 3; k++) {
+                p[0][k] = v[k];
+                p[1][k] = v[k] + v[3 + k];
+                p[3][k] = v[k] + v[6 + k];
+                p[2][k] = v[k] + v[3 + k] + v[6 + k] + 5e-5 * (random_unit(seed) - 0.5);
+            }
+            made_face(s, 0, 4, (const double (*)[3])p);
+        }
         break;
     case 2:
         for (i = 0; i < 60; i++) {
@@ -155,7 +173,7 @@ static void start_world(struct world *w, int threads)
 static void open_world(struct world *w, int kind, uint64_t *seed, double scale)
 {
     memset(w, 0, sizeof *w);
-    if (kind < 6) {
+    if (kind < LOADED) {
         make(&w->scene, kind, seed);
     } else {
         char path[64];
@@ -307,10 +325,10 @@ START_TEST(test_truth)
 {
     /* Pairs that face each other: at least so many in a thousand are known to be visible, invisible. */
     static const int least[KINDS][2] = { { 400, 15 }, { 400, 30 }, { 150, 80 }, { 120, 60 }, { 500, 50 },
-                                        { 50, 200 }, { 250, 15 }, { 50, 250 }, { 200, 50 } };
+                                        { 50, 200 }, { 80, 0 }, { 400, 30 }, { 250, 15 }, { 50, 250 }, { 200, 50 } };
     enum { PAIRS = 12000, BATCH = SEGMENTS_MAX, BATCHES = 4, DOUBLE = 2, WORLDS = 4 };
     uint64_t seed = 1 + (uint64_t)_i, segments = 0, grazing[2] = { 0, 0 };
-    int count[4] = { 0, 0, 0, 0 }, lies = 0, world, worlds = _i < 6 ? WORLDS : 1, i, n, batch, facing = 0;
+    int count[4] = { 0, 0, 0, 0 }, lies = 0, world, worlds = _i < LOADED ? WORLDS : 1, i, n, batch, facing = 0;
     for (world = 0; world < worlds; world++) {
         struct world w;
         open_world(&w, _i, &seed, 1);
@@ -349,9 +367,9 @@ START_TEST(test_truth)
                         else
                             wrong = met;
                         if (n < DOUBLE || met)
-                            wrong |= crosses_any(&w, &g[n], 0, 1e-12 * w.host->extent);
+                            wrong |= crosses_any(&w, &g[n], 0, w.host->ray_offset / 8192);
                     } else {
-                        wrong = !met || (n < DOUBLE && !crosses_any(&w, &g[n], 1e-12 * w.host->extent, 0));
+                        wrong = !met || (n < DOUBLE && !crosses_any(&w, &g[n], w.host->ray_offset / 8192, 0));
                     }
                     lies += wrong;
                     if (wrong && lies < 5)
@@ -406,7 +424,7 @@ START_TEST(test_inherited)
             ck_assert(same_list(&anew, &back) && same_list(&anew, &down));
             compared += inherited;
             kept += inherited && anew.count > 0;
-            down.known = down.count > BLOCKERS_MAX || (down.count == 0 && down.covered) ? BLOCKERS_UNKNOWN : BLOCKERS_INHERITED;
+            down.known = down.handed ? BLOCKERS_INHERITED : BLOCKERS_UNKNOWN;
             split = (int)(3 * random_unit(&seed));
             if (split != 1)
                 pair[0] = descend(&w, pair[0], &seed);
@@ -415,8 +433,8 @@ START_TEST(test_inherited)
         }
     }
     printf("%-16s %d lists inherited, %d of them not empty\n", kinds[_i], compared, kept);
-    ck_assert_int_gt(compared, 500);
-    ck_assert_int_gt(kept, 50);
+    ck_assert_int_gt(compared, _i == 6 ? -1 : 500); /* bent quads hand nothing on */
+    ck_assert_int_gt(kept, _i == 6 ? -1 : 50);
     close_world(&w);
 }
 END_TEST
@@ -506,7 +524,7 @@ START_TEST(test_refined)
         struct world *now = &w[i > 0];
         uint64_t seed = 7;
         ck_assert_ptr_nonnull(s.refiner);
-        open_world(now, 8, &seed, 1);
+        open_world(now, 10, &seed, 1); /* the room */
         for (k = 0; k < now->h.count; k++)
             now->h.elements[k].radiosity = 1;
         ck_assert_int_eq(refinement_open(&r, &now->h, rays_host(now->rays), &watched, ways[i].threads), 0);

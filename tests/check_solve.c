@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include "defect.h"
 #include "make_scene.h"
 #include "oracles.h"
 #include "solve.h"
@@ -619,6 +620,127 @@ START_TEST(test_importance_pays)
 }
 END_TEST
 
+/* F at the point x of a leaf with normal n, by the midpoint rule over the emitter's quad. */
+static double factor_at(const double x[3], const double n[3], const struct element *s)
+{
+    enum { N = 300 };
+    double sum = 0;
+    int i, j, k;
+    for (i = 0; i < N; i++)
+        for (j = 0; j < N; j++) {
+            double u = (i + 0.5) / N, v = (j + 0.5) / N, w[3], q, a, b;
+            for (k = 0; k < 3; k++)
+                w[k] = s->vertex[0][k] + u * (s->vertex[1][k] - s->vertex[0][k]) + v * (s->vertex[3][k] - s->vertex[0][k]) - x[k];
+            q = dot3(w, w);
+            a = dot3(w, n);
+            b = -dot3(w, s->normal);
+            sum += a > 0 && b > 0 ? a * b / (M_PI * q * q) : 0;
+        }
+    return sum * s->area / ((double)N * N);
+}
+
+/* A leaf's defect against its definition, links and integrals written out. */
+START_TEST(test_defect)
+{
+    static char *settings[] = { "relative=0.05", "min_share=1e-3", NULL };
+    struct scene scene;
+    struct solve s;
+    uint32_t i, found = 0;
+    made_open(&scene);
+    made_material(&scene, 0.5, 1);
+    made_material(&scene, 0.7, 0);
+    made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+    made_quad(&scene, 1, 0.3, 0, 1, 0, 1, 0, 1, 0, 0);
+    solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, quick(1));
+    for (i = 0; i < s.hierarchy.count && found < 3; i++) {
+        const struct element *e = &s.hierarchy.elements[i];
+        double worst = 0;
+        uint32_t up, links = 0;
+        struct defect d;
+        size_t l;
+        int k;
+        if (!e->vertices || e->children || e->face != 1)
+            continue;
+        for (k = 0; k < 5; k++) {
+            const double *x = k < 4 ? e->vertex[k] : e->centre;
+            double sum = 0;
+            links = 0;
+            for (up = i; s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
+                for (l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++, links++) {
+                    const struct link *link = &s.refinement.links[l];
+                    sum += s.radiosity[link->emitter] * link->visibility / LINK_VISIBLE
+                         * (factor_at(x, e->normal, &s.hierarchy.elements[link->emitter]) - (double)link->form_factor);
+                }
+            worst = fmax(worst, 0.7 * fabs(sum));
+        }
+        d = defect_leaf(&s, i);
+        ck_assert_uint_eq(d.links, links);
+        ck_assert_double_eq_tol(d.all, worst, 2e-5);
+        ck_assert_double_gt(d.all, 1e-3);
+        ck_assert(d.guarded <= d.all + 1e-12);
+        found++;
+    }
+    ck_assert_uint_eq(found, 3);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Error control: what was asked for is held by every leaf that is not given up, and by the face means of a cube whose
+ * solution is known; allowances start where they should, only fall, and a parent's is the least of its children's. */
+START_TEST(test_allowance)
+{
+    static char *wanted[3][4] = { { "relative=0", "epsilon=0.1", "min_share=1e-4", NULL }, { "relative=0", "epsilon=0.05", "min_share=1e-4", NULL },
+                                  { "relative=0", "epsilon=0.025", "min_share=1e-4", NULL } };
+    static const double eps[3] = { 0.1, 0.05, 0.025 };
+    size_t links[3];
+    int k, c;
+    for (k = 0; k < 3; k++) {
+        struct scene scene;
+        struct solve s;
+        uint32_t m[6], f, i, given_up = 0, fallen = 0;
+        double off;
+        made_open(&scene);
+        made_material(&scene, 0.5, 0);
+        made_material(&scene, 0.5, 1);
+        for (f = 0; f < 6; f++)
+            m[f] = f == 1;
+        made_room(&scene, m, 1, 1, 1);
+        solve_with(&s, &scene, "error_control", RELEASE_FLAT, wanted[k], quick(1));
+        links[k] = s.refinement.link_count;
+        ck_assert_double_eq_tol(s.allowance.target, eps[k], 1e-15);
+        for (i = 0; i < s.hierarchy.count; i++) {
+            const struct element *e = &s.hierarchy.elements[i];
+            double least = INFINITY;
+            ck_assert_double_le(e->allowance, 0.5 * eps[k]);
+            fallen += e->vertices && e->allowance < 0.49 * eps[k];
+            for (c = 0; c < e->children; c++)
+                least = fmin(least, s.hierarchy.elements[e->child + (uint32_t)c].allowance);
+            if (e->children)
+                ck_assert(least >= e->allowance && (e->depth > 0 || !e->vertices || least <= 0.5 * eps[k]));
+            if (!e->vertices || e->children)
+                continue;
+            if (defect_leaf(&s, i).all > eps[k]) {
+                given_up++;
+                ck_assert(defect_leaf(&s, i).guarded > eps[k] || e->allowance * defect_leaf(&s, i).links < 0.25 * eps[k]);
+            }
+        }
+        off = fmax(fabs(face_radiosity(&s, 1) - 1.1043616), fabs(face_radiosity(&s, 0) - 0.1712161));
+        for (f = 2; f < 6; f++)
+            off = fmax(off, fabs(face_radiosity(&s, f) - 0.1811056));
+        printf("error asked %.3f: %zu links, %d passes, estimate %.3f, %u of %u leaves given up, %u elements lowered, face means off by %.1e\n",
+               eps[k], links[k], s.passes, s.allowance.largest, given_up, s.leaves, fallen, off);
+        ck_assert((s.allowance.area > 0) == (given_up > 0));
+        ck_assert(k < 2 || fallen > 0);
+        ck_assert_double_le(off, eps[k]);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    ck_assert_uint_lt(links[0], links[1]);
+    ck_assert_uint_lt(links[1], links[2]);
+}
+END_TEST
+
 /* Brightness and epsilon times 1000: the same links. */
 START_TEST(test_brightness)
 {
@@ -743,6 +865,8 @@ int main(void)
     tcase_add_test(c, test_importance_dense);
     tcase_add_loop_test(c, test_importance_dual, 0, 2);
     tcase_add_test(c, test_importance_pays);
+    tcase_add_test(c, test_defect);
+    tcase_add_test(c, test_allowance);
     tcase_add_test(c, test_brightness);
     tcase_add_loop_test(c, test_scale, 0, 2);
     tcase_add_test(c, test_methods);

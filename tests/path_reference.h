@@ -1,10 +1,11 @@
-/* path_reference.h - what every face receives, by path tracing: an answer to compare solutions with that knows nothing
- * of form factors, links and elements.
+/* path_reference.h - what every face receives, by tracing light: an answer to compare solutions with that knows nothing of
+ * form factors, links and elements.
  *
- * A path starts at a random point of the face, in a direction by the cosine, and gathers the exitance of each front it
- * meets, dimmed by the reflectances on the way; it ends at a back, in the open, or by roulette. The mean over `paths` of
- * them is H, exact but for the noise, whose standard error comes with it. A face's random numbers start from its index
- * alone, so the result does not depend on threads. [Kajiya 1986]
+ * Particles leave the emitters by their power, from random points in directions by the cosine. Each front that one meets
+ * is given its power; then it goes on, dimmed by the reflectance, until roulette ends it, a back or the open. What
+ * a face was given over its area is H, exact but for the noise, whose standard error is taken from BATCHES independent
+ * parts; each part's random numbers start from its index alone, so the result does not depend on threads.
+ * [Pattanaik and Mudur 1992]
  * SPDX-License-Identifier: MIT */
 #ifndef PATH_REFERENCE_H
 #define PATH_REFERENCE_H
@@ -102,7 +103,7 @@ static inline void path_close(struct path_scene *p)
     free(p->normal);
 }
 
-/* From x on `face`, in a direction by the cosine: the face whose front is met there, x moved to it; or -1. */
+/* From x on `face`, in a direction by the cosine: the face whose front is met, x moved to it; or -1. */
 static inline int64_t path_step(const struct path_scene *p, uint32_t face, double x[3], uint64_t *state)
 {
     const double *n = p->normal[face];
@@ -149,63 +150,105 @@ static inline int64_t path_step(const struct path_scene *p, uint32_t face, doubl
     return met;
 }
 
-/* H of one face, per band (W/m2), and its standard error. */
-static inline void path_face(const struct path_scene *p, uint32_t face, int paths, double *irradiance, double *error)
+enum { BATCHES = 64 };
+
+/* Add the power that `count` particles bring, per face and band (W), for emitters of `total` W in all bands. */
+static inline void path_batch(const struct path_scene *p, const double *until, int batch, int count, double *power)
 {
-    const struct face *f = &p->scene->faces[face];
-    double sum[3] = { 0, 0, 0 }, squares[3] = { 0, 0, 0 }, a[3], b[3], c[3], first, second;
-    uint64_t state = ((uint64_t)face + 1) * 0xd1342543de82ef95u;
-    uint32_t bands = p->scene->bands, k;
+    const struct scene *scene = p->scene;
+    uint64_t state = ((uint64_t)batch + 1) * 0xd1342543de82ef95u;
+    uint32_t bands = scene->bands, k;
+    double total = until[scene->face_count - 1];
     int i, m;
-    sub3(a, f->vertex[1], f->vertex[0]);
-    sub3(b, f->vertex[2], f->vertex[0]);
-    cross3(c, a, b);
-    first = length3(c);
-    sub3(a, f->vertex[f->vertices - 1], f->vertex[0]);
-    cross3(c, b, a);
-    second = f->vertices == 4 ? length3(c) : 0;
-    for (i = 0; i < paths; i++) {
-        int far = path_random(&state) * (first + second) >= first;
-        double s = sqrt(path_random(&state)), t = path_random(&state), x[3], weight[3] = { 1, 1, 1 }, got[3] = { 0, 0, 0 };
-        const double *q = f->vertex[far ? 2 : 1], *r = f->vertex[far ? 3 : 2];
-        int64_t at = face;
+    for (i = 0; i < count; i++) {
+        double pick = path_random(&state) * total, weight[3] = { 0, 0, 0 }, sum = 0, a[3], b[3], c[3], s, t, first, second, x[3];
+        uint32_t low = 0, high = scene->face_count - 1;
+        const struct face *f;
+        const double *e, *q, *r;
+        int64_t at;
+        while (low < high) { /* the first face whose sum is above `pick` */
+            uint32_t middle = (low + high) / 2;
+            if (until[middle] > pick)
+                high = middle;
+            else
+                low = middle + 1;
+        }
+        f = &scene->faces[low];
+        e = scene->materials[f->material].exitance;
+        for (k = 0; k < bands; k++)
+            sum += e[k];
+        for (k = 0; k < bands; k++)
+            weight[k] = total / count * e[k] / sum;
+        sub3(a, f->vertex[1], f->vertex[0]);
+        sub3(b, f->vertex[2], f->vertex[0]);
+        cross3(c, a, b);
+        first = length3(c);
+        sub3(a, f->vertex[f->vertices - 1], f->vertex[0]);
+        cross3(c, b, a);
+        second = f->vertices == 4 ? length3(c) : 0;
+        m = path_random(&state) * (first + second) >= first;
+        q = f->vertex[m ? 2 : 1];
+        r = f->vertex[m ? 3 : 2];
+        s = sqrt(path_random(&state));
+        t = path_random(&state);
         for (m = 0; m < 3; m++)
             x[m] = f->vertex[0][m] + s * (q[m] - f->vertex[0][m]) + s * t * (r[m] - q[m]);
+        at = low;
         while ((at = path_step(p, (uint32_t)at, x, &state)) >= 0) {
-            const struct material *met = &p->scene->materials[p->scene->faces[at].material];
+            const double *rho = scene->materials[scene->faces[at].material].reflectance;
             double live = 0;
             for (k = 0; k < bands; k++) {
-                got[k] += weight[k] * met->exitance[k];
-                weight[k] *= met->reflectance[k];
-                live = weight[k] > live ? weight[k] : live;
+                power[(size_t)at * bands + k] += weight[k];
+                live = rho[k] > live ? rho[k] : live;
             }
-            live = live < 1 ? live : 1;
             if (path_random(&state) >= live)
                 break;
             for (k = 0; k < bands; k++)
-                weight[k] /= live;
+                weight[k] *= rho[k] / live;
         }
-        for (k = 0; k < bands; k++) {
-            sum[k] += got[k];
-            squares[k] += got[k] * got[k];
-        }
-    }
-    for (k = 0; k < bands; k++) {
-        irradiance[k] = sum[k] / paths;
-        error[k] = sqrt((squares[k] / paths - irradiance[k] * irradiance[k]) / paths);
     }
 }
 
-/* H of all faces and its standard error: [face_count * bands] each. */
-static inline void path_reference(const struct scene *scene, int paths, double *irradiance, double *error)
+/* H of all faces (W/m2) and its standard error, [face_count * bands] each, by so many particles. */
+static inline void path_reference(const struct scene *scene, int particles, double *irradiance, double *error)
 {
     struct path_scene p;
-    uint32_t i;
+    size_t values = (size_t)scene->face_count * scene->bands, i;
+    double *power = calloc(BATCHES * values, sizeof *power), *until = calloc(scene->face_count, sizeof *until), *area = calloc(scene->face_count, sizeof *area);
+    uint32_t f, j, k;
+    int batch;
     path_open(&p, scene);
+    for (f = 0; f < scene->face_count; f++) {
+        const struct face *face = &scene->faces[f];
+        const double *e = scene->materials[face->material].exitance;
+        double a[3], b[3], c[3];
+        for (j = 2; j < face->vertices; j++) {
+            sub3(a, face->vertex[j - 1], face->vertex[0]);
+            sub3(b, face->vertex[j], face->vertex[0]);
+            cross3(c, a, b);
+            area[f] += 0.5 * length3(c);
+        }
+        until[f] = f > 0 ? until[f - 1] : 0;
+        for (k = 0; k < scene->bands; k++)
+            until[f] += area[f] * e[k];
+    }
 #pragma omp parallel for schedule(dynamic, 1)
-    for (i = 0; i < scene->face_count; i++)
-        path_face(&p, i, paths, irradiance + (size_t)i * scene->bands, error + (size_t)i * scene->bands);
+    for (batch = 0; batch < BATCHES; batch++)
+        path_batch(&p, until, batch, particles / BATCHES, power + (size_t)batch * values);
+    for (i = 0; i < values; i++) {
+        double sum = 0, squares = 0, here = area[i / scene->bands];
+        for (batch = 0; batch < BATCHES; batch++) {
+            double h = power[(size_t)batch * values + i] / here;
+            sum += h;
+            squares += h * h;
+        }
+        irradiance[i] = sum / BATCHES;
+        error[i] = sqrt(fmax(0, squares / BATCHES - irradiance[i] * irradiance[i]) / (BATCHES - 1));
+    }
     path_close(&p);
+    free(power);
+    free(until);
+    free(area);
 }
 
 #endif

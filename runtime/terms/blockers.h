@@ -3,6 +3,7 @@
  * The faces themselves are kept in d->blockers, in ascending order. A list is made by the host, from all
  * faces, or filtered from that of a pair which holds this one: a shaft within a shaft meets no other face. Both ways
  * give the same list (shaft.h says why), and it is the same for a pair either way round. [Haines & Wallace 1994]
+ * Lists of bent quads are not for the pairs below them (`handed`), whose planes are others.
  * Fails (too many): clusters; a host without candidates; more than 8 faces.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_BLOCKERS_H
@@ -19,7 +20,7 @@ OUTLINE void blockers_find(const struct element *r, const struct element *s, con
         return;
     found = list->known == BLOCKERS_INHERITED ? list->count : -1;
     list->known = BLOCKERS_OWN;
-    list->covered = 0;
+    list->covered = list->handed = 0;
     list->count = BLOCKERS_TOO_MANY;
     if (!r->vertices || !s->vertices || !host->candidates || !host->corners)
         return;
@@ -34,6 +35,7 @@ OUTLINE void blockers_find(const struct element *r, const struct element *s, con
         list->count = BLOCKERS_TOO_MANY;
         return;
     }
+    list->handed = shaft_nests(&shaft, r) && shaft_nests(&shaft, s);
     for (i = 0; i < found; i++) {
         uint32_t face = list->face[i];
         struct polygon p;

@@ -24,7 +24,7 @@
  *
  * `grow` is 32 times what the coordinates lose in single precision, `margin` that or twice that. A shaft within a
  * shaft meets no other face: the hulls are nested, the enlarged faces depend on nothing, and every tolerance changes by
- * twenty roundings or more with each split of either element, so that the deeper pair has the stricter one. Hence
+ * some roundings (of large coordinates too) with each split of either element, so that the deeper pair has the stricter one. Hence
  * a list of candidates may be filtered, or made anew, with the same result. A quad bent by more than an eighth of `grow` is
  * taken for the two triangles that a ray caster makes of it.
  * Fails (says that a face meets, or does not cover, though it is not so): corners almost on the line of an edge, where no plane
@@ -104,6 +104,15 @@ static inline void shaft_end(struct shaft *shaft, int end, const struct polygon 
     shaft->points[end] = p->n;
 }
 
+/* Do the parts of e lie in e's plane, so that their shafts lie in its shafts? Not those of a bent quad. */
+static inline int shaft_nests(const struct shaft *shaft, const struct element *e)
+{
+    int i, nests = 1;
+    for (i = 0; i < e->vertices; i++)
+        nests &= fabs(height3(e->vertex[i], e->centre, e->normal)) <= shaft->nests;
+    return nests;
+}
+
 /* Does any part of e rise above the plane of `other` by more than `limit`? */
 static inline int shaft_rises(const struct element *e, const struct element *other, double limit)
 {
@@ -125,8 +134,8 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
     int end, i, k;
     shaft->planes = 0;
     shaft->margin = offset * (0.5 - 0.25 * deep);
-    shaft->slack = offset * (1 / 16777216.0) * (2 - deep);
-    shaft->touch = offset * (1 / 16777216.0) * (3 + deep); /* more than slack */
+    shaft->slack = offset * (1 / 65536.0) * (2 - deep);
+    shaft->touch = offset * (1 / 65536.0) * (3 + deep); /* more than slack */
     if (!shaft_rises(r, s, shaft->touch) || !shaft_rises(s, r, shaft->touch))
         return 0;
     for (k = 0; k < 3; k++) { /* where one ends in the other's plane, rounding does not cut it */
@@ -138,6 +147,7 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
     if (p.n == 0 || q.n == 0)
         return 0;
     shaft->grow = offset * 0.25;
+    shaft->nests = shaft->slack * (1 / 256.0); /* less than what it loses by a split */
     shaft->flat = offset * 0.03125;
     shaft->reach = offset * 0.5;
     shaft_end(shaft, 0, &p, r, offset);
