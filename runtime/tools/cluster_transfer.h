@@ -1,4 +1,6 @@
-/* cluster_transfer.h - question: may the emitter, taken for a point, bring more irradiance than this?
+/* cluster_transfer.h - question: may the emitter, taken for a point, bring more irradiance, A_s B_s / (pi d^2), than the larger
+ * of `absolute` (W/m2) and `relative` times the scene's mean irradiance? Approximate: as cluster_gap.h.
+ * [Hanrahan et al. 1991, section 5, for clusters]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_CLUSTER_TRANSFER_H
 #define TOOL_CLUSTER_TRANSFER_H

@@ -1,4 +1,5 @@
-/* cluster_visibility.h - question: how many rays between two elements, one of them a cluster, arrive?
+/* cluster_visibility.h - question: how many of N rays between the faces of two elements, one of them a cluster at least,
+ * arrive? N = 4, 16 or 64, the next above `rays`. Answers as visibility.h gives them.
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_CLUSTER_VISIBILITY_H
 #define TOOL_CLUSTER_VISIBILITY_H
