@@ -4,6 +4,7 @@
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
+# make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
 # make bench    what the releases cost, in instructions
 # make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # SPDX-License-Identifier: MIT
@@ -112,6 +113,15 @@ demo: all
 # Instruction counts of the three releases; --repeats medians: radiosity compare SCENE.
 bench: all
 	sh tests/bench_releases.sh $(BUILD)/bin/radiosity
+
+# The drawings of the oracles, without Graphviz's comments and tooltips.
+.PHONY: drawings
+drawings: commands
+	@mkdir -p examples/oracles/drawings
+	for name in $(ORACLES); do \
+	    $(BUILD)/bin/dagc --emit=svg -Wno-all -o $(BUILD)/$$name.svg examples/oracles/$$name.dag && \
+	    sed -e '/^<!--.*-->$$/d' -e '/^<!--/,/-->$$/d' -e '/^<title>/d' $(BUILD)/$$name.svg > examples/oracles/drawings/$$name.svg || exit 1; \
+	done
 
 clean:
 	rm -rf $(BUILD)

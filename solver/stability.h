@@ -14,11 +14,12 @@
 /* What a method replaces in the computation of light. */
 enum stability_kind {
     BY_FACTOR, /* the form factor of a pair, `number` says which */
-    BY_RAYS,   /* the visibility of a pair, by `number` rays; 0 and -1: see the table */
+    BY_RAYS,   /* the visibility of a pair, by `number` rays or as below */
     BY_ORACLE, /* all: a solution with this oracle and these settings, `number` its closure */
     BY_RULE    /* a rule that only some cases know; they look at the method itself */
 };
 
+enum stability_sight { BY_FRONTS = 0, BY_FLOAT = -1, BY_INTEGRAL = -2 };
 enum stability_factor { FACTOR_KERNEL, FACTOR_CULLED, FACTOR_DISC, FACTOR_POINT, FACTOR_POLYGON, FACTOR_CONTOUR };
 
 struct stability_method {
@@ -33,10 +34,10 @@ struct stability_method {
 /* The columns of the table, in their order: stability_methods.c. */
 enum {
     NO_METHOD, KERNEL, CULLED, DISC, POINT, POLYGON, CONTOUR,
-    FRONTS, FIXED_EPSILON, RAYS_4, RAYS_16, RAYS_64,
+    FRONTS, FIXED_EPSILON, RAYS_4, RAYS_16, RAYS_64, INTEGRAL,
     NORMALISED, JACOBI, SWEEPS_JACOBI, NAIVE_STOP, ONE_PLANE, L2_NORM, LINF_NORM, UMBRA,
     CORNERS, SAMPLED, BOUNDED, LARGER, LONGER, LINF_GAP, AREA_GAP,
-    BF_1991, BF_NODES, BF, VIEWFACTORS, BF_GUARDED, FINE, CLOSED,
+    BF_1991, BF_NODES, FF, BF, BFV, RELATIVE, GAP, SMOOTH, VIEWFACTORS, BF_GUARDED, FINE, CLOSED,
     METHODS
 };
 extern const struct stability_method stability_methods[METHODS];
@@ -46,7 +47,7 @@ struct stability_trial {
     const struct stability_method *method;
     int threads;
     double error;
-    double count; /* what it cost, in the case's unit; negative: not counted */
+    double count; /* what it cost, mostly links; negative: not counted */
 };
 
 /* What is expected of a method on a case. */
@@ -64,7 +65,7 @@ struct stability_case {
     const char *what;    /* the configuration */
     const char *right;   /* the right answer */
     const char *measure; /* what the error is */
-    const char *counted; /* unit of the trial's count, NULL: none */
+    const char *counted; /* unit of the trial's count where it is part of the evidence, else NULL */
     int (*run)(struct stability_trial *trial); /* returns 0, or -1 when it cannot be run (out of memory) */
     struct stability_cell cells[STABILITY_CELLS];
 };

@@ -89,7 +89,7 @@ static int against(struct stability_trial *trial, struct two *t, double known)
 int stability_shared_edge(struct stability_trial *trial)
 {
     struct two t;
-    return two_perpendicular(&t, 1, 1, 1) < 0 ? -1 : against(trial, &t, known_perpendicular(1, 1, 1));
+    return two_perpendicular(&t, 1, 1, 1) < 0 ? -1 : against(trial, &t, closed_perpendicular(1, 1, 1));
 }
 
 /* The error of F from n x n parts of the one square to n x n parts of the other. */
@@ -115,7 +115,7 @@ static int parts_error(const struct stability_trial *trial, int n, double *error
         for (j = 0; j < cells; j++)
             sum += h * h * stability_factor(trial->method, element(&t, (int)i), element(&t, (int)(cells + j)));
     two_close(&t);
-    *error = fabs(sum / known_perpendicular(1, 1, 1) - 1);
+    *error = fabs(sum / closed_perpendicular(1, 1, 1) - 1);
     return 0;
 }
 
@@ -135,13 +135,13 @@ int stability_shared_edge_halved(struct stability_trial *trial)
 int stability_close_parallel(struct stability_trial *trial)
 {
     struct two t;
-    return two_parallel(&t, 1, 1, 0.1) < 0 ? -1 : against(trial, &t, known_parallel(1, 1, 0.1));
+    return two_parallel(&t, 1, 1, 0.1) < 0 ? -1 : against(trial, &t, closed_parallel(1, 1, 0.1));
 }
 
 int stability_half_apart(struct stability_trial *trial)
 {
     struct two t;
-    return two_parallel(&t, 1, 1, 0.5) < 0 ? -1 : against(trial, &t, known_parallel(1, 1, 0.5));
+    return two_parallel(&t, 1, 1, 0.5) < 0 ? -1 : against(trial, &t, closed_parallel(1, 1, 0.5));
 }
 
 int stability_row_sum(struct stability_trial *trial)
@@ -186,7 +186,7 @@ static int two_straddling(struct two *t)
 int stability_straddle(struct stability_trial *trial)
 {
     struct two t;
-    return two_straddling(&t) < 0 ? -1 : against(trial, &t, 0.5 * known_perpendicular(0.5, 1, 1));
+    return two_straddling(&t) < 0 ? -1 : against(trial, &t, 0.5 * closed_perpendicular(0.5, 1, 1));
 }
 
 int stability_straddle_children(struct stability_trial *trial)
@@ -207,7 +207,7 @@ int stability_straddle_children(struct stability_trial *trial)
         parts += e->area * stability_factor(trial->method, e, element(&t, 1));
     }
     two_close(&t);
-    trial->error = fabs(parts - whole) / (0.5 * known_perpendicular(0.5, 1, 1));
+    trial->error = fabs(parts - whole) / (0.5 * closed_perpendicular(0.5, 1, 1));
     return 0;
 }
 
@@ -259,7 +259,7 @@ int stability_coplanar(struct stability_trial *trial)
 int stability_sliver(struct stability_trial *trial)
 {
     struct two t;
-    return two_parallel(&t, 1e-4, 1, 1e-2) < 0 ? -1 : against(trial, &t, known_parallel(1e-4, 1, 1e-2));
+    return two_parallel(&t, 1e-4, 1, 1e-2) < 0 ? -1 : against(trial, &t, closed_parallel(1e-4, 1, 1e-2));
 }
 
 /* A skirting 1e-4 high along a floor. */
@@ -270,7 +270,7 @@ int stability_sliver_standing(struct stability_trial *trial)
         return -1;
     made_quad(&t.scene, 0, 0, 0, 0, 0, 0, 1e-4, 1, 0, 0);
     made_quad(&t.scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-    return two_end(&t) < 0 ? -1 : against(trial, &t, known_perpendicular(1e-4, 1, 1));
+    return two_end(&t) < 0 ? -1 : against(trial, &t, closed_perpendicular(1e-4, 1, 1));
 }
 
 int stability_scale_far(struct stability_trial *trial)
@@ -295,8 +295,7 @@ int stability_scale_far(struct stability_trial *trial)
     return 0;
 }
 
-/* The worst of many rectangles, aligned and at right angles, thin and wide, near and far; and of long ones
- * against Hottel's strips, which they tend to from below. */
+/* The worst of many rectangles, aligned and at right angles, thin and wide, near and far. */
 int stability_closed_forms(struct stability_trial *trial)
 {
     static const double parallel[][3] = { { 1, 1, 0.01 }, { 1, 1, 0.1 }, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 0.5, 0.3 },
@@ -307,16 +306,14 @@ int stability_closed_forms(struct stability_trial *trial)
     for (i = 0; i < sizeof parallel / sizeof *parallel; i++) {
         const double *p = parallel[i];
         struct two t;
-        if (two_parallel(&t, p[0], p[1], p[2]) < 0 || against(trial, &t, known_parallel(p[0], p[1], p[2])) < 0)
+        if (two_parallel(&t, p[0], p[1], p[2]) < 0 || against(trial, &t, closed_parallel(p[0], p[1], p[2])) < 0)
             return -1;
         worst = fmax(worst, trial->error);
-        if (p[1] == 1000) /* the ends cost about 1/L */
-            worst = fmax(worst, known_strips(p[0], p[2]) - known_parallel(p[0], p[1], p[2]) > 1e-3 ? INFINITY : 0);
     }
     for (i = 0; i < sizeof standing / sizeof *standing; i++) {
         const double *p = standing[i];
         struct two t;
-        if (two_perpendicular(&t, p[0], p[1], p[2]) < 0 || against(trial, &t, known_perpendicular(p[0], p[1], p[2])) < 0)
+        if (two_perpendicular(&t, p[0], p[1], p[2]) < 0 || against(trial, &t, closed_perpendicular(p[0], p[1], p[2])) < 0)
             return -1;
         worst = fmax(worst, trial->error);
     }

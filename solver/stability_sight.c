@@ -8,6 +8,7 @@
 #include "stability_known.h"
 #include "terms/form_factor.h"
 #include "terms/visibility.h"
+#include "tools/exact_visibility.h"
 
 /* Occlusion one face after the other: by fronts alone, or from coordinates rounded to single precision and a
  * fixed distance kept, as programs do that fail. */
@@ -76,13 +77,17 @@ static uint64_t simple_occluded(const struct host *host, int count, const struct
 /* Visible fraction from face i to face j by the trial's BY_RAYS method. */
 static double visible(const struct solve *s, const struct stability_trial *trial, uint32_t i, uint32_t j)
 {
-    struct simple_host simple = { *rays_host(s->rays), s->scene, trial->method->number < 0 };
     int rays = trial->method->number;
+    struct simple_host simple = { *rays_host(s->rays), s->scene, rays == BY_FLOAT };
     struct discussion d;
     memset(&d, 0, sizeof d);
     d.receiver = &s->hierarchy.elements[s->hierarchy.face_element[i]];
     d.emitter = &s->hierarchy.elements[s->hierarchy.face_element[j]];
-    d.host = rays > 0 ? rays_host(s->rays) : &simple.host;
+    d.host = rays == BY_FRONTS || rays == BY_FLOAT ? &simple.host : rays_host(s->rays);
+    if (rays == BY_INTEGRAL) {
+        (void)tool_exact_visibility(&d);
+        return d.terms.visibility;
+    }
     simple.host.occluded = simple_occluded;
     if (simple.single)
         simple.host.ray_offset = FIXED_OFFSET;
@@ -160,7 +165,7 @@ int stability_penumbra(struct stability_trial *trial)
         struct scene scene;
         double f;
         int status;
-        if (sheltered(&scene, 1e-3, at[i], 0.75, 0, 0) < 0)
+        if (sheltered(&scene, 1e-4, at[i], 0.75, 0, 0) < 0)
             return -1;
         status = exchange(trial, &scene, RECEIVER, SOURCE, &f);
         made_close(&scene);
@@ -187,7 +192,7 @@ int stability_obstructed(struct stability_trial *trial)
     made_quad(&scene, 0, 0, 0, 0.5, 0.5, 0, 0, 0, 0.5, 0);
     status = exchange(trial, &scene, 0, 1, &f);
     made_close(&scene);
-    trial->error = fabs(f - 0.75 * known_parallel(1, 1, 1));
+    trial->error = fabs(f - 0.75 * closed_parallel(1, 1, 1));
     return status;
 }
 

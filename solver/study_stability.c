@@ -59,14 +59,18 @@ static int run_group(struct results *r, const struct options *o)
     return status;
 }
 
-static void print_error(char text[48], const struct result *r)
+static void print_error(char text[48], const struct stability_case *c, const struct result *r)
 {
+    size_t n;
     if (isinf(r->trial.error))
         snprintf(text, 48, "none"); /* no number came of it, or it grows without end */
     else if (r->trial.error == 0)
         snprintf(text, 48, "0");
     else
         snprintf(text, 48, "%.2g", r->trial.error);
+    n = strlen(text);
+    if (c->counted && r->trial.count >= 0)
+        snprintf(text + n, 48 - n, " (%.0f %s)", r->trial.count, c->counted);
 }
 
 static void print_reason(char text[96], const struct stability_cell *cell, const struct result *r)
@@ -107,7 +111,7 @@ static int cell_texts(const struct results *r, int i, int method, char text[48],
     snprintf(text, 48, "-");
     if (k < 0 || !result->run)
         return result->run;
-    print_error(text, result);
+    print_error(text, c, result);
     print_reason(why, &c->cells[k], result);
     return 1;
 }

@@ -216,12 +216,23 @@ static void random_pair(struct world *w, uint64_t *seed, int deepest, uint32_t p
 /* ---- segments */
 
 /* A point of the part of e in front of other's plane, moved off e as rays are; `sharp`: mostly near the border. Returns 0
- * when it lies behind. */
+ * when it lies behind. Of a bent quad, a point between the corners of that part: it has no plane to be in. */
 static int random_point(const struct element *e, const struct element *other, double offset, int sharp, uint64_t *seed, double p[3])
 {
-    double u[4], sum = 0, h;
+    double u[POLYGON_MAX], sum = 0, h = 0, bend = 0;
+    struct polygon part;
     int i, k;
-    for (i = 0; i < e->vertices; i++) {
+    for (i = 0; i < e->vertices; i++)
+        bend = fmax(bend, fabs(height3(e->vertex[i], e->centre, e->normal)));
+    if (bend > 1e-9 * e->radius) {
+        polygon_clip(&part, (const double (*)[3])e->vertex, e->vertices, other->centre, other->normal);
+    } else {
+        part.n = e->vertices;
+        memcpy(part.v, e->vertex, sizeof e->vertex);
+    }
+    if (part.n == 0)
+        return 0;
+    for (i = 0; i < part.n; i++) {
         u[i] = random_unit(seed);
         if (sharp)
             u[i] *= u[i] * u[i] * u[i];
@@ -229,10 +240,11 @@ static int random_point(const struct element *e, const struct element *other, do
     }
     for (k = 0; k < 3; k++) {
         p[k] = 0;
-        for (i = 0; i < e->vertices; i++)
-            p[k] += u[i] / sum * e->vertex[i][k];
+        for (i = 0; i < part.n; i++)
+            p[k] += u[i] / sum * part.v[i][k];
     }
-    h = height3(p, other->centre, other->normal);
+    if (!(bend > 1e-9 * e->radius))
+        h = height3(p, other->centre, other->normal);
     for (k = 0; k < 3; k++)
         p[k] += offset * e->normal[k];
     return h >= 0;

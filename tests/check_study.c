@@ -73,6 +73,8 @@ START_TEST(test_visibility)
                 ck_assert(k == 3 || r.pairs == last_pairs); /* from the fourth on another solve, with better visibility */
             ck_assert(k == 0 || k == 3 || r.wrong <= wrong);
             ck_assert_int_eq(r.matrix[0][1] + r.matrix[0][2] + r.matrix[2][0], 0);
+            /* A ray that starts within its rounding of an adjoining face's plane may hit that: once in 250,000 rays. */
+            ck_assert_int_le(r.matrix[2][1], 1 + r.pairs / 1000);
             ck_assert(k < 4 || r.wrong == r.matrix[2][1]);
             n = (double)r.pairs;
             p = (double)r.wrong / n;

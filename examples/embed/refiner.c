@@ -829,7 +829,7 @@ static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct 
             gap += x * x;
             size += y * y;
         }
-        q->parallelogram = gap <= 1e-6 * size;
+        q->parallelogram = gap <= 1e-12 * size;
         refiner_sub3(q->right, p->v[1], p->v[0]);
         refiner_sub3(q->up, p->v[3], p->v[0]);
     }

@@ -50,7 +50,7 @@ static inline void sampler_clip(struct sampler *q, const struct element *e, cons
             gap += x * x;
             size += y * y;
         }
-        q->parallelogram = gap <= 1e-6 * size;
+        q->parallelogram = gap <= 1e-12 * size;
         sub3(q->right, p->v[1], p->v[0]);
         sub3(q->up, p->v[3], p->v[0]);
     }

@@ -320,7 +320,7 @@ static void prepare(sampler *f, const struct element *e, const struct element *p
     if (f->p.n == 4) {
         vec gap = { v[0].x - v[1].x + v[2].x - v[3].x, v[0].y - v[1].y + v[2].y - v[3].y, v[0].z - v[1].z + v[2].z - v[3].z };
         vec size = minus(v[2], v[0]);
-        f->flat = dot(gap, gap) <= 1e-6 * dot(size, size);
+        f->flat = dot(gap, gap) <= 1e-12 * dot(size, size);
     }
     for (int i = 2; !f->flat && i < f->p.n; i++) {
         f->area[i] = dot(cross(minus(v[i - 1], v[0]), minus(v[i], v[0])), n);

@@ -55,8 +55,10 @@ START_TEST(test_case)
 }
 END_TEST
 
-/* A cell cannot hold both ways; every case has a name of its own, a method that fails or a bound that some method
- * keeps; and the default oracle is in every row that is about more than one pair's terms. */
+/* The row that the default oracle does not pass, as the README says: a wall in the middle of a face. */
+static const char not_by_default[] = "wall_in_floor";
+
+/* A cell cannot hold both ways, every case has a name of its own, and the default oracle passes wherever it is asked. */
 START_TEST(test_table)
 {
     int i, j, k;
@@ -72,6 +74,8 @@ START_TEST(test_table)
             ck_assert(cell->tolerance >= 0);
             for (j = 0; j < k; j++)
                 ck_assert_int_ne(c->cells[j].method, cell->method);
+            if (cell->method == BF_GUARDED)
+                ck_assert_msg(!cell->why == (strcmp(c->name, not_by_default) != 0), "%s", c->name);
             if (cell->why) {
                 ck_assert_msg(cell->low > cell->tolerance && cell->high >= cell->low, "%s", c->name);
                 ck_assert_int_eq(stability_judge(cell, 0), VERDICT_CHANGED);
@@ -86,21 +90,12 @@ START_TEST(test_table)
 }
 END_TEST
 
-/* View3D's manual, Howell's catalog, Hottel. */
+/* Published values; the closed forms without shadows have a suite of their own, check_closed_forms.c. */
 START_TEST(test_known)
 {
     const double source[4] = { -0.5, 0.5, -0.5, 0.5 };
     static const double x[] = { 0.25, 0.5, 0.75, 1, 1.5 }, e[] = { 0, 0.0189169153, 0.0337198400, 0.0405845563, 0.0326632655 };
     int i;
-    ck_assert_double_eq_tol(known_parallel(1, 1, 0.1), 0.8269945224, 1e-10);
-    ck_assert_double_eq_tol(known_parallel(1, 1, 0.01), 0.9804166029, 1e-10);
-    ck_assert_double_eq_tol(known_parallel(1, 1, 1), 0.1998248956983874, 1e-13);
-    ck_assert_double_eq_tol(known_parallel(1, 1, 2), 0.0685895888, 1e-10);
-    ck_assert_double_eq_tol(known_parallel(1, 10, 1), 0.3863824893, 1e-10);
-    ck_assert_double_eq_tol(known_parallel(1, 1000, 1), 0.4139341981, 1e-9);
-    ck_assert_double_eq_tol(known_strips(1, 1), sqrt(2) - 1, 1e-15);
-    ck_assert_double_eq_tol(known_perpendicular(1, 1, 1), 0.2000437760754032, 1e-13);
-    ck_assert_double_eq_tol(known_perpendicular(1, 0.1, 1) * 1 / 0.1, known_perpendicular(0.1, 1, 1), 1e-13);
     ck_assert_double_eq_tol(known_point(0, 1, 0, 1, 1), 0.1385316060, 1e-10);
     ck_assert_double_eq_tol(known_point(-0.5, 0.5, -0.5, 0.5, 1), 0.2394564705, 1e-10);
     ck_assert_double_eq_tol(known_point(0.5, 1.5, -0.5, 0.5, 1), known_point(-1.5, -0.5, -0.5, 0.5, 1), 1e-15);
