@@ -4,7 +4,7 @@
  *     J(w) = (1/pi) sum_i A_i B_i max(0, n_i . w)                                    (W/sr),
  * and what arrives at a cluster is a beam that each face takes by its own orientation,
  *     H_j += J(w) V / d^2 max(0, -n_j . w)                                           (W/m2),
- * w from the emitter's centre to the receiver's, d their distance. [Smits, Arvo, Greenberg 1994, alpha links,
+ * w from the emitter's centre to the receiver's, d their distance, with a factor near 1 for the size of both. [Smits, Arvo, Greenberg 1994, alpha links,
  * with the sums over faces taken as they are and not bounded; Sillion 1995 for the directions]
  * Both sums visit every face below the link's ends: over all links that is each face times the links of its
  * ancestors, no more than a push down the tree, and exact for every orientation.
@@ -20,7 +20,7 @@
 struct cluster_beam {
     uint32_t emitter;
     float towards[3]; /* unit vector from the receiver to the emitter */
-    float weight;     /* V / d^2 (1/m2) */
+    float weight;     /* V / d^2 and the sizes' factor (1/m2) */
 };
 
 struct cluster_light {
