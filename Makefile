@@ -128,3 +128,9 @@ clean:
 
 include install.mk
 -include $(OBJECTS:.o=.d) $(TESTS:=.d)
+
+# Path-traced radiosities per face, to measure solutions by.
+.PHONY: reference
+reference: $(BUILD)/bin/path_reference
+$(BUILD)/bin/path_reference: $(BUILD)/tests/path_reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)

@@ -101,6 +101,8 @@ struct host {
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance; /* the largest Y; 1 where no view asks */
+    double faces;      /* how many */
+    const struct element *const *elements; /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
 

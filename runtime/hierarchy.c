@@ -14,11 +14,6 @@ enum { BINS = 16, FANOUT = 4 };
 /* What stands for a parent in the identities of faces, wherever the clusters put them. */
 #define FACES 0x2545f4914f6cdd1du
 
-/* A set of faces on its way to becoming one element: order[from .. to). */
-struct range {
-    uint32_t from, to;
-};
-
 struct builder {
     struct hierarchy *h;
     uint32_t *order, *scratch; /* [face_count] */
@@ -125,7 +120,7 @@ static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
 }
 
 /* Box, cone of normals, area of the faces in a range. Exactly equal normals give a cone of angle 0. */
-static void measure_cluster(const struct builder *b, struct element *e, struct range range)
+static void measure_cluster(const struct builder *b, struct element *e, struct face_range range)
 {
     double low[3], high[3], axis[3] = { 0, 0, 0 }, size;
     uint32_t i;
@@ -171,7 +166,7 @@ static void measure_cluster(const struct builder *b, struct element *e, struct r
 
 /* Cut a range in two, stably. The place is the cheapest of BINS - 1 planes on each axis, or the
  * middle of the order when all centres coincide. */
-static uint32_t cut(const struct builder *b, struct range range)
+static uint32_t cut(const struct builder *b, struct face_range range)
 {
     double low[3], high[3], best = INFINITY, best_at = 0;
     uint32_t i, left, right, count = range.to - range.from;
@@ -250,10 +245,10 @@ static int reserve(struct hierarchy *h, uint32_t more)
 }
 
 /* Give element `parent`, which covers `range`, its children. pending[i] is the range of element i. */
-static void open_cluster(const struct builder *b, uint32_t parent, struct range *pending)
+static void open_cluster(const struct builder *b, uint32_t parent, struct face_range *pending)
 {
     struct hierarchy *h = b->h;
-    struct range part[FANOUT];
+    struct face_range part[FANOUT];
     int parts = 1, k;
     part[0] = pending[parent];
     while (parts < FANOUT) {
@@ -289,7 +284,7 @@ static void open_cluster(const struct builder *b, uint32_t parent, struct range 
 int hierarchy_build(struct hierarchy *h, const struct face *faces, uint32_t face_count)
 {
     struct builder b = { 0 };
-    struct range *pending = NULL;
+    struct face_range *pending = NULL;
     uint32_t i, most = face_count < 2 ? 2 : 2 * face_count;
     int k, result = -1;
     memset(h, 0, sizeof *h);
@@ -325,6 +320,11 @@ int hierarchy_build(struct hierarchy *h, const struct face *faces, uint32_t face
     for (i = 0; i < h->count; i++) /* breadth first: the list of elements is its own queue */
         if (!h->elements[i].vertices)
             open_cluster(&b, i, pending);
+    h->built = h->count;
+    h->order = b.order;
+    h->range = pending;
+    b.order = NULL;
+    pending = NULL;
     result = 0;
 done:
     free(pending);
@@ -394,5 +394,7 @@ void hierarchy_free(struct hierarchy *h)
 {
     free(h->elements);
     free(h->face_element);
+    free(h->order);
+    free(h->range);
     memset(h, 0, sizeof *h);
 }

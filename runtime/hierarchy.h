@@ -23,6 +23,11 @@ struct hierarchy {
     const struct face *faces; /* [face_count], borrowed */
     uint32_t face_count;
     uint32_t *face_element; /* [face_count]: the element that is the whole face */
+    uint32_t *order;        /* [face_count]: the faces in the tree's order, so that each cluster's are neighbours */
+    struct face_range {
+        uint32_t from, to;
+    } *range;               /* [built]: the part of `order` below each element made by hierarchy_build */
+    uint32_t built;         /* elements made by hierarchy_build: clusters and faces */
     double low[3], high[3]; /* bounding box of the faces (m) */
 };
 

@@ -178,6 +178,8 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.exitance = brightest;
     rays->host.reflectance = whitest;
     rays->host.importance = 1;
+    rays->host.faces = h->face_count;
+    rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
     /* Coordinates that came as floats are off by up to 2^-25 of the largest, which bends quads that lie far from the

@@ -17,6 +17,11 @@
 
 enum { ROUND = 1 << 17, CHUNK = 64 };
 
+int decision_links(enum decision decision)
+{
+    return decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS;
+}
+
 void link_store(struct link *link, const struct terms *terms)
 {
     link->form_factor = (float)terms->form_factor;
@@ -134,14 +139,14 @@ static unsigned char discuss(const struct refinement *r, struct link *link, stru
     d.blockers = list;
     link_recall(link, &d.terms);
     decision = r->refiner->refine(r->refiner->state, &d);
-    if (decision == DECISION_LINK)
+    if (decision_links(decision))
         link_store(link, &d.terms);
     return (unsigned char)decision;
 }
 
 static int divides(unsigned char decision)
 {
-    return decision != DECISION_LINK && decision != DECISION_STOP;
+    return !decision_links((enum decision)decision) && decision != DECISION_STOP;
 }
 
 /* After the discussions of pair i: keep the list for the pairs below, if there will be any. */
@@ -178,7 +183,7 @@ static void discuss_round(struct refinement *r, int count)
         o->link[0] = there;
         o->decision[0] = discuss(r, &o->link[0], &list);
         if (p->both) {
-            if (o->decision[0] == DECISION_LINK)
+            if (decision_links((enum decision)o->decision[0]))
                 turn(&back, &o->link[0], r->hierarchy->elements);
             o->link[1] = back;
             o->decision[1] = discuss(r, &o->link[1], &list);
@@ -240,6 +245,7 @@ static int splits(enum decision decision, int turned)
     case DECISION_SUBDIVIDE_BOTH:
         return SPLIT_RECEIVER | SPLIT_EMITTER;
     case DECISION_LINK:
+    case DECISION_LINK_CLUSTERS:
     case DECISION_STOP:
         break;
     }
@@ -338,7 +344,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
                 continue;
             }
             r->pairs++;
-            moved += o->decision[0] != DECISION_LINK || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            moved += !decision_links((enum decision)o->decision[0]) || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
             list = hand_on(r, i, 0);
             if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
                 return -1;

@@ -91,6 +91,9 @@ int refinement_sort(struct refinement *r);
 
 void refinement_close(struct refinement *r);
 
+/* Does the decision make a link? */
+int decision_links(enum decision decision);
+
 /* The same link value from the terms of a discussion, and back. */
 void link_store(struct link *link, const struct terms *terms);
 void link_recall(const struct link *link, struct terms *terms);

@@ -39,6 +39,7 @@ static void gather(const struct solve *s, const struct balance *x, uint32_t e)
         for (k = 0; k < b; k++)
             h[k] += weight * from[k];
     }
+    cluster_light_gather(&s->cluster_light, (int)b, e, h);
     for (k = 0; k < b; k++)
         x->irradiance[(size_t)e * b + k] = h[k];
 }
@@ -108,6 +109,7 @@ static void sweep(const struct solve *s, const struct balance *x, double *moved)
 {
     static const double nothing[3] = { 0, 0, 0 };
     uint32_t faces = s->scene->face_count, blocks = s->options.jacobi ? 1 : faces < BLOCKS ? faces : BLOCKS, block;
+    cluster_light_send(&s->cluster_light, (int)x->bands, x->value);
 #pragma omp parallel num_threads(s->options.threads) private(block) if (s->refinement.link_count > LINKS_WORTH_THREADS)
     for (block = 0; block < blocks; block++) {
         uint32_t from = (uint32_t)((uint64_t)faces * block / blocks), to = (uint32_t)((uint64_t)faces * (block + 1) / blocks), i;

@@ -58,13 +58,13 @@ static enum decision ask_all(const void *state, struct discussion *d)
     memcpy(&p, state, sizeof p);
     memset(link, 0, sizeof link);
     decision[0] = p->releases[0]->refine(p->releases[0]->state, d);
-    if (decision[0] == DECISION_LINK)
+    if (decision_links(decision[0]))
         link_store(&link[0], &d->terms);
     for (k = 1; k < p->count; k++) {
         struct discussion other = start;
         decision[1] = p->releases[k]->refine(p->releases[k]->state, &other);
         memset(&link[1], 0, sizeof link[1]);
-        if (decision[1] == DECISION_LINK)
+        if (decision_links(decision[1]))
             link_store(&link[1], &other.terms);
         if (decision[0] != decision[1] || memcmp(&link[0], &link[1], sizeof *link) != 0) {
 #pragma omp critical(difference)
@@ -87,6 +87,8 @@ static const char *decision_name(enum decision d)
     switch (d) {
     case DECISION_LINK:
         return "link";
+    case DECISION_LINK_CLUSTERS:
+        return "link_clusters";
     case DECISION_STOP:
         return "stop";
     case DECISION_SUBDIVIDE_RECEIVER:
@@ -117,7 +119,7 @@ static void print_difference(const struct panel *p)
     printf(":\n");
     for (i = 0; i < 2; i++) {
         printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_name(f->decision[i]));
-        if (f->decision[i] == DECISION_LINK)
+        if (decision_links(f->decision[i]))
             printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d", (double)f->link[i].form_factor, f->link[i].levels & 15,
                    f->link[i].visibility / (double)LINK_VISIBLE, f->link[i].levels >> 4, f->link[i].mark);
         printf("\n");

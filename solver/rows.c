@@ -38,6 +38,7 @@ static void visit_below(const struct solve *s, uint32_t e, double above,
     int c;
     for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
         above += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
+    above += cluster_light_row(&s->cluster_light, e);
     for (c = 0; c < x->children; c++)
         visit_below(s, x->child + (uint32_t)c, above, visit, context);
     if (!x->children)

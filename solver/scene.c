@@ -2,7 +2,8 @@
  *
  * Assimp reads with no post-processing, so that faces are those of the file. Invariant: one
  * input_face per face of the file, in the file's order, whatever becomes of it; every face of
- * the result is flat and convex, has an area, and names its input.
+ * the result is flat and convex, has an area, and names its input. Faces in which others stand are
+ * cut there (scene_cut.h).
  *
  * Material: reflectance = diffuse colour (glTF: base colour), exitance in W/m2 = emissive
  * colour times its strength where the format has one. A face reflects and emits on both sides
@@ -27,6 +28,7 @@
 #include "obj_scan.h"
 #include "polygon.h"
 #include "report.h"
+#include "scene_cut.h"
 
 /* How far from its mean plane a quad's corner may lie, relative to the quad's size. */
 static const double FLAT_QUAD = 1e-4;
@@ -335,6 +337,8 @@ static int convert(struct reader *r, const struct aiScene *from)
                             (unsigned)scene->dropped);
     if (check_materials(r))
         return -1;
+    if (scene_cut(scene) < 0)
+        return out_of_memory(r);
     scene->bands = bands(r);
     if ((scene->dropped || r->scan.other) && !r->options->quiet)
         report_warning(r->path, 0, "%u degenerate faces dropped (no area, or fewer than three corners), %u points and lines ignored",

@@ -20,7 +20,7 @@ struct input_face {
 };
 
 struct scene {
-    struct face *faces; /* [face_count]: non-planar quads are two faces, two-sided faces two (front, then `back`) */
+    struct face *faces; /* [face_count]: non-planar quads are two faces, cut ones several, two-sided ones two (front, then `back`) */
     uint32_t face_count;
     struct material *materials;
     uint32_t material_count;
@@ -28,6 +28,8 @@ struct scene {
     uint32_t input_count;
     uint32_t bands;   /* 1 when every material that is used is grey, else 3 */
     uint32_t dropped; /* degenerate faces */
+    uint32_t cut;     /* faces cut where others stand in them (scene_cut.h), far sides not counted */
+    uint32_t parts;   /* into so many, which share their face's input */
 };
 
 struct scene_options {

@@ -160,6 +160,9 @@ static int iterate(struct solve *s, const char **cause)
 {
     struct balance light = { .bands = s->bands, .value = s->radiosity, .irradiance = s->irradiance,
                              .source = s->exitance, .reflectance = s->reflectance };
+    cluster_light_close(&s->cluster_light);
+    if (cluster_light_open(&s->cluster_light, &s->hierarchy, &s->refinement, (int)s->bands, s->options.threads) < 0)
+        return -1;
     rows_scale(s);
     *cause = "out of memory";
     if (balance_solve(s, &light) < 0)
@@ -278,6 +281,7 @@ struct solution solve_solution(const struct solve *s)
 void solve_close(struct solve *s)
 {
     refinement_close(&s->refinement);
+    cluster_light_close(&s->cluster_light);
     rays_close(s->rays);
     hierarchy_free(&s->hierarchy);
     free(s->radiosity);

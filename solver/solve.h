@@ -4,6 +4,7 @@
 #define SOLVE_H
 
 #include <stdio.h>
+#include "cluster_light.h"
 #include "hierarchy.h"
 #include "rays.h"
 #include "refine.h"
@@ -67,6 +68,7 @@ struct solve {
     struct hierarchy hierarchy;
     struct rays *rays;
     struct refinement refinement;
+    struct cluster_light cluster_light;
     uint32_t bands;
     double *radiosity, *irradiance; /* [room * bands], element by element */
     double *exitance, *reflectance; /* [face_count * bands] */

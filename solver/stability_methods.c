@@ -40,6 +40,7 @@ const struct stability_method stability_methods[METHODS] = {
     [SMOOTH] = { "smooth", "smooth: gradients", BY_ORACLE, CLOSURE_NONE, "smooth", { NULL } },
     [VIEWFACTORS] = { "viewfactors", "viewfactors, the oracle of `radiosity viewfactors`", BY_ORACLE, CLOSURE_NONE, "viewfactors", { NULL } },
     [BF_GUARDED] = { "bf_guarded", "bf_guarded, the default", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { NULL } },
+    [UNCUT] = { "uncut", "the default, on a scene whose faces are not cut where others stand in them", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { NULL } },
     [FINE] = { "bf_guarded fine", "the default with relative = .01 and min_share = 5e-6", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { "relative=0.01", "min_share=5e-6", NULL } },
     [CLOSED] = { "--closure rows", "the default with rows closed", BY_ORACLE, CLOSURE_ROWS, "bf_guarded", { NULL } },
 };

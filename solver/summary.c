@@ -65,10 +65,11 @@ static json_t *closure_json(const struct solve *s)
 json_t *summary_json(const struct options *o, const struct solve *s, const struct refiner *r, double output_seconds)
 {
     struct rays_count rays = rays_count(s->rays);
-    return json_pack("{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
+    return json_pack("{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
                      " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
                      "scene", o->scene, "oracle", r->oracle, "release", r->release, "parameters", parameters_json(r),
                      "threads", o->threads, "bands", (int)s->bands, "faces", (int)s->scene->input_count,
+                     "faces_cut", (int)s->scene->cut, "faces_cut_into", (int)s->scene->parts,
                      "elements", (int)s->hierarchy.count, "leaves", (int)s->leaves,
                      "links", (json_int_t)s->refinement.link_count, "pairs", (json_int_t)s->refinement.pairs,
                      "guard_hits", (json_int_t)s->refinement.marked[LINK_GUARDED], "marks", marks_json(s),
@@ -117,6 +118,8 @@ void summary_print(const struct options *o, const struct solve *s, const struct 
     struct rays_count rays = rays_count(s->rays);
     printf("scene     %s: %u faces, %.4g m2, %s\n", o->scene, s->scene->input_count, rays_host(s->rays)->area,
            s->bands == 1 ? "grey" : "three bands");
+    if (s->scene->cut)
+        printf("cut       %u faces, into %u, where others stand in them\n", s->scene->cut, s->scene->parts);
     printf("oracle    %s (%s release)\n", r->oracle, r->release);
     printf("mesh      %u elements, of which %u leaves\n", s->hierarchy.count, s->leaves);
     printf("links     %zu from %llu discussions in %llu rounds; %.3g rays\n", s->refinement.link_count,

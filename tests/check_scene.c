@@ -134,21 +134,28 @@ START_TEST(test_shipped)
     ck_assert_int_eq(read_scene(&s, path, NULL), 0);
     ck_assert_str_eq(last_error, "");
     ck_assert_uint_eq(s.input_count, f->polygons);
-    ck_assert_uint_eq(s.face_count, f->polygons);
+    ck_assert_uint_eq(s.face_count, f->polygons + s.parts - s.cut);
     ck_assert_uint_eq(s.dropped, 0);
     ck_assert_uint_eq(s.bands, f->bands);
     unsigned triangles = 0;
+    double area = 0;
     double watts[3] = {0, 0, 0};
     for (uint32_t i = 0; i < s.face_count; i++) {
         const struct material *m = &s.materials[s.faces[i].material];
-        triangles += s.faces[i].vertices == 3;
+        int first = i == 0 || s.faces[i].input != s.faces[i - 1].input;
+        int last = i + 1 == s.face_count || s.faces[i].input != s.faces[i + 1].input;
+        triangles += first && last && s.faces[i].vertices == 3;
         for (int k = 0; k < 3; k++)
             watts[k] += face_area(&s.faces[i]) * m->exitance[k];
-        ck_assert_uint_eq(s.faces[i].input, i);
+        /* Parts of one polygon are neighbours, and make it up. */
+        ck_assert_uint_eq(s.faces[i].input, i == 0 ? 0 : s.faces[i - 1].input + (uint32_t)first);
         ck_assert_uint_eq(s.faces[i].back, 0);
-        ck_assert_double_eq_tol(face_area(&s.faces[i]), s.inputs[i].area, 1e-12);
+        area = face_area(&s.faces[i]) + (first ? 0 : area);
+        if (last)
+            ck_assert_double_eq_tol(area, s.inputs[s.faces[i].input].area, 1e-12);
     }
-    ck_assert_uint_eq(triangles, f->triangles);
+    ck_assert_uint_le(triangles, f->triangles);
+    ck_assert_uint_ge(triangles + s.cut, f->triangles);
     ck_assert_double_eq_tol(total_area(&s), f->area, 6e-4 * f->area);
     for (int k = 0; k < 3; k++)
         ck_assert_double_eq_tol(watts[k], f->watts[k], 6e-4 * f->watts[k]);
@@ -163,6 +170,7 @@ static void compare_order(const char *path)
     struct scene s;
     char line[512];
     unsigned vertices = 0, faces = 0;
+    uint32_t next = 0;
     ck_assert_int_eq(read_scene(&s, path, NULL), 0);
     FILE *f = fopen(path, "r");
     while (fgets(line, sizeof line, f)) {
@@ -170,19 +178,26 @@ static void compare_order(const char *path)
             ck_assert_int_eq(sscanf(line + 2, "%lf %lf %lf", &v[vertices][0], &v[vertices][1], &v[vertices][2]), 3);
             vertices++;
         } else if (line[0] == 'f') {
-            double centre[3] = {0, 0, 0}, read[3] = {0, 0, 0};
+            /* Every corner of the file's polygon is one of its face's, or of its parts' when it was cut. */
+            uint32_t first = next;
             int corners = 0;
             char *rest = NULL;
-            for (char *word = strtok_r(line + 2, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest), corners++)
-                for (int k = 0; k < 3; k++)
-                    centre[k] += v[atoi(word) - 1][k];
-            ck_assert_uint_lt(faces, s.face_count);
-            ck_assert_int_eq((int)s.faces[faces].vertices, corners);
-            for (int j = 0; j < corners; j++)
-                for (int k = 0; k < 3; k++)
-                    read[k] += s.faces[faces].vertex[j][k];
-            for (int k = 0; k < 3; k++)
-                ck_assert_double_eq_tol(read[k] / corners, centre[k] / corners, 2e-6);
+            ck_assert_uint_lt(next, s.face_count);
+            while (next < s.face_count && s.faces[next].input == faces)
+                next++;
+            ck_assert_uint_gt(next, first);
+            for (char *word = strtok_r(line + 2, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest), corners++) {
+                const double *p = v[atoi(word) - 1];
+                int found = 0;
+                for (uint32_t i = first; i < next; i++)
+                    for (uint32_t j = 0; j < s.faces[i].vertices; j++) {
+                        const double *q = s.faces[i].vertex[j];
+                        found |= fabs(p[0] - q[0]) < 2e-6 && fabs(p[1] - q[1]) < 2e-6 && fabs(p[2] - q[2]) < 2e-6;
+                    }
+                ck_assert(found);
+            }
+            if (next == first + 1)
+                ck_assert_int_eq((int)s.faces[first].vertices, corners);
             faces++;
         }
     }

@@ -1010,7 +1010,7 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
 
     switch (refiner_tool_clusters(&d)) {
     case REFINER_CLUSTERS_SURFACES:
-        goto node_pair__planes;
+        goto node_faces__planes;
     case REFINER_CLUSTERS_APART:
         return REFINER_DECISION_STOP;
     case REFINER_CLUSTERS_RECEIVER:
@@ -1020,45 +1020,45 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
         return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
-node_pair__planes:
+node_faces__planes:
     switch (refiner_tool_support_planes(&d)) {
     case REFINER_SUPPORT_PLANES_TOWARD:
-        goto node_energy;
+        goto node_faces__energy;
     case REFINER_SUPPORT_PLANES_AWAY:
         return REFINER_DECISION_STOP;
     case REFINER_SUPPORT_PLANES_RECEIVER_CROSSES:
-        goto node_clip_receiver;
+        goto node_faces__clip_receiver;
     case REFINER_SUPPORT_PLANES_EMITTER_CROSSES:
     default:
-        goto node_clip_emitter;
+        goto node_faces__clip_emitter;
     }
 
-node_energy:
+node_faces__energy:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->relative)) {
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
     case REFINER_TRANSFER_BELOW:
-        goto node_seen;
+        goto node_faces__seen;
     case REFINER_TRANSFER_ABOVE:
     default:
-        goto node_split__guard;
+        goto node_faces__split__guard;
     }
 
-node_split__guard:
+node_faces__split__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
-        goto node_split__side;
+        goto node_faces__split__side;
     case REFINER_CAN_SPLIT_RECEIVER:
         return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
         return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
-        goto node_split__note;
+        goto node_faces__split__note;
     }
 
-node_split__side:
+node_faces__split__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
         return REFINER_DECISION_SUBDIVIDE_RECEIVER;
@@ -1067,12 +1067,12 @@ node_split__side:
         return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
-node_split__note:
+node_faces__split__note:
     /* mark: checked: not every path has it */
     (void)refiner_tool_mark(&d, 1);
-    goto node_seen;
+    goto node_faces__seen;
 
-node_clip_receiver:
+node_faces__clip_receiver:
     /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
 
@@ -1081,13 +1081,13 @@ node_clip_receiver:
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
     case REFINER_TRANSFER_BELOW:
-        goto node_seen;
+        goto node_faces__seen;
     case REFINER_TRANSFER_ABOVE:
     default:
-        goto node_cut_receiver__guard;
+        goto node_faces__cut_receiver__guard;
     }
 
-node_cut_receiver__guard:
+node_faces__cut_receiver__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_RECEIVER:
@@ -1096,15 +1096,15 @@ node_cut_receiver__guard:
         return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
-        goto node_cut_receiver__note;
+        goto node_faces__cut_receiver__note;
     }
 
-node_cut_receiver__note:
+node_faces__cut_receiver__note:
     /* mark: checked: not every path has it */
     (void)refiner_tool_mark(&d, 1);
-    goto node_seen;
+    goto node_faces__seen;
 
-node_clip_emitter:
+node_faces__clip_emitter:
     /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
 
@@ -1113,13 +1113,13 @@ node_clip_emitter:
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
     case REFINER_TRANSFER_BELOW:
-        goto node_seen;
+        goto node_faces__seen;
     case REFINER_TRANSFER_ABOVE:
     default:
-        goto node_cut_emitter__guard;
+        goto node_faces__cut_emitter__guard;
     }
 
-node_cut_emitter__guard:
+node_faces__cut_emitter__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_EMITTER:
@@ -1128,26 +1128,26 @@ node_cut_emitter__guard:
         return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
-        goto node_cut_emitter__note;
+        goto node_faces__cut_emitter__note;
     }
 
-node_cut_emitter__note:
+node_faces__cut_emitter__note:
     /* mark: checked: not every path has it */
     (void)refiner_tool_mark(&d, 1);
 
-node_seen:
+node_faces__seen:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, 0.0, parameters->faint)) {
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
     case REFINER_TRANSFER_BELOW:
-        goto node_glance__rays;
+        goto node_faces__glance__rays;
     case REFINER_TRANSFER_ABOVE:
     default:
-        goto node_gaze;
+        goto node_faces__gaze;
     }
 
-node_glance__rays:
+node_faces__glance__rays:
     /* form_factor: checked: not every path has it */
     /* visibility: checked: not every path has it */
     switch (refiner_tool_visibility(&d, 4)) {
@@ -1156,28 +1156,28 @@ node_glance__rays:
     case REFINER_VISIBILITY_PARTIAL:
     case REFINER_VISIBILITY_ALL:
     default:
-        goto node_glance__form;
+        goto node_faces__glance__form;
     }
 
-node_glance__form:
+node_faces__glance__form:
     /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
     goto leaf_link;
 
-node_gaze:
+node_faces__gaze:
     /* form_factor: checked: not every path has it */
     /* visibility: checked: not every path has it */
     switch (refiner_tool_visibility(&d, parameters->rays)) {
     case REFINER_VISIBILITY_NONE:
-        goto node_hidden;
+        goto node_faces__hidden;
     case REFINER_VISIBILITY_PARTIAL:
-        goto node_matters;
+        goto node_faces__matters;
     case REFINER_VISIBILITY_ALL:
     default:
-        goto node_form;
+        goto node_faces__form;
     }
 
-node_hidden:
+node_faces__hidden:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->shadow)) {
     case REFINER_TRANSFER_DARK:
@@ -1185,10 +1185,10 @@ node_hidden:
         return REFINER_DECISION_STOP;
     case REFINER_TRANSFER_ABOVE:
     default:
-        goto node_look;
+        goto node_faces__look;
     }
 
-node_look:
+node_faces__look:
     /* form_factor: checked: not every path has it */
     /* visibility: rays_4 or better on every path */
     switch (refiner_tool_visibility(&d, 64)) {
@@ -1197,35 +1197,35 @@ node_look:
     case REFINER_VISIBILITY_PARTIAL:
     case REFINER_VISIBILITY_ALL:
     default:
-        goto node_shade__guard;
+        goto node_faces__shade__guard;
     }
 
-node_matters:
+node_faces__matters:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->shadow)) {
     case REFINER_TRANSFER_DARK:
         return REFINER_DECISION_STOP;
     case REFINER_TRANSFER_BELOW:
-        goto node_form;
+        goto node_faces__form;
     case REFINER_TRANSFER_ABOVE:
     default:
-        goto node_shade__guard;
+        goto node_faces__shade__guard;
     }
 
-node_shade__guard:
+node_faces__shade__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
-        goto node_shade__side;
+        goto node_faces__shade__side;
     case REFINER_CAN_SPLIT_RECEIVER:
         return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
         return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
-        goto node_shade__note;
+        goto node_faces__shade__note;
     }
 
-node_shade__side:
+node_faces__shade__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
         return REFINER_DECISION_SUBDIVIDE_RECEIVER;
@@ -1234,11 +1234,11 @@ node_shade__side:
         return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
-node_shade__note:
+node_faces__shade__note:
     /* mark: checked: not every path has it */
     (void)refiner_tool_mark(&d, 1);
 
-node_form:
+node_faces__form:
     /* form_factor: checked: not every path has it */
     (void)refiner_tool_form_factor(&d);
 

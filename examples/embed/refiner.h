@@ -30,6 +30,7 @@ struct refiner_polygon {
 /* The leaves of every graph. */
 enum refiner_decision {
     REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
+    REFINER_DECISION_LINK_CLUSTERS, /* Let the emitter light the receiver, one of which is a cluster, each face by its own orientation. */
     REFINER_DECISION_STOP, /* The pair exchanges no light worth keeping. */
     REFINER_DECISION_SUBDIVIDE_RECEIVER, /* Ask again for each child of the receiver. */
     REFINER_DECISION_SUBDIVIDE_EMITTER, /* Ask again for each child of the emitter. */
@@ -128,6 +129,8 @@ struct refiner_host {
     double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance; /* the largest Y; 1 where no view asks */
+    double faces;      /* how many */
+    const struct refiner_element *const *elements; /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
 
