@@ -23,7 +23,7 @@
 #include "geometry.h"
 #include "polygon.h"
 
-enum { PARTS = 64, CORNERS = 12 }; /* of one face at the most, before polygons become quads; of one part */
+enum { PARTS = 256, CORNERS = 12 }; /* of one face at the most, before polygons become quads; of one part */
 
 static const double TOUCH = 1e-4;     /* of the size: nearer than that to a plane is in it */
 static const double FLOATS = 2.4e-7;  /* of the largest coordinate: what is no nearer than floats can say */

@@ -36,7 +36,7 @@ const struct stability_method stability_methods[METHODS] = {
     [FF] = { "ff", "ff: form factors alone", BY_ORACLE, CLOSURE_NONE, "ff", { NULL } },
     [BFV] = { "bfv", "bfv: BF and visibility", BY_ORACLE, CLOSURE_NONE, "bfv", { NULL } },
     [RELATIVE] = { "relative", "relative to the brightest lamp", BY_ORACLE, CLOSURE_NONE, "relative", { NULL } },
-    [GAP] = { "gap oracle", "gap [Lischinski 94]", BY_ORACLE, CLOSURE_NONE, "gap", { NULL } },
+    [GAP] = { "gap oracle", "gap [Lischinski 94] with relative = .02", BY_ORACLE, CLOSURE_NONE, "gap", { "relative=0.02", NULL } },
     [SMOOTH] = { "smooth", "smooth: gradients", BY_ORACLE, CLOSURE_NONE, "smooth", { NULL } },
     [VIEWFACTORS] = { "viewfactors", "viewfactors, the oracle of `radiosity viewfactors`", BY_ORACLE, CLOSURE_NONE, "viewfactors", { NULL } },
     [BF_GUARDED] = { "bf_guarded", "bf_guarded, the default", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { NULL } },
