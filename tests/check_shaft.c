@@ -549,7 +549,7 @@ START_TEST(test_refined)
                    (unsigned long long)r.pairs, (unsigned long long)s.inherited, r.pool_count,
                    (unsigned long long)rays_count(now->rays).rays);
             fflush(stdout);
-            ck_assert(s.inherited * 4 > r.pairs);
+            ck_assert(s.inherited * 5 > r.pairs);
             first = r;
         } else {
             ck_assert_uint_eq(r.link_count, first.link_count);

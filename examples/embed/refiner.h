@@ -30,11 +30,11 @@ struct refiner_polygon {
 /* The leaves of every graph. */
 enum refiner_decision {
     REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
-    REFINER_DECISION_LINK_CLUSTERS, /* Let the emitter light the receiver, one of which is a cluster, each face by its own orientation. */
     REFINER_DECISION_STOP, /* The pair exchanges no light worth keeping. */
     REFINER_DECISION_SUBDIVIDE_RECEIVER, /* Ask again for each child of the receiver. */
     REFINER_DECISION_SUBDIVIDE_EMITTER, /* Ask again for each child of the emitter. */
-    REFINER_DECISION_SUBDIVIDE_BOTH /* Ask again for each child of the one with each child of the other. */
+    REFINER_DECISION_SUBDIVIDE_BOTH, /* Ask again for each child of the one with each child of the other. */
+    REFINER_DECISION_LINK_CLUSTERS /* Let the emitter light the receiver, one of which is a cluster, each face by its own orientation. */
 };
 
 /* The data manager: every term and the level it is known at. All zero: nothing is known. */
