@@ -5,6 +5,7 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
+# make reference  build/bin/reference, which path traces radiosities per face to measure solutions by
 # make bench    what the releases cost, in instructions
 # make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # SPDX-License-Identifier: MIT
@@ -131,6 +132,6 @@ include install.mk
 
 # Path-traced radiosities per face, to measure solutions by.
 .PHONY: reference
-reference: $(BUILD)/bin/path_reference
-$(BUILD)/bin/path_reference: $(BUILD)/tests/path_reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+reference: $(BUILD)/bin/reference
+$(BUILD)/bin/reference: $(BUILD)/tests/reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)

@@ -1,4 +1,4 @@
-/* path_reference.c - path-traced radiosities to measure solutions by: path_reference SCENE PATHS > ref.csv
+/* reference.c - path-traced radiosities to measure solutions by: reference SCENE PATHS > ref.csv
  *
  * For every face, paths from points spread evenly over it estimate its mean irradiance H; B = E + rho H. At each
  * bounce the light that emitters send straight there is sampled both by points on emitters and by the next
@@ -283,7 +283,7 @@ int main(int count, char **arguments)
     double paths, whole = 0;
     uint32_t i, k;
     if (count != 3 || !(paths = atof(arguments[2]), paths >= 1)) {
-        fprintf(stderr, "usage: path_reference SCENE PATHS > ref.csv\n"
+        fprintf(stderr, "usage: reference SCENE PATHS > ref.csv\n"
                         "PATHS: mean number per face; face,area,B_k,se_k per input face and band go to standard output\n");
         return 2;
     }
@@ -296,7 +296,7 @@ int main(int count, char **arguments)
     lights.upto = malloc(scene.face_count * sizeof *lights.upto);
     estimates = calloc(scene.input_count + 1, sizeof *estimates);
     if (!normal || !area || !face_of || !lights.face || !lights.upto || !estimates) {
-        fprintf(stderr, "path_reference: out of memory\n");
+        fprintf(stderr, "reference: out of memory\n");
         return 1;
     }
     for (i = 0; i < scene.face_count; i++) {
