@@ -33,7 +33,7 @@ static void box(struct scene *s, uint32_t material, int n, double x, double y, d
 }
 
 static struct solve *released(struct solve *s, const struct scene *scene, const char *oracle, enum release release, int threads,
-                              int closure, const char *set)
+                              enum closure closure, const char *set)
 {
     struct solve_options how = { .tolerance = 1e-5, .iterations = 2000, .threads = threads, .closure = closure };
     struct refiner *r = oracles_open(oracle, release);
@@ -49,7 +49,7 @@ static struct solve *released(struct solve *s, const struct scene *scene, const 
     return s;
 }
 
-static struct solve *solved(struct solve *s, const struct scene *scene, const char *oracle, int threads, int closure, const char *set)
+static struct solve *solved(struct solve *s, const struct scene *scene, const char *oracle, int threads, enum closure closure, const char *set)
 {
     return released(s, scene, oracle, RELEASE_FLAT, threads, closure, set);
 }
