@@ -13,6 +13,7 @@
 #define TERM_CLUSTER_VISIBILITY_H
 
 #include "discussion.h"
+#include "terms/surface_point.h"
 #include "terms/visibility.h"
 
 enum { CLUSTER_CHILDREN = 8 }; /* the most that a cluster has */
@@ -57,18 +58,6 @@ static inline const struct element *cluster_face(const struct element *e, const 
     return e;
 }
 
-/* A point of a face, spread evenly over a triangle or a parallelogram. */
-static inline void cluster_point(double out[3], const struct element *e, double s, double t)
-{
-    int k;
-    if (e->vertices == 3)
-        s = sqrt(s);
-    for (k = 0; k < 3; k++) {
-        const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-        out[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b) : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
-    }
-}
-
 /* The visible fraction by at most `count` segments, up to SEGMENTS_MAX. */
 OUTLINE double cluster_rays(const struct element *receiver, const struct element *emitter, const struct host *host, int count)
 {
@@ -100,8 +89,8 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
         b = cluster_face(s, all, back, slope, &u[2], &chance_b);
         if (!a || !b)
             continue;
-        cluster_point(g->from, a, u[0], u[1]);
-        cluster_point(g->to, b, u[2], u[3]);
+        surface_point(g->from, a, u[0], u[1]);
+        surface_point(g->to, b, u[2], u[3]);
         sub3(w, g->to, g->from);
         cos_a = dot3(a->normal, w);
         cos_b = -dot3(b->normal, w);
