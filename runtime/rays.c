@@ -22,7 +22,9 @@
 #define EMBREE 3
 #endif
 #include "candidates.h"
+#include "hemisphere.h"
 #include "rays.h"
+#include "terms/surface_point.h"
 
 enum { PACKET = 16 };
 
@@ -312,34 +314,18 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
 double rays_exposed(const struct rays *rays, const struct element *e)
 {
     enum { SIDE = 4, DIRECTIONS = 8, MOST = 6 };
-    /* Two unit vectors across the normal, the first along the axis that is most across it. */
-    const double *n = e->normal;
-    double u[3] = { 0, 0, 0 }, v[3], size, direction[DIRECTIONS][3];
-    int axis = fabs(n[0]) <= fabs(n[1]) ? fabs(n[0]) <= fabs(n[2]) ? 0 : 2 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2;
+    const struct hemisphere above = hemisphere_over(e->normal);
+    double direction[DIRECTIONS][3];
     int i, j, k, m, buried = 0;
-    u[axis] = 1;
-    cross3(v, n, u);
-    size = length3(v);
-    for (k = 0; k < 3; k++)
-        v[k] /= size;
-    cross3(u, v, n);
-    for (m = 0; m < DIRECTIONS; m++) { /* sines of cosine-spread directions: radius sqrt of the stratum's middle */
-        double angle = 2.39996322972865332 * m, r = sqrt((m + 0.5) / DIRECTIONS), z = sqrt(1 - r * r);
-        for (k = 0; k < 3; k++)
-            direction[m][k] = z * n[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
-    }
+    for (m = 0; m < DIRECTIONS; m++)
+        hemisphere_direction(direction[m], &above, m, DIRECTIONS, 0);
     for (i = 0; i < SIDE; i++)
         for (j = 0; j < SIDE; j++) {
-            double s = (i + 0.5) / SIDE, t = (j + 0.5) / SIDE, p[3];
+            double p[3];
             int inside = 0;
-            if (e->vertices == 3) /* fold the square onto the triangle, keeping area */
-                s = sqrt(s);
-            for (k = 0; k < 3; k++) {
-                const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-                p[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b)
-                                        : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
-                p[k] = (p[k] + rays->host.ray_offset * n[k] - rays->origin[k]) * rays->scale;
-            }
+            surface_point(p, e, (i + 0.5) / SIDE, (j + 0.5) / SIDE);
+            for (k = 0; k < 3; k++)
+                p[k] = (p[k] + rays->host.ray_offset * e->normal[k] - rays->origin[k]) * rays->scale;
             for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
                 inside += first_hit(rays, p, direction[m]) == RAY_MEETS_BACK;
             buried += inside >= MOST;

@@ -10,8 +10,9 @@
  * under less than about 1/10000 may pass. The error is then no larger than that share.
  * [derived here]
  * SPDX-License-Identifier: MIT */
-#include <math.h>
 #include "enclosure.h"
+#include "hemisphere.h"
+#include "terms/surface_point.h"
 
 enum { SIDE = 4, POINTS = SIDE * SIDE, DIRECTIONS = 64, BURIED = DIRECTIONS / 4 * 3 };
 
@@ -20,49 +21,19 @@ struct fates {
     int fronts, lost; /* of rays from points that are not buried; lost: left the scene or met a back */
 };
 
-/* Two unit vectors across the unit vector n, the first square to the axis that is most across it. */
-static void frame(const double n[3], double u[3], double v[3])
-{
-    int axis = fabs(n[0]) <= fabs(n[1]) ? fabs(n[0]) <= fabs(n[2]) ? 0 : 2 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2, k;
-    double size;
-    u[0] = u[1] = u[2] = 0;
-    u[axis] = 1;
-    cross3(v, n, u);
-    size = length3(v);
-    for (k = 0; k < 3; k++)
-        v[k] /= size;
-    cross3(u, v, n);
-}
-
-/* Point (s, t) of the unit square mapped to the face so that area is kept, a ray's offset in front of it. */
-static void face_point(const struct element *e, double s, double t, double offset, double p[3])
-{
-    int k;
-    if (e->vertices == 3)
-        s = sqrt(s);
-    for (k = 0; k < 3; k++) {
-        const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-        p[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b)
-                                : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
-        p[k] += offset * e->normal[k];
-    }
-}
-
 static struct fates look_around(const struct rays *rays, const struct element *e)
 {
     struct fates all = { 0, 0 };
-    double u[3], v[3], offset = rays_host(rays)->ray_offset;
+    const struct hemisphere above = hemisphere_over(e->normal);
     int i, m, k;
-    frame(e->normal, u, v);
     for (i = 0; i < POINTS; i++) {
-        double p[3];
+        double p[3], d[3];
         int met[3] = { 0, 0, 0 };
-        face_point(e, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE, offset, p);
-        for (m = 0; m < DIRECTIONS; m++) { /* a spiral of golden angles, turned a little from point to point */
-            double angle = 2.39996322972865332 * (m + i / (double)POINTS), r = sqrt((m + 0.5) / DIRECTIONS), z = sqrt(1 - r * r);
-            double d[3];
-            for (k = 0; k < 3; k++)
-                d[k] = z * e->normal[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
+        surface_point(p, e, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE);
+        for (k = 0; k < 3; k++)
+            p[k] += rays_host(rays)->ray_offset * e->normal[k];
+        for (m = 0; m < DIRECTIONS; m++) {
+            hemisphere_direction(d, &above, m, DIRECTIONS, i / (double)POINTS);
             met[rays_first(rays, p, d)]++;
         }
         if (met[RAY_MEETS_BACK] >= BURIED)

@@ -109,15 +109,6 @@ static void close_row(void *context, const struct solve *s, uint32_t leaf, doubl
                               : (area > 0 ? s->exposed[leaf] : 1) / rows->seeing;
 }
 
-static double largest(const double *v, uint32_t n)
-{
-    double most = v[0];
-    uint32_t i;
-    for (i = 1; i < n; i++)
-        most = v[i] > most ? v[i] : most;
-    return most;
-}
-
 void rows_scale(struct solve *s)
 {
     double exposed = 0;
@@ -127,7 +118,7 @@ void rows_scale(struct solve *s)
     s->row_high = s->row_excess = s->row_blind = s->row_defect = s->row_defect_most = 0;
     for (i = 0; i < s->scene->face_count; i++) {
         uint32_t e = s->hierarchy.face_element[i];
-        double most = 1 + 0.5 * (1 - largest(&s->reflectance[(size_t)i * s->bands], s->bands));
+        double most = 1 + 0.5 * (1 - s->whitest[i]);
         struct rows rows = { .cap = 1, .s = s };
         rows_visit(s, e, sum_row, &rows);
         exposed += rows.area;

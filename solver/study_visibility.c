@@ -195,7 +195,14 @@ static int ends_with(const char *path, const char *end)
 /* The paper's figure 5: wrong answers against threshold, a curve per number of rays. */
 static void print_plot(FILE *out, const struct options *o, const struct table *t)
 {
-    int i, k;
+    int i, k, drawn = 0, last = 0;
+    for (i = 0; i < o->threshold_count; i++)
+        if (judge(&t->cells[i][0]).asked) {
+            drawn++;
+            last = i;
+        }
+    if (drawn == 1) /* gnuplot warns of a range without width */
+        fprintf(out, "set xrange [%.9g:%.9g]\n", 0.9 * o->thresholds[last], 1.1 * o->thresholds[last]);
     fprintf(out, "set terminal %s\n", ends_with(o->chart, ".svg") ? "svg size 800,500 dynamic" : "pngcairo size 800,500");
     fprintf(out, "set xlabel 'projected area below, units'\nset ylabel 'wrong answers, %%'\nset yrange [0:*]\nset key left top\nset grid\n");
     for (k = 0; k < o->ray_count; k++) {

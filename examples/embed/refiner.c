@@ -172,6 +172,14 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 #define REFINER_OUTLINE static
 #endif
 
+/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so that a pair opens the same
+ * element both ways round. */
+
+static inline int refiner_wider(const struct refiner_element *a, const struct refiner_element *b)
+{
+    return a->radius > b->radius || (a->radius == b->radius && a->id <= b->id);
+}
+
 /* clusters.h - question: are both elements surfaces, and if not, which cluster is to be opened?
  *
  * apart is true only when no normal of the one, taken anywhere in its normal cone, makes an acute
@@ -224,8 +232,7 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
         return REFINER_CLUSTERS_APART;
     if (r->vertices || s->vertices)
         return s->vertices ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
-    /* A tie is broken by identity, so that a pair opens the same element both ways round. */
-    return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
+    return refiner_wider(r, s) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
 }
 
 /* plane_side.h - how an element lies to another's support plane.

@@ -13,6 +13,7 @@
 #define TERM_CLUSTER_VISIBILITY_H
 
 #include "discussion.h"
+#include "terms/surface_point.h"
 #include "terms/visibility.h"
 
 /* The most children that a cluster has; choices per segment before fewer segments than asked for must do. */
@@ -93,18 +94,6 @@ static inline void cluster_choose(struct cluster_choice *c, int count, const str
     }
 }
 
-/* A point of a face, spread evenly over a triangle or a parallelogram. */
-static inline void cluster_point(double out[3], const struct element *e, double s, double t)
-{
-    int k;
-    if (e->vertices == 3)
-        s = sqrt(s);
-    for (k = 0; k < 3; k++) {
-        const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-        out[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b) : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
-    }
-}
-
 /* The visible fraction by at most `count` segments, up to SEGMENTS_MAX. */
 OUTLINE double cluster_rays(const struct element *receiver, const struct element *emitter, const struct host *host, int count)
 {
@@ -145,8 +134,8 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
             double w[3], cos_a, cos_b, square;
             if (!a || !b)
                 continue;
-            cluster_point(g->from, a, of_r.u[i], across[0][i]);
-            cluster_point(g->to, b, of_s.u[i], across[1][i]);
+            surface_point(g->from, a, of_r.u[i], across[0][i]);
+            surface_point(g->to, b, of_s.u[i], across[1][i]);
             sub3(w, g->to, g->from);
             cos_a = dot3(a->normal, w);
             cos_b = -dot3(b->normal, w);
