@@ -8,7 +8,7 @@
 #include "export.h"
 #include "options.h"
 
-enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
+enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
            FACES, JSON, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
 /* solve, compare, viewfactors, study stability, study visibility */
@@ -23,6 +23,7 @@ static const struct option {
     { ORACLE, "--oracle", "NAME|FILE.dag", S | C, "the refinement oracle (default " DEFAULT_ORACLE "; see `radiosity oracles`)" },
     { RELEASE, "--release", "flat|dag|hand", S, "compiled graph (default), interpreted graph, or written by hand" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT, "set a parameter of the oracle; may be given many times" },
+    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters: sah (default), embree, octree, kd" },
     { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
     { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
@@ -181,6 +182,9 @@ static int take(struct options *o, const struct option *p, char *value)
     case SET:
         o->settings[o->setting_count++] = value;
         return 0;
+    case CLUSTERS:
+        o->clusters = (enum clustering)clustering_of(value);
+        return clustering_of(value) < 0 ? wrong("--clusters knows sah, embree, octree and kd, not", value) : 0;
     case TOLERANCE:
         o->tolerance = strtod(value, &end);
         if (end == value || *end || !(o->tolerance > 0) || !(o->tolerance < 1))
@@ -332,6 +336,7 @@ int options_parse(struct options *o, int count, char **arguments)
     int i = 2, only_files = 0, status;
     memset(o, 0, sizeof *o);
     o->oracle = DEFAULT_ORACLE;
+    o->clusters = CLUSTERING_DEFAULT;
     o->tolerance = 1e-4;
     o->iterations = 100000;
     o->threads = omp_get_num_procs();
