@@ -1,8 +1,7 @@
 /* build_sah.c - clusters by a top-down binned surface-area heuristic [Wald 2007].
  *
  * Items fall into BINS slices of the range of their centres, on each axis; a range is cut at the border between slices
- * where area times number, summed over both sides, is least; an axis with an empty slice is passed over, and where all are,
- * the range is halved as it lies. Three such cuts of the largest part make four, as many
+ * where area times number, summed over both sides, is least. Three such cuts of the largest part make four, as many
  * as a split surface has. Invariant: boxes are joined by least and largest, and counts are whole, so it is all the same in which
  * order and by how many threads.
  * SPDX-License-Identifier: MIT */
@@ -65,8 +64,8 @@ struct border {
     int axis, at;
 };
 
-/* The cheapest border. Returns 0 when there is none. */
-static int choose(const struct slices slices[3], const struct bounds *range, uint32_t count, struct border *border)
+/* The cheapest border; `full`: on axes without an empty slice. Returns 0 when there is none. */
+static int choose(const struct slices slices[3], const struct bounds *range, uint32_t count, int full, struct border *border)
 {
     double best = INFINITY;
     int k, j;
@@ -75,19 +74,22 @@ static int choose(const struct slices slices[3], const struct bounds *range, uin
         double from_right[BINS];
         struct bounds side;
         uint32_t n = 0;
-        for (j = 0; j < BINS && s->count[j]; j++)
+        for (j = 0; full && j < BINS && s->count[j]; j++)
             continue;
-        if (j < BINS)
+        if (full && j < BINS)
             continue;
         bounds_empty(&side);
         for (j = BINS - 1; j > 0; j--) {
-            bounds_add(&side, &s->box[j]);
+            if (s->count[j])
+                bounds_add(&side, &s->box[j]);
             n += s->count[j];
             from_right[j] = bounds_area(&side) * n;
         }
         bounds_empty(&side);
         for (n = 0, j = 0; j < BINS - 1; j++) {
             double cost;
+            if (!s->count[j]) /* the border before it costs the same */
+                continue;
             bounds_add(&side, &s->box[j]);
             n += s->count[j];
             cost = bounds_area(&side) * n + from_right[j + 1];
@@ -126,17 +128,37 @@ static void take_back(const struct build *b, uint32_t from, uint32_t to)
     memcpy(&b->items[from], &b->scratch[from], (to - from) * sizeof *b->items);
 }
 
-static uint32_t cut_alone(const struct build *b, uint32_t from, uint32_t to)
+/* Two items are told apart on the first axis on which they can be: all borders between them cost the same. */
+static void order_two(struct item *x)
+{
+    int k;
+    for (k = 0; k < 3; k++) {
+        double first = item_centre(&x[0], k), second = item_centre(&x[1], k);
+        if (first > second) {
+            struct item swap = x[0];
+            x[0] = x[1];
+            x[1] = swap;
+        }
+        if (first < second || first > second)
+            return;
+    }
+}
+
+static uint32_t cut_alone(const struct build *b, uint32_t from, uint32_t to, int full)
 {
     struct bounds range;
     struct slices slices[3];
     struct border c;
     uint32_t left;
-    if (to - from < BINS) /* a slice would be empty */
+    if (full && to - from < BINS)
         return from + (to - from) / 2;
+    if (to - from == 2) {
+        order_two(&b->items[from]);
+        return from + 1;
+    }
     centres(b, from, to, &range);
     fill(b, from, to, &range, slices);
-    if (!choose(slices, &range, to - from, &c))
+    if (!choose(slices, &range, to - from, full, &c))
         return from + (to - from) / 2;
     left = count_left(b, from, to, &c);
     part_items(b, from, to, &c, from, from + left);
@@ -145,7 +167,7 @@ static uint32_t cut_alone(const struct build *b, uint32_t from, uint32_t to)
 }
 
 /* The same by many threads, each step in shares. */
-static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, int threads)
+static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, int full, int threads)
 {
     struct bounds range, share_range[SHARES];
     struct slices slices[3];
@@ -172,7 +194,7 @@ static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, 
                 if (mine[k].count[j])
                     put(&slices[k], j, mine[k].count[j], &mine[k].box[j]);
     }
-    if (!choose(slices, &range, to - from, &c))
+    if (!choose(slices, &range, to - from, full, &c))
         return from + (to - from) / 2;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (s = 0; s < SHARES; s++)
@@ -192,21 +214,41 @@ static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, 
     return middle;
 }
 
-uint32_t build_cut(const struct build *b, uint32_t from, uint32_t to, int threads)
+static uint32_t cut(const struct build *b, uint32_t from, uint32_t to, int full, int threads)
 {
-    return threads > 1 && to - from > ALONE ? cut_together(b, from, to, threads) : cut_alone(b, from, to);
+    return threads > 1 && to - from > ALONE ? cut_together(b, from, to, full, threads) : cut_alone(b, from, to, full);
 }
 
-static int cut(const struct build *b, const struct part *whole, struct part *parts, int threads)
+uint32_t build_cut(const struct build *b, uint32_t from, uint32_t to, int threads)
+{
+    return cut(b, from, to, 0, threads);
+}
+
+static int cut_in_two(const struct build *b, const struct part *whole, struct part *parts, int threads)
 {
     parts[0] = parts[1] = *whole;
-    parts[0].to = parts[1].from = build_cut(b, whole->from, whole->to, threads);
+    parts[0].to = parts[1].from = cut(b, whole->from, whole->to, 0, threads);
+    return 2;
+}
+
+static int cut_if_full(const struct build *b, const struct part *whole, struct part *parts, int threads)
+{
+    parts[0] = parts[1] = *whole;
+    parts[0].to = parts[1].from = cut(b, whole->from, whole->to, 1, threads);
     return 2;
 }
 
 static int divide(const struct build *b, const struct part *whole, struct part *parts, int threads)
 {
-    return build_cut_thrice(b, whole, parts, threads, cut);
+    return build_cut_thrice(b, whole, parts, threads, cut_in_two);
+}
+
+static int divide_if_full(const struct build *b, const struct part *whole, struct part *parts, int threads)
+{
+    return build_cut_thrice(b, whole, parts, threads, cut_if_full);
 }
 
 const struct strategy build_sah = { NULL, divide, NULL };
+
+/* The same, but where every axis has an empty slice, as with less than BINS items, halves of the order at hand: at the bottom, the file's. */
+const struct strategy build_halves = { NULL, divide_if_full, NULL };

@@ -10,8 +10,9 @@
 
 struct face;
 
-/* Constant, name, what it is. `radiosity study clustering` compares them. */
+/* Constant, name, what it is; the first is the default. `radiosity study clustering` compares them. */
 #define CLUSTERINGS(X) \
+    X(HALVES, halves, "as sah where every slice holds a face, else halves of the file's order") \
     X(SAH, sah, "boxes cut where the surface-area heuristic says [Wald 2007]") \
     X(EMBREE, embree, "Embree's builder in high quality, with spatial splits [Stich et al. 2009]") \
     X(OCTREE, octree, "uniform octree, faces by middle and size [Hasenfratz et al. 1999; Ulrich 2000]") \
@@ -21,7 +22,7 @@ enum clustering {
     CLUSTERINGS(X)
 #undef X
     CLUSTERING_COUNT,
-    CLUSTERING_DEFAULT = CLUSTERING_SAH
+    CLUSTERING_DEFAULT = 0
 };
 extern const char *const clustering_names[CLUSTERING_COUNT], *const clustering_helps[CLUSTERING_COUNT];
 

@@ -11,6 +11,9 @@
 enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
            FACES, JSON, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
+#define CLUSTERING_WORD(constant, name, help) " " #name
+#define CLUSTERING_NAMES CLUSTERINGS(CLUSTERING_WORD)
+
 /* solve, compare, viewfactors, study stability, study visibility */
 enum { S = 1, C = 2, V = 4, FAILURES = 8, SIGHT = 16, ALL = S | C | V };
 
@@ -23,7 +26,7 @@ static const struct option {
     { ORACLE, "--oracle", "NAME|FILE.dag", S | C, "the refinement oracle (default " DEFAULT_ORACLE "; see `radiosity oracles`)" },
     { RELEASE, "--release", "flat|dag|hand", S, "compiled graph (default), interpreted graph, or written by hand" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT, "set a parameter of the oracle; may be given many times" },
-    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters: sah (default), embree, octree, kd" },
+    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default halves):" CLUSTERING_NAMES },
     { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
     { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
@@ -184,7 +187,7 @@ static int take(struct options *o, const struct option *p, char *value)
         return 0;
     case CLUSTERS:
         o->clusters = (enum clustering)clustering_of(value);
-        return clustering_of(value) < 0 ? wrong("--clusters knows sah, embree, octree and kd, not", value) : 0;
+        return clustering_of(value) < 0 ? wrong("--clusters knows" CLUSTERING_NAMES ", not", value) : 0;
     case TOLERANCE:
         o->tolerance = strtod(value, &end);
         if (end == value || *end || !(o->tolerance > 0) || !(o->tolerance < 1))

@@ -206,7 +206,7 @@ START_TEST(test_measures)
     uint32_t i, f, flat = 0;
     int k;
     ck_assert_int_eq(hierarchy_build_by(&h, s.face, s.count, (enum clustering)strategy, 2), 0);
-    ck_assert_int_eq(hierarchy_build_by(&first, s.face, s.count, CLUSTERING_SAH, 1), 0);
+    ck_assert_int_eq(hierarchy_build_by(&first, s.face, s.count, CLUSTERING_DEFAULT, 1), 0);
     for (i = 0; i < h.built; i++) {
         const struct element *e = &h.elements[i];
         double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY }, area = 0, cone = 1, axis[3] = { 0 }, size;
