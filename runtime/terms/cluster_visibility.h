@@ -13,25 +13,12 @@
 #define TERM_CLUSTER_VISIBILITY_H
 
 #include "discussion.h"
+#include "terms/cluster_facing.h"
 #include "terms/surface_point.h"
 #include "terms/visibility.h"
 
 /* The most children that a cluster has; choices per segment before fewer segments than asked for must do. */
 enum { CLUSTER_CHILDREN = 8, CLUSTER_TRIES = 8 };
-
-/* The area of e that may face direction v (unit), or one that differs from it by an angle whose sine is at most `slope`. */
-static inline double cluster_facing(const struct element *e, const double v[3], double slope)
-{
-    double c = dot3(e->normal, v), across = 1 - c * c, sine = 1 - e->cone * e->cone;
-    if (c < e->cone) /* the normal of the cone that turns to v most */
-        c = c * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0);
-    else
-        c = 1;
-    if (e->vertices)
-        c = dot3(e->normal, v);
-    c += slope;
-    return e->area * (c < 0 ? 0 : c < 1 ? c : 1);
-}
 
 /* Faces chosen from one element: of each, what is left of its u in [0, 1) once the choice has used it up, and the chance
  * that it was chosen. */
