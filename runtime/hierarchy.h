@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include "cluster_tree.h"
 #include "discussion.h"
 
 /* A flat, convex face with 3 or 4 corners, counter-clockwise from its front. */
@@ -33,9 +34,12 @@ struct hierarchy {
 
 enum { NO_ELEMENT = 0 }; /* as a child index: not split */
 
-/* Build the clusters and one element per face (deterministic, independent of threads).
+/* Build the clusters and one element per face (deterministic, independent of threads), by the default strategy and one thread.
  * The faces are borrowed and must outlive the hierarchy. Returns 0, or -1 when out of memory. */
 int hierarchy_build(struct hierarchy *h, const struct face *faces, uint32_t face_count);
+
+/* The same by a strategy and a number of threads. The elements of faces, but for their places, do not depend on the strategy. */
+int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count, enum clustering strategy, int threads);
 
 /* Split a surface in four, unless it is split. Pointers into `elements` may move.
  * Returns 0, or -1 when out of memory or out of indices; then nothing has changed. */

@@ -4,7 +4,8 @@
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
  * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
  * scene's size, more where faces are bent by the rounding of large coordinates), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
- * Rays travel in packets of 16.
+ * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer; packets filled across
+ * pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a scene of 13,000 faces).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -90,12 +91,10 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
 #if EMBREE == 4
             struct RTCOccludedArguments arguments;
             rtcInitOccludedArguments(&arguments);
-            arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
             rtcOccluded16(valid, rays->scene, &packet, &arguments);
 #else
             struct RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
             rtcOccluded16(valid, rays->scene, &context, &packet);
 #endif
         }

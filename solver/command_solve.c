@@ -43,7 +43,7 @@ static int write_outputs(const struct options *o, const struct solve *s)
 int command_solve(const struct options *o, const struct scene *scene)
 {
     struct progress progress;
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure, .view = o->view_given ? &o->view : NULL,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure, .clusters = o->clusters, .view = o->view_given ? &o->view : NULL,
                                  .aspect = o->width / (double)o->height,
                                  .threads = o->threads, .progress = progress_show, .context = &progress };
     struct refiner *refiner = oracles_open(o->oracle, o->release);

@@ -11,7 +11,7 @@ int command_study(const struct options *o)
         return study_stability(o);
     if (scene_read(&scene, o->scene, &how) < 0)
         return 1;
-    status = study_visibility(o, &scene);
+    status = o->study == STUDY_CLUSTERING ? study_clustering(o, &scene) : study_visibility(o, &scene);
     scene_free(&scene);
     return status;
 }

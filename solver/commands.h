@@ -13,6 +13,7 @@ int command_study(const struct options *options); /* reads the scene itself, whe
 
 /* The studies. `options` holds what was asked: see options.h. */
 int study_stability(const struct options *options);
+int study_clustering(const struct options *options, const struct scene *scene);
 int study_visibility(const struct options *options, const struct scene *scene);
 
 #endif

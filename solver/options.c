@@ -8,11 +8,14 @@
 #include "export.h"
 #include "options.h"
 
-enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
-           FACES, JSON, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
+enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
+           FACES, JSON, REPEATS, ONLY, REFERENCE, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
-/* solve, compare, viewfactors, study stability, study visibility */
-enum { S = 1, C = 2, V = 4, FAILURES = 8, SIGHT = 16, ALL = S | C | V };
+#define CLUSTERING_WORD(constant, name, help) " " #name
+#define CLUSTERING_NAMES CLUSTERINGS(CLUSTERING_WORD)
+
+/* solve, compare, viewfactors, study stability, study visibility, study clustering */
+enum { S = 1, C = 2, V = 4, FAILURES = 8, SIGHT = 16, TREES = 32, ALL = S | C | V };
 
 static const struct option {
     enum key key;
@@ -20,19 +23,21 @@ static const struct option {
     int commands;
     const char *help;
 } table[] = {
-    { ORACLE, "--oracle", "NAME|FILE.dag", S | C, "the refinement oracle (default " DEFAULT_ORACLE "; see `radiosity oracles`)" },
-    { RELEASE, "--release", "flat|dag|hand", S, "compiled graph (default), interpreted graph, or written by hand" },
-    { SET, "--set", "PARAM=VALUE", ALL | SIGHT, "set a parameter of the oracle; may be given many times" },
-    { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
-    { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
+    { ORACLE, "--oracle", "NAME|FILE.dag", S | C | TREES, "the refinement oracle (default " DEFAULT_ORACLE ", in `study clustering` clusters;\n"
+      "                             see `radiosity oracles`)" },
+    { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand" },
+    { SET, "--set", "PARAM=VALUE", ALL | SIGHT | TREES, "set a parameter of the oracle; may be given many times" },
+    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default halves):" CLUSTERING_NAMES },
+    { TOLERANCE, "--tolerance", "X", S | C | TREES, "relative error of radiosity that iteration may leave (default 1e-4)" },
+    { ITERATIONS, "--iterations", "N", S | C | TREES, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
-    { CLOSURE, "--closure", "none|rows", S | C, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an open\n"
+    { CLOSURE, "--closure", "none|rows", S | C | TREES, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an open\n"
       "                             one; power is then no longer exchanged alike both ways (default none)" },
     { STATISTICS, "--statistics", "FILE", S, "how often each answer of the oracle's graph was given: text, .csv, .json; - is\n"
       "                             standard output. The graph is interpreted; what it decides is the same" },
-    { THREADS, "--threads", "N", ALL | FAILURES | SIGHT, "threads to use (default: all processors); the result is the same" },
-    { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT, "every face has two sides, not only materials named *_2s" },
-    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
+    { THREADS, "--threads", "N", ALL | FAILURES | SIGHT | TREES, "threads to use (default: all processors); the result is the same" },
+    { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT | TREES, "every face has two sides, not only materials named *_2s" },
+    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT | TREES, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
     { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
     { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
     { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70); of the picture,\n"
@@ -41,13 +46,14 @@ static const struct option {
     { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
     { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
     { REPEATS, "--repeats", "N", C, "timed runs of each release (default 3)" },
-    { ONLY, "--only", "CASE", FAILURES, "one case of `study stability`, by its name in the table" },
+    { ONLY, "--only", "CASE", FAILURES | TREES, "one case of `study stability`, or one strategy of `study clustering`" },
+    { REFERENCE, "--reference", "FACES.csv", TREES, "radiosities to measure errors by, a table as `solve --faces` writes it" },
     { THRESHOLDS, "--thresholds", "A,B,...", SIGHT, "projected areas below which visibility is tested (2,3,5,7.5,10,15)" },
     { RAYS, "--rays", "N,M,...", SIGHT, "the rays whose answers are held against the reference (4,16,64)" },
-    { CHART, "--chart", "FILE", SIGHT, "a chart of the study, .svg or .png" },
-    { QUIET, "-q", NULL, ALL | FAILURES | SIGHT, "no progress, no summary, no warnings" },
-    { HELP, "--help", NULL, ALL | FAILURES | SIGHT, "this text" },
-    { VERSION, "--version", NULL, ALL | FAILURES | SIGHT, "the version" },
+    { CHART, "--chart", "FILE", SIGHT | TREES, "a chart of the study, .svg or .png" },
+    { QUIET, "-q", NULL, ALL | FAILURES | SIGHT | TREES, "no progress, no summary, no warnings" },
+    { HELP, "--help", NULL, ALL | FAILURES | SIGHT | TREES, "this text" },
+    { VERSION, "--version", NULL, ALL | FAILURES | SIGHT | TREES, "the version" },
 };
 
 enum { OPTIONS = sizeof table / sizeof *table };
@@ -70,6 +76,7 @@ void options_print_study_help(FILE *out)
 {
     fputs("usage: radiosity study stability [options]         where methods fail, and by how much\n"
           "       radiosity study visibility SCENE [options]  how often few rays are wrong about visibility\n"
+          "       radiosity study clustering SCENE [options]  what ways of grouping faces cost and give\n"
           "\n"
           "stability makes small scenes whose answer is known and on which published methods fail: elements that\n"
           "share an edge, slivers, a blocker smaller than the gaps between rays, a bright furnace. Rows are the\n"
@@ -85,8 +92,13 @@ void options_print_study_help(FILE *out)
           "trusted, as in section 5 of Turbet and Sillion:\n"
           "\n"
           "    radiosity study visibility examples/scenes/td.obj --thresholds 2,3,5,7.5,10,15 --rays 4,16,64\n"
+          "\n"
+          "clustering solves a scene once for each strategy of --clusters and compares time, links, rays, memory and\n"
+          "error, by the power imbalance or, better, by a reference:\n"
+          "\n"
+          "    radiosity study clustering examples/scenes/sejour.obj --reference sejour.csv -o table.md   # or .csv\n"
           "\n", out);
-    print_options(out, FAILURES | SIGHT);
+    print_options(out, FAILURES | SIGHT | TREES);
 }
 
 void options_print_help(FILE *out)
@@ -94,7 +106,7 @@ void options_print_help(FILE *out)
     fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
           "       radiosity compare SCENE [options]      run an oracle's releases side by side\n"
           "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
-          "       radiosity study stability|visibility   where methods fail, and by how much; `radiosity study --help`\n"
+          "       radiosity study WORD [SCENE] [options] stability, visibility, clustering: see `radiosity study --help`\n"
           "       radiosity oracles                      list the built-in oracles and their parameters\n"
           "\n"
           "Light in a closed scene of diffuse surfaces, by hierarchical radiosity. SCENE is OBJ+MTL, PLY,\n"
@@ -192,6 +204,9 @@ static int take(struct options *o, const struct option *p, char *value)
     case SET:
         o->settings[o->setting_count++] = value;
         return 0;
+    case CLUSTERS:
+        o->clusters = (enum clustering)clustering_of(value);
+        return clustering_of(value) < 0 ? wrong("--clusters knows" CLUSTERING_NAMES ", not", value) : 0;
     case TOLERANCE:
         o->tolerance = strtod(value, &end);
         if (end == value || *end || !(o->tolerance > 0) || !(o->tolerance < 1))
@@ -241,6 +256,9 @@ static int take(struct options *o, const struct option *p, char *value)
         return 0;
     case ONLY:
         o->only = value;
+        return 0;
+    case REFERENCE:
+        o->reference = value;
         return 0;
     case CHART:
         o->chart = value;
@@ -305,7 +323,7 @@ static int command_of(const char *word, enum command *command)
 /* `radiosity study WORD`: which study. Returns 0 or the exit status. */
 static int study_of(struct options *o, const char *word)
 {
-    static const char *const names[] = { "stability", "visibility" };
+    static const char *const names[] = { "stability", "visibility", "clustering" };
     static const double thresholds[] = { 2, 3, 5, 7.5, 10, 15 };
     static const int rays[] = { 4, 16, 64 };
     int i;
@@ -315,11 +333,13 @@ static int study_of(struct options *o, const char *word)
         o->command = COMMAND_STUDY_HELP;
         return 0;
     }
-    for (i = 0; i < 2 && strcmp(word, names[i]) != 0; i++)
+    for (i = 0; i < 3 && strcmp(word, names[i]) != 0; i++)
         ;
-    if (i == 2)
-        return wrong("study knows stability and visibility, not", word);
+    if (i == 3)
+        return wrong("study knows stability, visibility and clustering, not", word);
     o->study = (enum study)i;
+    if (o->study == STUDY_CLUSTERING)
+        o->oracle = "clusters";
     memcpy(o->thresholds, thresholds, sizeof thresholds);
     memcpy(o->rays, rays, sizeof rays);
     o->threshold_count = sizeof thresholds / sizeof *thresholds;
@@ -332,7 +352,8 @@ static int takes(const struct options *o)
 {
     return o->command < COMMAND_ORACLES ? 1 << o->command
          : o->command != COMMAND_STUDY  ? ~0
-         : o->study == STUDY_STABILITY  ? FAILURES : SIGHT;
+         : o->study == STUDY_STABILITY  ? FAILURES
+         : o->study == STUDY_CLUSTERING ? TREES : SIGHT;
 }
 
 int options_parse(struct options *o, int count, char **arguments)
@@ -340,6 +361,7 @@ int options_parse(struct options *o, int count, char **arguments)
     int i = 2, only_files = 0, status;
     memset(o, 0, sizeof *o);
     o->oracle = DEFAULT_ORACLE;
+    o->clusters = CLUSTERING_DEFAULT;
     o->tolerance = 1e-4;
     o->iterations = 100000;
     o->threads = omp_get_num_procs();
@@ -414,7 +436,9 @@ int options_parse(struct options *o, int count, char **arguments)
     }
     if (o->command == COMMAND_ORACLES)
         return o->scene ? wrong("oracles takes no scene, but got", o->scene) : 0;
-    if (o->command == COMMAND_STUDY && o->study == STUDY_STABILITY && o->out && !ends_with(o->out, ".csv") && !ends_with(o->out, ".md"))
+    if (o->command == COMMAND_STUDY && o->study == STUDY_CLUSTERING && o->only && clustering_of(o->only) < 0)
+        return wrong("--only knows" CLUSTERING_NAMES " here, not", o->only);
+    if (o->command == COMMAND_STUDY && o->study != STUDY_VISIBILITY && o->out && !ends_with(o->out, ".csv") && !ends_with(o->out, ".md"))
         return wrong("-o takes a file named .csv or .md, not", o->out);
     if (o->command == COMMAND_STUDY && o->study == STUDY_VISIBILITY && o->out && !ends_with(o->out, ".csv"))
         return wrong("-o takes a file named .csv, not", o->out);

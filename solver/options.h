@@ -9,7 +9,7 @@
 
 enum command { COMMAND_SOLVE, COMMAND_COMPARE, COMMAND_VIEWFACTORS, COMMAND_ORACLES, COMMAND_STUDY, COMMAND_HELP,
                COMMAND_STUDY_HELP, COMMAND_VERSION };
-enum study { STUDY_STABILITY, STUDY_VISIBILITY };
+enum study { STUDY_STABILITY, STUDY_VISIBILITY, STUDY_CLUSTERING };
 enum { STUDY_LIST = 32 };
 
 struct options {
@@ -18,6 +18,7 @@ struct options {
     enum release release;
     int release_given;
     enum closure closure;
+    enum clustering clusters; /* the strategy that builds them */
     const char *statistics; /* NULL: not wanted */
     char **settings; /* [setting_count] "NAME=VALUE", owned */
     int setting_count;
@@ -28,8 +29,9 @@ struct options {
     struct view view;
     int view_given;
     enum study study;       /* of COMMAND_STUDY, and the rest of this block with it */
-    const char *only;       /* stability: the case to run; NULL: all */
-    const char *chart;      /* visibility: where the drawing goes; NULL: not wanted */
+    const char *only;       /* stability: the case to run; clustering: the strategy; NULL: all */
+    const char *chart;      /* visibility, clustering: where the drawing goes; NULL: not wanted */
+    const char *reference;  /* clustering: the table of faces to measure by; NULL: none */
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;

@@ -14,8 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "atomic_file.h"
+#include "chart.h"
 #include "commands.h"
 #include "progress.h"
 #include "report.h"
@@ -186,15 +186,16 @@ static int write_csv(const char *path, const struct options *o, const struct tab
     return atomic_commit(&file);
 }
 
-static int ends_with(const char *path, const char *end)
-{
-    size_t n = strlen(path), m = strlen(end);
-    return n >= m && strcmp(path + n - m, end) == 0;
-}
+struct drawing {
+    const struct options *options;
+    const struct table *table;
+};
 
 /* The paper's figure 5: wrong answers against threshold, a curve per number of rays. */
-static void print_plot(FILE *out, const struct options *o, const struct table *t)
+static void print_plot(FILE *out, const void *context)
 {
+    const struct options *o = ((const struct drawing *)context)->options;
+    const struct table *t = ((const struct drawing *)context)->table;
     int i, k, drawn = 0, last = 0;
     for (i = 0; i < o->threshold_count; i++)
         if (judge(&t->cells[i][0]).asked) {
@@ -203,7 +204,6 @@ static void print_plot(FILE *out, const struct options *o, const struct table *t
         }
     if (drawn == 1) /* gnuplot warns of a range without width */
         fprintf(out, "set xrange [%.9g:%.9g]\n", 0.9 * o->thresholds[last], 1.1 * o->thresholds[last]);
-    fprintf(out, "set terminal %s\n", ends_with(o->chart, ".svg") ? "svg size 800,500 dynamic" : "pngcairo size 800,500");
     fprintf(out, "set xlabel 'projected area below, units'\nset ylabel 'wrong answers, %%'\nset yrange [0:*]\nset key left top\nset grid\n");
     for (k = 0; k < o->ray_count; k++) {
         fprintf(out, "$rays%d << EOD\n", k);
@@ -220,39 +220,15 @@ static void print_plot(FILE *out, const struct options *o, const struct table *t
     fputc('\n', out);
 }
 
-/* gnuplot reads a script and its picture is read from it, so that the chart appears whole or not at all. */
 static int write_chart(const struct options *o, const struct table *t)
 {
-    const char *folder = getenv("TMPDIR");
-    char script[512], command[600], bytes[4096];
-    struct atomic_file file;
-    FILE *f, *picture;
-    size_t n, all = 0;
-    int fd, i, drawn = 0;
+    const struct drawing d = { o, t };
+    int i, drawn = 0;
     for (i = 0; i < o->threshold_count; i++)
         drawn += judge(&t->cells[i][0]).asked > 0;
     if (!drawn)
         return report_error(o->chart, 0, "no pair was tested, so there is nothing to draw; raise --thresholds, or try a scene of more faces");
-    snprintf(script, sizeof script, "%s/radiosity-XXXXXX", folder && *folder ? folder : "/tmp");
-    fd = mkstemp(script);
-    f = fd < 0 ? NULL : fdopen(fd, "w");
-    if (!f)
-        return report_error(script, 0, "cannot be written");
-    print_plot(f, o, t);
-    if (fclose(f) != 0 || atomic_open(&file, o->chart)) {
-        unlink(script);
-        return -1;
-    }
-    snprintf(command, sizeof command, "gnuplot '%s'", script);
-    picture = popen(command, "r");
-    while (picture && (n = fread(bytes, 1, sizeof bytes, picture)) > 0)
-        all += fwrite(bytes, 1, n, file.stream);
-    n = picture && pclose(picture) == 0 && all > 0;
-    unlink(script);
-    if (n)
-        return atomic_commit(&file);
-    atomic_discard(&file);
-    return report_error(o->chart, 0, "gnuplot, which draws it, is not there or failed");
+    return chart_draw(o->chart, print_plot, &d);
 }
 
 int study_visibility(const struct options *o, const struct scene *scene)

@@ -176,6 +176,9 @@ fi
 cd user || exit 2
 check "radiosity" radiosity solve "$top/examples/scenes/furnace.obj" --oracle own.dag -q
 check "radiosity: both releases" radiosity solve "$top/examples/scenes/furnace.obj" --oracle own.dag --release dag -q
+echo 'oracle bf_guarded { start a; node a = transfer(relative = 1) { otherwise -> stop; } }' >nothing.dag
+check "radiosity: an oracle called as a built-in one is" \
+    sh -c "radiosity solve '$top/examples/scenes/furnace.obj' --oracle nothing.dag -q --json - | grep -q '\"links\": 0,'"
 cd ..
 
 # ---- the pages
