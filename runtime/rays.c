@@ -268,8 +268,9 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* What the ray from p (Embree's coordinates) meets first. */
-static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3])
+/* What the ray from p (Embree's coordinates) meets first: *length directions away, the side it meets facing along `side`, which
+ * has any length. */
+static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3], double *length, double side[3])
 {
     _Alignas(16) struct RTCRayHit query;
     float facing;
@@ -296,19 +297,34 @@ static enum ray_fate first_hit(const struct rays *rays, const double p[3], const
     }
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return RAY_LEAVES;
+    facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
+    *length = query.ray.tfar;
+    side[0] = facing > 0 ? -query.hit.Ng_x : query.hit.Ng_x;
+    side[1] = facing > 0 ? -query.hit.Ng_y : query.hit.Ng_y;
+    side[2] = facing > 0 ? -query.hit.Ng_z : query.hit.Ng_z;
     if (rays->two_sided[query.hit.primID])
         return RAY_MEETS_FRONT;
-    facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
     return facing > 0 ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
 }
 
-enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3])
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3], double at[3], double normal[3])
 {
-    double p[3];
+    double p[3], side[3], length, size;
+    enum ray_fate fate;
     int k;
     for (k = 0; k < 3; k++)
         p[k] = (from[k] - rays->origin[k]) * rays->scale;
-    return first_hit(rays, p, direction);
+    fate = first_hit(rays, p, direction, &length, side);
+    if (fate == RAY_LEAVES)
+        return fate;
+    size = length3(side);
+    for (k = 0; k < 3; k++) {
+        if (at)
+            at[k] = from[k] + length / rays->scale * direction[k];
+        if (normal)
+            normal[k] = side[k] / size;
+    }
+    return fate;
 }
 
 double rays_exposed(const struct rays *rays, const struct element *e)
@@ -321,13 +337,13 @@ double rays_exposed(const struct rays *rays, const struct element *e)
         hemisphere_direction(direction[m], &above, m, DIRECTIONS, 0);
     for (i = 0; i < SIDE; i++)
         for (j = 0; j < SIDE; j++) {
-            double p[3];
+            double p[3], side[3], length;
             int inside = 0;
             surface_point(p, e, (i + 0.5) / SIDE, (j + 0.5) / SIDE);
             for (k = 0; k < 3; k++)
                 p[k] = (p[k] + rays->host.ray_offset * e->normal[k] - rays->origin[k]) * rays->scale;
             for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
-                inside += first_hit(rays, p, direction[m]) == RAY_MEETS_BACK;
+                inside += first_hit(rays, p, direction[m], &length, side) == RAY_MEETS_BACK;
             buried += inside >= MOST;
         }
     return 1 - buried / (double)(SIDE * SIDE);
