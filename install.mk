@@ -9,11 +9,11 @@ INSTALL = install
 TO      = $(DESTDIR)$(PREFIX)
 VERSION = $(shell sed -n 's/^.define DAGC_VERSION "\(.*\)"/\1/p' dagc/dag.h)
 
-MADE      = $(addprefix $(BUILD)/install/,dagc.pc dagcConfigVersion.cmake dagc.1 dagc-language.5)
+MADE      = $(addprefix $(BUILD)/install/,dagc.pc dagcConfigVersion.cmake dagc.1 radiosity.1 dagc-language.5)
 INSTALLED = bin/dagc bin/radiosity lib/libdagc.a lib/pkgconfig/dagc.pc \
             $(addprefix lib/cmake/dagc/,dagcConfig.cmake dagcConfigVersion.cmake) \
             $(addprefix include/dagc/,dag.h catalog.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk $(GRAPHS:examples/%=%)) \
-            share/man/man1/dagc.1 share/man/man5/dagc-language.5
+            share/man/man1/dagc.1 share/man/man1/radiosity.1 share/man/man5/dagc-language.5
 GRAPHS    = $(wildcard examples/oracles/*.dag)
 # The folders that are ours alone, the inner ones first.
 FOLDERS   = lib/cmake/dagc include/dagc/tools include/dagc/terms include/dagc share/dagc/oracles share/dagc
@@ -30,7 +30,7 @@ install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter terms/%,$(HEADERS))) $(TO)/include/dagc/terms
 	$(INSTALL) -m 644 runtime/catalog.dag dagc/package/dagc.mk $(TO)/share/dagc
 	$(INSTALL) -m 644 $(GRAPHS) $(TO)/share/dagc/oracles
-	$(INSTALL) -m 644 $(BUILD)/install/dagc.1 $(TO)/share/man/man1
+	$(INSTALL) -m 644 $(BUILD)/install/dagc.1 $(BUILD)/install/radiosity.1 $(TO)/share/man/man1
 	$(INSTALL) -m 644 $(BUILD)/install/dagc-language.5 $(TO)/share/man/man5
 
 uninstall:
@@ -48,3 +48,6 @@ $(BUILD)/install/dagcConfigVersion.cmake: dagc/package/dagcConfigVersion.cmake.i
 $(BUILD)/install/dagc%: dagc/man/dagc% dagc/man/tables.sh dagc/dag.h $(wildcard dagc/*.def)
 	@mkdir -p $(@D)
 	sh dagc/man/tables.sh $(VERSION) $< > $@
+$(BUILD)/install/radiosity.1: solver/man/radiosity.1 solver/man/options.sh $(BUILD)/bin/radiosity
+	@mkdir -p $(@D)
+	sh solver/man/options.sh $(BUILD)/bin/radiosity $< > $@

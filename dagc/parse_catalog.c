@@ -5,6 +5,18 @@
 
 #include "parse.h"
 
+/* A catalog where an oracle is expected, with one already: one error, instead of one for each thing it declares again. */
+static int refuse_catalog(struct parser *parser, struct where where)
+{
+    struct dag *dag = parser->dag;
+    dag_error(dag, where, "this file is a catalog, not an oracle, and there is one already");
+    dag_note(dag, dag->runtime_where, "that one begins here");
+    dag_note(dag, dag_nowhere, "--catalog=FILE takes it in place of that one; --emit=catalog documents it");
+    while (parser->token.kind != TOKEN_END)
+        dag_advance(parser);
+    return 1;
+}
+
 /* runtime = "runtime" STRING "abi" NUMBER ";" */
 static int parse_runtime(struct parser *parser)
 {
@@ -13,6 +25,9 @@ static int parse_runtime(struct parser *parser)
     const char *header;
     double abi;
     struct where abi_where;
+    if (dag->runtime_header != NULL && parser->content == CONTENT_ORACLES
+        && dag->sources[where.source].importer.source < 0 && dag->runtime_where.source != where.source)
+        return refuse_catalog(parser, where);
     if (!dag_expect_string(parser, "the runtime's header, a string", &header))
         return 0;
     if (!dag_take_word(parser, "abi"))

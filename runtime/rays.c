@@ -4,7 +4,8 @@
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
  * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
  * scene's size, more where faces are bent by the rounding of large coordinates), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
- * Rays travel in packets of 16.
+ * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer; packets filled across
+ * pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a scene of 13,000 faces).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,9 @@
 #define EMBREE 3
 #endif
 #include "candidates.h"
+#include "hemisphere.h"
 #include "rays.h"
+#include "terms/surface_point.h"
 
 enum { PACKET = 16 };
 
@@ -88,12 +91,10 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
 #if EMBREE == 4
             struct RTCOccludedArguments arguments;
             rtcInitOccludedArguments(&arguments);
-            arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
             rtcOccluded16(valid, rays->scene, &packet, &arguments);
 #else
             struct RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
             rtcOccluded16(valid, rays->scene, &context, &packet);
 #endif
         }
@@ -267,8 +268,9 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* What the ray from p (Embree's coordinates) meets first. */
-static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3])
+/* What the ray from p (Embree's coordinates) meets first: *length directions away, the side it meets facing along `side`, which
+ * has any length. */
+static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3], double *length, double side[3])
 {
     _Alignas(16) struct RTCRayHit query;
     float facing;
@@ -295,54 +297,53 @@ static enum ray_fate first_hit(const struct rays *rays, const double p[3], const
     }
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return RAY_LEAVES;
+    facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
+    *length = query.ray.tfar;
+    side[0] = facing > 0 ? -query.hit.Ng_x : query.hit.Ng_x;
+    side[1] = facing > 0 ? -query.hit.Ng_y : query.hit.Ng_y;
+    side[2] = facing > 0 ? -query.hit.Ng_z : query.hit.Ng_z;
     if (rays->two_sided[query.hit.primID])
         return RAY_MEETS_FRONT;
-    facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
     return facing > 0 ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
 }
 
-enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3])
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3], double at[3], double normal[3])
 {
-    double p[3];
+    double p[3], side[3], length, size;
+    enum ray_fate fate;
     int k;
     for (k = 0; k < 3; k++)
         p[k] = (from[k] - rays->origin[k]) * rays->scale;
-    return first_hit(rays, p, direction);
+    fate = first_hit(rays, p, direction, &length, side);
+    if (fate == RAY_LEAVES)
+        return fate;
+    size = length3(side);
+    for (k = 0; k < 3; k++) {
+        if (at)
+            at[k] = from[k] + length / rays->scale * direction[k];
+        if (normal)
+            normal[k] = side[k] / size;
+    }
+    return fate;
 }
 
 double rays_exposed(const struct rays *rays, const struct element *e)
 {
     enum { SIDE = 4, DIRECTIONS = 8, MOST = 6 };
-    /* Two unit vectors across the normal, the first along the axis that is most across it. */
-    const double *n = e->normal;
-    double u[3] = { 0, 0, 0 }, v[3], size, direction[DIRECTIONS][3];
-    int axis = fabs(n[0]) <= fabs(n[1]) ? fabs(n[0]) <= fabs(n[2]) ? 0 : 2 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2;
+    const struct hemisphere above = hemisphere_over(e->normal);
+    double direction[DIRECTIONS][3];
     int i, j, k, m, buried = 0;
-    u[axis] = 1;
-    cross3(v, n, u);
-    size = length3(v);
-    for (k = 0; k < 3; k++)
-        v[k] /= size;
-    cross3(u, v, n);
-    for (m = 0; m < DIRECTIONS; m++) { /* sines of cosine-spread directions: radius sqrt of the stratum's middle */
-        double angle = 2.39996322972865332 * m, r = sqrt((m + 0.5) / DIRECTIONS), z = sqrt(1 - r * r);
-        for (k = 0; k < 3; k++)
-            direction[m][k] = z * n[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
-    }
+    for (m = 0; m < DIRECTIONS; m++)
+        hemisphere_direction(direction[m], &above, m, DIRECTIONS, 0);
     for (i = 0; i < SIDE; i++)
         for (j = 0; j < SIDE; j++) {
-            double s = (i + 0.5) / SIDE, t = (j + 0.5) / SIDE, p[3];
+            double p[3], side[3], length;
             int inside = 0;
-            if (e->vertices == 3) /* fold the square onto the triangle, keeping area */
-                s = sqrt(s);
-            for (k = 0; k < 3; k++) {
-                const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-                p[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b)
-                                        : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
-                p[k] = (p[k] + rays->host.ray_offset * n[k] - rays->origin[k]) * rays->scale;
-            }
+            surface_point(p, e, (i + 0.5) / SIDE, (j + 0.5) / SIDE);
+            for (k = 0; k < 3; k++)
+                p[k] = (p[k] + rays->host.ray_offset * e->normal[k] - rays->origin[k]) * rays->scale;
             for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
-                inside += first_hit(rays, p, direction[m]) == RAY_MEETS_BACK;
+                inside += first_hit(rays, p, direction[m], &length, side) == RAY_MEETS_BACK;
             buried += inside >= MOST;
         }
     return 1 - buried / (double)(SIDE * SIDE);

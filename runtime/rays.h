@@ -29,9 +29,10 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
 double rays_exposed(const struct rays *rays, const struct element *e);
 
 /* What the ray from a point into a direction (any length) meets first; the sides of a two-sided face are both
- * fronts. The caller keeps the point off the surface it stands on (host.ray_offset). Thread-safe. */
+ * fronts. The caller keeps the point off the surface it stands on (host.ray_offset). Where it meets something goes to `at`, as well
+ * as single precision knows, and the unit normal of the side it meets to `normal`; both may be NULL. Thread-safe. */
 enum ray_fate { RAY_LEAVES, RAY_MEETS_FRONT, RAY_MEETS_BACK };
-enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3]);
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3], double at[3], double normal[3]);
 
 /* The services in the form that a discussion takes. Valid until rays_close. */
 const struct host *rays_host(const struct rays *rays);

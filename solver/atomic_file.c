@@ -74,6 +74,23 @@ int atomic_open(struct atomic_file *file, const char *path)
     return file->stream ? 0 : fail(file, errno);
 }
 
+int atomic_check(const char *path)
+{
+    struct atomic_file file = {0};
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        if (access(path, W_OK) == 0)
+            return 0;
+        int cause = errno; /* opening a pipe would wait for its reader */
+        file.path = strdup(path);
+        return fail(&file, cause);
+    }
+    if (atomic_open(&file, path))
+        return -1;
+    atomic_discard(&file);
+    return 0;
+}
+
 int atomic_commit(struct atomic_file *file)
 {
     /* Errors may show only when the last block leaves the buffer, or at close. */

@@ -54,25 +54,39 @@ static struct cluster_beam beam(const struct hierarchy *h, const struct link *l)
     return b;
 }
 
-/* The intensity of emitter s towards the beam's receiver, times the beam's weight. radiosity NULL: B = 1. */
-static void bring(const struct cluster_light *c, const struct cluster_beam *b, size_t bands, const double *radiosity, double *to)
+/* The intensity of a group towards -w in each band: sums over the faces in `range`, several at a time. */
+static void radiate(const struct cluster_light *c, struct face_range range, const float w[3], int bands, float sum[3])
+{
+    const float *x = c->normal[0], *y = c->normal[1], *z = c->normal[2];
+    float wx = w[0], wy = w[1], wz = w[2];
+    size_t f;
+    int k;
+    for (k = 0; k < bands; k++) {
+        const float *sent = c->sent[k];
+        float all = 0;
+#pragma omp simd reduction(+ : all)
+        for (f = range.from; f < range.to; f++) {
+            float cosine = -(x[f] * wx + y[f] * wy + z[f] * wz);
+            all += sent[f] * (cosine > 0 ? cosine : 0);
+        }
+        sum[k] = all;
+    }
+}
+
+/* What the beam brings in each band. */
+static void bring(const struct cluster_light *c, const struct cluster_beam *b, int bands, const double *radiosity, float *to)
 {
     const struct hierarchy *h = c->hierarchy;
     const struct element *s = &h->elements[b->emitter];
-    double sum[3] = { 0, 0, 0 };
-    size_t k, f;
+    float sum[3] = { 0, 0, 0 };
+    int k;
     if (s->vertices) {
-        double cosine = -(s->normal[0] * b->towards[0] + s->normal[1] * b->towards[1] + s->normal[2] * b->towards[2]);
+        double cosine = -(s->normal[0] * (double)b->towards[0] + s->normal[1] * (double)b->towards[1]
+                          + s->normal[2] * (double)b->towards[2]);
         for (k = 0; k < bands && cosine > 0; k++)
-            sum[k] = INVERSE_PI * s->area * (radiosity ? radiosity[b->emitter * bands + k] : 1) * cosine;
+            sum[k] = (float)(INVERSE_PI * s->area * (radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1) * cosine);
     } else {
-        const double *sent = radiosity ? c->sent : c->area;
-        for (f = h->range[b->emitter].from; f < h->range[b->emitter].to; f++) {
-            const double *n = &c->normal[3 * f];
-            double cosine = -(n[0] * b->towards[0] + n[1] * b->towards[1] + n[2] * b->towards[2]);
-            for (k = 0; k < bands && cosine > 0; k++)
-                sum[k] += sent[f * bands + k] * cosine;
-        }
+        radiate(c, h->range[b->emitter], b->towards, bands, sum);
     }
     for (k = 0; k < bands; k++)
         to[k] = b->weight * sum[k];
@@ -80,100 +94,112 @@ static void bring(const struct cluster_light *c, const struct cluster_beam *b, s
 
 int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads)
 {
-    size_t i, n = 0;
+    size_t i, n = 0, faces = h->face_count;
     uint32_t e;
     int k;
     memset(c, 0, sizeof *c);
-    c->hierarchy = h;
-    c->bands = bands;
-    c->threads = threads;
     for (i = 0; i < r->link_count; i++)
         n += (size_t)is_beam(h, &r->links[i]);
     if (n == 0)
         return 0;
+    c->hierarchy = h;
+    c->bands = bands;
+    c->threads = threads;
     c->elements = h->count;
     c->beams = malloc(n * sizeof *c->beams);
     c->first = malloc(((size_t)h->count + 1) * sizeof *c->first);
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
-    c->normal = malloc((size_t)h->face_count * 3 * sizeof *c->normal);
-    c->sent = malloc((size_t)h->face_count * (size_t)bands * sizeof *c->sent);
-    c->row = malloc(n * sizeof *c->row);
-    c->area = malloc((size_t)h->face_count * sizeof *c->area);
-    if (!c->beams || !c->first || !c->arrives || !c->row || !c->area || !c->normal || !c->sent) {
+    c->normal[0] = malloc(3 * faces * sizeof *c->normal[0]);
+    c->sent[0] = malloc((size_t)bands * faces * sizeof *c->sent[0]);
+    if (!c->beams || !c->first || !c->arrives || !c->normal[0] || !c->sent[0]) {
         cluster_light_close(c);
         return -1;
     }
+    for (k = 1; k < 3; k++)
+        c->normal[k] = c->normal[0] + (size_t)k * faces;
+    for (k = 1; k < bands; k++)
+        c->sent[k] = c->sent[0] + (size_t)k * faces;
     for (e = 0; e < h->count; e++) {
         c->first[e] = c->count;
         for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-            if (is_beam(h, &r->links[i]))
-                c->beams[c->count++] = beam(h, &r->links[i]);
+            c->count += (size_t)is_beam(h, &r->links[i]);
     }
     c->first[h->count] = c->count;
-    for (e = 0; e < h->face_count; e++) {
-        const struct element *x = &h->elements[h->face_element[h->order[e]]];
-        c->area[e] = INVERSE_PI * x->area;
+    for (i = 0; i < faces; i++) {
+        const struct element *x = &h->elements[h->face_element[h->order[i]]];
+        c->sent[0][i] = (float)(INVERSE_PI * x->area);
         for (k = 0; k < 3; k++)
-            c->normal[3 * (size_t)e + (size_t)k] = x->normal[k];
+            c->normal[k][i] = (float)x->normal[k];
     }
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-    for (i = 0; i < c->count; i++)
-        bring(c, &c->beams[i], 1, NULL, &c->row[i]);
+    for (e = 0; e < h->count; e++) {
+        size_t from, at = c->first[e];
+        for (from = r->first_link[e]; from < r->first_link[e + 1]; from++)
+            if (is_beam(h, &r->links[from])) {
+                c->beams[at] = beam(h, &r->links[from]);
+                bring(c, &c->beams[at], 1, NULL, &c->arrives[at]);
+                at++;
+            }
+    }
     return 0;
 }
 
 void cluster_light_send(const struct cluster_light *c, int bands, const double *radiosity)
 {
     const struct hierarchy *h = c->hierarchy;
-    size_t n = (size_t)bands, i;
+    size_t i;
     if (c->count == 0)
         return;
-    for (i = 0; i < h->face_count; i++) {
-        uint32_t e = h->face_element[h->order[i]];
-        size_t k;
-        for (k = 0; k < n; k++)
-            c->sent[i * n + k] = INVERSE_PI * h->elements[e].area * radiosity[e * n + k];
+#pragma omp parallel num_threads(c->threads)
+    {
+#pragma omp for schedule(static)
+        for (i = 0; i < h->face_count; i++) {
+            uint32_t e = h->face_element[h->order[i]];
+            int k;
+            for (k = 0; k < bands; k++)
+                c->sent[k][i] = (float)(INVERSE_PI * h->elements[e].area * radiosity[(size_t)e * (size_t)bands + (size_t)k]);
+        }
+#pragma omp for schedule(dynamic, 256)
+        for (i = 0; i < c->count; i++)
+            bring(c, &c->beams[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
     }
-#pragma omp parallel for schedule(dynamic, 256) num_threads(c->threads)
-    for (i = 0; i < c->count; i++)
-        bring(c, &c->beams[i], n, radiosity, &c->arrives[i * n]);
 }
 
 /* The beams of element e, on a surface with normal n. */
-static void add(const struct cluster_light *c, size_t bands, const double *arrives, uint32_t e, const double n[3], double *h)
+static void add(const struct cluster_light *c, size_t bands, uint32_t e, const double n[3], double *h)
 {
     size_t i, k;
     for (i = c->first[e]; i < c->first[e + 1]; i++) {
         const struct cluster_beam *b = &c->beams[i];
-        double cosine = n[0] * b->towards[0] + n[1] * b->towards[1] + n[2] * b->towards[2];
+        double cosine = n[0] * (double)b->towards[0] + n[1] * (double)b->towards[1] + n[2] * (double)b->towards[2];
         for (k = 0; k < bands && cosine > 0; k++)
-            h[k] += arrives[i * bands + k] * cosine;
+            h[k] += (double)c->arrives[i * bands + k] * cosine;
     }
 }
 
-static void add_all(const struct cluster_light *c, size_t bands, const double *arrives, uint32_t e, double *h)
+static void add_all(const struct cluster_light *c, size_t bands, uint32_t e, double *h)
 {
     const struct element *elements = c->hierarchy->elements, *x = &elements[e];
     if (c->count == 0 || e >= c->elements)
         return;
-    add(c, bands, arrives, e, x->normal, h);
+    add(c, bands, e, x->normal, h);
     if (x->depth > 0)
         return;
     while (e != 0) {
         e = elements[e].parent;
-        add(c, bands, arrives, e, x->normal, h);
+        add(c, bands, e, x->normal, h);
     }
 }
 
 void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, double *h)
 {
-    add_all(c, (size_t)bands, c->arrives, e, h);
+    add_all(c, (size_t)bands, e, h);
 }
 
 double cluster_light_row(const struct cluster_light *c, uint32_t e)
 {
     double row = 0;
-    add_all(c, 1, c->row, e, &row);
+    add_all(c, 1, e, &row);
     return row;
 }
 
@@ -182,9 +208,7 @@ void cluster_light_close(struct cluster_light *c)
     free(c->beams);
     free(c->first);
     free(c->arrives);
-    free(c->row);
-    free(c->area);
-    free(c->normal);
-    free(c->sent);
+    free(c->normal[0]);
+    free(c->sent[0]);
     memset(c, 0, sizeof *c);
 }

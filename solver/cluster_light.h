@@ -30,11 +30,9 @@ struct cluster_light {
     size_t count;
     size_t *first;   /* [elements + 1]: the beams of element e are first[e] .. first[e + 1] - 1 */
     uint32_t elements;
-    double *arrives; /* [count * bands]: J V / d^2 */
-    double *row;     /* [count]: the same for a radiosity of 1, the beam's part of a row */
-    double *normal;  /* [face_count * 3], in the tree's order */
-    double *sent;    /* [face_count * bands]: A B / pi, in the tree's order */
-    double *area;    /* [face_count]: A / pi, in the tree's order */
+    float *arrives;  /* [count * bands]: J V / d^2; before the first cluster_light_send [count], for a radiosity of 1 */
+    float *normal[3]; /* [face_count] each, in the tree's order */
+    float *sent[3];   /* [bands][face_count]: A B / pi, in the tree's order */
 };
 
 /* Take the links that have a cluster at one end from a sorted refinement. Returns 0, or -1 when out of memory. */
@@ -46,7 +44,7 @@ void cluster_light_send(const struct cluster_light *c, int bands, const double *
 /* Add to h[bands] what the surface e gathers from beams: its own, and, when it is a whole face, its clusters'. */
 void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, double *h);
 
-/* The sum over the same beams of what they would bring from a radiosity of 1. */
+/* The sum over the same beams of what they would bring from a radiosity of 1. Only before the first cluster_light_send. */
 double cluster_light_row(const struct cluster_light *c, uint32_t e);
 
 void cluster_light_close(struct cluster_light *c);

@@ -86,7 +86,8 @@ static int compile(const char *path, const char *folder)
     char include[3][PATH_SIZE];
     char *cc = getenv("CC") && *getenv("CC") ? getenv("CC") : (char *)"cc";
     char *emit[] = { dagc, (char *)"-o", source, (char *)path, NULL };
-    char *build[] = { cc, (char *)"-std=c11", (char *)"-O2", (char *)"-fPIC", (char *)"-shared",
+    /* -Bsymbolic: an oracle may be called as a built-in one is, whose functions this program exports. */
+    char *build[] = { cc, (char *)"-std=c11", (char *)"-O2", (char *)"-fPIC", (char *)"-shared", (char *)"-Wl,-Bsymbolic",
                       (char *)"-ffp-contract=off", include[0], include[1], include[2],
                       (char *)"-o", library, source, (char *)"-lm", NULL };
     int status;

@@ -5,8 +5,8 @@
 
 #include "solve.h"
 
-/* 1 when no ray from any face's front leaves the scene or meets the black back of a one-sided face, else 0. Counts the
- * rays in closed_rays. */
+/* 1 when light that walks through the scene never leaves it nor meets the black back of a one-sided face, else 0; 0 without
+ * light. Counts the steps in closed_rays. */
 int enclosure_decide(struct solve *s);
 
 #endif

@@ -18,6 +18,7 @@
 #include "balance.h"
 #include "importance.h"
 #include "publish.h"
+#include "terms/surface_point.h"
 
 #define LEAST 1e-4
 enum { SIDE = 8, POINTS = SIDE * SIDE };
@@ -38,20 +39,6 @@ static struct camera look(const struct solve *s)
     return c;
 }
 
-/* Point (u, v) of the unit square mapped to a surface so that area is kept, a ray's offset in front of it. */
-static void surface_point(const struct element *e, double u, double v, double offset, double p[3])
-{
-    int k;
-    if (e->vertices == 3)
-        u = sqrt(u);
-    for (k = 0; k < 3; k++) {
-        const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-        p[k] = e->vertices == 3 ? a + u * (b - a) + u * v * (c - b)
-                                : (1 - v) * (a + u * (b - a)) + v * (d + u * (c - d));
-        p[k] += offset * e->normal[k];
-    }
-}
-
 /* The share of e's points that are in the picture: in front of the camera, turned to it, and nothing between. */
 static double seen(const struct solve *s, const struct camera *c, const struct element *e)
 {
@@ -64,7 +51,9 @@ static double seen(const struct solve *s, const struct camera *c, const struct e
     for (i = 0; i < POINTS; i++) {
         struct segment *g = &segments[count];
         double v[3], depth;
-        surface_point(e, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE, host->ray_offset, g->from);
+        surface_point(g->from, e, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE);
+        for (k = 0; k < 3; k++)
+            g->from[k] += host->ray_offset * e->normal[k];
         sub3(v, g->from, c->eye);
         depth = dot3(v, c->ahead);
         if (!(depth > 0) || fabs(dot3(v, c->right)) > c->wide * depth || fabs(dot3(v, c->up)) > c->high * depth)

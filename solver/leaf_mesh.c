@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: MIT */
 #include "leaf_mesh.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "geometry.h"
 #include "polygon.h"
 
 static int push(uint32_t **array, uint32_t *count, uint32_t *capacity, uint32_t value)
@@ -28,6 +30,50 @@ static int push_edge(struct leaf_mesh *m, const struct vertex_values *v, uint32_
     if (middle == NO_VERTEX)
         return push(&m->corner, &m->corners, &m->corner_capacity, a);
     return push_edge(m, v, a, middle) || push_edge(m, v, middle, b) ? -1 : 0;
+}
+
+/* Where on the polygon's border, corner by corner, vertex c lies: between `*at` and the next. Returns 0 when it is a corner. */
+static int edge_of(const struct leaf_mesh *m, const struct vertex_values *v, uint32_t from, uint32_t c, uint32_t *at)
+{
+    const double *p = v->vertices[c].position;
+    double nearest = INFINITY;
+    for (uint32_t j = from; j < m->corners; j++) {
+        const double *a = v->vertices[m->corner[j]].position, *b = v->vertices[m->corner[j + 1 < m->corners ? j + 1 : from]].position;
+        double e[3], x[3], y[3], detour;
+        if (m->corner[j] == c)
+            return 0;
+        sub3(e, b, a);
+        sub3(x, p, a);
+        sub3(y, b, p);
+        detour = (length3(x) + length3(y)) / length3(e);
+        if (detour < nearest) {
+            nearest = detour;
+            *at = j;
+        }
+    }
+    return 1;
+}
+
+/* Put the vertices of other faces that lie on the leaf's edges into the last polygon, which begins at `from`. */
+static int push_passing(struct leaf_mesh *m, const struct vertex_values *v, uint32_t leaf, uint32_t from)
+{
+    uint32_t low = 0, high = v->passing_count, at = from;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (v->passing[middle].leaf < leaf)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < v->passing_count && v->passing[low].leaf == leaf; low++) {
+        if (!edge_of(m, v, from, v->passing[low].vertex, &at))
+            continue;
+        if (push(&m->corner, &m->corners, &m->corner_capacity, 0))
+            return -1;
+        memmove(&m->corner[at + 2], &m->corner[at + 1], (m->corners - at - 2) * sizeof *m->corner);
+        m->corner[at + 1] = v->passing[low].vertex;
+    }
+    return 0;
 }
 
 /* One start more: where the last polygon ends. */
@@ -54,6 +100,7 @@ int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution, const 
         failed |= push(&m->start, &m->polygons, &m->polygon_capacity, m->corners);
         for (uint32_t j = 0; j < e->vertices && !failed; j++)
             failed |= push_edge(m, values, c[j], c[j + 1 < e->vertices ? j + 1 : 0]);
+        failed = failed || push_passing(m, values, i, m->start[m->polygons - 1]);
     }
     return finish(m, failed);
 }

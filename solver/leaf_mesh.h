@@ -1,7 +1,8 @@
 /* leaf_mesh.h - the leaves of a solution as polygons with shared vertices.
  *
  * Vertices are those of vertex_values, by the same indices. Invariant: a vertex in the middle of a
- * polygon's edge is a corner of that polygon, so that the mesh has no T-junction inside a face.
+ * polygon's edge is a corner of that polygon, and so is one of another face of the same surface; so the mesh has no T-junction
+ * inside a face, nor between the parts of one that was cut.
  * SPDX-License-Identifier: MIT */
 #ifndef LEAF_MESH_H
 #define LEAF_MESH_H

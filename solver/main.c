@@ -1,7 +1,30 @@
 /* main.c - the command radiosity: parse the options, read the scene, run the command.
  * SPDX-License-Identifier: MIT */
+#include <string.h>
+#include "atomic_file.h"
 #include "commands.h"
 #include "dag.h"
+#include "report.h"
+
+/* What cannot be written is told before the work, not after. Returns 0 or the exit status. */
+static int outputs_checked(const struct options *o)
+{
+    const char *const paths[] = { o->out, o->image, o->faces, o->json, o->statistics, o->chart };
+    enum { PATHS = sizeof paths / sizeof *paths };
+    int i, j;
+    for (i = 0; i < PATHS; i++) {
+        if (!paths[i] || strcmp(paths[i], "-") == 0)
+            continue;
+        for (j = 0; j < i; j++)
+            if (paths[j] && strcmp(paths[i], paths[j]) == 0) {
+                report_error(paths[i], 0, "two outputs would go there; give each a file of its own");
+                return 2;
+            }
+        if (atomic_check(paths[i]) < 0)
+            return 1;
+    }
+    return 0;
+}
 
 static int run(const struct options *o)
 {
@@ -29,6 +52,8 @@ int main(int count, char **arguments)
 {
     struct options o;
     int status = options_parse(&o, count, arguments);
+    if (status == 0)
+        status = outputs_checked(&o);
     if (status == 0)
         switch (o.command) {
         case COMMAND_HELP:

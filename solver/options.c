@@ -177,6 +177,17 @@ static int ends_with(const char *path, const char *end)
     return n >= m && strcmp(path + n - m, end) == 0;
 }
 
+static int size(const char *text, int *width, int *height)
+{
+    char *end;
+    long w = strtol(text, &end, 10), h = *end == 'x' ? strtol(end + 1, &end, 10) : 0;
+    if (*end || w < 1 || h < 1 || w > 16384 || h > 16384)
+        return -1;
+    *width = (int)w;
+    *height = (int)h;
+    return 0;
+}
+
 static int take(struct options *o, const struct option *p, char *value)
 {
     double list[STUDY_LIST];
@@ -220,10 +231,7 @@ static int take(struct options *o, const struct option *p, char *value)
     case REPEATS:
         return whole_number(value, 1, 1000, &o->repeats) < 0 ? wrong("--repeats takes a whole number from 1 to 1000, not", value) : 0;
     case SIZE:
-        o->width = (int)strtol(value, &end, 10);
-        if (*end == 'x')
-            o->height = (int)strtol(end + 1, &end, 10);
-        return *end || o->width < 1 || o->height < 1 || o->width > 16384 || o->height > 16384
+        return size(value, &o->width, &o->height) < 0
                    ? wrong("--size takes WxH, each 1 to 16384, not", value) : 0;
     case VIEW:
         o->view_given = 1;
@@ -261,7 +269,7 @@ static int take(struct options *o, const struct option *p, char *value)
         return ends_with(value, ".svg") || ends_with(value, ".png") ? 0 : wrong("--chart takes a file named .svg or .png, not", value);
     case THRESHOLDS:
         o->threshold_count = rising_list(value, 1e-300, 1e300, o->thresholds);
-        return o->threshold_count < 0 ? wrong("--thresholds takes rising positive numbers parted by commas, 32 at the most, not", value) : 0;
+        return o->threshold_count < 0 ? wrong("--thresholds takes rising numbers from 1e-300 to 1e300 parted by commas, 32 at the most, not", value) : 0;
     case RAYS:
         o->ray_count = rising_list(value, 4, 1024, list);
         for (i = 0; i < o->ray_count; i++) {
@@ -323,7 +331,7 @@ static int study_of(struct options *o, const char *word)
     static const double thresholds[] = { 2, 3, 5, 7.5, 10, 15 };
     static const int rays[] = { 4, 16, 64 };
     int i;
-    if (!word)
+    if (!word || !*word)
         return wrong("study what? `radiosity study --help` tells", "");
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
         o->command = COMMAND_STUDY_HELP;
@@ -367,7 +375,7 @@ int options_parse(struct options *o, int count, char **arguments)
     o->settings = calloc((size_t)count + 1, sizeof *o->settings);
     if (!o->settings)
         return wrong("out of memory", "");
-    if (count < 2)
+    if (count < 2 || !*arguments[1])
         return wrong("no command is given", "");
     if (arguments[1][0] == '-') {
         char *value;
@@ -394,6 +402,8 @@ int options_parse(struct options *o, int count, char **arguments)
         if (only_files || arguments[i][0] != '-' || !arguments[i][1]) {
             if (o->scene)
                 return wrong("more than one scene:", arguments[i]);
+            if (!*arguments[i])
+                return wrong("the scene's name is empty", "");
             o->scene = arguments[i];
             continue;
         }
@@ -416,6 +426,11 @@ int options_parse(struct options *o, int count, char **arguments)
             if (i + 1 >= count)
                 return wrong("a value is missing after", p->name);
             value = arguments[++i];
+        }
+        if (p->argument && !*value) {
+            char what[96];
+            snprintf(what, sizeof what, "%s takes %s, not an empty value", p->name, p->argument);
+            return wrong(what, "");
         }
         status = take(o, p, value);
         if (status)

@@ -95,12 +95,16 @@ int oracles_set(struct refiner *r, char *const *settings, int count)
         double value;
         size_t length = equals ? (size_t)(equals - settings[i]) : 0;
         if (!equals || length == 0 || length >= sizeof name)
-            return report_error("--set", 0, "'%s' is not PARAM=VALUE", settings[i]);
+            return report_error("--set", 0, "'%s' names no parameter; write PARAM=VALUE", settings[i]);
         memcpy(name, settings[i], length);
         name[length] = 0;
         value = strtod(equals + 1, &end);
+        if (!equals[1])
+            return report_error("--set", 0, "%s has no value; write %s=NUMBER", name, name);
         if (end == equals + 1 || *end || isnan(value))
             return report_error("--set", 0, "'%s' is not a number (in %s)", equals + 1, settings[i]);
+        if (isinf(value) && strpbrk(equals + 1, "0123456789"))
+            return report_error("--set", 0, "%s: too large to be a number here; inf is one", settings[i]);
         cause = refiner_set(r, name, value);
         if (!cause)
             continue;

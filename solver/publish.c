@@ -13,13 +13,19 @@
 void publish_guess(struct solve *s)
 {
     uint32_t i, k;
-    for (i = 0; i < s->scene->face_count; i++) {
-        struct element *e = &s->hierarchy.elements[s->hierarchy.face_element[i]];
-        for (k = 0; k < s->bands; k++) {
-            size_t at = (size_t)i * s->bands + k;
+    int c;
+    for (i = s->hierarchy.count; i-- > 0;) {
+        struct element *e = &s->hierarchy.elements[i];
+        double sum = 0;
+        for (k = 0; k < s->bands && e->vertices; k++) {
+            size_t at = (size_t)e->face * s->bands + k;
             double b = s->exitance[at] + s->reflectance[at] * rays_host(s->rays)->irradiance;
             e->radiosity = b > e->radiosity ? b : e->radiosity;
         }
+        for (c = 0; c < e->children && !e->vertices; c++)
+            sum += s->hierarchy.elements[e->child + (uint32_t)c].radiosity * s->hierarchy.elements[e->child + (uint32_t)c].area;
+        if (!e->vertices)
+            e->radiosity = sum / e->area;
     }
 }
 

@@ -29,8 +29,8 @@ struct rows {
 };
 #define SHADOW 0.5
 
-static void visit_below(const struct solve *s, uint32_t e, double above,
-                        void (*visit)(void *context, const struct solve *s, uint32_t leaf, double row), void *context)
+/* Leave the row of every leaf below e where its scale will stand. */
+static void sum_links(struct solve *s, uint32_t e, double above)
 {
     const struct element *x = &s->hierarchy.elements[e];
     const struct refinement *r = &s->refinement;
@@ -40,15 +40,19 @@ static void visit_below(const struct solve *s, uint32_t e, double above,
         above += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
     above += cluster_light_row(&s->cluster_light, e);
     for (c = 0; c < x->children; c++)
-        visit_below(s, x->child + (uint32_t)c, above, visit, context);
+        sum_links(s, x->child + (uint32_t)c, above);
     if (!x->children)
-        visit(context, s, e, above);
+        s->row_scale[e] = above;
 }
 
-void rows_visit(const struct solve *s, uint32_t e, void (*visit)(void *context, const struct solve *s, uint32_t leaf, double row),
-                void *context)
+static void visit_leaves(struct rows *rows, uint32_t e, void (*visit)(struct rows *rows, uint32_t leaf, double row))
 {
-    visit_below(s, e, 0, visit, context);
+    const struct element *x = &rows->s->hierarchy.elements[e];
+    int c;
+    for (c = 0; c < x->children; c++)
+        visit_leaves(rows, x->child + (uint32_t)c, visit);
+    if (!x->children)
+        visit(rows, e, rows->s->row_scale[e]);
 }
 
 /* The row of a leaf per exposed area, and that area (m2); 0 when all of it is buried. */
@@ -58,12 +62,11 @@ static double exposed_row(const struct solve *s, uint32_t leaf, double row, doub
     return s->exposed[leaf] > 0 ? row / s->exposed[leaf] : 0;
 }
 
-static void sum_row(void *context, const struct solve *solve, uint32_t leaf, double row)
+static void sum_row(struct rows *rows, uint32_t leaf, double row)
 {
-    struct rows *rows = context;
     struct solve *s = rows->s;
     double area, off;
-    row = exposed_row(solve, leaf, row, &area);
+    row = exposed_row(s, leaf, row, &area);
     s->leaves++;
     if (!(area > 0))
         return;
@@ -78,66 +81,59 @@ static void sum_row(void *context, const struct solve *solve, uint32_t leaf, dou
     s->row_defect_most = off > s->row_defect_most ? off : s->row_defect_most;
 }
 
-static void weigh_row(void *context, const struct solve *s, uint32_t leaf, double row)
+static void weigh_row(struct rows *rows, uint32_t leaf, double row)
 {
-    struct rows *rows = context;
     double area;
-    row = exposed_row(s, leaf, row, &area);
+    row = exposed_row(rows->s, leaf, row, &area);
     if (row > rows->cap)
         rows->excess += area * (row - rows->cap);
     else if (row > SHADOW * rows->cap)
         rows->room += area * (rows->cap - row);
 }
 
-static void cap_row(void *context, const struct solve *s, uint32_t leaf, double row)
+static void cap_row(struct rows *rows, uint32_t leaf, double row)
 {
-    struct rows *rows = context;
+    struct solve *s = rows->s;
     double area, most = rows->excess > rows->room ? rows->excess : rows->room;
     row = exposed_row(s, leaf, row, &area);
-    rows->s->row_scale[leaf] = row > rows->cap ? rows->cap / row : 1;
-    rows->s->row_gift[leaf] = row > SHADOW * rows->cap && row < rows->cap ? s->exposed[leaf] * (rows->cap - row) / most : 0;
+    s->row_scale[leaf] = row > rows->cap ? rows->cap / row : 1;
+    s->row_gift[leaf] = row > SHADOW * rows->cap && row < rows->cap ? s->exposed[leaf] * (rows->cap - row) / most : 0;
 }
 
-static void close_row(void *context, const struct solve *s, uint32_t leaf, double row)
+static void close_row(struct rows *rows, uint32_t leaf, double row)
 {
-    struct rows *rows = context;
+    struct solve *s = rows->s;
     double area;
     row = exposed_row(s, leaf, row, &area);
     rows->excess += row > 1 ? area * (row - 1) : 0;
-    rows->s->row_scale[leaf] = !(area > 0) ? 0 : row > 1 || (row > 0 && s->closed > 0) ? 1 / row : 1;
-    rows->s->row_gift[leaf] = row > 0 || s->closed <= 0 || !(rows->seeing > 0) ? 0
+    s->row_scale[leaf] = !(area > 0) ? 0 : row > 1 || (row > 0 && s->closed > 0) ? 1 / row : 1;
+    s->row_gift[leaf] = row > 0 || s->closed <= 0 || !(rows->seeing > 0) ? 0
                               : (area > 0 ? s->exposed[leaf] : 1) / rows->seeing;
-}
-
-static double largest(const double *v, uint32_t n)
-{
-    double most = v[0];
-    uint32_t i;
-    for (i = 1; i < n; i++)
-        most = v[i] > most ? v[i] : most;
-    return most;
 }
 
 void rows_scale(struct solve *s)
 {
     double exposed = 0;
     uint32_t i;
+#pragma omp parallel for schedule(dynamic, 16) num_threads(s->options.threads)
+    for (i = 0; i < s->scene->face_count; i++)
+        sum_links(s, s->hierarchy.face_element[i], 0);
     s->leaves = 0;
     s->row_low = INFINITY;
     s->row_high = s->row_excess = s->row_blind = s->row_defect = s->row_defect_most = 0;
     for (i = 0; i < s->scene->face_count; i++) {
         uint32_t e = s->hierarchy.face_element[i];
-        double most = 1 + 0.5 * (1 - largest(&s->reflectance[(size_t)i * s->bands], s->bands));
+        double most = 1 + 0.5 * (1 - s->whitest[i]);
         struct rows rows = { .cap = 1, .s = s };
-        rows_visit(s, e, sum_row, &rows);
+        visit_leaves(&rows, e, sum_row);
         exposed += rows.area;
         if (s->options.closure == CLOSURE_ROWS) {
-            rows_visit(s, e, close_row, &rows);
+            visit_leaves(&rows, e, close_row);
         } else {
             if (rows.sum > rows.area)
                 rows.cap = rows.sum < most * rows.area ? rows.sum / rows.area : most;
-            rows_visit(s, e, weigh_row, &rows);
-            rows_visit(s, e, cap_row, &rows);
+            visit_leaves(&rows, e, weigh_row);
+            visit_leaves(&rows, e, cap_row);
         }
         s->row_excess += rows.excess / rays_host(s->rays)->area;
     }

@@ -100,6 +100,19 @@ double stability_factor(const struct stability_method *method, const struct elem
  * Returns 0, or -1 with nothing to close. */
 int stability_solve(struct solve *s, const struct scene *scene, const struct stability_trial *trial, int unit);
 
+/* A scene, and one number from its solution; `at` is the case's own: a reflectance, a level. */
+struct stability_scene {
+    void (*make)(struct scene *scene, double at); /* into an empty one of make_scene.h */
+    double (*measure)(const struct solve *s, double at);
+};
+
+/* Make it, solve it by a BY_ORACLE method, measure it; trial->count becomes the number of links. Returns 0 or -1. */
+int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value);
+
+/* The sum of F over a unit cube's face by a BY_FACTOR method, from one element per face: to the opposite face in [0], to
+ * one of the four beside it in [1]. Returns 0 or -1. */
+int stability_cube_factors(const struct stability_method *method, double f[2]);
+
 /* The view factor from face i to face j that the links make, and the sum over all j. */
 double stability_exchange(const struct solve *s, uint32_t i, uint32_t j);
 double stability_row(const struct solve *s, uint32_t i);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
+#include "make_scene.h"
 #include "oracles.h"
 #include "stability.h"
 #include "terms/form_factor.h"
@@ -55,6 +56,46 @@ int stability_solve(struct solve *s, const struct scene *scene, const struct sta
     if (status < 0)
         solve_close(s);
     return status;
+}
+
+int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value)
+{
+    struct scene made;
+    struct solve s;
+    int status = made_open(&made);
+    if (status == 0) {
+        scene->make(&made, at);
+        status = stability_solve(&s, &made, trial, 0);
+    }
+    if (status == 0) {
+        trial->count = (double)s.refinement.link_count;
+        *value = scene->measure(&s, at);
+        solve_close(&s);
+    }
+    made_close(&made);
+    return status;
+}
+
+int stability_cube_factors(const struct stability_method *method, double f[2])
+{
+    const uint32_t grey[6] = { 0, 0, 0, 0, 0, 0 };
+    struct scene scene;
+    struct hierarchy h;
+    int status = made_open(&scene);
+    if (status == 0) {
+        made_material(&scene, 0.5, 0);
+        made_room(&scene, grey, 1, 1, 1);
+        status = hierarchy_build(&h, scene.faces, scene.face_count);
+    }
+    if (status < 0) {
+        made_close(&scene);
+        return -1;
+    }
+    f[0] = stability_factor(method, &h.elements[h.face_element[0]], &h.elements[h.face_element[1]]);
+    f[1] = stability_factor(method, &h.elements[h.face_element[0]], &h.elements[h.face_element[2]]);
+    hierarchy_free(&h);
+    made_close(&scene);
+    return 0;
 }
 
 /* A F V over the links of e and below that come from face j, or any when j is UINT32_MAX (m2). */

@@ -196,7 +196,14 @@ static void print_plot(FILE *out, const void *context)
 {
     const struct options *o = ((const struct drawing *)context)->options;
     const struct table *t = ((const struct drawing *)context)->table;
-    int i, k;
+    int i, k, drawn = 0, last = 0;
+    for (i = 0; i < o->threshold_count; i++)
+        if (judge(&t->cells[i][0]).asked) {
+            drawn++;
+            last = i;
+        }
+    if (drawn == 1) /* gnuplot warns of a range without width */
+        fprintf(out, "set xrange [%.9g:%.9g]\n", 0.9 * o->thresholds[last], 1.1 * o->thresholds[last]);
     fprintf(out, "set xlabel 'projected area below, units'\nset ylabel 'wrong answers, %%'\nset yrange [0:*]\nset key left top\nset grid\n");
     for (k = 0; k < o->ray_count; k++) {
         fprintf(out, "$rays%d << EOD\n", k);

@@ -103,10 +103,10 @@ static void print_rows(const struct solve *s)
     }
     printf("rows      sums of F V from %.4f to %.4f before closure\n", s->row_low, s->row_high);
     if (s->closed > 0)
-        printf("closure   the scene is closed (none of %.3g rays left it): rows scaled to 1, which removed %.2g in the mean, "
+        printf("closure   the scene is closed (light finds no way out of it in %.3g steps): rows scaled to 1, which removed %.2g in the mean, "
                "%.2g at the most\n", (double)s->closed_rays, s->row_defect, s->row_defect_most);
     else
-        printf("closure   the scene is open (some of %.3g rays leave it or meet a black back): rows above 1 scaled to 1, which "
+        printf("closure   the scene is open (light leaves it or meets a black back, in %.3g steps): rows above 1 scaled to 1, which "
                "removed %.2g in the mean, %.2g at the most\n", (double)s->closed_rays, s->row_excess, fmax(s->row_high - 1, 0));
     if (s->row_blind > 0)
         printf("blind     %.2g m2 of exposed leaves have no link%s\n", s->row_blind,

@@ -176,10 +176,13 @@ fi
 cd user || exit 2
 check "radiosity" radiosity solve "$top/examples/scenes/furnace.obj" --oracle own.dag -q
 check "radiosity: both releases" radiosity solve "$top/examples/scenes/furnace.obj" --oracle own.dag --release dag -q
+echo 'oracle bf_guarded { start a; node a = transfer(relative = 1) { otherwise -> stop; } }' >nothing.dag
+check "radiosity: an oracle called as a built-in one is" \
+    sh -c "radiosity solve '$top/examples/scenes/furnace.obj' --oracle nothing.dag -q --json - | grep -q '\"links\": 0,'"
 cd ..
 
 # ---- the pages
-pages="$prefix/share/man/man1/dagc.1 $prefix/share/man/man5/dagc-language.5"
+pages="$prefix/share/man/man1/dagc.1 $prefix/share/man/man1/radiosity.1 $prefix/share/man/man5/dagc-language.5"
 if have groff; then
     for page in $pages; do
         check "groff $page" sh -c "groff -mandoc -ww -z $page 2>&1 | tee said; [ ! -s said ]"
@@ -187,7 +190,7 @@ if have groff; then
     done
 fi
 if have man; then
-    for page in "1 dagc" "5 dagc-language"; do
+    for page in "1 dagc" "1 radiosity" "5 dagc-language"; do
         # shellcheck disable=SC2086
         check "man $page" sh -c "man $page | grep -q DESCRIPTION"
     done
@@ -197,6 +200,19 @@ check "the example of dagc-language(5)" dagc --emit=none -Werror example.dag
 dagc --help | sed -n 's/^  \(-[-a-zA-Z]*\).*/\1/p' | sort -u >options
 for name in $(cat options) $(dagc -W | sed -n 's/^  *\([a-z]*-[a-z-]*\) .*/\1/p'); do
     check "dagc(1) knows $name" sh -c "sed -e 's/\\\\-/-/g' -e 's/Fl -/--/g' -e 's/Fl /-/g' $prefix/share/man/man1/dagc.1 | grep -q -e '^\.It .*$name' -e '^\.Ic $name'"
+done
+
+# Every option and oracle of the command is in radiosity(1) with its argument, and the page has no other.
+radiosity --help | sed -n 's/^  \(-[-a-zA-Z]* [^ ][^ ]*\) .*/\1/p; s/^  \(-[-a-zA-Z]*\)  .*/\1/p' | sort >options
+awk '/^\.Sh DESCRIPTION/ { on = 1 } /^\.Sh SCENES/ { on = 0 } on && /^\.It Fl / { sub(/^\.It Fl /, "-"); gsub(/\\-/, "-"); sub(/ Ar /, " "); print }' \
+    "$prefix/share/man/man1/radiosity.1" | sort >described
+check "radiosity --help has options" sh -c "[ \$(wc -l <options) -gt 20 ]"
+check "radiosity(1) has the options of --help and no other" diff options described
+for name in $(radiosity oracles | sed -n 's/^\([a-z_]*\)[ :].*/\1/p'); do
+    check "radiosity(1) knows the oracle $name" grep -q "^\.It Cm $name" "$prefix/share/man/man1/radiosity.1"
+done
+for option in $(sed -n -e 's/\\-/-/g' -e 's/.*Fl \(--*[a-z-]*\).*/-\1/p' "$top/solver/man/radiosity.1" | grep -v -e '^--name$' | sort -u); do
+    check "radiosity has the option $option that radiosity(1) speaks of" grep -q -e "^$option" options
 done
 
 # ---- the editors' files are well-formed and know the words of the language

@@ -172,6 +172,14 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 #define REFINER_OUTLINE static
 #endif
 
+/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so that a pair opens the same
+ * element both ways round. */
+
+static inline int refiner_wider(const struct refiner_element *a, const struct refiner_element *b)
+{
+    return a->radius > b->radius || (a->radius == b->radius && a->id <= b->id);
+}
+
 /* clusters.h - question: are both elements surfaces, and if not, which cluster is to be opened?
  *
  * apart is true only when no normal of the one, taken anywhere in its normal cone, makes an acute
@@ -224,8 +232,7 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
         return REFINER_CLUSTERS_APART;
     if (r->vertices || s->vertices)
         return s->vertices ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
-    /* A tie is broken by identity, so that a pair opens the same element both ways round. */
-    return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
+    return refiner_wider(r, s) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
 }
 
 /* plane_side.h - how an element lies to another's support plane.
@@ -309,8 +316,11 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
 
 #define REFINER_CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
 
-/* Aimed at: error of F by one pair of edges. What rounding leaves of an integral of ln over a unit length. */
-#define REFINER_CONTOUR_FACTOR_ERROR 1e-11
+/* Aimed at: error of F by one pair of edges, of level contour and of polygon. What rounding leaves of an integral of
+ * ln over a unit length. */
+#define REFINER_CONTOUR_FACTOR_EXACT 1e-11
+
+#define REFINER_CONTOUR_FACTOR_FAIR 1e-7
 
 #define REFINER_CONTOUR_FACTOR_ROUNDING 2e-15
 
@@ -333,7 +343,7 @@ static inline double refiner_contour_factor_line(const double p[3], const double
     if (z > 0)
         sum += 0.5 * x * log(z);
     if (h > 0)
-        sum += h * (atan(y / h) + atan(x / h));
+        sum += h * atan2(h * length, h * h - x * y); /* the angle under which p sees the edge */
     return sum;
 }
 
@@ -415,9 +425,9 @@ static inline double refiner_contour_factor_skew(const struct refiner_contour_fa
     return sum;
 }
 
-/* A_p F_pq of polygons of a size about one; `area`: of the smaller. The shorter edge of each pair is the outer one: along it
+/* A_p F_pq of polygons of a size about one; `area`: of the smaller; `error`: of F, by one pair of edges. The shorter edge of each pair is the outer one: along it
  * the inner integral varies least. */
-REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, const struct refiner_polygon *q, double area)
+REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, const struct refiner_polygon *q, double area, double error)
 {
     double sum = 0;
     int i, j, k;
@@ -445,7 +455,7 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
             }
             refiner_cross3(c, e, f);
             cross = refiner_dot3(c, c) / (le * le * lf * lf);
-            least = REFINER_CONTOUR_FACTOR_ERROR * REFINER_CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
+            least = error * REFINER_CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
             if (least < REFINER_CONTOUR_FACTOR_ROUNDING * g.length)
                 least = REFINER_CONTOUR_FACTOR_ROUNDING * g.length;
             sum += aligned / g.length * (cross > 1e-26 ? refiner_contour_factor_skew(&g, size, cross, least)
@@ -474,7 +484,7 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
 #define REFINER_POLYGON_FACTOR_EXACT 60.0
 
 /* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
-#define REFINER_POLYGON_FACTOR_FAINT 1e-9
+#define REFINER_POLYGON_FACTOR_FAINT 1e-6
 
 #define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
@@ -578,7 +588,7 @@ static inline double refiner_polygon_factor_rule(const struct refiner_polygon *p
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius, double area)
+static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius, double area, double error)
 {
     double up, down;
     int e;
@@ -587,7 +597,7 @@ static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p
     down = 1 / up;
     refiner_polygon_factor_scale(p, down);
     refiner_polygon_factor_scale(q, down);
-    return refiner_contour_factor(p, q, area * down * down) * up * up;
+    return refiner_contour_factor(p, q, area * down * down, error) * up * up;
 }
 
 /* The largest height of e's corners over the plane of `plane` (m). */
@@ -643,7 +653,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
         distance = refiner_polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
     least = r->area < s->area ? r->area : s->area;
     if (distance <= (exact ? REFINER_POLYGON_FACTOR_EXACT : REFINER_POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least);
+        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least, exact ? REFINER_CONTOUR_FACTOR_EXACT : REFINER_CONTOUR_FACTOR_FAIR);
     else
         exchange = refiner_polygon_factor_rule(&p, small->normal, &q, exact || distance <= REFINER_POLYGON_FACTOR_MIDDLE * small->radius ? 2
                                                               : distance <= REFINER_POLYGON_FACTOR_FAR * small->radius         ? 1
@@ -706,7 +716,7 @@ REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, con
  *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
  *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
  *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
- *          4e-4 at the most (far pairs); 1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ *          4e-4 at the most (far pairs); 1e-6 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
  * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9. */
 
 REFINER_TOOL double refiner_form_factor_disc(struct refiner_discussion *d)

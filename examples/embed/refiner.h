@@ -65,25 +65,26 @@ struct refiner_terms {
 /* One node of the hierarchy: a cluster of faces, a face, or a part of a face.
  * Surfaces are convex planar polygons, counter-clockwise seen from the front. */
 struct refiner_element {
-    double centre[3];    /* surface: area centroid; cluster: middle of the bounding box (m) */
+    /* The first cache line: what a walk down the clusters asks of each child. */
     double normal[3];    /* surface: unit normal; cluster: axis of the normal cone */
     double area;         /* m2; cluster: sum over its faces */
-    double radius;       /* of the sphere around centre that holds the element (m) */
-    double radiosity;    /* B, W/m2, largest band; cluster: area mean. Constant during a round */
-    double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
-    double reflectance;  /* rho, largest band; cluster: area mean */
-    double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
-    double allowance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     double cone;         /* cluster: cosine of the normal cone's half-angle, -1 for "any way" */
-    double vertex[4][3]; /* surface: corners (m); cluster: [0] and [1] are the box's corners */
-    uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
-    uint32_t parent;     /* index in the hierarchy; the root is its own parent */
     uint32_t child;      /* index of the first child, the others follow; 0: not split yet */
-    uint32_t face;       /* surface: index of the face it is part of */
     uint8_t children;    /* how many, 0 when not split yet */
     uint8_t vertices;    /* 3 or 4; 0 for a cluster */
     uint8_t black;       /* 1: emits and reflects nothing, now or later */
     uint8_t depth;       /* splits below the face; 0 for faces and clusters */
+    double radius;       /* of the sphere around centre that holds the element (m) */
+    double radiosity;    /* B, W/m2, largest band; cluster: area mean. Constant during a round */
+    double centre[3];    /* surface: area centroid; cluster: middle of the bounding box (m) */
+    double vertex[4][3]; /* surface: corners (m); cluster: [0] and [1] are the box's corners */
+    uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
+    double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
+    double reflectance;  /* rho, largest band; cluster: area mean */
+    double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
+    double allowance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
+    uint32_t parent;     /* index in the hierarchy; the root is its own parent */
+    uint32_t face;       /* surface: index of the face it is part of */
 };
 
 /* A straight line between two points, ends included. */

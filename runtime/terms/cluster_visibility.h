@@ -13,59 +13,71 @@
 #define TERM_CLUSTER_VISIBILITY_H
 
 #include "discussion.h"
+#include "terms/cluster_facing.h"
+#include "terms/surface_point.h"
 #include "terms/visibility.h"
 
-enum { CLUSTER_CHILDREN = 8 }; /* the most that a cluster has */
+/* The most children that a cluster has; choices per segment before fewer segments than asked for must do. */
+enum { CLUSTER_CHILDREN = 8, CLUSTER_TRIES = 8 };
 
-/* The area of e that may face direction v (unit), or one that differs from it by an angle whose sine is at most `slope`. */
-static inline double cluster_facing(const struct element *e, const double v[3], double slope)
-{
-    double c = dot3(e->normal, v), across = 1 - c * c, sine = 1 - e->cone * e->cone;
-    if (c < e->cone) /* the normal of the cone that turns to v most */
-        c = c * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0);
-    else
-        c = 1;
-    if (e->vertices)
-        c = dot3(e->normal, v);
-    c += slope;
-    return e->area * (c < 0 ? 0 : c < 1 ? c : 1);
-}
+/* Faces chosen from one element: of each, what is left of its u in [0, 1) once the choice has used it up, and the chance
+ * that it was chosen. */
+struct cluster_choice {
+    const struct element *face[SEGMENTS_MAX]; /* NULL: none faces v */
+    double u[SEGMENTS_MAX], chance[SEGMENTS_MAX];
+};
 
-/* A face of e, chosen by *u in [0, 1), of which what is left comes back; NULL: none faces v. *chance: of the choice. */
-static inline const struct element *cluster_face(const struct element *e, const struct element *all, const double v[3],
-                                                 double slope, double *u, double *chance)
+/* Choose `count` faces of e by c->u. All go down the tree together, so that what a cluster's children may turn to v is
+ * computed once for all that pass it. */
+static inline void cluster_choose(struct cluster_choice *c, int count, const struct element *e, const struct element *all,
+                                  const double v[3], double slope)
 {
-    *chance = 1;
-    while (!e->vertices) {
-        double part[CLUSTER_CHILDREN], sum = 0;
-        int k = 0, i;
-        for (i = 0; i < e->children; i++) {
-            part[i] = cluster_facing(&all[e->child + (uint32_t)i], v, slope);
-            sum += part[i];
-        }
-        if (!(sum > 0))
-            return NULL;
-        *u *= sum;
-        while (k < e->children - 1 && *u >= part[k])
-            *u -= part[k++];
-        if (!(part[k] > 0)) /* rounding led past the last */
-            return NULL;
-        *u = *u < part[k] ? *u / part[k] : 0.5;
-        *chance *= part[k] / sum;
-        e = &all[e->child + (uint32_t)k];
+    unsigned char order[SEGMENTS_MAX], moved[SEGMENTS_MAX], went[SEGMENTS_MAX]; /* those at one element stand together in `order` */
+    int i, k, open = !e->vertices;
+    for (i = 0; i < count; i++) {
+        c->face[i] = e;
+        c->chance[i] = 1;
+        order[i] = (unsigned char)i;
     }
-    return e;
-}
-
-/* A point of a face, spread evenly over a triangle or a parallelogram. */
-static inline void cluster_point(double out[3], const struct element *e, double s, double t)
-{
-    int k;
-    if (e->vertices == 3)
-        s = sqrt(s);
-    for (k = 0; k < 3; k++) {
-        const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k], d = e->vertex[3][k];
-        out[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b) : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
+    while (open) {
+        int from, to;
+        open = 0;
+        for (from = 0; from < count; from = to) {
+            const struct element *at = c->face[order[from]], *child;
+            double part[CLUSTER_CHILDREN], sum = 0;
+            int n[CLUSTER_CHILDREN + 1] = { 0 };
+            for (to = from + 1; to < count && c->face[order[to]] == at; to++)
+                ;
+            if (!at || at->vertices)
+                continue;
+            child = &all[at->child];
+            for (k = 0; k < at->children; k++) {
+                part[k] = cluster_facing(&child[k], v, slope);
+                sum += part[k];
+            }
+            for (i = from; i < to; i++) {
+                int j = order[i];
+                double u = c->u[j] * sum;
+                for (k = 0; k < at->children - 1 && u >= part[k]; k++)
+                    u -= part[k];
+                if (part[k] > 0) { /* else nothing faces v, or rounding led past the last that does */
+                    c->u[j] = u < part[k] ? u / part[k] : 0.5;
+                    c->chance[j] *= part[k] / sum;
+                    c->face[j] = &child[k];
+                    open |= !child[k].vertices;
+                } else {
+                    c->face[j] = NULL;
+                }
+                went[i] = (unsigned char)k;
+                n[k + 1]++;
+            }
+            for (k = 0; k < at->children; k++)
+                n[k + 1] += n[k];
+            for (i = from; i < to; i++)
+                moved[from + n[went[i]]++] = order[i];
+            for (i = from; i < to; i++)
+                order[i] = moved[i];
+        }
     }
 }
 
@@ -76,9 +88,10 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
     const struct element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
     const struct element *all = *host->elements;
     struct segment segments[SEGMENTS_MAX];
-    double weight[SEGMENTS_MAX], seen = 0, whole = 0, v[3], back[3], distance, slope;
+    struct cluster_choice of_r, of_s;
+    double weight[SEGMENTS_MAX], across[2][SEGMENTS_MAX], seen = 0, whole = 0, v[3], back[3], distance, slope;
     uint64_t blocked, hash = visibility_hash(r->id + visibility_hash(s->id));
-    int i, k, n = 0;
+    int tried, i, k, n = 0;
     sub3(v, s->centre, r->centre);
     distance = length3(v);
     if (!(distance > 0))
@@ -88,32 +101,42 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
         v[k] /= distance;
         back[k] = -v[k];
     }
-    for (i = 0; i < count; i++) {
-        struct segment *g = &segments[n];
-        const struct element *a, *b;
-        double u[4], chance_a, chance_b, w[3], cos_a, cos_b, square;
-        for (k = 0; k < 4; k++) {
-            u[k] = (double)(hash >> 16 * k & 0xffff) * (1 / 65536.0) + (i + 0.5) * step[k];
-            u[k] -= floor(u[k]);
+    for (tried = 0; n < count && tried < CLUSTER_TRIES * count; tried += count) {
+        for (i = 0; i < count; i++) {
+            double u[4];
+            for (k = 0; k < 4; k++) {
+                u[k] = (double)(hash >> 16 * k & 0xffff) * (1 / 65536.0) + (tried + i + 0.5) * step[k];
+                u[k] -= floor(u[k]);
+            }
+            of_r.u[i] = u[0];
+            across[0][i] = u[1];
+            of_s.u[i] = u[2];
+            across[1][i] = u[3];
         }
-        a = cluster_face(r, all, v, slope, &u[0], &chance_a);
-        b = cluster_face(s, all, back, slope, &u[2], &chance_b);
-        if (!a || !b)
-            continue;
-        cluster_point(g->from, a, u[0], u[1]);
-        cluster_point(g->to, b, u[2], u[3]);
-        sub3(w, g->to, g->from);
-        cos_a = dot3(a->normal, w);
-        cos_b = -dot3(b->normal, w);
-        square = dot3(w, w) / (distance * distance);
-        if (!(cos_a > 0) || !(cos_b > 0))
-            continue;
-        weight[n] = cos_a * cos_b * (a->area / r->area) * (b->area / s->area) / (square * square * chance_a * chance_b);
-        for (k = 0; k < 3; k++) {
-            g->from[k] += host->ray_offset * a->normal[k];
-            g->to[k] += host->ray_offset * b->normal[k];
+        cluster_choose(&of_r, count, r, all, v, slope);
+        cluster_choose(&of_s, count, s, all, back, slope);
+        for (i = 0; i < count && n < count; i++) {
+            struct segment *g = &segments[n];
+            const struct element *a = of_r.face[i], *b = of_s.face[i];
+            double w[3], cos_a, cos_b, square;
+            if (!a || !b)
+                continue;
+            surface_point(g->from, a, of_r.u[i], across[0][i]);
+            surface_point(g->to, b, of_s.u[i], across[1][i]);
+            sub3(w, g->to, g->from);
+            cos_a = dot3(a->normal, w);
+            cos_b = -dot3(b->normal, w);
+            square = dot3(w, w) / (distance * distance);
+            if (!(cos_a > 0) || !(cos_b > 0))
+                continue;
+            weight[n] = cos_a * cos_b * (a->area / r->area) * (b->area / s->area)
+                      / (square * square * of_r.chance[i] * of_s.chance[i]);
+            for (k = 0; k < 3; k++) {
+                g->from[k] += host->ray_offset * a->normal[k];
+                g->to[k] += host->ray_offset * b->normal[k];
+            }
+            n++;
         }
-        n++;
     }
     if (n == 0)
         return 0;

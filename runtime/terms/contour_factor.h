@@ -19,8 +19,10 @@
 #include "discussion.h"
 
 #define CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
-/* Aimed at: error of F by one pair of edges. What rounding leaves of an integral of ln over a unit length. */
-#define CONTOUR_FACTOR_ERROR 1e-11
+/* Aimed at: error of F by one pair of edges, of level contour and of polygon. What rounding leaves of an integral of
+ * ln over a unit length. */
+#define CONTOUR_FACTOR_EXACT 1e-11
+#define CONTOUR_FACTOR_FAIR 1e-7
 #define CONTOUR_FACTOR_ROUNDING 2e-15
 enum { CONTOUR_FACTOR_DEPTH = 40 };
 
@@ -41,7 +43,7 @@ static inline double contour_factor_line(const double p[3], const double a[3], c
     if (z > 0)
         sum += 0.5 * x * log(z);
     if (h > 0)
-        sum += h * (atan(y / h) + atan(x / h));
+        sum += h * atan2(h * length, h * h - x * y); /* the angle under which p sees the edge */
     return sum;
 }
 
@@ -123,9 +125,9 @@ static inline double contour_factor_skew(const struct contour_factor_edge *g, do
     return sum;
 }
 
-/* A_p F_pq of polygons of a size about one; `area`: of the smaller. The shorter edge of each pair is the outer one: along it
+/* A_p F_pq of polygons of a size about one; `area`: of the smaller; `error`: of F, by one pair of edges. The shorter edge of each pair is the outer one: along it
  * the inner integral varies least. */
-OUTLINE double contour_factor(const struct polygon *p, const struct polygon *q, double area)
+OUTLINE double contour_factor(const struct polygon *p, const struct polygon *q, double area, double error)
 {
     double sum = 0;
     int i, j, k;
@@ -153,7 +155,7 @@ OUTLINE double contour_factor(const struct polygon *p, const struct polygon *q, 
             }
             cross3(c, e, f);
             cross = dot3(c, c) / (le * le * lf * lf);
-            least = CONTOUR_FACTOR_ERROR * CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
+            least = error * CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
             if (least < CONTOUR_FACTOR_ROUNDING * g.length)
                 least = CONTOUR_FACTOR_ROUNDING * g.length;
             sum += aligned / g.length * (cross > 1e-26 ? contour_factor_skew(&g, size, cross, least)

@@ -15,7 +15,7 @@
  *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
  *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
  *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
- *          4e-4 at the most (far pairs); 1e-9 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ *          4e-4 at the most (far pairs); 1e-6 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
  * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_FORM_FACTOR_H

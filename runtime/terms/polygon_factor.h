@@ -19,7 +19,7 @@
 /* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
 #define POLYGON_FACTOR_EXACT 60.0
 /* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
-#define POLYGON_FACTOR_FAINT 1e-9
+#define POLYGON_FACTOR_FAINT 1e-6
 #define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
@@ -122,7 +122,7 @@ static inline double polygon_factor_rule(const struct polygon *p, const double n
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area)
+static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area, double error)
 {
     double up, down;
     int e;
@@ -131,7 +131,7 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
     down = 1 / up;
     polygon_factor_scale(p, down);
     polygon_factor_scale(q, down);
-    return contour_factor(p, q, area * down * down) * up * up;
+    return contour_factor(p, q, area * down * down, error) * up * up;
 }
 
 /* The largest height of e's corners over the plane of `plane` (m). */
@@ -187,7 +187,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
     least = r->area < s->area ? r->area : s->area;
     if (distance <= (exact ? POLYGON_FACTOR_EXACT : POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = polygon_factor_contour_at(&p, &q, large->radius, least);
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, least, exact ? CONTOUR_FACTOR_EXACT : CONTOUR_FACTOR_FAIR);
     else
         exchange = polygon_factor_rule(&p, small->normal, &q, exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
                                                               : distance <= POLYGON_FACTOR_FAR * small->radius         ? 1

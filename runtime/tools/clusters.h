@@ -9,6 +9,7 @@
 #define TOOL_CLUSTERS_H
 
 #include "discussion.h"
+#include "terms/wider.h"
 
 /* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
 static inline int clusters_turned(const struct element *e, const struct element *other, const double v[3],
@@ -55,8 +56,7 @@ TOOL enum clusters_answer tool_clusters(struct discussion *d)
         return CLUSTERS_APART;
     if (r->vertices || s->vertices)
         return s->vertices ? CLUSTERS_RECEIVER : CLUSTERS_EMITTER;
-    /* A tie is broken by identity, so that a pair opens the same element both ways round. */
-    return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? CLUSTERS_RECEIVER : CLUSTERS_EMITTER;
+    return wider(r, s) ? CLUSTERS_RECEIVER : CLUSTERS_EMITTER;
 }
 
 #endif

@@ -1,14 +1,14 @@
 /* opens.h - question: which element of a pair that holds a cluster is to be opened? The one with the larger bounding
  * sphere, since it keeps the two from being apart; but a surface only while it is more than `ratio` times as large as
  * the cluster and its parts stay above `min_share` of the scene's area, else the cluster. So a wall beside a
- * chair is cut into parts the size of the chair, and not the chair into faces that each see the whole wall. Two clusters of one
- * size are told apart by identity, so that a pair opens the same one both ways round.
+ * chair is cut into parts the size of the chair, and not the chair into faces that each see the whole wall.
  * [Smits, Arvo, Greenberg 1994, section 4; the surface's turn: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_OPENS_H
 #define TOOL_OPENS_H
 
 #include "discussion.h"
+#include "terms/wider.h"
 #include "tools/can_split.h"
 
 /* May the surface be opened, and is it the larger? */
@@ -25,7 +25,7 @@ TOOL enum opens_answer tool_opens(struct discussion *d, double ratio, double min
         return opens_surface(s, r, ratio, least) ? OPENS_EMITTER : OPENS_RECEIVER;
     if (r->vertices)
         return opens_surface(r, s, ratio, least) ? OPENS_RECEIVER : OPENS_EMITTER;
-    return r->radius > s->radius || (r->radius == s->radius && r->id <= s->id) ? OPENS_RECEIVER : OPENS_EMITTER;
+    return wider(r, s) ? OPENS_RECEIVER : OPENS_EMITTER;
 }
 
 #endif

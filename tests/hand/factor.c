@@ -63,7 +63,7 @@ static double along(vec p, vec a, vec u, double length)
     if (near > 0)
         sum += 0.5 * x * log(near);
     if (h > 0)
-        sum += h * (atan(y / h) + atan(x / h));
+        sum += h * atan2(h * length, h * h - x * y);
     return sum;
 }
 
@@ -149,7 +149,7 @@ static double contour(const poly *p, const poly *q, double area)
             else
                 g = (edges){ q0, f, p0, { e.x / le, e.y / le, e.z / le }, le, 0 };
             size = le <= lf ? le : lf;
-            g.tolerance = 1e-11 * 6.28318530717958647693 * area * g.length / fabs(aligned);
+            g.tolerance = 1e-7 * 6.28318530717958647693 * area * g.length / fabs(aligned);
             if (g.tolerance < 2e-15 * g.length)
                 g.tolerance = 2e-15 * g.length;
             sum += aligned / g.length * (sine2 > 1e-26 ? skew(&g, size, sine2) : parallel(&g, size));
@@ -296,7 +296,7 @@ double hand_form_factor(const struct element *r, const struct element *s)
         exchange = over(&p, n, &q, 2);
     else
         exchange = contour_at_unit_size(&p, &q, large->radius, least);
-    if (!(exchange > 0) || (exchange < 1e-9 * least && hidden(r, s)))
+    if (!(exchange > 0) || (exchange < 1e-6 * least && hidden(r, s)))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
 }

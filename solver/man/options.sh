@@ -1,0 +1,29 @@
+#!/bin/sh
+# options.sh RADIOSITY PAGE - the man page PAGE with the version filled in and, for the lines `.\" @options@` and
+# `.\" @oracles@`, what the command itself says of them.
+# SPDX-License-Identifier: MIT
+set -eu
+radiosity=$1
+
+escape='s/\\/\\e/g; s/-/\\-/g'
+
+# "  --name ARGUMENT   text", the text going on in lines that are indented further.
+options() {
+    "$radiosity" --help | sed -n -e '/^  -/,/^$/p' | sed -e "$escape" -e '/^$/d' | sed \
+        -e 's/^  \\\(-[^ ]*\) \([^ ][^ ]*\)  *\(.*\)$/.It Fl \1 Ar \2\n\\\&\3/' -e t \
+        -e 's/^  \\\(-[^ ]*\)  *\(.*\)$/.It Fl \1\n\\\&\2/' -e t -e 's/^  */\\\&/' | sed 's/^\.It Fl -/.It Fl /'
+}
+
+# "name: text" or "name (default): text", its parameters in lines that are indented.
+oracles() {
+    "$radiosity" oracles | sed -e "$escape" -n -e 's/^\([a-z_]*\)\( (default)\)*: \(.*\)$/.It Cm \1\2\n\\\&\3./p'
+}
+
+version=$("$radiosity" --version)
+while IFS= read -r line; do
+    case $line in
+    '.\" @options@') options ;;
+    '.\" @oracles@') oracles ;;
+    *) printf '%s\n' "$line" ;;
+    esac
+done <"$2" | sed "s/@VERSION@/${version#* }/"
