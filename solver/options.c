@@ -74,6 +74,7 @@ static void print_options(FILE *out, int commands)
 
 void options_print_study_help(FILE *out)
 {
+    int i;
     fputs("usage: radiosity study stability [options]         where methods fail, and by how much\n"
           "       radiosity study visibility SCENE [options]  how often few rays are wrong about visibility\n"
           "       radiosity study clustering SCENE [options]  what ways of grouping faces cost and give\n"
@@ -98,6 +99,9 @@ void options_print_study_help(FILE *out)
           "\n"
           "    radiosity study clustering examples/scenes/sejour.obj --reference sejour.csv -o table.md   # or .csv\n"
           "\n", out);
+    for (i = 0; i < CLUSTERING_COUNT; i++)
+        fprintf(out, "    %-8s %s\n", clustering_names[i], clustering_helps[i]);
+    fputs("\n", out);
     print_options(out, FAILURES | SIGHT | TREES);
 }
 
