@@ -228,7 +228,7 @@ static void take_boxes(struct cluster_tree *t, const struct build *b)
 
 int cluster_tree_build(struct cluster_tree *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads)
 {
-    const struct strategy *s = strategies[strategy];
+    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < MANY_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
     struct build b = { .faces = faces, .count = count, .threads = threads };
     uint32_t i;
     int result = -1;

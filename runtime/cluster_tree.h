@@ -10,7 +10,7 @@
 
 struct face;
 
-/* Constant, name, what it is; the first is the default. `radiosity study clustering` compares them. */
+/* Constant, name, what it is. `radiosity study clustering` compares them. */
 #define CLUSTERINGS(X) \
     X(SAH, sah, "boxes cut where the surface-area heuristic says [Wald 2007]") \
     X(EMBREE, embree, "Embree's builder in high quality, with spatial splits [Stich et al. 2009]") \
@@ -22,8 +22,9 @@ enum clustering {
     CLUSTERINGS(X)
 #undef X
     CLUSTERING_COUNT,
-    CLUSTERING_DEFAULT = 0
+    CLUSTERING_DEFAULT = CLUSTERING_COUNT /* sah from MANY_FACES on, where groups may be linked; below halves, as it always was */
 };
+enum { MANY_FACES = 1000 };
 extern const char *const clustering_names[CLUSTERING_COUNT], *const clustering_helps[CLUSTERING_COUNT];
 
 /* Returns the strategy's number, or -1. */

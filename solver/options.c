@@ -27,7 +27,7 @@ static const struct option {
       "                             see `radiosity oracles`)" },
     { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT | TREES, "set a parameter of the oracle; may be given many times" },
-    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default sah):" CLUSTERING_NAMES },
+    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default sah, below 1,000 halves):" CLUSTERING_NAMES },
     { TOLERANCE, "--tolerance", "X", S | C | TREES, "relative error of radiosity that iteration may leave (default 1e-4)" },
     { ITERATIONS, "--iterations", "N", S | C | TREES, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
@@ -209,8 +209,8 @@ static int take(struct options *o, const struct option *p, char *value)
         o->settings[o->setting_count++] = value;
         return 0;
     case CLUSTERS:
-        o->clusters = (enum clustering)clustering_of(value);
-        return clustering_of(value) < 0 ? wrong("--clusters knows" CLUSTERING_NAMES ", not", value) : 0;
+        o->clusters = 1 + clustering_of(value);
+        return o->clusters < 1 ? wrong("--clusters knows" CLUSTERING_NAMES ", not", value) : 0;
     case TOLERANCE:
         o->tolerance = strtod(value, &end);
         if (end == value || *end || !(o->tolerance > 0) || !(o->tolerance < 1))
@@ -365,7 +365,6 @@ int options_parse(struct options *o, int count, char **arguments)
     int i = 2, only_files = 0, status;
     memset(o, 0, sizeof *o);
     o->oracle = DEFAULT_ORACLE;
-    o->clusters = CLUSTERING_DEFAULT;
     o->tolerance = 1e-4;
     o->iterations = 100000;
     o->threads = omp_get_num_procs();

@@ -18,7 +18,7 @@ struct options {
     enum release release;
     int release_given;
     enum closure closure;
-    enum clustering clusters; /* the strategy that builds them */
+    int clusters; /* 1 + the strategy that builds them; 0: the default */
     const char *statistics; /* NULL: not wanted */
     char **settings; /* [setting_count] "NAME=VALUE", owned */
     int setting_count;

@@ -125,7 +125,8 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     s->options = *options;
     s->bands = options->unit ? 1 : scene->bands;
     values = (size_t)scene->face_count * s->bands;
-    if (hierarchy_build_by(&s->hierarchy, scene->faces, scene->face_count, options->clusters, options->threads) < 0)
+    if (hierarchy_build_by(&s->hierarchy, scene->faces, scene->face_count, options->clusters ? (enum clustering)(options->clusters - 1) : CLUSTERING_DEFAULT,
+                           options->threads) < 0)
         return -1;
     s->exitance = malloc(values * sizeof *s->exitance);
     s->reflectance = malloc(values * sizeof *s->reflectance);

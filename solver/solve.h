@@ -26,7 +26,7 @@ struct solve_options {
     int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
     int threads;
     enum closure closure;
-    enum clustering clusters; /* the strategy that groups faces; 0: the default */
+    int clusters; /* 1 + the strategy that groups faces; 0: the default */
     const struct view *view; /* whose picture counts, for oracles that read importance; NULL: every place counts alike */
     double aspect;    /* width of that picture over its height */
     int unit;         /* ignore the materials: every face has B = 1 and stays so (view factors) */

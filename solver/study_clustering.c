@@ -115,7 +115,7 @@ static int run(const struct options *o, const struct scene *scene, const struct 
                enum clustering strategy, struct row *row)
 {
     struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .threads = o->threads, .closure = o->closure,
-                                 .clusters = strategy, .progress = progress_show, .context = progress };
+                                 .clusters = 1 + (int)strategy, .progress = progress_show, .context = progress };
     struct refiner *r = oracles_open(o->oracle, o->release);
     struct hierarchy h;
     struct solve s;

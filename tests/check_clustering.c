@@ -261,7 +261,7 @@ END_TEST
 /* A million faces, half of them one and the same; a tenth of that for all strategies but the default. */
 START_TEST(test_million)
 {
-    int count = _i == CLUSTERING_DEFAULT ? 1000000 : 100000;
+    int count = _i == CLUSTERING_SAH ? 1000000 : 100000;
     struct faces s = { malloc((size_t)count * sizeof *s.face), 0 };
     struct cluster_tree t;
     uint64_t seed = 3;
@@ -313,7 +313,7 @@ START_TEST(test_furnace)
     }
     for (run = 0; run < 3; run++) { /* rows closed with one thread, then two; then as they are */
         struct solve *t = &s[run & 1];
-        struct solve_options how = { .tolerance = 1e-6, .iterations = 2000, .threads = run == 0 ? 1 : 2, .clusters = (enum clustering)_i,
+        struct solve_options how = { .tolerance = 1e-6, .iterations = 2000, .threads = run == 0 ? 1 : 2, .clusters = 1 + _i,
                                      .closure = run < 2 ? CLOSURE_ROWS : CLOSURE_NONE };
         struct refiner *r = oracles_open("clusters", RELEASE_FLAT);
         char *setting = (char *)"from_faces=300";
