@@ -53,14 +53,25 @@ struct builder {
     struct own *own;
     struct item *sorted; /* [count] */
     uint32_t placed;
+    _Atomic int failed;  /* out of memory */
 };
+
+static struct cut *create(RTCThreadLocalAllocator allocator, void *context)
+{
+    struct builder *a = context;
+    struct cut *c = rtcThreadLocalAlloc(allocator, sizeof *c, 16);
+    if (c)
+        memset(c, 0, sizeof *c);
+    else
+        a->failed = 1;
+    return c;
+}
 
 static void *create_node(RTCThreadLocalAllocator allocator, unsigned children, void *context)
 {
-    struct cut *c = rtcThreadLocalAlloc(allocator, sizeof *c, 16);
-    (void)context;
-    memset(c, 0, sizeof *c);
-    c->children = children;
+    struct cut *c = create(allocator, context);
+    if (c)
+        c->children = children;
     return c;
 }
 
@@ -69,7 +80,7 @@ static void set_children(void *node, void **children, unsigned count, void *cont
     struct cut *c = node;
     unsigned i;
     (void)context;
-    for (i = 0; i < count; i++)
+    for (i = 0; c && i < count; i++)
         c->child[i] = children[i];
 }
 
@@ -80,9 +91,10 @@ static void set_bounds(void *node, const struct RTCBounds **bounds, unsigned cou
 
 static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *p, size_t count, void *context)
 {
-    struct cut *c = rtcThreadLocalAlloc(allocator, sizeof *c, 16);
-    (void)count, (void)context; /* 1, as asked for */
-    memset(c, 0, sizeof *c);
+    struct cut *c = create(allocator, context);
+    (void)count; /* 1, as asked for */
+    if (!c)
+        return NULL;
     c->face = p->primID;
     c->box = (struct bounds){ { (double)p->lower_x, (double)p->lower_y, (double)p->lower_z }, { (double)p->upper_x, (double)p->upper_y, (double)p->upper_z } };
     return c;
@@ -255,7 +267,7 @@ static struct cut *build(struct builder *a, RTCDevice device, RTCBVH bvh, struct
     how.splitPrimitive = split;
     how.userPtr = a;
     root = rtcBuildBVH(&how);
-    return rtcGetDeviceError(device) == RTC_ERROR_NONE ? root : NULL;
+    return rtcGetDeviceError(device) == RTC_ERROR_NONE && !a->failed ? root : NULL;
 }
 
 static void close(struct build *b)

@@ -4,7 +4,7 @@
  * than cells of its own size; so cells overlap by half of their side at the most, and no face climbs to the root only because
  * it lies across a border, as it does where cells must hold their faces whole. Faces too large for the octants become a cluster
  * of their own beside them, cut by the surface-area heuristic. A cell of LEAF faces or fewer is not cut.
- * [uniform octrees as clusters: Hasenfratz, Damez, Sillion and Drettakis 1999; cells with slack: Ulrich 2000]
+ * [cells with slack: Ulrich 2000; octrees among the strategies for clusters: Hasenfratz, Damez, Sillion and Drettakis 1999]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>

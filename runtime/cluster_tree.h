@@ -15,8 +15,8 @@ struct face;
     X(HALVES, halves, "as sah where every slice holds a face, else halves of the file's order") \
     X(SAH, sah, "boxes cut where the surface-area heuristic says [Wald 2007]") \
     X(EMBREE, embree, "Embree's builder in high quality, with spatial splits [Stich et al. 2009]") \
-    X(OCTREE, octree, "uniform octree, faces by middle and size [Hasenfratz et al. 1999; Ulrich 2000]") \
-    X(KD, kd, "overlapping k-d tree, planes by surface area [MacDonald and Booth 1990; Hasenfratz et al. 1999]")
+    X(OCTREE, octree, "uniform octree, faces by middle and size [Ulrich 2000]") \
+    X(KD, kd, "overlapping k-d tree, planes by surface area [MacDonald and Booth 1990]")
 enum clustering {
 #define X(constant, name, help) CLUSTERING_##constant,
     CLUSTERINGS(X)

@@ -146,7 +146,7 @@ int balance_solve(struct solve *s, struct balance *x)
                 power += s->hierarchy.elements[e].area * s->exposed[e] * x->value[(size_t)e * x->bands + k];
         }
         s->residual = x->residual = power > 0 ? change / power : 0;
-        x->converged = x->residual * rho <= s->options.tolerance * (1 - rho);
+        x->converged = x->residual * rho <= x->tolerance * (1 - rho);
         if (s->options.progress)
             s->options.progress(s->options.context, s, "solve");
     }

@@ -12,6 +12,7 @@ struct balance {
     const double *source;       /* [face * bands + band], or [element * bands + band] (leaves are read) */
     const double *reflectance;  /* [face * bands + band] */
     int by_element;             /* which of the two the source is given by */
+    double tolerance;           /* relative error that iteration may leave */
 
     int sweeps, converged;      /* of this solve */
     double residual;            /* of the last sweep: sum A |dx| / sum A x over leaves */

@@ -80,9 +80,11 @@ static int parse(struct faces_reference *r, const char *path, char *text, const 
         int n = split(line, field);
         if (n != columns)
             return report_error(path, number_of_line, "%d columns where the first line has %d", n, columns);
-        if (!number(field[face], &index) || index != r->count || r->count == scene->input_count)
-            return report_error(path, number_of_line, "face '%s' where face %u of %u was expected; give a table of this scene, all faces in order",
-                                field[face], (unsigned)r->count, (unsigned)scene->input_count);
+        if (!number(field[face], &index) || !(index >= 0 && index < scene->input_count) || index != (uint32_t)index
+            || (r->count && (uint32_t)index <= r->face[r->count - 1]))
+            return report_error(path, number_of_line, "face '%s' is out of order, or none of the scene's %u; give a table of this scene", field[face],
+                                (unsigned)scene->input_count);
+        r->face[r->count] = (uint32_t)index;
         if (!number(field[area], &a) || !(a >= 0))
             return report_error(path, number_of_line, "'%s' is no area", field[area]);
         r->area[r->count] = a;
@@ -91,9 +93,7 @@ static int parse(struct faces_reference *r, const char *path, char *text, const 
                 return report_error(path, number_of_line, "'%s' is no radiosity", field[band[k]]);
         r->count++;
     }
-    if (r->count != scene->input_count)
-        return report_error(path, 0, "%u faces, but the scene has %u; give a table of this scene", (unsigned)r->count, (unsigned)scene->input_count);
-    return 0;
+    return r->count ? 0 : report_error(path, 0, "no face is in it; give a table of this scene");
 }
 
 int faces_reference_read(struct faces_reference *r, const char *path, const struct scene *scene)
@@ -103,9 +103,10 @@ int faces_reference_read(struct faces_reference *r, const char *path, const stru
     *r = (struct faces_reference){0};
     if (!text)
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+    r->face = malloc(((size_t)scene->input_count + 1) * sizeof *r->face);
     r->area = malloc(((size_t)scene->input_count + 1) * sizeof *r->area);
     r->value = malloc(((size_t)scene->input_count + 1) * 3 * sizeof *r->value);
-    int failed = !r->area || !r->value ? report_error(path, 0, "out of memory") : parse(r, path, text, scene);
+    int failed = !r->face || !r->area || !r->value ? report_error(path, 0, "out of memory") : parse(r, path, text, scene);
     free(text);
     if (failed)
         faces_reference_free(r);
@@ -114,7 +115,8 @@ int faces_reference_read(struct faces_reference *r, const char *path, const stru
 
 double faces_reference_error(const struct faces_reference *r, const struct solution *s)
 {
-    double *area = calloc((size_t)r->count + 1, sizeof *area), *arrives = calloc((size_t)r->count * r->bands + 1, sizeof *arrives);
+    size_t inputs = s->scene->input_count;
+    double *area = calloc(inputs + 1, sizeof *area), *arrives = calloc(inputs * r->bands + 1, sizeof *arrives);
     double off = 0, all = 0;
     for (uint32_t i = 0; area && arrives && i < s->scene->face_count; i++) {
         size_t input = s->scene->faces[i].input, element = s->hierarchy->face_element[i];
@@ -124,12 +126,13 @@ double faces_reference_error(const struct faces_reference *r, const struct solut
             arrives[input * r->bands + k] += a * s->irradiance[element * r->bands + k];
     }
     for (uint32_t i = 0; area && arrives && i < r->count; i++) {
-        const struct material *m = &s->scene->materials[s->scene->inputs[i].material];
+        size_t input = r->face[i];
+        const struct material *m = &s->scene->materials[s->scene->inputs[input].material];
         for (uint32_t k = 0; k < r->bands; k++) {
-            size_t at = (size_t)i * r->bands + k;
-            double b = area[i] > 0 ? m->exitance[k] + m->reflectance[k] * arrives[at] / area[i] : 0;
-            off += r->area[i] * fabs(b - r->value[at]);
-            all += r->area[i] * r->value[at];
+            double b = area[input] > 0 ? m->exitance[k] + m->reflectance[k] * arrives[input * r->bands + k] / area[input] : 0;
+            double reference = r->value[(size_t)i * r->bands + k];
+            off += r->area[i] * fabs(b - reference);
+            all += r->area[i] * reference;
         }
     }
     off = !area || !arrives ? (double)NAN : all > 0 ? off / all : 0;
@@ -140,6 +143,7 @@ double faces_reference_error(const struct faces_reference *r, const struct solut
 
 void faces_reference_free(struct faces_reference *r)
 {
+    free(r->face);
     free(r->area);
     free(r->value);
     *r = (struct faces_reference){0};

@@ -166,6 +166,7 @@ int importance_solve(struct solve *s)
     carried.source = y->source;
     carried.by_element = 1;
     carried.reflectance = s->whitest;
+    carried.tolerance = s->options.tolerance;
     if (balance_solve(s, &carried) < 0)
         return -1;
     s->residual = residual; /* the summary's is that of radiosity */

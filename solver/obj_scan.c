@@ -324,6 +324,13 @@ int obj_scan_read(struct obj_scan *scan, const char *path)
     return failed ? -1 : 0;
 }
 
+void obj_scan_free_text(struct obj_scan *scan)
+{
+    free(scan->text);
+    scan->text = NULL;
+    scan->size = 0;
+}
+
 void obj_scan_free(struct obj_scan *scan)
 {
     for (uint32_t i = 0; i < scan->material_count; i++) {

@@ -32,6 +32,7 @@ struct obj_scan {
 /* Returns 0, or -1 after one error line; then *scan is empty. */
 int obj_scan_read(struct obj_scan *scan, const char *path);
 void obj_scan_free(struct obj_scan *scan);
+void obj_scan_free_text(struct obj_scan *scan); /* all else stays */
 
 const struct obj_material *obj_scan_material(const struct obj_scan *scan, const char *name);
 

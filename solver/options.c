@@ -74,6 +74,7 @@ static void print_options(FILE *out, int commands)
 
 void options_print_study_help(FILE *out)
 {
+    int i;
     fputs("usage: radiosity study stability [options]         where methods fail, and by how much\n"
           "       radiosity study visibility SCENE [options]  how often few rays are wrong about visibility\n"
           "       radiosity study clustering SCENE [options]  what ways of grouping faces cost and give\n"
@@ -98,13 +99,17 @@ void options_print_study_help(FILE *out)
           "\n"
           "    radiosity study clustering examples/scenes/sejour.obj --reference sejour.csv -o table.md   # or .csv\n"
           "\n", out);
+    for (i = 0; i < CLUSTERING_COUNT; i++)
+        fprintf(out, "    %-8s %s\n", clustering_names[i], clustering_helps[i]);
+    fputs("\n", out);
     print_options(out, FAILURES | SIGHT | TREES);
 }
 
 void options_print_help(FILE *out)
 {
     fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
-          "       radiosity compare SCENE [options]      run an oracle's releases side by side\n"
+          "       radiosity compare SCENE [options]      run an oracle's releases side by side, " DEFAULT_BY_HAND "'s\n"
+          "                                         unless --oracle names another\n"
           "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
           "       radiosity study WORD [SCENE] [options] stability, visibility, clustering: see `radiosity study --help`\n"
           "       radiosity oracles                      list the built-in oracles and their parameters\n"

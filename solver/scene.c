@@ -337,8 +337,6 @@ static int convert(struct reader *r, const struct aiScene *from)
                             (unsigned)scene->dropped);
     if (check_materials(r))
         return -1;
-    if (scene_cut(scene) < 0)
-        return out_of_memory(r);
     scene->bands = bands(r);
     if ((scene->dropped || r->scan.other) && !r->options->quiet)
         report_warning(r->path, 0, "%u degenerate faces dropped (no area, or fewer than three corners), %u points and lines ignored",
@@ -362,6 +360,7 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
         if (obj_scan_read(&r.scan, path))
             return -1;
         from = import_text(path, r.scan.text, r.scan.size);
+        obj_scan_free_text(&r.scan); /* large, and read */
     } else {
         from = aiImportFile(path, 0);
     }
@@ -371,6 +370,8 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
     else
         result = convert(&r, from);
     aiReleaseImport(from);
+    if (!result && scene_cut(scene) < 0)
+        result = out_of_memory(&r);
     obj_scan_free(&r.scan);
     free(r.used);
     free(r.corner);

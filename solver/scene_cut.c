@@ -11,7 +11,7 @@
  * shorter; the longest covered chord is first, so that the limit on parts leaves out the shortest.
  *
  * Invariants: parts are convex, have 3 or 4 corners, the face's orientation, and its area in sum; contacts are those of the
- * faces as they were given, so the order of the faces decides nothing; all tolerances are relative to the face that is
+ * faces as they were given, so neither the order of the faces decides anything nor who cuts which; all tolerances are relative to the face that is
  * cut, and lengths times 2^k give the same cuts; a far side is cut like its front and stays behind it.
  * SPDX-License-Identifier: MIT */
 #include "scene_cut.h"
@@ -20,9 +20,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <omp.h>
+
+#include "cluster_tree.h"
 #include "geometry.h"
 #include "polygon.h"
 
+enum { FEW = 2048 }; /* faces for which one thread does */
 enum { PARTS = 256, CORNERS = 12 }; /* of one face at the most, before polygons become quads; of one part */
 
 static const double TOUCH = 1e-4;     /* of the size: nearer than that to a plane is in it */
@@ -56,13 +60,24 @@ struct piece {
     uint32_t corner[4], n;
 };
 
+/* Where the parts of a face that was cut stand, in some cutter's list. */
+struct cutting {
+    uint32_t face;
+    uint32_t first, count;
+    const struct cutter *by;
+};
+
+/* One thread's. */
 struct cutter {
+    const struct scene *scene;
     const struct face *faces;
-    struct hierarchy tree;
+    const struct cluster_tree *tree;
+    struct cutting *cuttings; /* [cutting_count] */
+    uint32_t cutting_count, cutting_capacity;
     struct contact *contacts; /* of the face at hand */
     struct line *lines;
     uint32_t contact_count, contact_capacity, line_count, line_capacity;
-    struct face *out; /* [out_count] */
+    struct face *out; /* [out_count]: parts of faces that were cut */
     uint32_t out_count, out_capacity;
     /* The face at hand, with a frame in its plane. */
     uint32_t face;
@@ -93,16 +108,16 @@ static int is_pair(const struct scene *s, uint32_t front)
 }
 
 /* Make face i the one at hand. Returns 0 when it is no area to cut. */
-static int take(struct cutter *c, const struct scene *s, uint32_t i)
+static int take(struct cutter *c, uint32_t i)
 {
-    struct face f = s->faces[i];
+    struct face f = c->faces[i];
     double largest = 0, longest = 0;
     uint32_t j;
     int k;
     if (polygon_degenerate(f.vertex, f.vertices))
         return 0;
     c->face = i;
-    c->two_sided = is_pair(s, i);
+    c->two_sided = is_pair(c->scene, i);
     c->size = polygon_size(f.vertex, f.vertices);
     polygon_normal(f.vertex, f.vertices, c->normal);
     for (k = 0; k < 3; k++) {
@@ -221,24 +236,25 @@ static int reaches(const struct cutter *c, const double low[3], const double hig
     return fabs(height) <= half * (1 + 1e-9);
 }
 
-/* Collect the contacts of what is below an element. Returns 0, or -1 when out of memory. */
-static int collect(struct cutter *c, uint32_t element)
+/* Collect the contacts of the faces below a node whose boxes reach the face at hand: no other's, wherever it stands in the tree.
+ * Returns 0, or -1 when out of memory. */
+static int collect(struct cutter *c, uint32_t node)
 {
-    const struct element *e = &c->tree.elements[element];
-    uint32_t i;
-    if (!e->vertices) {
-        if (!reaches(c, e->vertex[0], e->vertex[1]))
-            return 0;
-        for (i = 0; i < e->children; i++)
-            if (collect(c, e->child + i) < 0)
-                return -1;
+    const struct cluster_node *n = &c->tree->nodes[node];
+    uint32_t i, face;
+    if (!reaches(c, c->tree->boxes[node].low, c->tree->boxes[node].high))
         return 0;
-    }
-    if (e->face == c->face || c->faces[e->face].back)
+    for (i = 0; i < n->children; i++)
+        if (collect(c, n->child + i) < 0)
+            return -1;
+    if (n->children)
+        return 0;
+    face = c->tree->order[n->from];
+    if (face == c->face || c->faces[face].back)
         return 0;
     if (!room((void **)&c->contacts, c->contact_count, &c->contact_capacity, sizeof *c->contacts))
         return -1;
-    c->contact_count += (uint32_t)touches(c, e->face, &c->contacts[c->contact_count]);
+    c->contact_count += (uint32_t)touches(c, face, &c->contacts[c->contact_count]);
     return 0;
 }
 
@@ -484,53 +500,105 @@ static int cut(struct cutter *c)
     return (int)count;
 }
 
-/* Cut face i or copy it, and its far side. Returns 0 or -1. */
-static int pass(struct cutter *c, struct scene *scene, uint32_t i, uint32_t *cut_faces, uint32_t *parts)
+/* Cut face i and its far side, where there is something to cut. Returns 0 or -1. */
+static int pass(struct cutter *c, uint32_t i)
 {
-    uint32_t before = c->out_count, j;
-    int pair = is_pair(scene, i);
+    uint32_t before = c->out_count;
     c->contact_count = 0;
-    if (take(c, scene, i)) {
-        if (collect(c, 0) < 0)
-            return -1;
-        if (c->contact_count && (group(c) < 0 || cut(c) < 0))
-            return -1;
-    }
-    if (c->out_count > before) {
-        ++*cut_faces;
-        *parts += (c->out_count - before) / (pair ? 2 : 1);
+    if (!take(c, i))
         return 0;
+    if (collect(c, 0) < 0)
+        return -1;
+    if (c->contact_count && (group(c) < 0 || cut(c) < 0))
+        return -1;
+    if (c->out_count == before)
+        return 0;
+    if (!room((void **)&c->cuttings, c->cutting_count, &c->cutting_capacity, sizeof *c->cuttings))
+        return -1;
+    c->cuttings[c->cutting_count++] = (struct cutting){ i, before, c->out_count - before, c };
+    return 0;
+}
+
+static int by_face(const void *a, const void *b)
+{
+    const struct cutting *x = a, *y = b;
+    return (x->face > y->face) - (x->face < y->face);
+}
+
+/* Put the parts in the places of the faces they were cut from. */
+static int replace(struct scene *scene, const struct cutter *cutters, int threads)
+{
+    struct cutting *all;
+    struct face *faces;
+    size_t cut_faces = 0, room = scene->face_count;
+    uint32_t i, n = 0, next = 0;
+    int t;
+    for (t = 0; t < threads; t++) {
+        cut_faces += cutters[t].cutting_count;
+        room += cutters[t].out_count;
     }
-    for (j = i; j <= i + (uint32_t)pair; j++) {
-        if (!room((void **)&c->out, c->out_count, &c->out_capacity, sizeof *c->out))
-            return -1;
-        c->out[c->out_count++] = scene->faces[j];
+    if (!cut_faces)
+        return 0;
+    all = malloc(cut_faces * sizeof *all);
+    faces = room <= UINT32_MAX ? malloc(room * sizeof *faces) : NULL;
+    if (!all || !faces) {
+        free(all);
+        free(faces);
+        return -1;
     }
+    for (cut_faces = 0, t = 0; t < threads; t++)
+        for (i = 0; i < cutters[t].cutting_count; i++)
+            all[cut_faces++] = cutters[t].cuttings[i];
+    qsort(all, cut_faces, sizeof *all, by_face);
+    for (i = 0; i < scene->face_count; i++) {
+        const struct cutting *x = &all[next];
+        if (next == cut_faces || x->face != i) {
+            faces[n++] = scene->faces[i];
+            continue;
+        }
+        memcpy(&faces[n], &x->by->out[x->first], x->count * sizeof *faces);
+        n += x->count;
+        scene->cut++;
+        scene->parts += x->count >> is_pair(scene, i);
+        i += (uint32_t)is_pair(scene, i);
+        next++;
+    }
+    free(all);
+    free(scene->faces);
+    scene->faces = faces;
+    scene->face_count = n;
     return 0;
 }
 
 int scene_cut(struct scene *scene)
 {
-    struct cutter c = { .faces = scene->faces };
-    uint32_t i, cut_faces = 0, parts = 0;
-    int status = 0;
-    if (!scene->face_count)
-        return 0;
-    if (hierarchy_build(&c.tree, scene->faces, scene->face_count) < 0)
+    struct cluster_tree tree;
+    int threads = scene->face_count < FEW ? 1 : omp_get_max_threads(), status = 0, t;
+    struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
+    uint32_t i;
+    if (!cutters || (scene->face_count && cluster_tree_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0)) {
+        free(cutters);
         return -1;
-    for (i = 0; i < scene->face_count && !status; i += 1 + (uint32_t)is_pair(scene, i))
-        status = pass(&c, scene, i, &cut_faces, &parts);
-    hierarchy_free(&c.tree);
-    free(c.contacts);
-    free(c.lines);
-    if (status || !cut_faces) {
-        free(c.out);
-        return status;
     }
-    free(scene->faces);
-    scene->faces = c.out;
-    scene->face_count = c.out_count;
-    scene->cut += cut_faces;
-    scene->parts += parts;
-    return 0;
+    for (t = 0; t < threads; t++) {
+        cutters[t].scene = scene;
+        cutters[t].faces = scene->faces;
+        cutters[t].tree = &tree;
+    }
+#pragma omp parallel for schedule(dynamic, 256) num_threads(threads) reduction(| : status)
+    for (i = 0; i < scene->face_count; i++)
+        if (!status && !(i > 0 && is_pair(scene, i - 1)))
+            status |= pass(&cutters[omp_get_thread_num()], i) < 0;
+    if (!status)
+        status = replace(scene, cutters, threads) < 0;
+    for (t = 0; t < threads; t++) {
+        free(cutters[t].contacts);
+        free(cutters[t].lines);
+        free(cutters[t].out);
+        free(cutters[t].cuttings);
+    }
+    free(cutters);
+    if (scene->face_count)
+        cluster_tree_free(&tree);
+    return status ? -1 : 0;
 }

@@ -17,6 +17,11 @@
 #include "rows.h"
 #include "solve.h"
 
+/* Where groups are linked there are many links. Passes solve to ROUGH only, less than what oracles do not notice (STALE), until
+ * so few links change, one in SETTLED, that one more solve, now to the tolerance, ends it. */
+#define ROUGH 0.005
+#define SETTLED 1000
+
 /* Where the solver lowers thresholds a pass may be one step of them. */
 enum { PASSES = 32, PASSES_OF_ALLOWANCE = 200 };
 
@@ -155,11 +160,11 @@ fail:
     return -1;
 }
 
-/* Solve for the radiosities over the links as they are. Returns 0 or -1. */
-static int iterate(struct solve *s, const char **cause)
+/* Solve for the radiosities over the links as they are, to `tolerance`. Returns 0 or -1. */
+static int iterate(struct solve *s, double tolerance, const char **cause)
 {
     struct balance light = { .bands = s->bands, .value = s->radiosity, .irradiance = s->irradiance,
-                             .source = s->exitance, .reflectance = s->reflectance };
+                             .source = s->exitance, .reflectance = s->reflectance, .tolerance = tolerance };
     cluster_light_close(&s->cluster_light);
     if (cluster_light_open(&s->cluster_light, &s->hierarchy, &s->refinement, (int)s->bands, s->options.threads) < 0)
         return -1;
@@ -240,10 +245,15 @@ static int64_t refine_for_error(struct solve *s, const char **cause)
     }
 }
 
+static int links_groups(const struct solve *s)
+{
+    return s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
+}
+
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     int64_t changed = 1;
-    int importance = s->options.view && refiner->reads & REFINER_READS_IMPORTANCE;
+    int settled = 0, importance = s->options.view && refiner->reads & REFINER_READS_IMPORTANCE;
     double error = allowance_target(refiner, rays_host(s->rays));
     *cause = "out of memory";
     if (importance && importance_start(s) < 0)
@@ -254,15 +264,19 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
         return -1;
     for (s->passes = 0; changed > 0 && s->passes < (error > 0 ? PASSES_OF_ALLOWANCE : PASSES); s->passes++) {
         double start = seconds(), middle;
-        if (iterate(s, cause) < 0)
+        int rough = error <= 0 && links_groups(s), last = rough && settled;
+        if (iterate(s, rough && !last && ROUGH > s->options.tolerance ? ROUGH : s->options.tolerance, cause) < 0)
             return -1;
         publish(s);
         if (importance && importance_solve(s) < 0)
             return -1;
         middle = seconds();
-        changed = error > 0 ? refine_for_error(s, cause) : refine_again(s, cause);
+        changed = error > 0 ? refine_for_error(s, cause) : last ? 0 : refine_again(s, cause);
         if (changed < 0)
             return -1;
+        settled = (uint64_t)changed * SETTLED <= s->refinement.link_count;
+        if (rough && settled && !last)
+            changed = 1; /* solved roughly: once more */
         s->seconds.iterate += middle - start;
         s->seconds.refine += seconds() - middle;
     }

@@ -273,6 +273,7 @@ int study_clustering(const struct options *o, const struct scene *scene)
     if (!o->quiet) {
         print_heading(stdout, o);
         print_head(stdout);
+        fflush(stdout);
     }
     for (i = 0; i < CLUSTERING_COUNT; i++) {
         if (only >= 0 && i != only)

@@ -293,6 +293,37 @@ START_TEST(test_scale)
 }
 END_TEST
 
+/* A longer wall beyond the floor, nearly in line with the one that stands in it, decides nothing: the cut is where the
+ * wall stands, whatever else the clusters around it hold. And a scene large enough for many threads is cut as each of its floors is. */
+START_TEST(test_far)
+{
+    struct scene s;
+    uint32_t i, j, copies, n;
+    for (n = 1; n <= 900; n += 899) {
+        ck_assert_int_eq(made_open(&s), 0);
+        made_material(&s, 0.5, 0);
+        for (copies = 0; copies < n; copies++) {
+            double z = 5.0 * copies;
+            made_quad(&s, 0, 0, 0, z, 4, 0, 0, 0, 3, 0);
+            made_quad(&s, 0, 1.7, 0, z, 0, 3, 0, 0, 0, 2);
+            made_quad(&s, 0, 1.7002, 4, z, 0, 30, 0, 0, 0, 2);
+        }
+        ck_assert_int_eq(scene_cut(&s), 0);
+        ck_assert_uint_eq(s.face_count, 4 * n);
+        ck_assert_uint_eq(s.cut, n);
+        ck_assert_uint_eq(s.parts, 2 * n);
+        for (i = 0; i < s.face_count; i++) {
+            int at_wall = 0;
+            ck_assert_uint_eq(s.faces[i].input, 3 * (i / 4) + (i % 4 > 1 ? i % 4 - 1 : 0));
+            for (j = 0; j < 4; j++)
+                at_wall += fabs(s.faces[i].vertex[j][0] - 1.7) < 1e-12;
+            ck_assert_int_eq(at_wall, i % 4 < 2 ? 2 : i % 4 == 2 ? 4 : 0);
+        }
+        made_close(&s);
+    }
+}
+END_TEST
+
 START_TEST(test_unchanged)
 {
     const uint32_t grey[6] = { 0 };
@@ -405,6 +436,7 @@ int main(void)
     tcase_add_test(c, test_two_sided);
     tcase_add_test(c, test_limit);
     tcase_add_loop_test(c, test_scale, 0, 3);
+    tcase_add_test(c, test_far);
     tcase_add_test(c, test_unchanged);
     tcase_add_test(c, test_degenerate);
     tcase_add_loop_test(c, test_files, 0, 5);

@@ -137,6 +137,34 @@ START_TEST(test_outputs)
 }
 END_TEST
 
+/* A table of some of the faces counts those alone: with B a tenth too large for all of the sample, the error is 1/11. */
+START_TEST(test_sample)
+{
+    char line[512], name[8];
+    FILE *in, *out;
+    double area, b, error;
+    int face, n;
+    ck_assert_int_eq(run("solve " SCENE " " HOW " --clusters kd --faces %s%s", in_folder("whole.csv"), ""), 0);
+    in = fopen(in_folder("whole.csv"), "r");
+    out = fopen(in_folder("sample.csv"), "w");
+    ck_assert(in && out && fgets(line, sizeof line, in));
+    fputs("B_0,face,area\n", out);
+    for (n = 0; fgets(line, sizeof line, in); n++) {
+        ck_assert_int_eq(sscanf(line, "%d,%*[^,],%lf,%*f,%*f,%*f,%lf", &face, &area, &b), 3);
+        if (n % 5 == 2)
+            fprintf(out, "%.12g,%d,%.12g\n", 1.1 * b, face, area);
+    }
+    (void)fclose(in);
+    ck_assert_int_eq(fclose(out), 0);
+    ck_assert_int_eq(run("study clustering " SCENE " " HOW " --only kd --reference %s -o %s", in_folder("sample.csv"), in_folder("table.csv")), 0);
+    in = fopen(in_folder("table.csv"), "r");
+    ck_assert(in && fgets(line, sizeof line, in) && fgets(line, sizeof line, in));
+    (void)fclose(in);
+    ck_assert_int_eq(sscanf(line, "%7[^,],%*u,%*u,%*f,%*f,%*f,%*f,%*u,%*u,%*u,%*u,%*u,%*f,%*f,%lf", name, &error), 2);
+    ck_assert_double_eq_tol(error, 0.1 / 1.1, 1e-9);
+}
+END_TEST
+
 /* What is wrong with a reference is told with its line, before any work. */
 START_TEST(test_bad_reference)
 {
@@ -146,11 +174,13 @@ START_TEST(test_bad_reference)
         { "", "bad.csv:1: error" },
         { "face,area\n0,1\n", "bad.csv:1: error" },
         { "face,area,B_0,B_1,B_2\n0,1,1,1,1\n", "bad.csv:1: error" },
-        { "face,area,B_0\n0,1,2\n2,1,2\n", "bad.csv:3: error: face '2' where face 1 of 96" },
+        { "face,area,B_0\n7,1,2\n7,1,2\n", "bad.csv:3: error: face '7' is out of order, or none of the scene's 96" },
+        { "face,area,B_0\n0,1,2\n96,1,2\n", "bad.csv:3: error: face '96' is" },
+        { "face,area,B_0\n1.5,1,2\n", "bad.csv:2: error: face '1.5' is" },
         { "face,area,B_0\n0,1,2\n1,1\n", "bad.csv:3: error: 2 columns" },
         { "face,area,B_0\n0,1,two\n", "bad.csv:2: error: 'two'" },
         { "face,area,B_0\n0,-1,2\n", "bad.csv:2: error: '-1'" },
-        { "face,area,B_0\n0,1,2\n", "bad.csv: error: 1 faces" },
+        { "face,area,B_0\n", "bad.csv: error: no face" },
     };
     char log[1024] = "";
     FILE *in;
@@ -189,7 +219,8 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_table);
     tcase_add_test(c, test_outputs);
-    tcase_add_loop_test(c, test_bad_reference, 0, 8);
+    tcase_add_test(c, test_sample);
+    tcase_add_loop_test(c, test_bad_reference, 0, 10);
     tcase_add_test(c, test_usage);
     suite_add_tcase(suite, c);
     runner = srunner_create(suite);
