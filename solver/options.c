@@ -109,7 +109,7 @@ void options_print_help(FILE *out)
 {
     fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
           "       radiosity compare SCENE [options]      run an oracle's releases side by side, " DEFAULT_BY_HAND "'s\n"
-          "                                         unless --oracle names another\n"
+          "                                              unless --oracle names another\n"
           "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
           "       radiosity study WORD [SCENE] [options] stability, visibility, clustering: see `radiosity study --help`\n"
           "       radiosity oracles                      list the built-in oracles and their parameters\n"

@@ -468,7 +468,7 @@ START_TEST(test_dominates)
             const struct element *e = k ? d.emitter : d.receiver;
             is[k] = e->vertices || brightest_face(t.elements, e) > share * e->area * e->radiosity;
         }
-        k = tool_dominates(&d, share);
+        k = (int)tool_dominates(&d, share);
         ck_assert_int_eq(k, is[0] && is[1] ? DOMINATES_BOTH : is[0] ? DOMINATES_RECEIVER : is[1] ? DOMINATES_EMITTER : DOMINATES_NONE);
         counted[k] += !d.receiver->vertices && !d.emitter->vertices;
     }
