@@ -23,9 +23,9 @@ static const struct option {
     int commands;
     const char *help;
 } table[] = {
-    { ORACLE, "--oracle", "NAME|FILE.dag", S | C | TREES, "the refinement oracle (default " DEFAULT_ORACLE ", in `study clustering` clusters;\n"
-      "                             see `radiosity oracles`)" },
-    { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand" },
+    { ORACLE, "--oracle", "NAME|FILE.dag", S | C | TREES, "the refinement oracle (default " DEFAULT_ORACLE "; of `compare` " DEFAULT_BY_HAND ", which has a\n"
+      "                             release by hand; see `radiosity oracles`)" },
+    { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand (bf, bf_guarded)" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT | TREES, "set a parameter of the oracle; may be given many times" },
     { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default sah, below 1,000 halves):" CLUSTERING_NAMES },
     { TOLERANCE, "--tolerance", "X", S | C | TREES, "relative error of radiosity that iteration may leave (default 1e-4)" },
@@ -108,7 +108,8 @@ void options_print_study_help(FILE *out)
 void options_print_help(FILE *out)
 {
     fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
-          "       radiosity compare SCENE [options]      run an oracle's releases side by side\n"
+          "       radiosity compare SCENE [options]      run an oracle's releases side by side, " DEFAULT_BY_HAND "'s\n"
+          "                                              unless --oracle names another\n"
           "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
           "       radiosity study WORD [SCENE] [options] stability, visibility, clustering: see `radiosity study --help`\n"
           "       radiosity oracles                      list the built-in oracles and their parameters\n"
@@ -342,8 +343,6 @@ static int study_of(struct options *o, const char *word)
     if (i == 3)
         return wrong("study knows stability, visibility and clustering, not", word);
     o->study = (enum study)i;
-    if (o->study == STUDY_CLUSTERING)
-        o->oracle = "clusters";
     memcpy(o->thresholds, thresholds, sizeof thresholds);
     memcpy(o->rays, rays, sizeof rays);
     o->threshold_count = sizeof thresholds / sizeof *thresholds;
@@ -389,6 +388,8 @@ int options_parse(struct options *o, int count, char **arguments)
     }
     if (command_of(arguments[1], &o->command) < 0)
         return wrong("unknown command", arguments[1]);
+    if (o->command == COMMAND_COMPARE)
+        o->oracle = DEFAULT_BY_HAND;
     if (o->command == COMMAND_STUDY) {
         status = study_of(o, arguments[i]);
         if (status || o->command == COMMAND_STUDY_HELP)

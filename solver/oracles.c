@@ -46,9 +46,13 @@ int oracles_by_hand(const char *oracle)
 static struct refiner *open_hand(const char *oracle)
 {
     const struct oracle *hand = find_hand(oracle);
+    char names[128] = "";
+    size_t i;
     if (hand)
         return refiner_compiled(hand, "hand");
-    report_error(oracle, 0, "no hand-written release of this oracle; use --release flat or dag");
+    for (i = 0; i < sizeof hand_oracles / sizeof *hand_oracles; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s--oracle %s", i ? " or " : "", hand_oracles[i]->name);
+    report_error(oracle, 0, "no hand-written release of this oracle; use --release flat or dag, or %s", names);
     return NULL;
 }
 

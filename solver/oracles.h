@@ -5,7 +5,8 @@
 
 #include "refiner.h"
 
-#define DEFAULT_ORACLE "bf_guarded"
+#define DEFAULT_ORACLE "clusters"
+#define DEFAULT_BY_HAND "bf_guarded" /* of `compare`: the one nearest to it that has a hand-written release */
 
 enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASES };
 

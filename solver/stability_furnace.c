@@ -90,7 +90,7 @@ int stability_furnace_L(struct stability_trial *trial)
 /* A furnace cube solved with other sweeps than the default. Returns 0 or -1. */
 static int sweep_furnace(struct stability_trial *trial, double rho, struct solve_options how, double *error, int *sweeps)
 {
-    struct refiner *refiner = oracles_open("bf_guarded", RELEASE_FLAT);
+    struct refiner *refiner = oracles_open(DEFAULT_ORACLE, RELEASE_FLAT);
     struct scene scene;
     struct solve s;
     const char *cause;

@@ -69,7 +69,7 @@ static struct stability_trial by_default(const struct stability_trial *trial)
 {
     struct stability_trial t = *trial;
     if (t.method->kind != BY_ORACLE)
-        t.method = &stability_methods[BF_GUARDED];
+        t.method = &stability_methods[DEFAULT];
     return t;
 }
 

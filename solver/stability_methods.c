@@ -1,5 +1,6 @@
 /* stability_methods.c - the columns of the failure table.
  * SPDX-License-Identifier: MIT */
+#include "oracles.h"
 #include "stability.h"
 
 const struct stability_method stability_methods[METHODS] = {
@@ -39,8 +40,8 @@ const struct stability_method stability_methods[METHODS] = {
     [GAP] = { "gap oracle", "gap [Lischinski 94] with relative = .02", BY_ORACLE, CLOSURE_NONE, "gap", { "relative=0.02", NULL } },
     [SMOOTH] = { "smooth", "smooth: gradients", BY_ORACLE, CLOSURE_NONE, "smooth", { NULL } },
     [VIEWFACTORS] = { "viewfactors", "viewfactors, the oracle of `radiosity viewfactors`", BY_ORACLE, CLOSURE_NONE, "viewfactors", { NULL } },
-    [BF_GUARDED] = { "bf_guarded", "bf_guarded, the default", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { NULL } },
-    [UNCUT] = { "uncut", "the default, on a scene whose faces are not cut where others stand in them", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { NULL } },
-    [FINE] = { "bf_guarded fine", "the default with relative = .01 and min_share = 5e-6", BY_ORACLE, CLOSURE_NONE, "bf_guarded", { "relative=0.01", "min_share=5e-6", NULL } },
-    [CLOSED] = { "--closure rows", "the default with rows closed", BY_ORACLE, CLOSURE_ROWS, "bf_guarded", { NULL } },
+    [DEFAULT] = { DEFAULT_ORACLE, DEFAULT_ORACLE ", the default", BY_ORACLE, CLOSURE_NONE, DEFAULT_ORACLE, { NULL } },
+    [UNCUT] = { "uncut", "the default, on a scene whose faces are not cut where others stand in them", BY_ORACLE, CLOSURE_NONE, DEFAULT_ORACLE, { NULL } },
+    [FINE] = { DEFAULT_ORACLE " fine", "the default with relative = .01 and min_share = 5e-6", BY_ORACLE, CLOSURE_NONE, DEFAULT_ORACLE, { "relative=0.01", "min_share=5e-6", NULL } },
+    [CLOSED] = { "--closure rows", "the default with rows closed", BY_ORACLE, CLOSURE_ROWS, DEFAULT_ORACLE, { NULL } },
 };

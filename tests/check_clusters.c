@@ -93,17 +93,21 @@ static void room(struct scene *s, int n)
     made_quad(s, 2, 1.8, 1.2, 2.4, 0, 0.5, 0, 0.5, 0, 0);
 }
 
-/* Below `from_faces` the oracle decides as bf_guarded does: the same links, bit for bit. */
+/* Below `from_faces` the oracle decides as bf_guarded does: the same links and the same light, bit for bit. */
 START_TEST(test_small)
 {
     struct scene scene;
     struct solve a, b;
     room(&scene, 3);
+    ck_assert(scene.face_count > 150 && scene.face_count < 1000);
     solved(&a, &scene, "clusters", 2, CLOSURE_NONE, NULL);
     solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
     ck_assert_uint_eq(beams(&a), 0);
     ck_assert_uint_eq(a.refinement.link_count, b.refinement.link_count);
     ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links, a.refinement.link_count * sizeof *a.refinement.links), 0);
+    ck_assert_uint_eq(a.hierarchy.count, b.hierarchy.count);
+    ck_assert_int_eq(memcmp(a.radiosity, b.radiosity, (size_t)a.hierarchy.count * a.bands * sizeof *a.radiosity), 0);
+    ck_assert_int_eq(memcmp(a.irradiance, b.irradiance, (size_t)a.hierarchy.count * a.bands * sizeof *a.irradiance), 0);
     solve_close(&a);
     solve_close(&b);
     made_close(&scene);
@@ -132,6 +136,29 @@ START_TEST(test_large)
     solve_close(&with);
     solve_close(&one);
     solve_close(&without);
+    made_close(&scene);
+}
+END_TEST
+
+/* Fog loses some of the light, shadows that are averaged misplace some: near what clusters finds, but no nearer. */
+START_TEST(test_feature)
+{
+    struct scene scene;
+    struct solve fog, one, rays;
+    room(&scene, 9);
+    solved(&fog, &scene, "clusters_feature", 2, CLOSURE_NONE, "min_share=5e-4");
+    released(&one, &scene, "clusters_feature", RELEASE_DAG, 1, CLOSURE_NONE, "min_share=5e-4");
+    solved(&rays, &scene, "clusters", 2, CLOSURE_NONE, "min_share=5e-4");
+    printf("room of %u faces through fog: %zu links, %zu of them of clusters; B differs by %.2g; power lost %.2g\n", scene.face_count,
+           fog.refinement.link_count, beams(&fog), difference(&fog, &rays), 1 - fog.absorbed / fog.emitted);
+    ck_assert_uint_gt(beams(&fog), 1000);
+    ck_assert_double_le(difference(&fog, &rays), 0.1);
+    ck_assert_double_le(fabs(1 - fog.absorbed / fog.emitted), 0.1);
+    ck_assert_uint_eq(fog.refinement.link_count, one.refinement.link_count);
+    ck_assert_int_eq(memcmp(fog.refinement.links, one.refinement.links, one.refinement.link_count * sizeof *one.refinement.links), 0);
+    solve_close(&fog);
+    solve_close(&one);
+    solve_close(&rays);
     made_close(&scene);
 }
 END_TEST
@@ -246,6 +273,7 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_small);
     tcase_add_test(c, test_large);
+    tcase_add_test(c, test_feature);
     tcase_add_test(c, test_furnace);
     tcase_add_test(c, test_leak);
     tcase_add_loop_test(c, test_self_shadow, 0, 2);

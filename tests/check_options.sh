@@ -71,6 +71,8 @@ says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --set rays=16.5
 says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --set rays=1e30
 says 1 "has no parameter 'no'; it has epsilon" solve "$scene" --set no=1
 says 1 "no such oracle" solve "$scene" --oracle nix
+says 1 "clusters: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded" \
+    solve "$scene" --release hand
 
 # ---- outputs that cannot be written are told before the scene is read, which is not there
 says 1 "nowhere/x.ply: error: cannot write: No such file or directory; make the folder first" solve none.obj -o nowhere/x.ply

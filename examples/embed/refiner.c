@@ -658,7 +658,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
         exchange = refiner_polygon_factor_rule(&p, small->normal, &q, exact || distance <= REFINER_POLYGON_FACTOR_MIDDLE * small->radius ? 2
                                                               : distance <= REFINER_POLYGON_FACTOR_FAR * small->radius         ? 1
                                                                                                                        : 0);
-    if (!(exchange > 0) || refiner_polygon_factor_hidden(r, s, exchange))
+    if (!(exchange > 0 && least > 0) || refiner_polygon_factor_hidden(r, s, exchange))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
 }

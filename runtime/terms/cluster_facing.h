@@ -1,5 +1,7 @@
 /* cluster_facing.h - how much of an element may face a direction (m2): its area times the largest cosine that a normal of its
  * cone may have with it. Of a cluster's children the sum is nearer to the truth than of the cluster itself.
+ * Fails: for directions beside v, by an angle whose sine is `slope`, what turns away from v gets c + slope where it may show up to
+ * sqrt(1 - slope^2) c + sqrt(1 - c^2) slope: so it is as small as sqrt(1 - slope^2) of the truth (3/4 at 1.5 radii), but 0 only where that is.
  * [Smits, Arvo, Greenberg 1994, the sums of alpha links, here over cones and not over faces]
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_CLUSTER_FACING_H

@@ -192,7 +192,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         exchange = polygon_factor_rule(&p, small->normal, &q, exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
                                                               : distance <= POLYGON_FACTOR_FAR * small->radius         ? 1
                                                                                                                        : 0);
-    if (!(exchange > 0) || polygon_factor_hidden(r, s, exchange))
+    if (!(exchange > 0 && least > 0) || polygon_factor_hidden(r, s, exchange))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
 }

@@ -17,7 +17,7 @@
 
 OUTLINE double alpha_gap_range(const struct element *r, const struct element *s, const struct element *all, const double axis[3])
 {
-    double distance = length3(axis), reach = r->radius + s->radius, slope, low, high, v[3], back[3];
+    double distance = length3(axis), reach = r->radius + s->radius, slope, low, high, facing, v[3], back[3];
     int k;
     if (!(distance > CLUSTER_GAP_APART * reach))
         return INFINITY;
@@ -28,16 +28,20 @@ OUTLINE double alpha_gap_range(const struct element *r, const struct element *s,
     }
     low = distance - reach;
     high = distance + reach;
-    return 0.31830988618379067154 * (cluster_facing_parts(r, all, v, slope) / r->area) * cluster_facing_parts(s, all, back, slope)
-         * s->radiosity * (1 / (low * low) - 1 / (high * high));
+    facing = cluster_facing_parts(r, all, v, slope);
+    if (!(facing > 0)) /* so of an element without area */
+        return 0;
+    return 0.31830988618379067154 * (facing / r->area) * cluster_facing_parts(s, all, back, slope) * s->radiosity
+         * (1 / (low * low) - 1 / (high * high));
 }
 
 TOOL enum alpha_gap_answer tool_alpha_gap(struct discussion *d, double absolute, double relative)
 {
+    const struct element *all = d->host->elements ? *d->host->elements : NULL; /* NULL: there are no clusters */
     double limit = relative * d->host->irradiance;
     if (absolute > limit)
         limit = absolute;
-    return alpha_gap_range(d->receiver, d->emitter, *d->host->elements, term_axis(d)) > limit ? ALPHA_GAP_ABOVE : ALPHA_GAP_BELOW;
+    return alpha_gap_range(d->receiver, d->emitter, all, term_axis(d)) > limit ? ALPHA_GAP_ABOVE : ALPHA_GAP_BELOW;
 }
 
 #endif

@@ -30,7 +30,7 @@ OUTLINE int dominates_one(const struct element *e, const struct element *all, do
 
 TOOL enum dominates_answer tool_dominates(struct discussion *d, double share)
 {
-    const struct element *all = *d->host->elements;
+    const struct element *all = d->host->elements ? *d->host->elements : NULL; /* NULL: there are no clusters */
     int r = dominates_one(d->receiver, all, share), s = dominates_one(d->emitter, all, share);
     return r && s ? DOMINATES_BOTH : r ? DOMINATES_RECEIVER : s ? DOMINATES_EMITTER : DOMINATES_NONE;
 }

@@ -296,7 +296,7 @@ double hand_form_factor(const struct element *r, const struct element *s)
         exchange = over(&p, n, &q, 2);
     else
         exchange = contour_at_unit_size(&p, &q, large->radius, least);
-    if (!(exchange > 0) || (exchange < 1e-6 * least && hidden(r, s)))
+    if (!(exchange > 0 && least > 0) || (exchange < 1e-6 * least && hidden(r, s)))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
 }

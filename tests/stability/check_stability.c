@@ -71,7 +71,7 @@ START_TEST(test_table)
             ck_assert(cell->tolerance >= 0);
             for (j = 0; j < k; j++)
                 ck_assert_int_ne(c->cells[j].method, cell->method);
-            if (cell->method == BF_GUARDED)
+            if (cell->method == DEFAULT)
                 ck_assert_msg(!cell->why, "%s", c->name);
             if (cell->why) {
                 ck_assert_msg(cell->low > cell->tolerance && cell->high >= cell->low, "%s", c->name);
@@ -131,7 +131,7 @@ START_TEST(test_command)
     snprintf(path, sizeof path, "%s/out", folder);
     snprintf(arguments, sizeof arguments, "stability --only shared_edge > %s", path);
     ck_assert_int_eq(run(arguments), 0);
-    ck_assert(holds(path, "bf_guarded") && holds(path, "fails: 1/r2 is unbounded") && holds(path, "0 are not as expected"));
+    ck_assert(holds(path, "clusters") && holds(path, "fails: 1/r2 is unbounded") && holds(path, "0 are not as expected"));
     unlink(path);
     snprintf(path, sizeof path, "%s/out.csv", folder);
     snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", path);
