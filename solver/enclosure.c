@@ -15,11 +15,6 @@
 
 enum { SIDE = 4, POINTS = SIDE * SIDE, DIRECTIONS = 64, BURIED = DIRECTIONS / 4 * 3 };
 
-/* Where the rays from one face went. */
-struct fates {
-    int fronts, lost; /* of rays from points that are not buried; lost: left the scene or met a back */
-};
-
 /* Two unit vectors across the unit vector n, the first square to the axis that is most across it. */
 static void frame(const double n[3], double u[3], double v[3])
 {
@@ -48,9 +43,9 @@ static void face_point(const struct element *e, double s, double t, double offse
     }
 }
 
-static struct fates look_around(const struct rays *rays, const struct element *e)
+struct fates enclosure_look(const struct rays *rays, const struct element *e)
 {
-    struct fates all = { 0, 0 };
+    struct fates all = { 0, 0, 0, 0 };
     double u[3], v[3], offset = rays_host(rays)->ray_offset;
     int i, m, k;
     frame(e->normal, u, v);
@@ -65,10 +60,13 @@ static struct fates look_around(const struct rays *rays, const struct element *e
                 d[k] = z * e->normal[k] + r * (cos(angle) * u[k] + sin(angle) * v[k]);
             met[rays_first(rays, p, d)]++;
         }
-        if (met[RAY_MEETS_BACK] >= BURIED)
+        if (met[RAY_MEETS_BACK] >= BURIED) {
+            all.buried += DIRECTIONS;
             continue;
+        }
         all.fronts += met[RAY_MEETS_FRONT];
-        all.lost += met[RAY_MEETS_BACK] + met[RAY_LEAVES];
+        all.leaves += met[RAY_LEAVES];
+        all.backs += met[RAY_MEETS_BACK];
     }
     return all;
 }
@@ -79,8 +77,8 @@ int enclosure_decide(struct solve *s)
     int open = 0, lit = 0;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(s->options.threads) reduction(| : open, lit)
     for (i = 0; i < s->scene->face_count; i++) {
-        struct fates f = look_around(s->rays, &s->hierarchy.elements[s->hierarchy.face_element[i]]);
-        open |= f.lost > 0 && f.fronts > 0;
+        struct fates f = enclosure_look(s->rays, &s->hierarchy.elements[s->hierarchy.face_element[i]]);
+        open |= f.leaves + f.backs > 0 && f.fronts > 0;
         lit |= f.fronts > 0;
     }
     s->closed_rays = (uint64_t)s->scene->face_count * POINTS * DIRECTIONS;

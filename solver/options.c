@@ -9,7 +9,7 @@
 #include "options.h"
 
 enum key { ORACLE, RELEASE, SET, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
-           FACES, JSON, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
+           FACES, JSON, FORMAT, NAMES, REPEATS, ONLY, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
 /* solve, compare, viewfactors, study stability, study visibility */
 enum { S = 1, C = 2, V = 4, FAILURES = 8, SIGHT = 16, ALL = S | C | V };
@@ -23,22 +23,27 @@ static const struct option {
     { ORACLE, "--oracle", "NAME|FILE.dag", S | C, "the refinement oracle (default " DEFAULT_ORACLE "; see `radiosity oracles`)" },
     { RELEASE, "--release", "flat|dag|hand", S, "compiled graph (default), interpreted graph, or written by hand" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT, "set a parameter of the oracle; may be given many times" },
-    { TOLERANCE, "--tolerance", "X", S | C, "relative error of radiosity that iteration may leave (default 1e-4)" },
+    { TOLERANCE, "--tolerance", "X", ALL, "relative error of radiosity that iteration may leave (default 1e-4); viewfactors: the\n"
+      "                             error of a row's sum to work for (default 3e-4)" },
     { ITERATIONS, "--iterations", "N", S | C, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
-    { CLOSURE, "--closure", "none|rows", S | C, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an open\n"
-      "                             one; power is then no longer exchanged alike both ways (default none)" },
+    { CLOSURE, "--closure", "none|rows|reciprocal", ALL, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an\n"
+      "                             open one; power is then no longer exchanged alike both ways (default none);\n"
+      "                             reciprocal, of viewfactors: the same, and A_i F_ij stays A_j F_ji" },
     { STATISTICS, "--statistics", "FILE", S, "how often each answer of the oracle's graph was given: text, .csv, .json; - is\n"
       "                             standard output. The graph is interpreted; what it decides is the same" },
     { THREADS, "--threads", "N", ALL | FAILURES | SIGHT, "threads to use (default: all processors); the result is the same" },
     { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT, "every face has two sides, not only materials named *_2s" },
-    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
+    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix; study: the table" },
     { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
     { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
     { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70); of the picture,\n"
       "                             and of an oracle that asks what is important to it" },
     { MESH, "--mesh", NULL, S, "draw the edges of the elements over the picture" },
     { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
+    { FORMAT, "--format", "csv|coo|mtx", V, "of -o: all numbers row by row (default), `i,j,F` lines from 0, or Matrix Market;\n"
+      "                             the last two leave out zeros" },
+    { NAMES, "--names", "FILE", V, "a name for each row of the matrix, one in a line: material.face" },
     { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
     { REPEATS, "--repeats", "N", C, "timed runs of each release (default 3)" },
     { ONLY, "--only", "CASE", FAILURES, "one case of `study stability`, by its name in the table" },
@@ -189,9 +194,22 @@ static int take(struct options *o, const struct option *p, char *value)
     case ITERATIONS:
         return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
     case CLOSURE:
-        if (strcmp(value, "none") != 0 && strcmp(value, "rows") != 0)
-            return wrong("--closure knows none and rows, not", value);
-        o->closure = *value == 'r' ? CLOSURE_ROWS : CLOSURE_NONE;
+        for (i = 0; i < FACTOR_CLOSURES && strcmp(value, factor_closure_names[i]) != 0; i++)
+            ;
+        if (i == FACTOR_CLOSURES || (i == FACTOR_CLOSURE_RECIPROCAL && o->command != COMMAND_VIEWFACTORS))
+            return wrong(o->command == COMMAND_VIEWFACTORS ? "--closure knows none, rows and reciprocal, not" : "--closure knows none and rows, not", value);
+        o->factor_closure = (enum factor_closure_kind)i;
+        o->closure = i == FACTOR_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE;
+        return 0;
+    case FORMAT:
+        for (i = 0; i < FACTOR_FORMATS && strcmp(value, factor_format_names[i]) != 0; i++)
+            ;
+        if (i == FACTOR_FORMATS)
+            return wrong("--format knows csv, coo and mtx, not", value);
+        o->format = (enum factor_format)i;
+        return 0;
+    case NAMES:
+        o->names = value;
         return 0;
     case STATISTICS:
         o->statistics = value;
@@ -356,6 +374,8 @@ int options_parse(struct options *o, int count, char **arguments)
     }
     if (command_of(arguments[1], &o->command) < 0)
         return wrong("unknown command", arguments[1]);
+    if (o->command == COMMAND_VIEWFACTORS)
+        o->tolerance = 3e-4;
     if (o->command == COMMAND_STUDY) {
         status = study_of(o, arguments[i]);
         if (status || o->command == COMMAND_STUDY_HELP)
