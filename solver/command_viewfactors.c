@@ -16,7 +16,7 @@
 
 /* The tolerance that the oracle's defaults are made for. */
 #define MEANT 3e-4
-#define NEAR 4.0
+#define NEAR 2.5
 
 struct account {
     double low, high;         /* of all rows' sums */

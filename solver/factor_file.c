@@ -36,14 +36,16 @@ struct writer {
 static void fill_row(const struct writer *w, uint32_t i, double *row)
 {
     const struct factor_closure *c = w->closure;
-    double own = c->scale && !c->both ? c->scale[i] : 1;
-    uint32_t j;
+    double scale, *restrict to = row;
+    uint32_t n = w->m->inputs, j;
     if (!(w->m->area[i] > 0))
         return;
+    scale = (c->scale && !c->both ? c->scale[i] : 1) / w->m->area[i];
     (void)factor_matrix_row(w->m, i, c->both ? c->scale : NULL, row);
-    for (j = 0; j < w->m->inputs; j++) {
-        double f = row[j] / w->m->area[i] * own;
-        row[j] = f < 1 ? f : 1;
+#pragma omp simd
+    for (j = 0; j < n; j++) {
+        double f = to[j] * scale;
+        to[j] = f < 1 ? f : 1;
     }
 }
 
