@@ -42,7 +42,7 @@ struct cell {
 /* How often a face was found wholly hidden and wholly seen, and what of it was seen. */
 struct sight {
     int hidden, clear;
-    double part[OUTLINE_POINTS], at[OUTLINE_POINTS][2]; /* of its area; the centroid */
+    double part[OUTLINE_FEW], at[OUTLINE_FEW][2]; /* of its area; the centroid */
 };
 
 struct room {
@@ -252,12 +252,12 @@ static void look(const struct outline *shadows, int count, int k, const struct c
 }
 
 /* The seen share of what the points exchange with a cell. */
-static double seen_share(const struct sight *sight, const struct cell *c, const double (*x)[3], const double *weight, int points,
-                         const double n[3], const struct outline_frame *frame)
+static double seen_share(const struct sight *sight, const struct cell *c, const double (*x)[3], const double *weight, const double n[3],
+                         const struct outline_frame *frame)
 {
     double seen = 0, all = 0, uv[2], y[3];
     int k;
-    for (k = 0; k < points; k++) {
+    for (k = 0; k < OUTLINE_FEW; k++) {
         uv[0] = c->whole.at[0] / c->whole.area;
         uv[1] = c->whole.at[1] / c->whole.area;
         outline_out(frame, uv, y);
@@ -313,11 +313,12 @@ static void shaded_block(const struct factor_matrix *f, const struct points *p, 
         t->host.corners(&t->host, list->face[b], &blocker[b]);
     for (i = points_at.from; i < points_at.to; i++) {
         const struct element *e = face_at(t, i);
-        double x[OUTLINE_POINTS][3], weight[OUTLINE_POINTS];
-        int points = outline_points(e, t->host.ray_offset, x, weight), hidden = 0, clear = 0;
+        double x[OUTLINE_FEW][3], weight[OUTLINE_FEW];
+        int clear = 0;
+        outline_points(e, t->host.ray_offset, OUTLINE_FEW, x, weight);
         for (j = 0; j < n; j++)
             room->sights[j].hidden = room->sights[j].clear = 0;
-        for (k = 0; k < points; k++) {
+        for (k = 0; k < OUTLINE_FEW; k++) {
             struct outline shadows[BLOCKERS_MAX];
             double height = height3(x[k], frame.origin, frame.n);
             int count = 0, all = 0;
@@ -328,7 +329,6 @@ static void shaded_block(const struct factor_matrix *f, const struct points *p, 
                     count += side == 0;
                 }
             if (all) {
-                hidden++;
                 for (j = 0; j < n; j++) {
                     room->sights[j].hidden++;
                     room->sights[j].part[k] = room->sights[j].at[k][0] = room->sights[j].at[k][1] = 0;
@@ -338,15 +338,15 @@ static void shaded_block(const struct factor_matrix *f, const struct points *p, 
                 look(shadows, count, k, room->cells, n, room->sights);
             }
         }
-        if (clear == points)
+        if (clear == OUTLINE_FEW)
             continue;
         for (j = 0; j < n; j++) {
             const struct sight *sight = &room->sights[j];
             double *value = &out[(i - points_at.from) * step_i + j * step_j];
-            if (sight->hidden == points)
+            if (sight->hidden == OUTLINE_FEW)
                 *value = 0;
-            else if (sight->clear != points)
-                *value *= seen_share(sight, &room->cells[j], (const double (*)[3])x, weight, points, from->normal, &frame);
+            else if (sight->clear != OUTLINE_FEW)
+                *value *= seen_share(sight, &room->cells[j], (const double (*)[3])x, weight, from->normal, &frame);
         }
     }
 }

@@ -235,38 +235,32 @@ static inline int outline_seen(const struct outline *shadows, int count, const s
     return 2;
 }
 
-/* Points to integrate a surface by, raised by `up`: of a quad four on a turned lattice, so that along either side they stand at
- * four places, where the edges of shadows often run; of a triangle three. Returns how many. */
-enum { OUTLINE_POINTS = 4 };
-static inline int outline_points(const struct element *e, double up, double (*x)[3], double weight[OUTLINE_POINTS])
+/* Points to integrate a surface by, raised by `up`: 4 or 16 on a turned lattice, so that along either side they stand at as many
+ * places: the edges of shadows often run along them. A triangle is a square folded, area kept. */
+enum { OUTLINE_FEW = 4, OUTLINE_MANY = 16 };
+static inline void outline_points(const struct element *e, double up, int count, double (*x)[3], double *weight)
 {
-    static const double node[4][2] = { { 0.125, 0.625 }, { 0.375, 0.125 }, { 0.625, 0.875 }, { 0.875, 0.375 } };
+    static const int turned[OUTLINE_FEW] = { 2, 0, 3, 1 };
     double sum = 0;
     int i, k;
-    if (e->vertices == 3) {
-        for (i = 0; i < 3; i++) {
-            weight[i] = 1 / 3.0;
-            for (k = 0; k < 3; k++)
-                x[i][k] = (4 * e->vertex[i][k] + e->vertex[(i + 1) % 3][k] + e->vertex[(i + 2) % 3][k]) * (1 / 6.0) + up * e->normal[k];
-        }
-        return 3;
-    }
-    for (i = 0; i < 4; i++) {
-        double s = node[i][0], t = node[i][1], ds[3], dt[3], jacobian[3];
+    for (i = 0; i < count; i++) {
+        int j = count == OUTLINE_FEW ? turned[i] : 5 * i % OUTLINE_MANY;
+        double s = (i + 0.5) / count, t = (j + 0.5) / count, ds[3], dt[3], jacobian[3];
+        if (e->vertices == 3)
+            s = sqrt(s);
         for (k = 0; k < 3; k++) {
-            double low = e->vertex[0][k] + s * (e->vertex[1][k] - e->vertex[0][k]);
-            double high = e->vertex[3][k] + s * (e->vertex[2][k] - e->vertex[3][k]);
+            double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k];
+            double low = a + s * (b - a), high = e->vertices == 3 ? a + s * (c - a) : e->vertex[3][k] + s * (c - e->vertex[3][k]);
             dt[k] = high - low;
-            ds[k] = (1 - t) * (e->vertex[1][k] - e->vertex[0][k]) + t * (e->vertex[2][k] - e->vertex[3][k]);
+            ds[k] = e->vertices == 3 ? 0 : (1 - t) * (b - a) + t * (c - e->vertex[3][k]);
             x[i][k] = low + t * dt[k] + up * e->normal[k];
         }
         cross3(jacobian, ds, dt);
-        weight[i] = dot3(jacobian, e->normal);
+        weight[i] = e->vertices == 3 ? 1 : dot3(jacobian, e->normal);
         sum += weight[i];
     }
-    for (i = 0; i < 4; i++)
-        weight[i] = sum > 0 ? weight[i] / sum : 0.25;
-    return 4;
+    for (i = 0; i < count; i++)
+        weight[i] = sum > 0 ? weight[i] / sum : 1.0 / count;
 }
 
 #endif
