@@ -66,7 +66,7 @@ OUTLINE double outline_visibility(const struct element *r, const struct element 
     if (!(whole.area > 0))
         return 0;
     outline_points(from, host->ray_offset, OUTLINE_MANY, x, weight);
-    spread = (r->area < s->area ? r->area : s->area) / OUTLINE_MANY;
+    spread = (r->area < s->area ? r->area : s->area) / (double)OUTLINE_MANY;
     for (i = 0; i < OUTLINE_MANY; i++) {
         double height = height3(x[i], frame.origin, frame.n), q;
         int count = 0;
