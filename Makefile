@@ -6,6 +6,7 @@
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
 # make reference  build/bin/reference, which path traces radiosities per face to measure solutions by
+# make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make bench    what the releases cost, in instructions
 # make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # SPDX-License-Identifier: MIT
@@ -135,3 +136,10 @@ include install.mk
 reference: $(BUILD)/bin/reference
 $(BUILD)/bin/reference: $(BUILD)/tests/reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
+
+# Rows of view factors against rays, in a room of 6,528 faces or any other number.
+.PHONY: factor-rays
+factor-rays: $(BUILD)/bin/factor_rays
+$(BUILD)/bin/factor_rays: $(BUILD)/tests/factor_rays.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm

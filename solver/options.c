@@ -9,7 +9,7 @@
 #include "options.h"
 
 enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
-           FACES, JSON, REPEATS, ONLY, REFERENCE, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
+           FACES, JSON, FORMAT, NAMES, REPEATS, ONLY, REFERENCE, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
 
 #define CLUSTERING_WORD(constant, name, help) " " #name
 #define CLUSTERING_NAMES CLUSTERINGS(CLUSTERING_WORD)
@@ -28,22 +28,27 @@ static const struct option {
     { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand (bf, bf_guarded)" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT | TREES, "set a parameter of the oracle; may be given many times" },
     { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default sah, below 1,000 halves):" CLUSTERING_NAMES },
-    { TOLERANCE, "--tolerance", "X", S | C | TREES, "relative error of radiosity that iteration may leave (default 1e-4)" },
+    { TOLERANCE, "--tolerance", "X", ALL | TREES, "relative error of radiosity that iteration may leave (default 1e-4); viewfactors: the\n"
+      "                             error of a row's sum to work for (default 3e-4)" },
     { ITERATIONS, "--iterations", "N", S | C | TREES, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
-    { CLOSURE, "--closure", "none|rows", S | C | TREES, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an open\n"
-      "                             one; power is then no longer exchanged alike both ways (default none)" },
+    { CLOSURE, "--closure", "none|rows|reciprocal", ALL | TREES, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an\n"
+      "                             open one; power is then no longer exchanged alike both ways (default none);\n"
+      "                             reciprocal, of viewfactors: the same, and A_i F_ij stays A_j F_ji" },
     { STATISTICS, "--statistics", "FILE", S, "how often each answer of the oracle's graph was given: text, .csv, .json; - is\n"
       "                             standard output. The graph is interpreted; what it decides is the same" },
     { THREADS, "--threads", "N", ALL | FAILURES | SIGHT | TREES, "threads to use (default: all processors); the result is the same" },
     { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT | TREES, "every face has two sides, not only materials named *_2s" },
-    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT | TREES, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix, .csv; study: the table" },
+    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT | TREES, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix; study: the table" },
     { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
     { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
     { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70); of the picture,\n"
       "                             and of an oracle that asks what is important to it" },
     { MESH, "--mesh", NULL, S, "draw the edges of the elements over the picture" },
     { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
+    { FORMAT, "--format", "csv|coo|mtx", V, "of -o: all numbers row by row (default), `i,j,F` lines from 0, or Matrix Market;\n"
+      "                             the last two leave out zeros" },
+    { NAMES, "--names", "FILE", V, "a name for each row of the matrix, one in a line: material.face" },
     { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
     { REPEATS, "--repeats", "N", C, "timed runs of each release (default 3)" },
     { ONLY, "--only", "CASE", FAILURES | TREES, "one case of `study stability`, or one strategy of `study clustering`" },
@@ -220,9 +225,22 @@ static int take(struct options *o, const struct option *p, char *value)
     case ITERATIONS:
         return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
     case CLOSURE:
-        if (strcmp(value, "none") != 0 && strcmp(value, "rows") != 0)
-            return wrong("--closure knows none and rows, not", value);
-        o->closure = *value == 'r' ? CLOSURE_ROWS : CLOSURE_NONE;
+        for (i = 0; i < FACTOR_CLOSURES && strcmp(value, factor_closure_names[i]) != 0; i++)
+            ;
+        if (i == FACTOR_CLOSURES || (i == FACTOR_CLOSURE_RECIPROCAL && o->command != COMMAND_VIEWFACTORS))
+            return wrong(o->command == COMMAND_VIEWFACTORS ? "--closure knows none, rows and reciprocal, not" : "--closure knows none and rows, not", value);
+        o->factor_closure = (enum factor_closure_kind)i;
+        o->closure = i == FACTOR_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE;
+        return 0;
+    case FORMAT:
+        for (i = 0; i < FACTOR_FORMATS && strcmp(value, factor_format_names[i]) != 0; i++)
+            ;
+        if (i == FACTOR_FORMATS)
+            return wrong("--format knows csv, coo and mtx, not", value);
+        o->format = (enum factor_format)i;
+        return 0;
+    case NAMES:
+        o->names = value;
         return 0;
     case STATISTICS:
         o->statistics = value;
@@ -390,6 +408,8 @@ int options_parse(struct options *o, int count, char **arguments)
         return wrong("unknown command", arguments[1]);
     if (o->command == COMMAND_COMPARE)
         o->oracle = DEFAULT_BY_HAND;
+    if (o->command == COMMAND_VIEWFACTORS)
+        o->tolerance = 3e-4;
     if (o->command == COMMAND_STUDY) {
         status = study_of(o, arguments[i]);
         if (status || o->command == COMMAND_STUDY_HELP)

@@ -3,6 +3,7 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "factor_file.h"
 #include "oracles.h"
 #include "solve.h"
 #include "view.h"
@@ -28,6 +29,9 @@ struct options {
     int width, height;
     struct view view;
     int view_given;
+    enum factor_format format; /* of COMMAND_VIEWFACTORS, and the rest of this block with it */
+    enum factor_closure_kind factor_closure;
+    const char *names; /* NULL: not wanted */
     enum study study;       /* of COMMAND_STUDY, and the rest of this block with it */
     const char *only;       /* stability: the case to run; clustering: the strategy; NULL: all */
     const char *chart;      /* visibility, clustering: where the drawing goes; NULL: not wanted */

@@ -1,0 +1,16 @@
+/* groups.h - question: which of two surfaces are flat groups of faces, which are opened and not split (tools/group_level.h)?
+ * D: derived here.
+ * SPDX-License-Identifier: MIT */
+#ifndef TOOL_GROUPS_H
+#define TOOL_GROUPS_H
+
+#include "discussion.h"
+#include "tools/group_level.h"
+
+TOOL enum groups_answer tool_groups(struct discussion *d)
+{
+    int r = group_level_group(d->receiver), s = group_level_group(d->emitter);
+    return r ? s ? GROUPS_BOTH : GROUPS_RECEIVER : s ? GROUPS_EMITTER : GROUPS_NEITHER;
+}
+
+#endif
