@@ -27,7 +27,7 @@ static const struct option {
       "                             release by hand; see `radiosity oracles`)" },
     { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand (bf, bf_guarded)" },
     { SET, "--set", "PARAM=VALUE", ALL | SIGHT | TREES, "set a parameter of the oracle; may be given many times" },
-    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default halves):" CLUSTERING_NAMES },
+    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default sah):" CLUSTERING_NAMES },
     { TOLERANCE, "--tolerance", "X", S | C | TREES, "relative error of radiosity that iteration may leave (default 1e-4)" },
     { ITERATIONS, "--iterations", "N", S | C | TREES, "sweeps per solve at the most (default 100000)" },
     { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },

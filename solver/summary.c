@@ -136,7 +136,7 @@ void summary_print(const struct options *o, const struct solve *s, const struct 
     printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", s->emitted, s->absorbed, 100 * fabs(imbalance(s)),
            imbalance(s) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s);
-    printf("time      %.2f s: build %.2f, refine %.2f (%.2f in rays), iterate %.2f, output %.2f; %.0f MB\n",
+    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output %.2f; %.0f MB\n",
            s->seconds.build + s->seconds.refine + s->seconds.iterate + output_seconds, s->seconds.build,
-           s->seconds.refine, s->seconds.in_rays, s->seconds.iterate, output_seconds, peak_megabytes());
+           s->seconds.refine, s->seconds.refine > 0 ? 100 * s->seconds.in_rays / s->seconds.refine : 0, s->seconds.iterate, output_seconds, peak_megabytes());
 }
