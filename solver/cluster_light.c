@@ -98,11 +98,11 @@ int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const
     uint32_t e;
     int k;
     memset(c, 0, sizeof *c);
+    c->hierarchy = h;
     for (i = 0; i < r->link_count; i++)
         n += (size_t)is_beam(h, &r->links[i]);
     if (n == 0)
         return 0;
-    c->hierarchy = h;
     c->bands = bands;
     c->threads = threads;
     c->elements = h->count;
