@@ -66,7 +66,7 @@ static void push(const struct solve *s, const struct balance *x, uint32_t e, con
     for (c = 0; c < at->children; c++)
         push(s, x, at->child + (uint32_t)c, h, spare);
     for (k = 0; k < b && !at->children; k++) {
-        H[k] = h[k] * s->row_scale[e];
+        H[k] = above[k] * s->row_above[e] + H[k] * s->row_scale[e];
         spare[k] += at->area * (s->options.closure == CLOSURE_ROWS ? H[k] : h[k] - H[k]);
     }
 }

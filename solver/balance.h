@@ -18,7 +18,7 @@ struct balance {
     double residual;            /* of the last sweep: sum A |dx| / sum A x over leaves */
 };
 
-/* Sweep until the error that iteration leaves is below the tolerance; row_scale and row_gift are set (rows.h).
+/* Sweep until the error that iteration leaves is below the tolerance; row_scale, row_above and row_gift are set (rows.h).
  * Returns 0, or -1 when out of memory. */
 int balance_solve(struct solve *s, struct balance *x);
 

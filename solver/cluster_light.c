@@ -1,102 +1,288 @@
-/* cluster_light.c - see cluster_light.h. Invariant: what a face gathers is summed in the order of its own beams,
- * then its clusters' from below; so the result does not depend on threads.
+/* cluster_light.c - see cluster_light.h. Invariant: what a face gathers is summed in the order of its clusters' beams from the
+ * root down, then its own; so the result does not depend on threads.
+ *
+ * The two ends of a beam are found in two steps. First each side is the mean of its faces that may turn to the other, by what
+ * they may show of it from its centre; then their mean by what passes between them and the other's first end. So k(r, s)
+ * is not small where what passes is not, though half of a side may lie behind the other's plane.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "cluster_light.h"
 
 #define INVERSE_PI 0.31830988618379067154
 
+enum { CHUNK = 64 }; /* faces that one thread takes at a time */
+
 static int is_beam(const struct hierarchy *h, const struct link *l)
 {
     return !h->elements[l->receiver].vertices || !h->elements[l->emitter].vertices;
 }
 
-/* The variance of an element's points along v (unit) and in all, by its box as if that were filled evenly (m2). */
-static void variances(const struct element *e, const double v[3], double *along, double *whole)
+static float *faces_arrays(struct cluster_faces *f, float *at, size_t count, int bands)
 {
-    double size;
-    int i, k;
+    int k;
     for (k = 0; k < 3; k++) {
-        double low = e->vertex[0][k], high = low;
-        for (i = 1; i < (e->vertices ? e->vertices : 2); i++) {
-            low = e->vertex[i][k] < low ? e->vertex[i][k] : low;
-            high = e->vertex[i][k] > high ? e->vertex[i][k] : high;
-        }
-        size = (high - low) * (high - low) * (1 / 12.0);
-        *along += v[k] * v[k] * size;
-        *whole += size;
+        f->centre[k] = at + (size_t)k * count;
+        f->normal[k] = at + (size_t)(3 + k) * count;
+        f->sent[k] = at + (size_t)(9 + (k < bands ? k : 0)) * count;
     }
+    f->size = at + 6 * count;
+    f->area = at + 7 * count;
+    f->bright = at + 8 * count;
+    return at;
 }
 
-/* The mean of cos cos / d^2 over two bodies that face each other differs from the value between their centres by the
- * factor 1 + (3 a - 2 t) / d^2 to second order, a the variance of their points along the line of centres and t across it. Without it
- * walls of many faces that face each other would exchange too much: a furnace gains 2 %. */
-static struct cluster_beam beam(const struct hierarchy *h, const struct link *l)
+static void faces_set(const struct cluster_light *c, struct cluster_faces *f, size_t i, const struct element *e)
 {
-    const struct element *r = &h->elements[l->receiver], *s = &h->elements[l->emitter];
-    struct cluster_beam b;
-    double v[3], square, distance, along = 0, whole = 0, factor;
+    double squares = 0, inverse = 1 / c->unit;
+    int k, v;
+    for (v = 0; v < e->vertices; v++) {
+        double w[3];
+        sub3(w, e->vertex[v], e->centre);
+        squares += dot3(w, w);
+    }
+    for (k = 0; k < 3; k++) {
+        f->centre[k][i] = (float)((e->centre[k] - c->hierarchy->low[k]) * inverse);
+        f->normal[k][i] = (float)e->normal[k];
+    }
+    f->size[i] = (float)(squares * inverse * inverse * (1 / 24.0)); /* exact for triangles and parallelograms */
+    f->area[i] = (float)e->area;
+    f->bright[i] = (float)(e->area * e->radiosity);
+}
+
+/* The faces of one end of a link. */
+struct side {
+    struct cluster_faces faces;
+    size_t from, to;
+    float part[12]; /* room for the only one, when it is a part of a face */
+};
+
+static void side_open(const struct cluster_light *c, struct side *side, uint32_t e)
+{
+    const struct element *x = &c->hierarchy->elements[e];
+    if (x->depth == 0) {
+        side->faces = c->faces;
+        side->from = c->hierarchy->range[e].from;
+        side->to = c->hierarchy->range[e].to;
+        return;
+    }
+    faces_arrays(&side->faces, side->part, 1, 3);
+    faces_set(c, &side->faces, 0, x);
+    side->from = 0;
+    side->to = 1;
+}
+
+/* k(x, s) pi for face i, times unit^2. */
+static inline float kernel(const struct cluster_faces *f, size_t i, const struct cluster_end *s)
+{
+    float v[3] = { s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i], s->centre[2] - f->centre[2][i] };
+    float near = f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2];
+    float far = -(s->normal[0] * v[0] + s->normal[1] * v[1] + s->normal[2] * v[2]);
+    float turned = -(s->normal[0] * f->normal[0][i] + s->normal[1] * f->normal[1][i] + s->normal[2] * f->normal[2][i]);
+    float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 1e-30f);
+    float value, second;
+    near = near > 0 ? near : 0;
+    far = far > 0 ? far : 0;
+    value = near * far * inverse * inverse;
+    second = 4 * f->size[i] * inverse * inverse * inverse * near * (far - 3 * near * near * inverse * far + turned * near);
+    value += far > 0 ? second : 0;
+    return value > 0 ? value : 0;
+}
+
+/* Set *end to the mean of a side by weights w = [bright or area] times what `how` makes of a face. Returns the sum of weights. */
+static float mean_end(struct cluster_end *end, const float sum[7])
+{
+    float inverse = sum[0] > 0 ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
     int k;
+    for (k = 0; k < 3; k++) {
+        end->centre[k] = sum[1 + k] * inverse;
+        end->normal[k] = length > 0 ? sum[4 + k] / length : 0;
+    }
+    return length > 0 ? sum[0] : 0;
+}
+
+/* The first end: faces count by weight (max(0, n . u + slope)). */
+static float first_end(struct cluster_end *end, const struct side *side, const float *weight, const float u[3], float slope)
+{
+    const struct cluster_faces *f = &side->faces;
+    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
+    size_t i;
+#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
+    for (i = side->from; i < side->to; i++) {
+        float w = f->normal[0][i] * u[0] + f->normal[1][i] * u[1] + f->normal[2][i] * u[2] + slope;
+        w = w > 0 ? w * weight[i] : 0;
+        all += w;
+        x += w * f->centre[0][i];
+        y += w * f->centre[1][i];
+        z += w * f->centre[2][i];
+        nx += w * f->normal[0][i];
+        ny += w * f->normal[1][i];
+        nz += w * f->normal[2][i];
+    }
+    return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
+}
+
+/* The second: by weight k(x, other); normals by weight k / (n . v). */
+static float second_end(struct cluster_end *end, const struct side *side, const float *weight, const struct cluster_end *other)
+{
+    const struct cluster_faces *f = &side->faces;
+    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
+    size_t i;
+#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
+    for (i = side->from; i < side->to; i++) {
+        float v[3] = { other->centre[0] - f->centre[0][i], other->centre[1] - f->centre[1][i], other->centre[2] - f->centre[2][i] };
+        float near = f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2];
+        float far = -(other->normal[0] * v[0] + other->normal[1] * v[1] + other->normal[2] * v[2]);
+        float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 1e-30f), n, w;
+        n = near > 0 && far > 0 ? weight[i] * far * inverse * inverse : 0;
+        w = n * near;
+        all += w;
+        x += w * f->centre[0][i];
+        y += w * f->centre[1][i];
+        z += w * f->centre[2][i];
+        nx += n * f->normal[0][i];
+        ny += n * f->normal[1][i];
+        nz += n * f->normal[2][i];
+    }
+    return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
+}
+
+/* k(r, s) pi unit^2 between two ends. */
+static float between(const struct cluster_end *r, const struct cluster_end *s)
+{
+    float v[3], square, near, far;
+    int k;
+    for (k = 0; k < 3; k++)
+        v[k] = s->centre[k] - r->centre[k];
+    square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    near = r->normal[0] * v[0] + r->normal[1] * v[1] + r->normal[2] * v[2];
+    far = -(s->normal[0] * v[0] + s->normal[1] * v[1] + s->normal[2] * v[2]);
+    return near > 0 && far > 0 ? near * far / (square * square) : 0;
+}
+
+static void beam(const struct cluster_light *c, struct cluster_beam *b, const struct link *l)
+{
+    const struct element *r = &c->hierarchy->elements[l->receiver], *s = &c->hierarchy->elements[l->emitter];
+    struct side of_r, of_s;
+    struct cluster_end first_r, first_s;
+    double v[3], distance;
+    float towards[3], back[3], slope, passes;
+    int k;
+    memset(b, 0, sizeof *b);
+    b->emitter = l->emitter;
     sub3(v, s->centre, r->centre);
-    square = dot3(v, v);
-    distance = sqrt(square);
-    b.emitter = l->emitter;
+    distance = length3(v);
     for (k = 0; k < 3; k++) {
-        v[k] /= distance;
-        b.towards[k] = (float)v[k];
+        towards[k] = (float)(v[k] / distance);
+        back[k] = -towards[k];
     }
-    variances(r, v, &along, &whole);
-    variances(s, v, &along, &whole);
-    factor = (3 * along - 2 * (whole - along)) / square;
-    factor = factor < 0 ? 1 / (1 - factor) : 1 + factor;
-    b.weight = (float)(l->visibility * (1.0 / LINK_VISIBLE) * factor / square);
-    return b;
+    slope = (float)((r->radius + s->radius) / distance);
+    side_open(c, &of_r, l->receiver);
+    side_open(c, &of_s, l->emitter);
+    if (!(first_end(&first_r, &of_r, of_r.faces.area, towards, slope) > 0)
+        || !(first_end(&first_s, &of_s, of_s.faces.bright, back, slope) > 0)
+        || !(second_end(&b->r, &of_r, of_r.faces.area, &first_s) > 0) || !(second_end(&b->s, &of_s, of_s.faces.bright, &first_r) > 0))
+        return;
+    passes = between(&b->r, &b->s);
+    if (passes > 0)
+        b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (c->unit * c->unit) / (double)passes);
 }
 
-/* The intensity of a group towards -w in each band: sums over the faces in `range`, several at a time. */
-static void radiate(const struct cluster_light *c, struct face_range range, const float w[3], int bands, float sum[3])
-{
-    const float *x = c->normal[0], *y = c->normal[1], *z = c->normal[2];
-    float wx = w[0], wy = w[1], wz = w[2];
-    size_t f;
-    int k;
-    for (k = 0; k < bands; k++) {
-        const float *sent = c->sent[k];
-        float all = 0;
-#pragma omp simd reduction(+ : all)
-        for (f = range.from; f < range.to; f++) {
-            float cosine = -(x[f] * wx + y[f] * wy + z[f] * wz);
-            all += sent[f] * (cosine > 0 ? cosine : 0);
-        }
-        sum[k] = all;
-    }
-}
-
-/* What the beam brings in each band. */
+/* What the beam brings in each band: J. */
 static void bring(const struct cluster_light *c, const struct cluster_beam *b, int bands, const double *radiosity, float *to)
 {
-    const struct hierarchy *h = c->hierarchy;
-    const struct element *s = &h->elements[b->emitter];
+    struct side side;
     float sum[3] = { 0, 0, 0 };
+    size_t i;
     int k;
-    if (s->vertices) {
-        double cosine = -(s->normal[0] * (double)b->towards[0] + s->normal[1] * (double)b->towards[1]
-                          + s->normal[2] * (double)b->towards[2]);
-        for (k = 0; k < bands && cosine > 0; k++)
-            sum[k] = (float)(INVERSE_PI * s->area * (radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1) * cosine);
+    side_open(c, &side, b->emitter);
+    if (c->hierarchy->elements[b->emitter].depth > 0) {
+        float value = side.faces.area[0] * kernel(&side.faces, 0, &b->r);
+        for (k = 0; k < bands; k++)
+            sum[k] = (float)(radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1) * value;
+    } else if (bands == 1) {
+        const float *sent = radiosity ? side.faces.sent[0] : side.faces.area;
+        float all = 0;
+#pragma omp simd reduction(+ : all)
+        for (i = side.from; i < side.to; i++)
+            all += sent[i] * kernel(&side.faces, i, &b->r);
+        sum[0] = all;
     } else {
-        radiate(c, h->range[b->emitter], b->towards, bands, sum);
+        const float *red = side.faces.sent[0], *green = side.faces.sent[1], *blue = side.faces.sent[2];
+        float x = 0, y = 0, z = 0;
+#pragma omp simd reduction(+ : x, y, z)
+        for (i = side.from; i < side.to; i++) {
+            float value = kernel(&side.faces, i, &b->r);
+            x += red[i] * value;
+            y += green[i] * value;
+            z += blue[i] * value;
+        }
+        sum[0] = x;
+        sum[1] = y;
+        sum[2] = z;
     }
     for (k = 0; k < bands; k++)
-        to[k] = b->weight * sum[k];
+        to[k] = b->scale * sum[k];
+}
+
+/* Add to `received` what the beams of e and of the elements below bring to the faces from .. to - 1. */
+static void receive(const struct cluster_light *c, int bands, uint32_t e, size_t from, size_t to)
+{
+    const struct hierarchy *h = c->hierarchy;
+    const struct element *x = &h->elements[e];
+    size_t b, i, count = h->face_count;
+    int k;
+    from = from > h->range[e].from ? from : h->range[e].from;
+    to = to < h->range[e].to ? to : h->range[e].to;
+    if (from >= to)
+        return;
+    for (b = c->first[e]; b < c->first[e + 1]; b++) {
+        const struct cluster_beam *beam = &c->beams[b];
+        const float *arrives = &c->arrives[b * (size_t)bands];
+        float value[CHUNK];
+#pragma omp simd
+        for (i = from; i < to; i++)
+            value[i - from] = kernel(&c->faces, i, &beam->s);
+        for (k = 0; k < bands; k++) {
+            float *received = &c->received[(size_t)k * count];
+#pragma omp simd
+            for (i = from; i < to; i++)
+                received[i] += arrives[k] * value[i - from];
+        }
+    }
+    for (k = 0; k < x->children && !x->vertices; k++)
+        receive(c, bands, x->child + (uint32_t)k, from, to);
+}
+
+static void receive_all(const struct cluster_light *c, int bands)
+{
+    size_t count = c->hierarchy->face_count, i;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(c->threads)
+    for (i = 0; i < count; i += CHUNK) {
+        size_t to = i + CHUNK < count ? i + CHUNK : count;
+        int k;
+        for (k = 0; k < bands; k++)
+            memset(&c->received[(size_t)k * count + i], 0, (to - i) * sizeof *c->received);
+        receive(c, bands, 0, i, to);
+    }
+}
+
+/* A power of two that is at least the scene's extent. */
+static double unit_of(const struct hierarchy *h)
+{
+    double extent = 0;
+    int k, exponent;
+    for (k = 0; k < 3; k++)
+        extent = h->high[k] - h->low[k] > extent ? h->high[k] - h->low[k] : extent;
+    frexp(extent, &exponent);
+    return ldexp(1, exponent);
 }
 
 int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads)
 {
     size_t i, n = 0, faces = h->face_count;
     uint32_t e;
-    int k;
     memset(c, 0, sizeof *c);
     c->hierarchy = h;
     for (i = 0; i < r->link_count; i++)
@@ -105,20 +291,19 @@ int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const
         return 0;
     c->bands = bands;
     c->threads = threads;
+    c->unit = unit_of(h);
     c->elements = h->count;
     c->beams = malloc(n * sizeof *c->beams);
     c->first = malloc(((size_t)h->count + 1) * sizeof *c->first);
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
-    c->normal[0] = malloc(3 * faces * sizeof *c->normal[0]);
-    c->sent[0] = malloc((size_t)bands * faces * sizeof *c->sent[0]);
-    if (!c->beams || !c->first || !c->arrives || !c->normal[0] || !c->sent[0]) {
+    c->received = malloc(faces * (size_t)bands * sizeof *c->received);
+    c->place = malloc(faces * sizeof *c->place);
+    c->faces.centre[0] = malloc((9 + (size_t)bands) * faces * sizeof(float));
+    if (!c->beams || !c->first || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
         cluster_light_close(c);
         return -1;
     }
-    for (k = 1; k < 3; k++)
-        c->normal[k] = c->normal[0] + (size_t)k * faces;
-    for (k = 1; k < bands; k++)
-        c->sent[k] = c->sent[0] + (size_t)k * faces;
+    faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
     for (e = 0; e < h->count; e++) {
         c->first[e] = c->count;
         for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
@@ -126,21 +311,20 @@ int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const
     }
     c->first[h->count] = c->count;
     for (i = 0; i < faces; i++) {
-        const struct element *x = &h->elements[h->face_element[h->order[i]]];
-        c->sent[0][i] = (float)(INVERSE_PI * x->area);
-        for (k = 0; k < 3; k++)
-            c->normal[k][i] = (float)x->normal[k];
+        c->place[h->order[i]] = (uint32_t)i;
+        faces_set(c, &c->faces, i, &h->elements[h->face_element[h->order[i]]]);
     }
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
     for (e = 0; e < h->count; e++) {
         size_t from, at = c->first[e];
         for (from = r->first_link[e]; from < r->first_link[e + 1]; from++)
             if (is_beam(h, &r->links[from])) {
-                c->beams[at] = beam(h, &r->links[from]);
+                beam(c, &c->beams[at], &r->links[from]);
                 bring(c, &c->beams[at], 1, NULL, &c->arrives[at]);
                 at++;
             }
     }
+    receive_all(c, 1);
     return 0;
 }
 
@@ -157,37 +341,34 @@ void cluster_light_send(const struct cluster_light *c, int bands, const double *
             uint32_t e = h->face_element[h->order[i]];
             int k;
             for (k = 0; k < bands; k++)
-                c->sent[k][i] = (float)(INVERSE_PI * h->elements[e].area * radiosity[(size_t)e * (size_t)bands + (size_t)k]);
+                c->faces.sent[k][i] = (float)(h->elements[e].area * radiosity[(size_t)e * (size_t)bands + (size_t)k]);
         }
 #pragma omp for schedule(dynamic, 256)
         for (i = 0; i < c->count; i++)
             bring(c, &c->beams[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
     }
-}
-
-/* The beams of element e, on a surface with normal n. */
-static void add(const struct cluster_light *c, size_t bands, uint32_t e, const double n[3], double *h)
-{
-    size_t i, k;
-    for (i = c->first[e]; i < c->first[e + 1]; i++) {
-        const struct cluster_beam *b = &c->beams[i];
-        double cosine = n[0] * (double)b->towards[0] + n[1] * (double)b->towards[1] + n[2] * (double)b->towards[2];
-        for (k = 0; k < bands && cosine > 0; k++)
-            h[k] += (double)c->arrives[i * bands + k] * cosine;
-    }
+    receive_all(c, bands);
 }
 
 static void add_all(const struct cluster_light *c, size_t bands, uint32_t e, double *h)
 {
-    const struct element *elements = c->hierarchy->elements, *x = &elements[e];
+    const struct element *x = &c->hierarchy->elements[e];
+    size_t b, k;
     if (c->count == 0 || e >= c->elements)
         return;
-    add(c, bands, e, x->normal, h);
-    if (x->depth > 0)
+    if (x->depth == 0) {
+        for (k = 0; k < bands; k++)
+            h[k] += (double)c->received[k * c->hierarchy->face_count + c->place[x->face]];
         return;
-    while (e != 0) {
-        e = elements[e].parent;
-        add(c, bands, e, x->normal, h);
+    }
+    if (c->first[e] < c->first[e + 1]) {
+        struct side side;
+        side_open(c, &side, e);
+        for (b = c->first[e]; b < c->first[e + 1]; b++) {
+            double value = (double)kernel(&side.faces, 0, &c->beams[b].s);
+            for (k = 0; k < bands; k++)
+                h[k] += (double)c->arrives[b * bands + k] * value;
+        }
     }
 }
 
@@ -203,12 +384,26 @@ double cluster_light_row(const struct cluster_light *c, uint32_t e)
     return row;
 }
 
+double cluster_light_at(const struct cluster_light *c, const struct cluster_beam *b, const double x[3], const double n[3])
+{
+    double v[3], near = 0, far = 0, square;
+    int k;
+    for (k = 0; k < 3; k++) {
+        v[k] = (double)b->s.centre[k] - (x[k] - c->hierarchy->low[k]) / c->unit;
+        near += n[k] * v[k];
+        far -= (double)b->s.normal[k] * v[k];
+    }
+    square = dot3(v, v);
+    return near > 0 && far > 0 ? near * far / (square * square) : 0;
+}
+
 void cluster_light_close(struct cluster_light *c)
 {
     free(c->beams);
     free(c->first);
     free(c->arrives);
-    free(c->normal[0]);
-    free(c->sent[0]);
+    free(c->received);
+    free(c->place);
+    free(c->faces.centre[0]);
     memset(c, 0, sizeof *c);
 }

@@ -1,13 +1,18 @@
 /* cluster_light.h - light over links that have a cluster at one end.
  *
- * From far away a cluster is a point that sends, towards w, the intensity of its faces,
- *     J(w) = (1/pi) sum_i A_i B_i max(0, n_i . w)                                    (W/sr),
- * and what arrives at a cluster is a beam that each face takes by its own orientation,
- *     H_j += J(w) V / d^2 max(0, -n_j . w)                                           (W/m2),
- * w from the emitter's centre to the receiver's, d their distance, with a factor near 1 for the size of both. [Smits, Arvo, Greenberg 1994, alpha links,
- * with the sums over faces taken as they are and not bounded; Sillion 1995 for the directions]
+ * Between face j of the receiver and face i of the emitter passes k(x_j, y_i) = (n_j . v) (-n_i . v) / (pi |v|^4), v = y_i - x_j. To sum that over all
+ * pairs would be the square again; so k is taken as a product, one factor per side:
+ *     k(x, y) = k(x, s) k(r, y) / k(r, s),
+ * r and s one point with one normal for each side (struct cluster_end): the places where the other sees its light come from,
+ * or go to. So the emitter's side is one sum per link, what it sends to r,
+ *     J = V / k(r, s) sum_i A_i B_i k(r, y_i)                                        (W m2),
+ * and each face of the receiver takes H_j += J k(x_j, s) by its own place and orientation. What is left of the error is of second
+ * order, in the product of the two sizes over d^2: either side may be as large as it likes while the other is small.
+ * A face's own size is in k to second order, too.
  * Both sums visit every face below the link's ends: over all links that is each face times the links of its
- * ancestors, no more than a push down the tree, and exact for every orientation.
+ * ancestors, no more than a push down the tree.
+ * [Smits, Arvo, Greenberg 1994, alpha links, are the same with k(x, y) = k(r, s) but for the cosines; Bebendorf 2000, section 2, for
+ * the product, the first step of a cross approximation; the choice of r and s: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef CLUSTER_LIGHT_H
 #define CLUSTER_LIGHT_H
@@ -17,25 +22,42 @@
 #include "hierarchy.h"
 #include "refine.h"
 
+/* What one side of a link is to the other. */
+struct cluster_end {
+    float centre[3], normal[3]; /* in units of `unit` from the corner of the scene's box; unit vector */
+};
+
 struct cluster_beam {
     uint32_t emitter;
-    float towards[3]; /* unit vector from the receiver to the emitter */
-    float weight;     /* V / d^2 and the sizes' factor (1/m2) */
+    float scale; /* V / (k(r, s) pi unit^2) */
+    struct cluster_end r, s;
+};
+
+/* Faces, or one part of a face, as arrays of numbers. */
+struct cluster_faces {
+    float *centre[3], *normal[3]; /* as in cluster_end */
+    float *size;                  /* half the mean square of the distance from its centre (unit^2) */
+    float *area;                  /* m2 */
+    float *bright;                /* A B as the oracles see it (W) */
+    float *sent[3];               /* [bands]: A B (W) */
 };
 
 struct cluster_light {
     const struct hierarchy *hierarchy;
-    int bands, threads; /* bands: the most that `arrives` has room for */
+    int bands, threads; /* bands: the most that `arrives` and `received` have room for */
+    double unit;        /* m; a power of two */
     struct cluster_beam *beams; /* [count], by receiver */
     size_t count;
-    size_t *first;   /* [elements + 1]: the beams of element e are first[e] .. first[e + 1] - 1 */
+    size_t *first;    /* [elements + 1]: the beams of element e are first[e] .. first[e + 1] - 1 */
     uint32_t elements;
-    float *arrives;  /* [count * bands]: J V / d^2; before the first cluster_light_send [count], for a radiosity of 1 */
-    float *normal[3]; /* [face_count] each, in the tree's order */
-    float *sent[3];   /* [bands][face_count]: A B / pi, in the tree's order */
+    float *arrives;   /* [count * bands]: J; before the first cluster_light_send [count], for a radiosity of 1 */
+    float *received;  /* [bands][face_count]: what the faces have from their own beams and their clusters', in the tree's order */
+    uint32_t *place;  /* [face_count]: where a face stands in the tree's order */
+    struct cluster_faces faces; /* [face_count], in the tree's order */
 };
 
-/* Take the links that have a cluster at one end from a sorted refinement. Returns 0, or -1 when out of memory. */
+/* Take the links that have a cluster at one end from a sorted refinement; radiosities are those that the oracles see, for
+ * the ends' centres. Returns 0, or -1 when out of memory. */
 int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads);
 
 /* What each beam brings, with the radiosities [elements * bands] as they are. */
@@ -46,6 +68,9 @@ void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, 
 
 /* The sum over the same beams of what they would bring from a radiosity of 1. Only before the first cluster_light_send. */
 double cluster_light_row(const struct cluster_light *c, uint32_t e);
+
+/* What beam b brings to a point x (m) with normal n, over J: k(x, s). */
+double cluster_light_at(const struct cluster_light *c, const struct cluster_beam *b, const double x[3], const double n[3]);
 
 void cluster_light_close(struct cluster_light *c);
 

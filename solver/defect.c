@@ -9,9 +9,8 @@
  * show. Exitance is the same all over a face and adds nothing. Corners are taken 2^-20 of the way to the centre,
  * as in terms/form_factor_range.h: where two elements touch, F has no value at the corner itself.
  *
- * Where a link has a cluster at one end (cluster_light.h), the emitter is the point that the link takes it for, of the
- * same intensity towards all of the leaf: what varies over the leaf is cos / d^2 alone, d at least the cluster's radius.
- * The receiver's clusters count, too.
+ * Where a link has a cluster at one end, the emitter is the point with a normal that the link takes it for (cluster_light.h), and
+ * what its whole face takes is what the leaf does. The receiver's clusters count, too.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
@@ -38,28 +37,21 @@ static void add_link(const struct solve *s, const struct link *l, const struct e
     }
 }
 
-/* The same for the beams of element `up`, which is the leaf or holds it. Returns how many there are. */
-static uint32_t add_beams(const struct solve *s, uint32_t up, const struct element *leaf, double (*x)[3], int count, double sum[POINTS][3])
+/* The same for the beams of element `up`, which is the leaf or holds it, and of which `taker` takes the light: the whole face, or the part
+ * of it that has the beams. Returns how many there are. */
+static uint32_t add_beams(const struct solve *s, uint32_t up, const struct element *taker, double (*x)[3], int count, double sum[POINTS][3])
 {
     const struct cluster_light *light = &s->cluster_light;
     size_t b;
-    int i, c;
+    int i;
     if (light->count == 0 || up >= light->elements)
         return 0;
     for (b = light->first[up]; b < light->first[up + 1]; b++) {
         const struct cluster_beam *beam = &light->beams[b];
-        const struct element *emitter = &s->hierarchy.elements[beam->emitter];
-        double v[3], far, whole = 0;
-        sub3(v, emitter->centre, s->hierarchy.elements[up].centre);
-        far = dot3(v, v);
-        for (c = 0; c < 3; c++)
-            whole += leaf->normal[c] * beam->towards[c];
+        double whole = cluster_light_at(light, beam, taker->centre, taker->normal);
         for (i = 0; i < count; i++) {
-            double near, off;
+            double off = cluster_light_at(light, beam, x[i], taker->normal) - whole;
             uint32_t k;
-            sub3(v, emitter->centre, x[i]);
-            near = fmax(dot3(v, v), emitter->radius * emitter->radius);
-            off = (near > 0 ? fmax(dot3(v, leaf->normal), 0) * far / (near * sqrt(near)) : 0) - fmax(whole, 0);
             for (k = 0; k < s->bands; k++)
                 sum[i][k] += light->arrives[b * s->bands + k] * off;
         }
@@ -81,7 +73,7 @@ static double largest(const struct solve *s, const struct element *e, double sum
 
 struct defect defect_leaf(const struct solve *s, uint32_t leaf)
 {
-    const struct element *e = &s->hierarchy.elements[leaf];
+    const struct element *e = &s->hierarchy.elements[leaf], *taker = e;
     const struct refinement *r = &s->refinement;
     double x[POINTS][3], sum[2][POINTS][3]; /* sum[1]: of links that a guard kept whole */
     struct defect result = { 0, 0, 0 };
@@ -94,7 +86,9 @@ struct defect defect_leaf(const struct solve *s, uint32_t leaf)
             x[i][c] = e->vertex[i][c] + (1 / 1048576.0) * (e->centre[c] - e->vertex[i][c]);
     memcpy(x[i], e->centre, sizeof e->centre);
     for (;; up = s->hierarchy.elements[up].parent) {
-        result.links += add_beams(s, up, e, x, e->vertices + 1, sum[0]);
+        if (s->hierarchy.elements[up].vertices)
+            taker = &s->hierarchy.elements[up];
+        result.links += add_beams(s, up, taker, x, e->vertices + 1, sum[0]);
         for (l = r->first_link[up]; l < r->first_link[up + 1]; l++) {
             if (!s->hierarchy.elements[r->links[l].receiver].vertices || !s->hierarchy.elements[r->links[l].emitter].vertices)
                 continue;

@@ -4,7 +4,9 @@
  * buried sees nothing, and is at most 1; yet a leaf near an edge, whose ancestors' links bring their mean, can
  * exceed that, and then a bright enough scene gains power in every reflection and the iteration diverges.
  *
- * The cap (CLOSURE_NONE). A leaf above 1 is scaled to 1 and the power that takes away is given to the leaves
+ * The cap (CLOSURE_NONE). A leaf above 1 is brought down to 1: what comes over its ancestors' links, which is their mean and not
+ * its own, is scaled, and its own links only where they alone are above 1. (To scale both alike would take strong light, which has
+ * fine links, for what is wrong with weak.) The power that takes away is given to the leaves
  * of the same face between 1/2 and 1, by the room they have. That moves power within a face and makes none; rows
  * below 1/2 are shadow, not error, and stay dark. Where the mean row of a whole face exceeds 1, by the noise of its
  * rays, the cap is that mean (cutting noise on one side would lose power), but at most 1 + (1 - rho) / 2: so
@@ -29,20 +31,23 @@ struct rows {
 };
 #define SHADOW 0.5
 
-/* Leave the row of every leaf below e where its scale will stand. */
+/* Leave the row of every leaf below e where its scale will stand, and what its ancestors have of it where theirs will. */
 static void sum_links(struct solve *s, uint32_t e, double above)
 {
     const struct element *x = &s->hierarchy.elements[e];
     const struct refinement *r = &s->refinement;
+    double row = above;
     size_t i;
     int c;
     for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-        above += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
-    above += cluster_light_row(&s->cluster_light, e);
+        row += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
+    row += cluster_light_row(&s->cluster_light, e);
     for (c = 0; c < x->children; c++)
-        sum_links(s, x->child + (uint32_t)c, above);
-    if (!x->children)
-        s->row_scale[e] = above;
+        sum_links(s, x->child + (uint32_t)c, row);
+    if (!x->children) {
+        s->row_scale[e] = row;
+        s->row_above[e] = above;
+    }
 }
 
 static void visit_leaves(struct rows *rows, uint32_t e, void (*visit)(struct rows *rows, uint32_t leaf, double row))
@@ -94,9 +99,12 @@ static void weigh_row(struct rows *rows, uint32_t leaf, double row)
 static void cap_row(struct rows *rows, uint32_t leaf, double row)
 {
     struct solve *s = rows->s;
-    double area, most = rows->excess > rows->room ? rows->excess : rows->room;
+    double area, above, own, most = rows->excess > rows->room ? rows->excess : rows->room;
+    above = exposed_row(s, leaf, s->row_above[leaf], &area);
     row = exposed_row(s, leaf, row, &area);
-    s->row_scale[leaf] = row > rows->cap ? rows->cap / row : 1;
+    own = row - above;
+    s->row_scale[leaf] = own > rows->cap ? rows->cap / own : 1;
+    s->row_above[leaf] = row <= rows->cap ? 1 : own < rows->cap ? (rows->cap - own) / above : 0;
     s->row_gift[leaf] = row > SHADOW * rows->cap && row < rows->cap ? s->exposed[leaf] * (rows->cap - row) / most : 0;
 }
 
@@ -107,6 +115,7 @@ static void close_row(struct rows *rows, uint32_t leaf, double row)
     row = exposed_row(s, leaf, row, &area);
     rows->excess += row > 1 ? area * (row - 1) : 0;
     s->row_scale[leaf] = !(area > 0) ? 0 : row > 1 || (row > 0 && s->closed > 0) ? 1 / row : 1;
+    s->row_above[leaf] = s->row_scale[leaf];
     s->row_gift[leaf] = row > 0 || s->closed <= 0 || !(rows->seeing > 0) ? 0
                               : (area > 0 ? s->exposed[leaf] : 1) / rows->seeing;
 }

@@ -5,7 +5,7 @@
 
 #include "solve.h"
 
-/* Measure all rows and set row_scale, row_gift and what solve.h reports of rows, as options.closure says. */
+/* Measure all rows and set row_scale, row_above, row_gift and what solve.h reports of rows, as options.closure says. */
 void rows_scale(struct solve *s);
 
 #endif

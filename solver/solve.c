@@ -59,7 +59,7 @@ static int make_room(struct solve *s)
         size_t room = (size_t)count + count / 4;
         unsigned char *mark;
         if (enlarge(&s->radiosity, room * b) < 0 || enlarge(&s->irradiance, room * b) < 0 || enlarge(&s->row_scale, room) < 0
-            || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0 || enlarge(&s->least, room * b) < 0
+            || enlarge(&s->row_above, room) < 0 || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0 || enlarge(&s->least, room * b) < 0
             || enlarge(&s->most, room * b) < 0)
             return -1;
         mark = realloc(s->changed, room);
@@ -302,6 +302,7 @@ void solve_close(struct solve *s)
     free(s->radiosity);
     free(s->irradiance);
     free(s->row_scale);
+    free(s->row_above);
     free(s->row_gift);
     free(s->exposed);
     free(s->whitest);

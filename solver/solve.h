@@ -87,7 +87,8 @@ struct solve {
     double residual;         /* of the last sweep: sum A |dB| / sum A B over leaves */
     double emitted, absorbed; /* W, all bands */
     double *exposed;          /* [room]: the share of the element that is not buried in a solid */
-    double *row_scale;        /* [room]: leaves only, the factor that caps its row at 1 */
+    double *row_scale;        /* [room]: leaves only, the factor for what comes over its own links */
+    double *row_above;        /* [room]: leaves only, the factor for what comes over those of the elements above it */
     double *row_gift;         /* [room]: leaves only, its share of the power capped off its face, or under closure of the
                                  irradiance of its face when it has no row of its own, per area (1/m2) */
     double row_low, row_high; /* smallest and largest sum of F V over a leaf's links, before the cap; 1 in a closed scene */
