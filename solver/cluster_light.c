@@ -1,9 +1,9 @@
 /* cluster_light.c - see cluster_light.h. Invariant: what a face gathers is summed in the order of its clusters' beams from the
  * root down, then its own; so the result does not depend on threads.
  *
- * The two ends of a beam are found in two steps. First each side is the mean of its faces that may turn to the other, by what
- * they may show of it from its centre; then their mean by what passes between them and the other's first end. So k(r, s)
- * is not small where what passes is not, though half of a side may lie behind the other's plane.
+ * The two ends of a beam are found in three steps. First the flatter side is the mean of its faces that may turn to the other's centre;
+ * then the other is the mean of its faces by what passes between them and that first end; then the flatter side is found anew,
+ * likewise. So k(r, s) is not small where what passes is not, though half of a side may lie behind the other's plane.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -11,42 +11,58 @@
 #include "cluster_light.h"
 
 #define INVERSE_PI 0.31830988618379067154
+#define TINY 1e-15f /* against division by 0; lengths are at most 1 here */
 
-enum { CHUNK = 64 }; /* faces that one thread takes at a time */
+enum { CHUNK = 64, /* faces that one thread takes at a time */
+       ARRAYS = 14 /* of struct cluster_faces, besides what the bands have */ };
 
 static int is_beam(const struct hierarchy *h, const struct link *l)
 {
     return !h->elements[l->receiver].vertices || !h->elements[l->emitter].vertices;
 }
 
-static float *faces_arrays(struct cluster_faces *f, float *at, size_t count, int bands)
+static void faces_arrays(struct cluster_faces *f, float *at, size_t count, int bands)
 {
     int k;
     for (k = 0; k < 3; k++) {
         f->centre[k] = at + (size_t)k * count;
         f->normal[k] = at + (size_t)(3 + k) * count;
-        f->sent[k] = at + (size_t)(9 + (k < bands ? k : 0)) * count;
+        f->sent[k] = at + (size_t)(ARRAYS + (k < bands ? k : 0)) * count;
     }
-    f->size = at + 6 * count;
-    f->area = at + 7 * count;
-    f->bright = at + 8 * count;
-    return at;
+    for (k = 0; k < 6; k++)
+        f->across[k] = at + (size_t)(6 + k) * count;
+    f->area = at + 12 * count;
+    f->bright = at + 13 * count;
 }
 
 static void faces_set(const struct cluster_light *c, struct cluster_faces *f, size_t i, const struct element *e)
 {
-    double squares = 0, inverse = 1 / c->unit;
+    double along[3], other[3], square[3] = { 0, 0, 0 }, inverse = 1 / c->unit, p, q, r;
     int k, v;
-    for (v = 0; v < e->vertices; v++) {
-        double w[3];
+    sub3(along, e->vertex[1], e->vertex[0]);
+    p = length3(along);
+    for (k = 0; k < 3; k++)
+        along[k] /= p;
+    cross3(other, e->normal, along);
+    for (v = 0; v < e->vertices; v++) { /* a twelfth of the corners' sum is exact for triangles and parallelograms */
+        double w[3], x, y;
         sub3(w, e->vertex[v], e->centre);
-        squares += dot3(w, w);
+        x = dot3(w, along) * inverse;
+        y = dot3(w, other) * inverse;
+        square[0] += x * x / 12;
+        square[1] += x * y / 12;
+        square[2] += y * y / 12;
     }
+    p = sqrt(square[0]);
+    q = square[1] / p;
+    r = square[2] - q * q;
+    r = r > 0 ? sqrt(r) : 0;
     for (k = 0; k < 3; k++) {
         f->centre[k][i] = (float)((e->centre[k] - c->hierarchy->low[k]) * inverse);
         f->normal[k][i] = (float)e->normal[k];
+        f->across[k][i] = (float)(p * along[k] + q * other[k]);
+        f->across[3 + k][i] = (float)(r * other[k]);
     }
-    f->size[i] = (float)(squares * inverse * inverse * (1 / 24.0)); /* exact for triangles and parallelograms */
     f->area[i] = (float)e->area;
     f->bright[i] = (float)(e->area * e->radiosity);
 }
@@ -55,7 +71,7 @@ static void faces_set(const struct cluster_light *c, struct cluster_faces *f, si
 struct side {
     struct cluster_faces faces;
     size_t from, to;
-    float part[12]; /* room for the only one, when it is a part of a face */
+    float part[ARRAYS + 3]; /* room for the only one, when it is a part of a face */
 };
 
 static void side_open(const struct cluster_light *c, struct side *side, uint32_t e)
@@ -73,24 +89,29 @@ static void side_open(const struct cluster_light *c, struct side *side, uint32_t
     side->to = 1;
 }
 
-/* k(x, s) pi for face i, times unit^2. */
-static inline float kernel(const struct cluster_faces *f, size_t i, const struct cluster_end *s)
+/* max(0, x), without a branch: loops over faces run several at a time. */
+static inline float positive(float x)
 {
-    float v[3] = { s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i], s->centre[2] - f->centre[2][i] };
-    float near = f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2];
-    float far = -(s->normal[0] * v[0] + s->normal[1] * v[1] + s->normal[2] * v[2]);
-    float turned = -(s->normal[0] * f->normal[0][i] + s->normal[1] * f->normal[1][i] + s->normal[2] * f->normal[2][i]);
-    float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 1e-30f);
-    float value, second;
-    near = near > 0 ? near : 0;
-    far = far > 0 ? far : 0;
-    value = near * far * inverse * inverse;
-    second = 4 * f->size[i] * inverse * inverse * inverse * near * (far - 3 * near * near * inverse * far + turned * near);
-    value += far > 0 ? second : 0;
-    return value > 0 ? value : 0;
+    return 0.5f * (x + fabsf(x));
 }
 
-/* Set *end to the mean of a side by weights w = [bright or area] times what `how` makes of a face. Returns the sum of weights. */
+/* k(x, s) pi for face i, times unit^2; the mean over the face to second order in its size. */
+static inline float kernel(const struct cluster_faces *f, size_t i, const struct cluster_end *s)
+{
+    const float *n = s->normal;
+    float v[3] = { s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i], s->centre[2] - f->centre[2][i] };
+    float near = positive(f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2]);
+    float far = positive(-(n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
+    float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + TINY);
+    float p[3] = { f->across[0][i], f->across[1][i], f->across[2][i] }, q[3] = { f->across[3][i], f->across[4][i], f->across[5][i] };
+    float pv = p[0] * v[0] + p[1] * v[1] + p[2] * v[2], qv = q[0] * v[0] + q[1] * v[1] + q[2] * v[2];
+    float pn = p[0] * n[0] + p[1] * n[1] + p[2] * n[2], qn = q[0] * n[0] + q[1] * n[1] + q[2] * n[2];
+    float size = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
+    float more = inverse * (12 * inverse * (pv * pv + qv * qv) - 2 * size + 4 * (pn * pv + qn * qv) / (far + TINY));
+    return near * far * inverse * inverse * (1 / (1 + positive(-more)) + positive(more)); /* 1 + more, but never below 0 */
+}
+
+/* Set *end from the sums of weights, of weighted centres, and of weighted normals. Returns the sum of weights, 0 where there is no end. */
 static float mean_end(struct cluster_end *end, const float sum[7])
 {
     float inverse = sum[0] > 0 ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
@@ -111,7 +132,7 @@ static float first_end(struct cluster_end *end, const struct side *side, const f
 #pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
     for (i = side->from; i < side->to; i++) {
         float w = f->normal[0][i] * u[0] + f->normal[1][i] * u[1] + f->normal[2][i] * u[2] + slope;
-        w = w > 0 ? w * weight[i] : 0;
+        w = positive(w) * weight[i];
         all += w;
         x += w * f->centre[0][i];
         y += w * f->centre[1][i];
@@ -123,10 +144,11 @@ static float first_end(struct cluster_end *end, const struct side *side, const f
     return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
 }
 
-/* The second: by weight k(x, other); normals by weight k / (n . v). */
-static float second_end(struct cluster_end *end, const struct side *side, const float *weight, const struct cluster_end *other)
+/* The other ends: by weight k(x, other), normals by k / (n . v); `plain`: the other's normal is not to be relied on. */
+static float second_end(struct cluster_end *end, const struct side *side, const float *weight, const struct cluster_end *other, int plain)
 {
     const struct cluster_faces *f = &side->faces;
+    const float lens[2] = { plain ? 0 : 1, plain ? 1 : 0 };
     float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
     size_t i;
 #pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
@@ -134,9 +156,10 @@ static float second_end(struct cluster_end *end, const struct side *side, const 
         float v[3] = { other->centre[0] - f->centre[0][i], other->centre[1] - f->centre[1][i], other->centre[2] - f->centre[2][i] };
         float near = f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2];
         float far = -(other->normal[0] * v[0] + other->normal[1] * v[1] + other->normal[2] * v[2]);
-        float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 1e-30f), n, w;
-        n = near > 0 && far > 0 ? weight[i] * far * inverse * inverse : 0;
-        w = n * near;
+        float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + TINY), n, w;
+        far = lens[0] * positive(far) + lens[1] * square;
+        w = weight[i] * far * inverse * inverse * positive(near);
+        n = w / (fabsf(near) + TINY);
         all += w;
         x += w * f->centre[0][i];
         y += w * f->centre[1][i];
@@ -165,24 +188,35 @@ static void beam(const struct cluster_light *c, struct cluster_beam *b, const st
 {
     const struct element *r = &c->hierarchy->elements[l->receiver], *s = &c->hierarchy->elements[l->emitter];
     struct side of_r, of_s;
-    struct cluster_end first_r, first_s;
+    const struct element *flat = r, *round = s;
     double v[3], distance;
-    float towards[3], back[3], slope, passes;
-    int k;
+    float u[3], slope, passes, turned = 0;
+    struct cluster_end first;
+    int k, swap = s->vertices || (!r->vertices && s->cone > r->cone);
     memset(b, 0, sizeof *b);
     b->emitter = l->emitter;
-    sub3(v, s->centre, r->centre);
-    distance = length3(v);
-    for (k = 0; k < 3; k++) {
-        towards[k] = (float)(v[k] / distance);
-        back[k] = -towards[k];
+    if (swap) {
+        flat = s;
+        round = r;
     }
+    sub3(v, round->centre, flat->centre);
+    distance = length3(v);
+    for (k = 0; k < 3; k++)
+        u[k] = (float)(v[k] / distance);
     slope = (float)((r->radius + s->radius) / distance);
     side_open(c, &of_r, l->receiver);
     side_open(c, &of_s, l->emitter);
-    if (!(first_end(&first_r, &of_r, of_r.faces.area, towards, slope) > 0)
-        || !(first_end(&first_s, &of_s, of_s.faces.bright, back, slope) > 0)
-        || !(second_end(&b->r, &of_r, of_r.faces.area, &first_s) > 0) || !(second_end(&b->s, &of_s, of_s.faces.bright, &first_r) > 0))
+    if (swap) {
+        if (!(first_end(&first, &of_s, of_s.faces.bright, u, slope) > 0))
+            return;
+    } else if (!(first_end(&first, &of_r, of_r.faces.area, u, slope) > 0)) {
+        return;
+    }
+    for (k = 0; k < 3; k++)
+        turned += first.normal[k] * u[k];
+    k = !flat->vertices && turned < 0.3f;
+    if (swap ? !(second_end(&b->r, &of_r, of_r.faces.area, &first, k) > 0 && second_end(&b->s, &of_s, of_s.faces.bright, &b->r, 0) > 0)
+             : !(second_end(&b->s, &of_s, of_s.faces.bright, &first, k) > 0 && second_end(&b->r, &of_r, of_r.faces.area, &b->s, 0) > 0))
         return;
     passes = between(&b->r, &b->s);
     if (passes > 0)
@@ -298,7 +332,7 @@ int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
     c->received = malloc(faces * (size_t)bands * sizeof *c->received);
     c->place = malloc(faces * sizeof *c->place);
-    c->faces.centre[0] = malloc((9 + (size_t)bands) * faces * sizeof(float));
+    c->faces.centre[0] = malloc((ARRAYS + (size_t)bands) * faces * sizeof(float));
     if (!c->beams || !c->first || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
         cluster_light_close(c);
         return -1;

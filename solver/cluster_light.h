@@ -36,7 +36,7 @@ struct cluster_beam {
 /* Faces, or one part of a face, as arrays of numbers. */
 struct cluster_faces {
     float *centre[3], *normal[3]; /* as in cluster_end */
-    float *size;                  /* half the mean square of the distance from its centre (unit^2) */
+    float *across[6];             /* two vectors p, q in its plane: pp' + qq' is the covariance of its points (unit) */
     float *area;                  /* m2 */
     float *bright;                /* A B as the oracles see it (W) */
     float *sent[3];               /* [bands]: A B (W) */
