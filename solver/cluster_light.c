@@ -89,14 +89,14 @@ static void side_open(const struct cluster_light *c, struct side *side, uint32_t
     side->to = 1;
 }
 
-/* max(0, x), without a branch: loops over faces run several at a time. */
-static inline float positive(float x)
+/* max(0, x), without a branch and inlined always: so loops over faces run several at a time. */
+TOOL float positive(float x)
 {
     return 0.5f * (x + fabsf(x));
 }
 
 /* k(x, s) pi for face i, times unit^2; the mean over the face to second order in its size. */
-static inline float kernel(const struct cluster_faces *f, size_t i, const struct cluster_end *s)
+TOOL float kernel(const struct cluster_faces *f, size_t i, const struct cluster_end *s)
 {
     const float *n = s->normal;
     float v[3] = { s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i], s->centre[2] - f->centre[2][i] };
@@ -124,22 +124,23 @@ static float mean_end(struct cluster_end *end, const float sum[7])
 }
 
 /* The first end: faces count by weight (max(0, n . u + slope)). */
-static float first_end(struct cluster_end *end, const struct side *side, const float *weight, const float u[3], float slope)
+static float first_end(struct cluster_end *end, const struct side *side, const float *weight, const float towards[3], float slope)
 {
-    const struct cluster_faces *f = &side->faces;
+    const struct cluster_faces f = side->faces;
+    const float u[3] = { towards[0], towards[1], towards[2] };
     float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
     size_t i;
 #pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
     for (i = side->from; i < side->to; i++) {
-        float w = f->normal[0][i] * u[0] + f->normal[1][i] * u[1] + f->normal[2][i] * u[2] + slope;
+        float w = f.normal[0][i] * u[0] + f.normal[1][i] * u[1] + f.normal[2][i] * u[2] + slope;
         w = positive(w) * weight[i];
         all += w;
-        x += w * f->centre[0][i];
-        y += w * f->centre[1][i];
-        z += w * f->centre[2][i];
-        nx += w * f->normal[0][i];
-        ny += w * f->normal[1][i];
-        nz += w * f->normal[2][i];
+        x += w * f.centre[0][i];
+        y += w * f.centre[1][i];
+        z += w * f.centre[2][i];
+        nx += w * f.normal[0][i];
+        ny += w * f.normal[1][i];
+        nz += w * f.normal[2][i];
     }
     return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
 }
@@ -147,26 +148,27 @@ static float first_end(struct cluster_end *end, const struct side *side, const f
 /* The other ends: by weight k(x, other), normals by k / (n . v); `plain`: the other's normal is not to be relied on. */
 static float second_end(struct cluster_end *end, const struct side *side, const float *weight, const struct cluster_end *other, int plain)
 {
-    const struct cluster_faces *f = &side->faces;
-    const float lens[2] = { plain ? 0 : 1, plain ? 1 : 0 };
+    const struct cluster_faces f = side->faces;
+    const struct cluster_end o = *other;
+    const float turned = plain ? 0 : 1, round = plain ? 1 : 0;
     float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
     size_t i;
 #pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
     for (i = side->from; i < side->to; i++) {
-        float v[3] = { other->centre[0] - f->centre[0][i], other->centre[1] - f->centre[1][i], other->centre[2] - f->centre[2][i] };
-        float near = f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2];
-        float far = -(other->normal[0] * v[0] + other->normal[1] * v[1] + other->normal[2] * v[2]);
+        float v[3] = { o.centre[0] - f.centre[0][i], o.centre[1] - f.centre[1][i], o.centre[2] - f.centre[2][i] };
+        float near = f.normal[0][i] * v[0] + f.normal[1][i] * v[1] + f.normal[2][i] * v[2];
+        float far = -(o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
         float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + TINY), n, w;
-        far = lens[0] * positive(far) + lens[1] * square;
+        far = turned * positive(far) + round * square;
         w = weight[i] * far * inverse * inverse * positive(near);
         n = w / (fabsf(near) + TINY);
         all += w;
-        x += w * f->centre[0][i];
-        y += w * f->centre[1][i];
-        z += w * f->centre[2][i];
-        nx += n * f->normal[0][i];
-        ny += n * f->normal[1][i];
-        nz += n * f->normal[2][i];
+        x += w * f.centre[0][i];
+        y += w * f.centre[1][i];
+        z += w * f.centre[2][i];
+        nx += n * f.normal[0][i];
+        ny += n * f.normal[1][i];
+        nz += n * f.normal[2][i];
     }
     return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
 }
