@@ -122,7 +122,7 @@ static const struct falling {
     { "ff", { "limit=0.3" }, { "limit=0.1" }, { "limit=0.02" }, { 1.5e-3, 2e-4, 1.2e-3 } },
     { "bf", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
     { "bf_guarded", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
-    { "clusters", { "relative=0.5", "from_faces=1" }, { "relative=0.1", "from_faces=1" }, { "relative=0.02", "from_faces=1" }, { 3e-3, 2e-4, 1.2e-3 } },
+    { "clusters", { "relative=0.25", "from_faces=1" }, { "relative=0.05", "from_faces=1" }, { "relative=0.01", "from_faces=1" }, { 3e-3, 2e-4, 1.2e-3 } },
     { "bfv", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
     { "relative", { "exitance=0.1" }, { "exitance=0.02" }, { "exitance=0.004" }, { 2.5e-3, 2e-4, 6e-4 } },
     { "gap", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 1e-3, 2e-4, 3e-4 } },
