@@ -101,7 +101,7 @@ TOOL float kernel(const struct cluster_faces *f, size_t i, const struct cluster_
     const float *n = s->normal;
     float v[3] = { s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i], s->centre[2] - f->centre[2][i] };
     float near = positive(f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2]);
-    float far = positive(-(n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
+    float far = positive(s->shift - (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
     float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + TINY);
     float p[3] = { f->across[0][i], f->across[1][i], f->across[2][i] }, q[3] = { f->across[3][i], f->across[4][i], f->across[5][i] };
     float pv = p[0] * v[0] + p[1] * v[1] + p[2] * v[2], qv = q[0] * v[0] + q[1] * v[1] + q[2] * v[2];
@@ -111,15 +111,19 @@ TOOL float kernel(const struct cluster_faces *f, size_t i, const struct cluster_
     return near * far * inverse * inverse * (1 / (1 + positive(-more)) + positive(more)); /* 1 + more, but never below 0 */
 }
 
-/* Set *end from the sums of weights, of weighted centres, and of weighted normals. Returns the sum of weights, 0 where there is no end. */
-static float mean_end(struct cluster_end *end, const float sum[7])
+/* Set *end from the sums of weights, of weighted centres, of weighted normals, and of normals . centres. Returns the sum of
+ * weights, 0 where there is no end. */
+static float mean_end(struct cluster_end *end, const float sum[8])
 {
     float inverse = sum[0] > 0 ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
     int k;
+    end->shift = 0;
     for (k = 0; k < 3; k++) {
         end->centre[k] = sum[1 + k] * inverse;
         end->normal[k] = length > 0 ? sum[4 + k] / length : 0;
+        end->shift += end->normal[k] * end->centre[k];
     }
+    end->shift -= length > 0 ? sum[7] / length : 0;
     return length > 0 ? sum[0] : 0;
 }
 
@@ -128,9 +132,9 @@ static float first_end(struct cluster_end *end, const struct side *side, const f
 {
     const struct cluster_faces f = side->faces;
     const float u[3] = { towards[0], towards[1], towards[2] };
-    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
+    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
     size_t i;
-#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
+#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
     for (i = side->from; i < side->to; i++) {
         float w = f.normal[0][i] * u[0] + f.normal[1][i] * u[1] + f.normal[2][i] * u[2] + slope;
         w = positive(w) * weight[i];
@@ -141,8 +145,9 @@ static float first_end(struct cluster_end *end, const struct side *side, const f
         nx += w * f.normal[0][i];
         ny += w * f.normal[1][i];
         nz += w * f.normal[2][i];
+        plane += w * (f.normal[0][i] * f.centre[0][i] + f.normal[1][i] * f.centre[1][i] + f.normal[2][i] * f.centre[2][i]);
     }
-    return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
+    return mean_end(end, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
 }
 
 /* The other ends: by weight k(x, other), normals by k / (n . v); `plain`: the other's normal is not to be relied on. */
@@ -151,13 +156,13 @@ static float second_end(struct cluster_end *end, const struct side *side, const 
     const struct cluster_faces f = side->faces;
     const struct cluster_end o = *other;
     const float turned = plain ? 0 : 1, round = plain ? 1 : 0;
-    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
+    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
     size_t i;
-#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz)
+#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
     for (i = side->from; i < side->to; i++) {
         float v[3] = { o.centre[0] - f.centre[0][i], o.centre[1] - f.centre[1][i], o.centre[2] - f.centre[2][i] };
         float near = f.normal[0][i] * v[0] + f.normal[1][i] * v[1] + f.normal[2][i] * v[2];
-        float far = -(o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
+        float far = o.shift - (o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
         float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + TINY), n, w;
         far = turned * positive(far) + round * square;
         w = weight[i] * far * inverse * inverse * positive(near);
@@ -169,8 +174,9 @@ static float second_end(struct cluster_end *end, const struct side *side, const 
         nx += n * f.normal[0][i];
         ny += n * f.normal[1][i];
         nz += n * f.normal[2][i];
+        plane += n * (f.normal[0][i] * f.centre[0][i] + f.normal[1][i] * f.centre[1][i] + f.normal[2][i] * f.centre[2][i]);
     }
-    return mean_end(end, (const float[7]){ all, x, y, z, nx, ny, nz });
+    return mean_end(end, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
 }
 
 /* k(r, s) pi unit^2 between two ends. */
@@ -181,8 +187,8 @@ static float between(const struct cluster_end *r, const struct cluster_end *s)
     for (k = 0; k < 3; k++)
         v[k] = s->centre[k] - r->centre[k];
     square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    near = r->normal[0] * v[0] + r->normal[1] * v[1] + r->normal[2] * v[2];
-    far = -(s->normal[0] * v[0] + s->normal[1] * v[1] + s->normal[2] * v[2]);
+    near = r->shift + r->normal[0] * v[0] + r->normal[1] * v[1] + r->normal[2] * v[2];
+    far = s->shift - (s->normal[0] * v[0] + s->normal[1] * v[1] + s->normal[2] * v[2]);
     return near > 0 && far > 0 ? near * far / (square * square) : 0;
 }
 
@@ -422,7 +428,7 @@ double cluster_light_row(const struct cluster_light *c, uint32_t e)
 
 double cluster_light_at(const struct cluster_light *c, const struct cluster_beam *b, const double x[3], const double n[3])
 {
-    double v[3], near = 0, far = 0, square;
+    double v[3], near = 0, far = (double)b->s.shift, square;
     int k;
     for (k = 0; k < 3; k++) {
         v[k] = (double)b->s.centre[k] - (x[k] - c->hierarchy->low[k]) / c->unit;

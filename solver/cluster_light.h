@@ -22,9 +22,10 @@
 #include "hierarchy.h"
 #include "refine.h"
 
-/* What one side of a link is to the other. */
+/* What one side of a link is to the other. Its faces turn to x by the mean of n_i . (x - y_i), which is normal . (x - centre) + shift. */
 struct cluster_end {
     float centre[3], normal[3]; /* in units of `unit` from the corner of the scene's box; unit vector */
+    float shift;                /* 0 for one plane (unit) */
 };
 
 struct cluster_beam {
