@@ -10,16 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#if defined __has_include
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#define EMBREE 4
-#endif
-#endif
-#ifndef EMBREE
-#include <embree3/rtcore.h>
-#endif
 #include "build.h"
+#include "embree.h"
 #include "hierarchy.h"
 
 /* FANOUT: children of a node at the most. DEEPEST: Embree counts levels down to it and is done long before. */

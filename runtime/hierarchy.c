@@ -8,16 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy.h"
+#include "terms/hash.h"
 
 /* What stands for a parent in the identities of faces, wherever the clusters put them. */
 #define FACES 0x2545f4914f6cdd1du
 
 static uint64_t child_id(uint64_t parent, uint32_t k)
 {
-    uint64_t x = parent * 4 + k + 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
+    return hash64(parent * 4 + k + HASH_STEP);
 }
 
 /* Area, centroid, unit normal and radius from the corners. */

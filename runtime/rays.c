@@ -11,17 +11,8 @@
 #include <string.h>
 #include <time.h>
 #include <omp.h>
-#if defined __has_include
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#define EMBREE 4
-#endif
-#endif
-#ifndef EMBREE
-#include <embree3/rtcore.h>
-#define EMBREE 3
-#endif
 #include "candidates.h"
+#include "embree.h"
 #include "hemisphere.h"
 #include "rays.h"
 #include "terms/surface_point.h"

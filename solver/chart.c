@@ -7,13 +7,8 @@
 #include <unistd.h>
 
 #include "atomic_file.h"
+#include "ends_with.h"
 #include "report.h"
-
-static int ends_with(const char *path, const char *end)
-{
-    size_t n = strlen(path), m = strlen(end);
-    return n >= m && strcmp(path + n - m, end) == 0;
-}
 
 int chart_draw(const char *path, void (*print)(FILE *script, const void *context), const void *context)
 {

@@ -1,7 +1,7 @@
 /* command_solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
-#include <time.h>
+#include "clock.h"
 #include "commands.h"
 #include "export.h"
 #include "faces_csv.h"
@@ -13,13 +13,6 @@
 #include "statistics.h"
 #include "statistics_file.h"
 #include "summary.h"
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int write_outputs(const struct options *o, const struct solve *s)
 {

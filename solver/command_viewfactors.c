@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+#include "clock.h"
 #include "commands.h"
 #include "factor_file.h"
 #include "json_file.h"
@@ -38,13 +38,6 @@ struct work {
     struct progress progress;
     struct { double refine, fill, write; } seconds;
 };
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void watch(void *context, const struct refinement *r)
 {

@@ -15,19 +15,11 @@
  * SPDX-License-Identifier: MIT */
 #include "enclosure.h"
 #include "hemisphere.h"
+#include "terms/hash.h"
 #include "terms/surface_point.h"
 
 enum { WALKS = 1024, LENGTH = 256, SIDE = 4, AROUND = 64 };
 #define CRACKS 2e-5
-
-/* Bits that have nothing to do with each other for numbers that are neighbours (splitmix64, Steele et al. 2014). */
-static uint64_t scramble(uint64_t x)
-{
-    x = (x + 1) * 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
 
 static int lit(const struct solve *s, uint32_t face)
 {
@@ -66,7 +58,7 @@ static int go(const struct solve *s, uint32_t walk, uint32_t face, int *ended)
         return 0;
     for (i = 0; i < LENGTH && !*ended; i++) {
         const struct hemisphere above = hemisphere_over(n);
-        uint64_t bits = scramble((uint64_t)walk * LENGTH + (uint64_t)i);
+        uint64_t bits = hash64(((uint64_t)walk * LENGTH + (uint64_t)i + 1) * HASH_STEP);
         double d[3];
         hemisphere_direction(d, &above, (int)(bits >> 48), 1 << 16, (double)(bits & 0xffffffff) * (1 / 4294967296.0));
         *ended = rays_first(s->rays, p, d, p, n) != RAY_MEETS_FRONT;

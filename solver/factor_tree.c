@@ -18,6 +18,7 @@
 #include "factor_tree.h"
 #include "terms/shaft.h"
 #include "tools/group_level.h"
+#include "terms/hash.h"
 
 /* Faces of a lowest group, and children of the others. Shadows are looked for group by group: 16 faces are as good as 8 or 32. */
 enum { LEAF = 16, FANOUT = 4 };
@@ -51,14 +52,6 @@ struct frame {
 static const struct element *face_of(const struct builder *b, uint32_t face)
 {
     return &b->plain->elements[b->plain->face_element[face]];
-}
-
-static uint64_t group_id(uint64_t x)
-{
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
 }
 
 /* ---- faces gathered by plane */
@@ -180,7 +173,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, int count)
     for (i = first; i < h->count; i++) {
         memset(&h->elements[i], 0, sizeof *h->elements);
         h->elements[i].parent = parent;
-        h->elements[i].id = group_id(i);
+        h->elements[i].id = hash64(i + HASH_STEP);
         h->elements[i].importance = 1;
         h->elements[i].allowance = INFINITY;
         h->elements[i].radiosity = 1;
@@ -601,7 +594,7 @@ static int build(struct factor_tree *t, const struct hierarchy *plain, double fl
         list[i] = i;
     h->count = 1;
     memset(h->elements, 0, sizeof *h->elements);
-    h->elements[0].id = group_id(0);
+    h->elements[0].id = hash64(HASH_STEP);
     h->elements[0].importance = 1;
     h->elements[0].allowance = INFINITY;
     h->elements[0].radiosity = 1;

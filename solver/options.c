@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+#include "ends_with.h"
 #include "export.h"
 #include "options.h"
 
@@ -175,12 +176,6 @@ static int power_of_four(double x)
     while (x > 1)
         x /= 4;
     return x == 1;
-}
-
-static int ends_with(const char *path, const char *end)
-{
-    size_t n = strlen(path), m = strlen(end);
-    return n >= m && strcmp(path + n - m, end) == 0;
 }
 
 static int size(const char *text, int *width, int *height)

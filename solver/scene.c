@@ -10,6 +10,7 @@
  * when its material's name ends in "_2s", when the format says so (glTF: doubleSided), or when
  * the caller asks for it. Textures are not looked at.
  * SPDX-License-Identifier: MIT */
+#include "ends_with.h"
 #include "scene.h"
 
 #include <errno.h>
@@ -54,12 +55,6 @@ static int out_of_memory(const struct reader *r)
 static uint32_t face_line(const struct reader *r, uint32_t input)
 {
     return input < r->scan.faces ? r->scan.face_line[input] : 0;
-}
-
-static int ends_with(const char *text, const char *end)
-{
-    size_t a = strlen(text), b = strlen(end);
-    return a >= b && strcmp(text + a - b, end) == 0;
 }
 
 /* Files hold decimals; Assimp holds floats. The shortest decimal that rounds to the float is what

@@ -8,9 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include "allowance.h"
 #include "balance.h"
+#include "clock.h"
 #include "enclosure.h"
 #include "importance.h"
 #include "publish.h"
@@ -24,13 +24,6 @@
 
 /* Where the solver lowers thresholds a pass may be one step of them. */
 enum { PASSES = 32, PASSES_OF_ALLOWANCE = 200 };
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double largest(const double *v, uint32_t n)
 {

@@ -4,16 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 #include "atomic_file.h"
+#include "ends_with.h"
 #include "json_file.h"
 #include "report.h"
 #include "statistics.h"
 #include "statistics_file.h"
-
-static int ends_with(const char *path, const char *end)
-{
-    size_t n = strlen(path), m = strlen(end);
-    return n >= m && strcmp(path + n - m, end) == 0;
-}
 
 static double share(uint64_t part, uint64_t whole)
 {

@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <sys/resource.h>
 #include "atomic_file.h"
 #include "chart.h"
+#include "clock.h"
 #include "commands.h"
 #include "faces_reference.h"
 #include "progress.h"
@@ -38,13 +38,6 @@ struct table {
     struct row row[CLUSTERING_COUNT];
     int rows;
 };
-
-static double seconds(clockid_t which)
-{
-    struct timespec t;
-    clock_gettime(which, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Forget the peak so far, where the system can. */
 static void forget_peak(void)
@@ -127,17 +120,17 @@ static int run(const struct options *o, const struct scene *scene, const struct 
         return -1;
     }
     row->strategy = clustering_names[strategy];
-    clock = seconds(CLOCK_MONOTONIC);
+    clock = seconds();
     if (hierarchy_build_by(&h, scene->faces, scene->face_count, strategy, o->threads) < 0) {
         refiner_close(r);
         return report_error(o->scene, 0, "out of memory");
     }
-    row->build = seconds(CLOCK_MONOTONIC) - clock;
+    row->build = seconds() - clock;
     describe_tree(row, &h);
     hierarchy_free(&h);
     forget_peak();
-    clock = seconds(CLOCK_MONOTONIC);
-    cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    clock = seconds();
+    cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     if (solve_open(&s, scene, &how, &cause) < 0) {
         report_error(o->scene, 0, "%s", cause);
         refiner_close(r);
@@ -146,8 +139,8 @@ static int run(const struct options *o, const struct scene *scene, const struct 
     if (solve_run(&s, r, &cause) < 0) {
         report_error(o->scene, 0, "%s", cause);
     } else {
-        row->clock = seconds(CLOCK_MONOTONIC) - clock;
-        row->cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+        row->clock = seconds() - clock;
+        row->cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
         row->memory = peak();
         describe_solution(row, &s, reference);
         result = 0;

@@ -14,16 +14,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#if defined __has_include
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#define PATH_EMBREE 4
-#endif
-#endif
-#ifndef PATH_EMBREE
-#include <embree3/rtcore.h>
-#define PATH_EMBREE 3
-#endif
+#include "embree.h"
 #include "geometry.h"
 #include "scene.h"
 
@@ -130,7 +121,7 @@ static inline int64_t path_step(const struct path_scene *p, uint32_t face, doubl
     hit.ray.tfar = INFINITY;
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if PATH_EMBREE == 4
+#if EMBREE == 4
     rtcIntersect1(p->rays, &hit, NULL);
 #else
     struct RTCIntersectContext context;

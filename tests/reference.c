@@ -16,16 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <omp.h>
-#if defined __has_include
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#define EMBREE 4
-#endif
-#endif
-#ifndef EMBREE
-#include <embree3/rtcore.h>
-#define EMBREE 3
-#endif
+#include "embree.h"
 #include "geometry.h"
 #include "scene.h"
 

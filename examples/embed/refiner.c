@@ -792,6 +792,16 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
     return r->area > s->area || (r->area == s->area && r->id <= s->id) ? REFINER_LARGER_RECEIVER : REFINER_LARGER_EMITTER;
 }
 
+/* hash.h - 64 bits that have nothing to do with each other for numbers that are neighbours: the finaliser of splitmix64.
+ * [Steele, Lea, Flood 2014] */
+
+static inline uint64_t refiner_hash64(uint64_t x)
+{
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+}
+
 /* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In [0, 1].
  *
  * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see each other
@@ -807,13 +817,6 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
  *             segments is missed with probability (1-p)^N.
  * exact       from a shaft (tools/shaft.h) or an integral over the visible part (tools/exact_visibility.h), which alone
  *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
-
-static inline uint64_t refiner_visibility_hash(uint64_t x)
-{
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
 
 /* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
  * written out: at -O2 they cost a quarter more otherwise.) */
@@ -892,7 +895,7 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
     struct refiner_segment segments[REFINER_SEGMENTS_MAX];
     double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
     struct refiner_sampler p, q;
-    uint64_t hash = refiner_visibility_hash(r->id + refiner_visibility_hash(s->id));
+    uint64_t hash = refiner_hash64(r->id + refiner_hash64(s->id));
     uint32_t digit[4];
     int first, i, k;
     refiner_sampler_clip(&p, r, s);
@@ -902,7 +905,7 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
     for (k = 0; k < 4; k += 2) {
         digit[k] = (uint32_t)(hash >> 32);
         digit[k + 1] = (uint32_t)hash;
-        hash = refiner_visibility_hash(hash);
+        hash = refiner_hash64(hash);
     }
     for (first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
         int batch = count - first < REFINER_SEGMENTS_MAX ? count - first : REFINER_SEGMENTS_MAX;

@@ -14,6 +14,7 @@
 
 #include "discussion.h"
 #include "terms/cluster_facing.h"
+#include "terms/hash.h"
 #include "terms/surface_point.h"
 #include "terms/visibility.h"
 
@@ -90,7 +91,7 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
     struct segment segments[SEGMENTS_MAX];
     struct cluster_choice of_r, of_s;
     double weight[SEGMENTS_MAX], across[2][SEGMENTS_MAX], seen = 0, whole = 0, v[3], back[3], distance, slope;
-    uint64_t blocked, hash = visibility_hash(r->id + visibility_hash(s->id));
+    uint64_t blocked, hash = hash64(r->id + hash64(s->id));
     int tried, i, k, n = 0;
     sub3(v, s->centre, r->centre);
     distance = length3(v);

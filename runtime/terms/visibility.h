@@ -18,13 +18,7 @@
 #define TERM_VISIBILITY_H
 
 #include "discussion.h"
-
-static inline uint64_t visibility_hash(uint64_t x)
-{
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
+#include "terms/hash.h"
 
 /* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
  * written out: at -O2 they cost a quarter more otherwise.) */
@@ -105,7 +99,7 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
     struct segment segments[SEGMENTS_MAX];
     double weight[SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
     struct sampler p, q;
-    uint64_t hash = visibility_hash(r->id + visibility_hash(s->id));
+    uint64_t hash = hash64(r->id + hash64(s->id));
     uint32_t digit[4];
     int first, i, k;
     sampler_clip(&p, r, s);
@@ -115,7 +109,7 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
     for (k = 0; k < 4; k += 2) {
         digit[k] = (uint32_t)(hash >> 32);
         digit[k + 1] = (uint32_t)hash;
-        hash = visibility_hash(hash);
+        hash = hash64(hash);
     }
     for (first = 0; first < count; first += SEGMENTS_MAX) {
         int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;

@@ -6,13 +6,11 @@
 #define TOOL_LOT_H
 
 #include "discussion.h"
+#include "terms/hash.h"
 
 TOOL enum lot_answer tool_lot(struct discussion *d, double share)
 {
-    uint64_t r = d->receiver->id, s = d->emitter->id, x = (r < s ? r : s) * 0x9e3779b97f4a7c15u + (r < s ? s : r);
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
+    uint64_t r = d->receiver->id, s = d->emitter->id, x = hash64((r < s ? r : s) * HASH_STEP + (r < s ? s : r));
     return (double)(x >> 11) * (1 / 9007199254740992.0) < share ? LOT_DRAWN : LOT_BLANK;
 }
 

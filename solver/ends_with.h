@@ -1,0 +1,14 @@
+/* ends_with.h - does a text end so? Of file names and of materials.
+ * SPDX-License-Identifier: MIT */
+#ifndef ENDS_WITH_H
+#define ENDS_WITH_H
+
+#include <string.h>
+
+static inline int ends_with(const char *text, const char *end)
+{
+    size_t n = strlen(text), m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+#endif
