@@ -11,7 +11,8 @@
 #include "cluster_light.h"
 
 #define INVERSE_PI 0.31830988618379067154
-#define TINY 1e-15f /* against division by 0; lengths are at most 1 here */
+#define TINY 1e-15f  /* against division by 0; lengths are at most 1 here */
+#define LEAST 1e-30f /* what is less is nothing: 1 over it is still a float */
 
 enum { CHUNK = 64, /* faces that one thread takes at a time */
        ARRAYS = 14 /* of struct cluster_faces, besides what the bands have */ };
@@ -63,8 +64,8 @@ static void faces_set(const struct cluster_light *c, struct cluster_faces *f, si
         f->across[k][i] = (float)(p * along[k] + q * other[k]);
         f->across[3 + k][i] = (float)(r * other[k]);
     }
-    f->area[i] = (float)e->area;
-    f->bright[i] = (float)(e->area * e->radiosity);
+    f->area[i] = (float)(e->area * inverse * inverse);
+    f->bright[i] = f->area[i] * (float)e->radiosity;
 }
 
 /* The faces of one end of a link. */
@@ -115,7 +116,7 @@ TOOL float kernel(const struct cluster_faces *f, size_t i, const struct cluster_
  * weights, 0 where there is no end. */
 static float mean_end(struct cluster_end *end, const float sum[8])
 {
-    float inverse = sum[0] > 0 ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
+    float inverse = sum[0] > LEAST ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
     int k;
     end->shift = 0;
     for (k = 0; k < 3; k++) {
@@ -124,7 +125,7 @@ static float mean_end(struct cluster_end *end, const float sum[8])
         end->shift += end->normal[k] * end->centre[k];
     }
     end->shift -= length > 0 ? sum[7] / length : 0;
-    return length > 0 ? sum[0] : 0;
+    return length > 0 && sum[0] > LEAST ? sum[0] : 0;
 }
 
 /* The first end: faces count by weight (max(0, n . u + slope)). */
@@ -227,8 +228,8 @@ static void beam(const struct cluster_light *c, struct cluster_beam *b, const st
              : !(second_end(&b->s, &of_s, of_s.faces.bright, &first, k) > 0 && second_end(&b->r, &of_r, of_r.faces.area, &b->s, 0) > 0))
         return;
     passes = between(&b->r, &b->s);
-    if (passes > 0)
-        b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (c->unit * c->unit) / (double)passes);
+    if (passes > LEAST)
+        b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (double)passes);
 }
 
 /* What the beam brings in each band: J. */
@@ -383,7 +384,7 @@ void cluster_light_send(const struct cluster_light *c, int bands, const double *
             uint32_t e = h->face_element[h->order[i]];
             int k;
             for (k = 0; k < bands; k++)
-                c->faces.sent[k][i] = (float)(h->elements[e].area * radiosity[(size_t)e * (size_t)bands + (size_t)k]);
+                c->faces.sent[k][i] = c->faces.area[i] * (float)radiosity[(size_t)e * (size_t)bands + (size_t)k];
         }
 #pragma omp for schedule(dynamic, 256)
         for (i = 0; i < c->count; i++)

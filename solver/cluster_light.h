@@ -5,7 +5,7 @@
  *     k(x, y) = k(x, s) k(r, y) / k(r, s),
  * r and s one point with one normal for each side (struct cluster_end): the places where the other sees its light come from,
  * or go to. So the emitter's side is one sum per link, what it sends to r,
- *     J = V / k(r, s) sum_i A_i B_i k(r, y_i)                                        (W m2),
+ *     J = V / k(r, s) sum_i A_i B_i k(r, y_i)                                        (W),
  * and each face of the receiver takes H_j += J k(x_j, s) by its own place and orientation. What is left of the error is of second
  * order, in the product of the two sizes over d^2: either side may be as large as it likes while the other is small.
  * A face's own size is in k to second order, too.
@@ -30,7 +30,7 @@ struct cluster_end {
 
 struct cluster_beam {
     uint32_t emitter;
-    float scale; /* V / (k(r, s) pi unit^2) */
+    float scale; /* V / (pi k(r, s)), k in 1/unit^2 */
     struct cluster_end r, s;
 };
 
@@ -38,9 +38,9 @@ struct cluster_beam {
 struct cluster_faces {
     float *centre[3], *normal[3]; /* as in cluster_end */
     float *across[6];             /* two vectors p, q in its plane: pp' + qq' is the covariance of its points (unit) */
-    float *area;                  /* m2 */
-    float *bright;                /* A B as the oracles see it (W) */
-    float *sent[3];               /* [bands]: A B (W) */
+    float *area;                  /* unit^2 */
+    float *bright;                /* A B as the oracles see it (W/m2 unit^2) */
+    float *sent[3];               /* [bands]: A B (W/m2 unit^2) */
 };
 
 struct cluster_light {

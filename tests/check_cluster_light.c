@@ -105,23 +105,17 @@ static int tops(const struct hierarchy *h, uint32_t first, uint32_t last, uint32
     return n;
 }
 
-/* Two bodies, link all of the one to all of the other. What arrives over the truth, less 1: in all, and
- * summed over the faces without regard to sign. */
-static void exchange(int receiver, int emitter, double distance, const double towards[3], double *total, double *mean)
+/* Link all of the first `receivers` faces to all of the others. What arrives (times pi, m2), what should, and the sum of the
+ * differences by face. */
+static void link_all(uint32_t receivers, double *got, double *should, double *differ)
 {
     struct hierarchy h;
     struct refinement r;
     struct cluster_light light;
-    uint32_t r_list[MOST], s_list[MOST], receivers, i, j;
+    uint32_t r_list[MOST], s_list[MOST], i, j;
     unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: two of them are no beam */
-    double at[3], sum = 0, truth = 0, off = 0;
+    double sum = 0, truth = 0, off = 0;
     int n, m, k;
-    faces_count = 0;
-    body(receiver, (double[3]){ 0, 0, 0 }, 0);
-    receivers = faces_count;
-    for (k = 0; k < 3; k++)
-        at[k] = distance * towards[k];
-    body(emitter, at, 1);
     ck_assert_int_eq(hierarchy_build(&h, faces, faces_count), 0);
     for (i = 0; i < h.count; i++)
         h.elements[i].radiosity = 1;
@@ -154,12 +148,30 @@ static void exchange(int receiver, int emitter, double distance, const double to
         truth += known;
         off += fabs(row - known);
     }
-    *total = sum / truth - 1;
-    *mean = off / truth;
+    *got = sum;
+    *should = truth;
+    *differ = off;
     cluster_light_close(&light);
     free(r.links);
     free(r.first_link);
     hierarchy_free(&h);
+}
+
+/* Two bodies. What arrives over the truth, less 1: in all, and summed over the faces without regard to sign. */
+static void exchange(int receiver, int emitter, double distance, const double towards[3], double *total, double *mean)
+{
+    uint32_t receivers;
+    double at[3], got, should, differ;
+    int k;
+    faces_count = 0;
+    body(receiver, (double[3]){ 0, 0, 0 }, 0);
+    receivers = faces_count;
+    for (k = 0; k < 3; k++)
+        at[k] = distance * towards[k];
+    body(emitter, at, 1);
+    link_all(receivers, &got, &should, &differ);
+    *total = got / should - 1;
+    *mean = differ / should;
 }
 
 /* The error is of second order in size over distance, whatever the shapes; a side that is small makes the other's size harmless. */
@@ -187,6 +199,27 @@ START_TEST(test_exchange)
 }
 END_TEST
 
+/* Walls of many faces in one plane, but for rounding, or by less than any ray would notice: nothing is exchanged, and no number
+ * overflows for all that is nearly 0. The emitter faces as the receiver does (0), the other way (1), or lies on edge in its plane (2). */
+START_TEST(test_grazing)
+{
+    static const double apart[] = { 0, 1e-300, 1e-40, 1e-20, 1e-17, 1e-12, 1e-9, -1e-17, -1e-9 };
+    uint32_t receivers;
+    size_t i;
+    for (i = 0; i < sizeof apart / sizeof *apart; i++) {
+        const double at[3] = { 2.5, 0.1, apart[i] }, x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, z[3] = { 0, 0, -1 };
+        double got, should, differ;
+        faces_count = 0;
+        grid(9, (double[3]){ 0, 0, 0 }, (double[3]){ 0, 0, 0 }, x, y);
+        receivers = faces_count;
+        grid(9, at, (double[3]){ 0, 0, 0 }, _i == 0 ? x : y, _i == 0 ? y : _i == 1 ? x : z);
+        link_all(receivers, &got, &should, &differ);
+        ck_assert(isfinite(got));
+        ck_assert_double_le(differ, 1e-7);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("cluster light");
@@ -194,6 +227,7 @@ int main(void)
     SRunner *runner;
     int failed;
     tcase_add_loop_test(c, test_exchange, 0, BODIES * BODIES);
+    tcase_add_loop_test(c, test_grazing, 0, 3);
     suite_add_tcase(suite, c);
     runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
