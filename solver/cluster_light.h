@@ -19,28 +19,14 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include "cluster_faces.h"
 #include "hierarchy.h"
 #include "refine.h"
-
-/* What one side of a link is to the other. Its faces turn to x by the mean of n_i . (x - y_i), which is normal . (x - centre) + shift. */
-struct cluster_end {
-    float centre[3], normal[3]; /* in units of `unit` from the corner of the scene's box; unit vector */
-    float shift;                /* 0 for one plane (unit) */
-};
 
 struct cluster_beam {
     uint32_t emitter;
     float scale; /* V / (pi k(r, s)), k in 1/unit^2 */
     struct cluster_end r, s;
-};
-
-/* Faces, or one part of a face, as arrays of numbers. */
-struct cluster_faces {
-    float *centre[3], *normal[3]; /* as in cluster_end */
-    float *across[6];             /* two vectors p, q in its plane: pp' + qq' is the covariance of its points (unit) */
-    float *area;                  /* unit^2 */
-    float *bright;                /* A B as the oracles see it (W/m2 unit^2) */
-    float *sent[3];               /* [bands]: A B (W/m2 unit^2) */
 };
 
 struct cluster_light {

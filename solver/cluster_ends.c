@@ -1,0 +1,119 @@
+/* cluster_ends.c - see cluster_ends.h.
+ *
+ * Ends are found in three steps. First the flatter side is the mean of its faces that may turn to the other's centre;
+ * then the other is the mean of its faces by what passes between them and that first end; then the flatter side is found anew,
+ * likewise. So k(r, s) is not small where what passes is not, though half of a side may lie behind the other's plane.
+ * A receiver's faces count by their areas, an emitter's by what the oracles see them send.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include "cluster_ends.h"
+
+#define LEAST 1e-30f /* what is less is nothing: 1 over it is still a float */
+
+/* Set *end from the sums of weights, of weighted centres, of weighted normals, and of normals . centres. Returns the sum of
+ * weights, 0 where there is no end. */
+static float mean_end(struct cluster_end *end, const float sum[8])
+{
+    float inverse = sum[0] > LEAST ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
+    int k;
+    end->shift = 0;
+    for (k = 0; k < 3; k++) {
+        end->centre[k] = sum[1 + k] * inverse;
+        end->normal[k] = length > 0 ? sum[4 + k] / length : 0;
+        end->shift += end->normal[k] * end->centre[k];
+    }
+    end->shift -= length > 0 ? sum[7] / length : 0;
+    return length > 0 && sum[0] > LEAST ? sum[0] : 0;
+}
+
+/* The first end: faces count by weight (max(0, n . u + slope)). */
+static float first_end(struct cluster_end *end, const struct cluster_side *side, const float *weight, const float towards[3], float slope)
+{
+    const struct cluster_faces f = side->faces;
+    const float u[3] = { towards[0], towards[1], towards[2] };
+    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
+    size_t i;
+#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
+    for (i = side->from; i < side->to; i++) {
+        float w = f.normal[0][i] * u[0] + f.normal[1][i] * u[1] + f.normal[2][i] * u[2] + slope;
+        w = cluster_positive(w) * weight[i];
+        all += w;
+        x += w * f.centre[0][i];
+        y += w * f.centre[1][i];
+        z += w * f.centre[2][i];
+        nx += w * f.normal[0][i];
+        ny += w * f.normal[1][i];
+        nz += w * f.normal[2][i];
+        plane += w * (f.normal[0][i] * f.centre[0][i] + f.normal[1][i] * f.centre[1][i] + f.normal[2][i] * f.centre[2][i]);
+    }
+    return mean_end(end, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
+}
+
+/* The other ends: by weight k(x, other), normals by k / (n . v); `plain`: the other's normal is not to be relied on. */
+static float second_end(struct cluster_end *end, const struct cluster_side *side, const float *weight, const struct cluster_end *other, int plain)
+{
+    const struct cluster_faces f = side->faces;
+    const struct cluster_end o = *other;
+    const float turned = plain ? 0 : 1, round = plain ? 1 : 0;
+    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
+    size_t i;
+#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
+    for (i = side->from; i < side->to; i++) {
+        float v[3] = { o.centre[0] - f.centre[0][i], o.centre[1] - f.centre[1][i], o.centre[2] - f.centre[2][i] };
+        float near = f.normal[0][i] * v[0] + f.normal[1][i] * v[1] + f.normal[2][i] * v[2];
+        float far = o.shift - (o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
+        float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + CLUSTER_TINY), n, w;
+        far = turned * cluster_positive(far) + round * square;
+        w = weight[i] * far * inverse * inverse * cluster_positive(near);
+        n = w / (fabsf(near) + CLUSTER_TINY);
+        all += w;
+        x += w * f.centre[0][i];
+        y += w * f.centre[1][i];
+        z += w * f.centre[2][i];
+        nx += n * f.normal[0][i];
+        ny += n * f.normal[1][i];
+        nz += n * f.normal[2][i];
+        plane += n * (f.normal[0][i] * f.centre[0][i] + f.normal[1][i] * f.centre[1][i] + f.normal[2][i] * f.centre[2][i]);
+    }
+    return mean_end(end, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
+}
+
+/* pi k(r, s) between two ends. */
+static float between(const struct cluster_end *r, const struct cluster_end *s)
+{
+    float v[3], square, near, far;
+    int k;
+    for (k = 0; k < 3; k++)
+        v[k] = s->centre[k] - r->centre[k];
+    square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    near = r->shift + r->normal[0] * v[0] + r->normal[1] * v[1] + r->normal[2] * v[2];
+    far = s->shift - (s->normal[0] * v[0] + s->normal[1] * v[1] + s->normal[2] * v[2]);
+    return near > 0 && far > 0 ? near * far / (square * square) : 0;
+}
+
+float cluster_ends(struct cluster_end *r, struct cluster_end *s, const struct element *receiver, const struct element *emitter,
+                   const struct cluster_side *of_r, const struct cluster_side *of_s)
+{
+    const int emitter_first = emitter->vertices || (!receiver->vertices && emitter->cone > receiver->cone);
+    const struct element *flat = emitter_first ? emitter : receiver, *round = emitter_first ? receiver : emitter;
+    const struct cluster_side *of_flat = emitter_first ? of_s : of_r, *of_round = emitter_first ? of_r : of_s;
+    const float *flat_weight = emitter_first ? of_s->faces.bright : of_r->faces.area;
+    const float *round_weight = emitter_first ? of_r->faces.area : of_s->faces.bright;
+    struct cluster_end first, *flat_end = emitter_first ? s : r, *round_end = emitter_first ? r : s;
+    double v[3], distance;
+    float u[3], turned = 0, passes;
+    int k;
+    sub3(v, round->centre, flat->centre);
+    distance = length3(v);
+    for (k = 0; k < 3; k++)
+        u[k] = (float)(v[k] / distance);
+    if (!(first_end(&first, of_flat, flat_weight, u, (float)((receiver->radius + emitter->radius) / distance)) > 0))
+        return 0;
+    for (k = 0; k < 3; k++)
+        turned += first.normal[k] * u[k];
+    if (!(second_end(round_end, of_round, round_weight, &first, !flat->vertices && turned < 0.3f) > 0)
+        || !(second_end(flat_end, of_flat, flat_weight, round_end, 0) > 0))
+        return 0;
+    passes = between(r, s);
+    return passes > LEAST ? passes : 0;
+}
