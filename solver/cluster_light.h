@@ -11,8 +11,8 @@
  * A face's own size is in k to second order, too.
  * Both sums visit every face below the link's ends: over all links that is each face times the links of its
  * ancestors, no more than a push down the tree.
- * [Smits, Arvo, Greenberg 1994, alpha links, are the same with k(x, y) = k(r, s) but for the cosines; Bebendorf 2000, section 2, for
- * the product, the first step of a cross approximation; the choice of r and s: derived here]
+ * [Smits, Arvo, Greenberg 1994: alpha links are the same with k(x, y) = k(r, s) but for the cosines. The product is one step of the
+ * adaptive cross approximation, Bebendorf 2000; the choice of r and s: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef CLUSTER_LIGHT_H
 #define CLUSTER_LIGHT_H
