@@ -39,13 +39,15 @@ int dag_add_expression(struct dag *dag, const struct expression *expression)
 
 static void add_need(struct dag *dag, int term, int level, struct where where)
 {
+    if (term < 0)
+        return; /* an extern's, and its declaration was told to be wrong */
     int index = ADD(dag, needs, need_count);
     struct need *need = &dag->needs[index];
     const struct term *t = &dag->terms[term];
     need->term = term;
     need->level = level;
     need->term_name = t->name;
-    need->level_name = t->levels.count > 0 ? dag->levels[t->levels.first + level - 1].name : NULL;
+    need->level_name = t->levels.count > 0 && level > 0 ? dag->levels[t->levels.first + level - 1].name : NULL;
     need->where = need->level_where = where;
 }
 
