@@ -26,46 +26,33 @@ static float mean_end(struct cluster_end *end, const float sum[8])
     return length > 0 && sum[0] > LEAST ? sum[0] : 0;
 }
 
-/* The first end: faces count by weight (max(0, n . u + slope)). */
-static float first_end(struct cluster_end *end, const struct cluster_side *side, const float *weight, const float towards[3], float slope)
-{
-    const struct cluster_faces f = side->faces;
-    const float u[3] = { towards[0], towards[1], towards[2] };
-    float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
-    size_t i;
-#pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
-    for (i = side->from; i < side->to; i++) {
-        float w = f.normal[0][i] * u[0] + f.normal[1][i] * u[1] + f.normal[2][i] * u[2] + slope;
-        w = cluster_positive(w) * weight[i];
-        all += w;
-        x += w * f.centre[0][i];
-        y += w * f.centre[1][i];
-        z += w * f.centre[2][i];
-        nx += w * f.normal[0][i];
-        ny += w * f.normal[1][i];
-        nz += w * f.normal[2][i];
-        plane += w * (f.normal[0][i] * f.centre[0][i] + f.normal[1][i] * f.centre[1][i] + f.normal[2][i] * f.centre[2][i]);
-    }
-    return mean_end(end, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
-}
+/* What a face weighs: by what it may show in a direction, by k(x, other), or by that when the other's normal is not to be relied on. */
+enum weighing { SHOWN, PASSING, PASSING_PLAIN };
 
-/* The other ends: by weight k(x, other), normals by k / (n . v); `plain`: the other's normal is not to be relied on. */
-static float second_end(struct cluster_end *end, const struct cluster_side *side, const float *weight, const struct cluster_end *other, int plain)
+/* Set *end to the mean of a side. SHOWN: faces and normals weigh weight max(0, n . other->normal + other->shift), a direction and the
+ * sine of an angle about it. Else faces weigh weight k(x, other), and normals that over n . v. `how` is a constant in
+ * every call, so each is a loop of its own. Returns the sum of weights, 0 where there is no end. */
+TOOL float find_end(struct cluster_end *end, const struct cluster_side *side, const float *weight, const struct cluster_end *other, enum weighing how)
 {
     const struct cluster_faces f = side->faces;
     const struct cluster_end o = *other;
-    const float turned = plain ? 0 : 1, round = plain ? 1 : 0;
     float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
     size_t i;
 #pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
     for (i = side->from; i < side->to; i++) {
-        float v[3] = { o.centre[0] - f.centre[0][i], o.centre[1] - f.centre[1][i], o.centre[2] - f.centre[2][i] };
-        float near = f.normal[0][i] * v[0] + f.normal[1][i] * v[1] + f.normal[2][i] * v[2];
-        float far = o.shift - (o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
-        float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + CLUSTER_TINY), n, w;
-        far = turned * cluster_positive(far) + round * square;
-        w = weight[i] * far * inverse * inverse * cluster_positive(near);
-        n = w / (fabsf(near) + CLUSTER_TINY);
+        float w, n;
+        if (how == SHOWN) {
+            w = f.normal[0][i] * o.normal[0] + f.normal[1][i] * o.normal[1] + f.normal[2][i] * o.normal[2] + o.shift;
+            w = cluster_positive(w) * weight[i];
+            n = w;
+        } else {
+            float v[3] = { o.centre[0] - f.centre[0][i], o.centre[1] - f.centre[1][i], o.centre[2] - f.centre[2][i] };
+            float near = f.normal[0][i] * v[0] + f.normal[1][i] * v[1] + f.normal[2][i] * v[2];
+            float far = o.shift - (o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
+            float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + CLUSTER_TINY);
+            w = weight[i] * (how == PASSING ? cluster_positive(far) : square) * inverse * inverse * cluster_positive(near);
+            n = w / (fabsf(near) + CLUSTER_TINY);
+        }
         all += w;
         x += w * f.centre[0][i];
         y += w * f.centre[1][i];
@@ -100,19 +87,22 @@ float cluster_ends(struct cluster_end *r, struct cluster_end *s, const struct el
     const float *flat_weight = emitter_first ? of_s->faces.bright : of_r->faces.area;
     const float *round_weight = emitter_first ? of_r->faces.area : of_s->faces.bright;
     struct cluster_end first, *flat_end = emitter_first ? s : r, *round_end = emitter_first ? r : s;
+    struct cluster_end direction = { .centre = { 0 } };
     double v[3], distance;
-    float u[3], turned = 0, passes;
+    float turned = 0, passes;
     int k;
     sub3(v, round->centre, flat->centre);
     distance = length3(v);
     for (k = 0; k < 3; k++)
-        u[k] = (float)(v[k] / distance);
-    if (!(first_end(&first, of_flat, flat_weight, u, (float)((receiver->radius + emitter->radius) / distance)) > 0))
+        direction.normal[k] = (float)(v[k] / distance);
+    direction.shift = (float)((receiver->radius + emitter->radius) / distance);
+    if (!(find_end(&first, of_flat, flat_weight, &direction, SHOWN) > 0))
         return 0;
     for (k = 0; k < 3; k++)
-        turned += first.normal[k] * u[k];
-    if (!(second_end(round_end, of_round, round_weight, &first, !flat->vertices && turned < 0.3f) > 0)
-        || !(second_end(flat_end, of_flat, flat_weight, round_end, 0) > 0))
+        turned += first.normal[k] * direction.normal[k];
+    if (!((flat->vertices || turned >= 0.3f ? find_end(round_end, of_round, round_weight, &first, PASSING)
+                                            : find_end(round_end, of_round, round_weight, &first, PASSING_PLAIN)) > 0)
+        || !(find_end(flat_end, of_flat, flat_weight, round_end, PASSING) > 0))
         return 0;
     passes = between(r, s);
     return passes > LEAST ? passes : 0;
