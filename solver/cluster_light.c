@@ -160,6 +160,7 @@ int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const
             c->count += (size_t)is_beam(h, &r->links[i]);
     }
     c->first[h->count] = c->count;
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (i = 0; i < faces; i++) {
         c->place[h->order[i]] = (uint32_t)i;
         cluster_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low, c->unit);
@@ -200,14 +201,14 @@ void cluster_light_send(const struct cluster_light *c, int bands, const double *
     receive_all(c, bands);
 }
 
-static void add_all(const struct cluster_light *c, size_t bands, uint32_t e, double *h)
+void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, double *h)
 {
     const struct element *x = &c->hierarchy->elements[e];
-    size_t b, k;
+    size_t b, k, count = (size_t)bands;
     if (c->count == 0 || e >= c->elements)
         return;
     if (x->depth == 0) {
-        for (k = 0; k < bands; k++)
+        for (k = 0; k < count; k++)
             h[k] += (double)c->received[k * c->hierarchy->face_count + c->place[x->face]];
         return;
     }
@@ -216,21 +217,16 @@ static void add_all(const struct cluster_light *c, size_t bands, uint32_t e, dou
         side_open(c, &side, e);
         for (b = c->first[e]; b < c->first[e + 1]; b++) {
             double value = (double)cluster_kernel(&side.faces, 0, &c->beams[b].s);
-            for (k = 0; k < bands; k++)
-                h[k] += (double)c->arrives[b * bands + k] * value;
+            for (k = 0; k < count; k++)
+                h[k] += (double)c->arrives[b * count + k] * value;
         }
     }
-}
-
-void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, double *h)
-{
-    add_all(c, (size_t)bands, e, h);
 }
 
 double cluster_light_row(const struct cluster_light *c, uint32_t e)
 {
     double row = 0;
-    add_all(c, 1, e, &row);
+    cluster_light_gather(c, 1, e, &row);
     return row;
 }
 

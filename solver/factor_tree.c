@@ -16,9 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "factor_tree.h"
+#include "terms/hash.h"
 #include "terms/shaft.h"
 #include "tools/group_level.h"
-#include "terms/hash.h"
 
 /* Faces of a lowest group, and children of the others. Shadows are looked for group by group: 16 faces are as good as 8 or 32. */
 enum { LEAF = 16, FANOUT = 4 };

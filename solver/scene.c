@@ -10,7 +10,6 @@
  * when its material's name ends in "_2s", when the format says so (glTF: doubleSided), or when
  * the caller asks for it. Textures are not looked at.
  * SPDX-License-Identifier: MIT */
-#include "ends_with.h"
 #include "scene.h"
 
 #include <errno.h>
@@ -25,6 +24,7 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include "ends_with.h"
 #include "import_text.h"
 #include "obj_scan.h"
 #include "polygon.h"

@@ -52,8 +52,8 @@ static int make_room(struct solve *s)
         size_t room = (size_t)count + count / 4;
         unsigned char *mark;
         if (enlarge(&s->radiosity, room * b) < 0 || enlarge(&s->irradiance, room * b) < 0 || enlarge(&s->row_scale, room) < 0
-            || enlarge(&s->row_above, room) < 0 || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0 || enlarge(&s->least, room * b) < 0
-            || enlarge(&s->most, room * b) < 0)
+            || enlarge(&s->row_above, room) < 0 || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0
+            || enlarge(&s->least, room * b) < 0 || enlarge(&s->most, room * b) < 0)
             return -1;
         mark = realloc(s->changed, room);
         if (!mark)
