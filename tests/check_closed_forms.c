@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include "closed_forms.h"
 #include "make_pair.h"
+#include "suite.h"
 #include "terms/form_factor.h"
 
 static double exact(const struct two *t)
@@ -338,8 +339,6 @@ int main(void)
 {
     Suite *suite = suite_create("closed forms");
     TCase *c = tcase_create("closed forms");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_listed);
     tcase_add_test(c, test_rectangles);
@@ -353,9 +352,5 @@ int main(void)
     tcase_add_test(c, test_reciprocity);
     tcase_add_test(c, test_parts);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

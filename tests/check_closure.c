@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include "enclosure.h"
 #include "make_solve.h"
+#include "suite.h"
 
 /* An L of two rooms, 2 x 1 and 1 x 1, that open into each other: walls hide parts of it from others. */
 static void furnace_l(struct scene *s, double rho)
@@ -197,17 +198,11 @@ int main(void)
 {
     Suite *suite = suite_create("closure");
     TCase *c = tcase_create("closure");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 300);
     tcase_add_loop_test(c, test_closed_furnace, 0, 5);
     tcase_add_test(c, test_enclosure);
     tcase_add_loop_test(c, test_open_closure, 0, 3);
     tcase_add_test(c, test_spread);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "cluster_light.h"
+#include "suite.h"
 
 enum { MOST = 400, POINTS = 4 };
 
@@ -224,14 +225,8 @@ int main(void)
 {
     Suite *suite = suite_create("cluster light");
     TCase *c = tcase_create("cluster light");
-    SRunner *runner;
-    int failed;
     tcase_add_loop_test(c, test_exchange, 0, BODIES * BODIES);
     tcase_add_loop_test(c, test_grazing, 0, 3);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

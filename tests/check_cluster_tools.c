@@ -8,6 +8,7 @@
 #include "make_pair.h"
 #include "make_solve.h"
 #include "oracles.h"
+#include "suite.h"
 #include "terms/cluster_facing.h"
 #include "tools/alpha_gap.h"
 #include "tools/cluster_gap.h"
@@ -707,8 +708,6 @@ int main(void)
 {
     Suite *suite = suite_create("cluster tools");
     TCase *c = tcase_create("cluster tools");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 60);
     tcase_add_test(c, test_squares);
     tcase_add_test(c, test_cube);
@@ -724,9 +723,5 @@ int main(void)
     tcase_add_loop_test(c, test_interpreted, 0, TOLD);
     tcase_add_test(c, test_compiled);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

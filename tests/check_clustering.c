@@ -10,6 +10,8 @@
 #include "make_scene.h"
 #include "oracles.h"
 #include "solve.h"
+#include "suite.h"
+#include "terms/hash.h"
 
 /* Each of libcheck's own assertions writes to a file; these are many. */
 #define must(condition) do { if (!(condition)) ck_abort_msg("%s", #condition); } while (0)
@@ -26,10 +28,7 @@ struct faces {
 
 static double chance(uint64_t *state)
 {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+    return (double)(hash64(*state += HASH_STEP) >> 11) * 0x1p-53;
 }
 
 /* A square of a side about a middle, its normal along an axis, turned a little when `turn` is not 0. */
@@ -354,8 +353,6 @@ int main(void)
 {
     Suite *suite = suite_create("clustering");
     TCase *c = tcase_create("clustering");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 300);
     tcase_add_loop_test(c, test_tree, 0, SETS * CLUSTERING_COUNT);
     tcase_add_loop_test(c, test_same, 0, SETS * CLUSTERING_COUNT);
@@ -363,9 +360,5 @@ int main(void)
     tcase_add_loop_test(c, test_million, 0, CLUSTERING_COUNT);
     tcase_add_loop_test(c, test_furnace, 0, CLUSTERING_COUNT);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

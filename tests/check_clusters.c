@@ -8,6 +8,7 @@
 #include "make_scene.h"
 #include "oracles.h"
 #include "solve.h"
+#include "suite.h"
 
 /* The parallelogram o, a, b as n x n faces. */
 static void grid(struct scene *s, uint32_t material, int n, const double o[3], const double a[3], const double b[3])
@@ -268,8 +269,6 @@ int main(void)
 {
     Suite *suite = suite_create("clusters");
     TCase *c = tcase_create("clusters");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_small);
     tcase_add_test(c, test_large);
@@ -278,9 +277,5 @@ int main(void)
     tcase_add_test(c, test_leak);
     tcase_add_loop_test(c, test_self_shadow, 0, 2);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

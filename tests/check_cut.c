@@ -12,6 +12,7 @@
 #include "make_scene.h"
 #include "polygon.h"
 #include "scene_cut.h"
+#include "suite.h"
 
 static void copy(struct scene *to, const struct scene *from)
 {
@@ -426,8 +427,6 @@ int main(void)
 {
     Suite *suite = suite_create("cut");
     TCase *c = tcase_create("cut");
-    SRunner *runner;
-    int failed;
     tcase_add_test(c, test_wall);
     tcase_add_test(c, test_where);
     tcase_add_test(c, test_furniture);
@@ -443,9 +442,5 @@ int main(void)
     tcase_add_test(c, test_many);
     tcase_set_timeout(c, 60);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -22,6 +22,7 @@
 #include "image.h"
 #include "leaf_mesh.h"
 #include "scene.h"
+#include "suite.h"
 
 static char folder[64];
 
@@ -330,7 +331,6 @@ int main(void)
     const char *temporary = getenv("TMPDIR");
     Suite *suite = suite_create("what is written of cut faces");
     TCase *c = tcase_create("output");
-    SRunner *runner;
     int failed;
     snprintf(folder, sizeof folder, "%.40s/check_cut.XXXXXX", temporary ? temporary : "/tmp");
     if (!mkdtemp(folder))
@@ -342,10 +342,7 @@ int main(void)
     tcase_add_test(c, test_no_gaps);
     tcase_add_test(c, test_table);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    failed = suite_failures(suite);
     remove_folder();
     return failed != 0;
 }

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "dag.h"
+#include "suite.h"
 
 static char dagc[4096];    /* the command */
 static char catalog[8192]; /* text of dagc/test_catalog.dag */
@@ -517,9 +518,5 @@ int main(int count, char **arguments)
     tcase_add_test(scripts, memory);
     suite_add_tcase(suite, library);
     suite_add_tcase(suite, scripts);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

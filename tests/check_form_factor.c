@@ -3,6 +3,7 @@
 #include "closed_forms.h"
 #include "hand.h"
 #include "make_pair.h"
+#include "suite.h"
 #include "terms/form_factor.h"
 
 START_TEST(test_parallel)
@@ -134,8 +135,6 @@ int main(void)
 {
     Suite *suite = suite_create("form factor");
     TCase *c = tcase_create("form factor");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_published);
     tcase_add_loop_test(c, test_parallel, 0, 8);
@@ -146,9 +145,5 @@ int main(void)
     tcase_add_test(c, test_scale);
     tcase_add_test(c, test_disc_fails);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include "defect.h"
 #include "make_solve.h"
+#include "suite.h"
 
 /* BF with a threshold by importance; `%s`: that threshold. */
 static const char weighted[] =
@@ -381,8 +382,6 @@ int main(void)
 {
     Suite *suite = suite_create("importance and allowance");
     TCase *c = tcase_create("importance and allowance");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_importance_dense);
     tcase_add_loop_test(c, test_importance_dual, 0, 2);
@@ -391,9 +390,5 @@ int main(void)
     tcase_add_test(c, test_defect_groups);
     tcase_add_test(c, test_allowance);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "dag.h"
+#include "suite.h"
 
 static char dagc[4096];
 static const char catalog[] = "tests/dagc/test_catalog.dag";
@@ -416,9 +417,5 @@ int main(int count, char **arguments)
     tcase_add_test(programs, user_tool);
     suite_add_tcase(suite, library);
     suite_add_tcase(suite, programs);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

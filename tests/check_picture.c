@@ -21,6 +21,7 @@
 #include "image.h"
 #include "leaf_mesh.h"
 #include "raster.h"
+#include "suite.h"
 
 static char folder[64];
 
@@ -695,10 +696,7 @@ int main(void)
     tcase_add_test(t, test_exports);
     tcase_add_test(t, test_ply_bytes);
     suite_add_tcase(suite, t);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    int failed = suite_failures(suite);
     remove_folder();
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -9,6 +9,7 @@
 #include "rays.h"
 #include "refine.h"
 #include "solve.h"
+#include "suite.h"
 #include "tools/clusters.h"
 #include "tools/support_planes.h"
 #include "tools/visibility.h"
@@ -292,8 +293,6 @@ int main(void)
 {
     Suite *suite = suite_create("runtime");
     TCase *c = tcase_create("runtime");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 60);
     tcase_add_test(c, test_hierarchy);
     tcase_add_test(c, test_split_order);
@@ -303,9 +302,5 @@ int main(void)
     tcase_add_test(c, test_link);
     tcase_add_test(c, test_reciprocity);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -7,6 +7,7 @@
 #include "builtin.h"
 #include "make_solve.h"
 #include "statistics.h"
+#include "suite.h"
 
 static const int powers[] = { -20, 20 };
 enum { POWERS = sizeof powers / sizeof *powers };
@@ -169,16 +170,11 @@ int main(void)
 {
     Suite *suite = suite_create("scale");
     TCase *c = tcase_create("scale");
-    SRunner *runner;
-    int failed, oracles = 0;
+    int oracles = 0;
     while (builtins[oracles].name)
         oracles++;
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, test_oracle, 0, oracles + 1);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -17,6 +17,7 @@
 #include "faces_csv.h"
 #include "polygon.h"
 #include "scene.h"
+#include "suite.h"
 
 static const char SCENES[] = "examples/scenes/";
 static const char MTL[] = "newmtl a\nKd 0.5 0.5 0.5\nnewmtl b_2s\nKd 0.25 0.5 0.75\nKe 3 2 1\nnewmtl black\nKd 0 0 0\n";
@@ -585,10 +586,7 @@ int main(void)
     tcase_add_test(t, test_atomic);
     tcase_add_test(t, test_faces_csv);
     suite_add_tcase(suite, t);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    int failed = suite_failures(suite);
     remove_folder();
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

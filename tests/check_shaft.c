@@ -15,6 +15,7 @@
 #include "make_scene.h"
 #include "rays.h"
 #include "refine.h"
+#include "suite.h"
 #include "tools/exact_visibility.h"
 #include "tools/extinction.h"
 #include "tools/feature_size.h"
@@ -885,8 +886,6 @@ int main(void)
 {
     Suite *suite = suite_create("shaft");
     TCase *c = tcase_create("shaft");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 120);
     tcase_add_loop_test(c, test_truth, 0, KINDS);
     tcase_add_loop_test(c, test_inherited, 0, KINDS);
@@ -899,9 +898,5 @@ int main(void)
     tcase_add_test(c, test_feature);
     tcase_add_test(c, test_extinction);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

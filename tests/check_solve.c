@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "make_solve.h"
+#include "suite.h"
 
 /* B = E / (1 - rho) in any closed shape, at the default parameters. */
 START_TEST(test_furnace)
@@ -215,8 +216,6 @@ int main(void)
 {
     Suite *suite = suite_create("solve");
     TCase *c = tcase_create("solve");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 600);
     tcase_add_loop_test(c, test_furnace, 0, 18);
     tcase_add_test(c, test_cube);
@@ -228,9 +227,5 @@ int main(void)
     tcase_add_loop_test(c, test_wall, 0, 2);
     tcase_add_loop_test(c, test_compare, 0, 10);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

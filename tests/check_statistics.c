@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include "make_solve.h"
 #include "statistics.h"
+#include "suite.h"
 
 /* An oracle that counts depths and records what links bring. */
 static const char counting[] =
@@ -95,14 +96,8 @@ int main(void)
 {
     Suite *suite = suite_create("statistics");
     TCase *c = tcase_create("statistics");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_statistics);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

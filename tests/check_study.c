@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include "discussion.h"
+#include "suite.h"
 #include "tools/lot.h"
 
 static char folder[] = "/tmp/study-XXXXXX";
@@ -143,7 +144,6 @@ int main(void)
 {
     Suite *suite = suite_create("study");
     TCase *c = tcase_create("study");
-    SRunner *runner;
     char command[256];
     int failed;
     if (!mkdtemp(folder))
@@ -153,10 +153,7 @@ int main(void)
     tcase_add_test(c, test_wrong);
     tcase_add_test(c, test_lot);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    failed = suite_failures(suite);
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) != 0 || failed != 0;
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <jansson.h>
 #include "cluster_tree.h"
+#include "suite.h"
 
 #define SCENE "examples/scenes/furnace_4.obj"
 #define HOW "--oracle clusters --set from_faces=1 --set relative=0.2 -q"
@@ -211,7 +212,6 @@ int main(void)
 {
     Suite *suite = suite_create("study clustering");
     TCase *c = tcase_create("study clustering");
-    SRunner *runner;
     char command[64];
     int failed;
     if (!mkdtemp(folder))
@@ -223,10 +223,7 @@ int main(void)
     tcase_add_loop_test(c, test_bad_reference, 0, 10);
     tcase_add_test(c, test_usage);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    failed = suite_failures(suite);
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) != 0 || failed != 0;
 }

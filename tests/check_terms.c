@@ -7,6 +7,7 @@
 #include "make_pair.h"
 #include "oracles.h"
 #include "solve.h"
+#include "suite.h"
 #include "terms/form_factor.h"
 #include "terms/form_factor_range.h"
 #include "terms/gradient.h"
@@ -542,8 +543,6 @@ int main(void)
 {
     Suite *suite = suite_create("terms");
     TCase *c = tcase_create("terms");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_range);
     tcase_add_test(c, test_range_near);
@@ -558,9 +557,5 @@ int main(void)
     tcase_add_test(c, test_projected_area);
     tcase_add_test(c, test_coplanar);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

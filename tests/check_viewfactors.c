@@ -14,6 +14,7 @@
 #include "make_pair.h"
 #include "make_room.h"
 #include "number_text.h"
+#include "suite.h"
 #include "terms/polygon_factor.h"
 
 static char folder[] = "/tmp/viewfactors-XXXXXX";
@@ -472,7 +473,6 @@ int main(void)
 {
     Suite *suite = suite_create("view factors");
     TCase *c = tcase_create("view factors");
-    SRunner *runner;
     char command[256];
     int failed;
     if (!mkdtemp(folder))
@@ -491,10 +491,7 @@ int main(void)
     tcase_add_test(c, test_number_text);
     tcase_add_test(c, test_options);
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    failed = suite_failures(suite);
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) != 0 || failed != 0;
 }

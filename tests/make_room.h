@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include "terms/hash.h"
 
 enum { ROOM_SIDES = 12 };
 
@@ -171,10 +172,7 @@ static inline int room_hit(const struct room *r, const double p[3], const double
 
 static inline double room_random(uint64_t *state)
 {
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return (double)((x ^ x >> 31) >> 11) * (1 / 9007199254740992.0);
+    return (double)(hash64(*state += HASH_STEP) >> 11) * (1 / 9007199254740992.0);
 }
 
 /* Where `count` rays from a face, cosine-spread, end: hits[faces]. Returns how many met nothing. */

@@ -17,6 +17,7 @@
 #include "embree.h"
 #include "geometry.h"
 #include "scene.h"
+#include "terms/hash.h"
 
 struct path_scene {
     const struct scene *scene;
@@ -29,10 +30,7 @@ struct path_scene {
 
 static inline double path_random(uint64_t *state)
 {
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return (double)((x ^ x >> 31) >> 11) * (1 / 9007199254740992.0);
+    return (double)(hash64(*state += HASH_STEP) >> 11) * (1 / 9007199254740992.0);
 }
 
 static inline void path_open(struct path_scene *p, const struct scene *scene)

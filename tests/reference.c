@@ -19,6 +19,7 @@
 #include "embree.h"
 #include "geometry.h"
 #include "scene.h"
+#include "terms/hash.h"
 
 #define INVERSE_PI 0.31830988618379067154
 
@@ -36,10 +37,7 @@ static struct lights {
 
 static double uniform(uint64_t *state)
 {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+    return (double)(hash64(*state += HASH_STEP) >> 11) * 0x1p-53;
 }
 
 static double largest(const double v[3])

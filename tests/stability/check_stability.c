@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "../suite.h"
 #include "stability.h"
 #include "stability_known.h"
 
@@ -158,17 +159,11 @@ int main(void)
 {
     Suite *suite = suite_create("stability");
     TCase *c = tcase_create("stability");
-    SRunner *runner;
-    int failed;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_table);
     tcase_add_test(c, test_known);
     tcase_add_test(c, test_command);
     tcase_add_loop_test(c, test_case, 0, cases());
     suite_add_tcase(suite, c);
-    runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_failures(suite) != 0;
 }

@@ -1,0 +1,19 @@
+/* suite.h - run a suite of tests as every program here does.
+ * SPDX-License-Identifier: MIT */
+#ifndef SUITE_H
+#define SUITE_H
+
+#include <check.h>
+
+/* Run the suite, print what failed and the count, and free it. Returns how many tests failed. */
+static inline int suite_failures(Suite *suite)
+{
+    SRunner *runner = srunner_create(suite);
+    int failed;
+    srunner_run_all(runner, CK_NORMAL);
+    failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed;
+}
+
+#endif
