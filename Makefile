@@ -17,20 +17,31 @@ OPT      = -O2 -g
 WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 # No contraction of a*b+c: all releases of an oracle must agree to the bit.
 CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fopenmp $(SANITIZE)
-CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen -Iruntime -Idagc -Isolver -Itests/hand
+CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE) -fopenmp
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
 
-objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(wildcard $(1)/*.c)))
+# Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
+WALLS     = $(BUILD)/walls
+PUBLIC    = catalog.dag discussion.h geometry.h oracle.h standalone.h
+TOOLKIT   = $(PUBLIC) kernel terms tools
+wall_util       = util
+wall_hierarchy  = $(TOOLKIT) util hierarchy
+wall_visibility = $(wall_hierarchy) visibility
+wall_oracle     = $(TOOLKIT) util oracle
+wall_engine     = $(wall_visibility) oracle engine
+ROOMS     = util oracle hierarchy visibility engine
+
+objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))
 # common.dag holds what they share, and no oracle.
 ORACLES   = $(filter-out common,$(notdir $(basename $(wildcard examples/oracles/*.dag))))
 FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
-RUNTIME   = $(call objects,runtime) $(BUILD)/gen/catalog.o
-SOLVER    = $(call objects,solver) $(call objects,tests/hand) $(FLAT) $(BUILD)/gen/builtin.o
-TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/check_*.c tests/stability/check_*.c))
-SCRIPTS   = $(wildcard tests/check_*.sh)
+RUNTIME   = $(call objects,$(ROOMS:%=runtime/%)) $(BUILD)/gen/catalog.o $(FLAT) $(BUILD)/gen/builtin.o
+SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(call objects,tests/hand)
+TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
+SCRIPTS   = $(wildcard tests/check_*.sh tests/*/check_*.sh)
 OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
 FUZZ_SECONDS = 60
@@ -54,7 +65,7 @@ $(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/header
 $(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/embed.sh
 	@mkdir -p $(@D)
 	sh dagc/embed.sh dagc_standard_catalog $< > $@
-HEADERS   = discussion.h geometry.h oracle.h standalone.h $(patsubst runtime/%,%,$(wildcard runtime/tools/*.h runtime/terms/*.h))
+HEADERS   = discussion.h geometry.h oracle.h standalone.h $(patsubst runtime/%,%,$(wildcard runtime/kernel/*.h runtime/terms/*.h runtime/tools/*.h))
 $(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/embed_headers.sh
 	@mkdir -p $(@D)
 	sh dagc/embed_headers.sh runtime $(HEADERS) > $@
@@ -65,36 +76,49 @@ $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
 $(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(BUILD)/bin/dagc
 	@mkdir -p $(@D)
 	$(BUILD)/bin/dagc -o $@ --header $(@:.c=.h) $<
-$(BUILD)/gen/builtin.c: solver/builtin.sh $(wildcard examples/oracles/*.dag) dagc/embed.sh
+$(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/embed.sh
 	@mkdir -p $(@D)
-	sh solver/builtin.sh $(ORACLES) > $@
+	sh runtime/oracle/builtin.sh $(ORACLES) > $@
 
 $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
 $(TESTS): %: %.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
-$(BUILD)/tests/embed_engine: $(BUILD)/tests/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
+$(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(foreach room,$(ROOMS),$(eval $(BUILD)/runtime/$(room)/%.o: CPPFLAGS += -I$(WALLS)/$(room)))
+$(BUILD)/runtime/oracle/%.o $(BUILD)/runtime/engine/%.o: CPPFLAGS += -Idagc
+$(BUILD)/dagc/%.o: CPPFLAGS += -Idagc
+$(BUILD)/solver/%.o: CPPFLAGS += -Isolver -Iruntime -Idagc -Itests/hand
+$(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/hand -Isolver -Iruntime -Idagc
+$(BUILD)/examples/%.o: CPPFLAGS += -Iruntime
+$(BUILD)/gen/%.o: CPPFLAGS += -Iruntime -Iruntime/oracle -Idagc
+
+$(WALLS)/made: Makefile
+	@rm -rf $(WALLS)
+	@$(foreach room,$(ROOMS),mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) touch $@
+$(filter $(BUILD)/runtime/%,$(RUNTIME)): | $(WALLS)/made
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
-$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/embed_engine.o: $(BUILD)/gen/catalog.h
+$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o: $(BUILD)/gen/catalog.h
 
 packages:
 	@sh tests/packages.sh
 
 check: all
-	@$(MAKE) --no-print-directory $(TESTS) $(BUILD)/tests/embed_engine
+	@$(MAKE) --no-print-directory $(TESTS) $(BUILD)/tests/runtime/embed_engine
 	@sh tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
 
 prove: commands
-	@sh tests/prove.sh $(BUILD)/bin/dagc 1000
+	@sh tests/dagc/prove.sh $(BUILD)/bin/dagc 1000
 bench-size: commands
-	@sh tests/bench_size.sh $(BUILD)/bin/dagc
+	@sh tests/dagc/bench_size.sh $(BUILD)/bin/dagc
 
 # Everything once more, in a folder of its own: each object tells libFuzzer which branches it takes.
 FUZZ      = $(BUILD)/fuzz
@@ -105,8 +129,8 @@ fuzz:
 	    echo "make fuzz needs clang with libFuzzer: apt-get install clang libclang-rt-dev (or libclang-rt-NN-dev, NN as in clang --version)" >&2; exit 1; }
 	@$(MAKE) --no-print-directory BUILD=$(FUZZ) CC=$(FUZZCC) OPT="-O1 -g" \
 	    SANITIZE="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined" $(FUZZ)/fuzz_dagc
-	@sh tests/fuzz.sh $(FUZZ) $(FUZZ_SECONDS)
-$(BUILD)/fuzz_%: $(BUILD)/tests/fuzz_%.o $(LIBDAGC)
+	@sh tests/dagc/fuzz.sh $(FUZZ) $(FUZZ_SECONDS)
+$(BUILD)/fuzz_%: $(BUILD)/tests/dagc/fuzz_%.o $(LIBDAGC)
 	$(CC) $(LDFLAGS) -fsanitize=fuzzer -Wl,--wrap=fopen -o $@ $^ -lm
 
 demo: all
@@ -134,12 +158,12 @@ include install.mk
 # Path-traced radiosities per face, to measure solutions by.
 .PHONY: reference
 reference: $(BUILD)/bin/reference
-$(BUILD)/bin/reference: $(BUILD)/tests/reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(BUILD)/bin/reference: $(BUILD)/tests/runtime/reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
 
 # Rows of view factors against rays, in a room of 6,528 faces or any other number.
 .PHONY: factor-rays
 factor-rays: $(BUILD)/bin/factor_rays
-$(BUILD)/bin/factor_rays: $(BUILD)/tests/factor_rays.o
+$(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm

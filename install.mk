@@ -16,7 +16,7 @@ INSTALLED = bin/dagc bin/radiosity lib/libdagc.a lib/pkgconfig/dagc.pc \
             share/man/man1/dagc.1 share/man/man1/radiosity.1 share/man/man5/dagc-language.5
 GRAPHS    = $(wildcard examples/oracles/*.dag)
 # The folders that are ours alone, the inner ones first.
-FOLDERS   = lib/cmake/dagc include/dagc/tools include/dagc/terms include/dagc share/dagc/oracles share/dagc
+FOLDERS   = lib/cmake/dagc include/dagc/tools include/dagc/terms include/dagc/kernel include/dagc share/dagc/oracles share/dagc
 
 .PHONY: install uninstall
 install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
@@ -25,9 +25,10 @@ install: commands $(LIBDAGC) $(BUILD)/gen/catalog.h $(MADE)
 	$(INSTALL) -m 644 $(LIBDAGC) $(TO)/lib
 	$(INSTALL) -m 644 $(BUILD)/install/dagc.pc $(TO)/lib/pkgconfig
 	$(INSTALL) -m 644 dagc/package/dagcConfig.cmake $(BUILD)/install/dagcConfigVersion.cmake $(TO)/lib/cmake/dagc
-	$(INSTALL) -m 644 dagc/dag.h $(BUILD)/gen/catalog.h $(addprefix runtime/,$(filter-out tools/% terms/%,$(HEADERS))) $(TO)/include/dagc
+	$(INSTALL) -m 644 dagc/dag.h $(BUILD)/gen/catalog.h $(addprefix runtime/,$(filter-out tools/% terms/% kernel/%,$(HEADERS))) $(TO)/include/dagc
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter tools/%,$(HEADERS))) $(TO)/include/dagc/tools
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter terms/%,$(HEADERS))) $(TO)/include/dagc/terms
+	$(INSTALL) -m 644 $(addprefix runtime/,$(filter kernel/%,$(HEADERS))) $(TO)/include/dagc/kernel
 	$(INSTALL) -m 644 runtime/catalog.dag dagc/package/dagc.mk $(TO)/share/dagc
 	$(INSTALL) -m 644 $(GRAPHS) $(TO)/share/dagc/oracles
 	$(INSTALL) -m 644 $(BUILD)/install/dagc.1 $(BUILD)/install/radiosity.1 $(TO)/share/man/man1

@@ -67,7 +67,7 @@ struct segment {
 
 enum { SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 
-/* The convex hull of two surfaces: what light between them may cross (terms/shaft.h). */
+/* The convex hull of two surfaces: what light between them may cross (kernel/shaft.h). */
 enum { SHAFT_PLANES = 28 };
 struct shaft {
     int planes;
@@ -109,7 +109,7 @@ struct host {
 
     /* For the tools that look into a shaft; NULL: the host has none of it, and they answer too_complex.
      * Lists in `faces` up to `most` faces that may meet the shaft and returns how many; more than `most` when
-     * there may be more. It may list a face too many, never one too few; terms/shaft.h helps. */
+     * there may be more. It may list a face too many, never one too few; kernel/shaft.h helps. */
     int (*candidates)(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces);
     /* The corners of a face that `candidates` listed. */
     void (*corners)(const struct host *host, uint32_t face, struct polygon *polygon);

@@ -1,10 +1,12 @@
 /* main.c - the command radiosity: parse the options, read the scene, run the command.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
-#include "atomic_file.h"
-#include "commands.h"
+#include "util/atomic_file.h"
+#include "commands/commands.h"
 #include "dag.h"
-#include "report.h"
+#include "hand.h"
+#include "oracle/oracles.h"
+#include "util/messages.h"
 
 /* What cannot be written is told before the work, not after. Returns 0 or the exit status. */
 static int outputs_checked(const struct options *o)
@@ -52,6 +54,7 @@ int main(int count, char **arguments)
 {
     struct options o;
     int status = options_parse(&o, count, arguments);
+    oracles_register_hand(hand_releases);
     if (status == 0)
         status = outputs_checked(&o);
     if (status == 0)

@@ -5,8 +5,8 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
-#include "ends_with.h"
-#include "export.h"
+#include "util/ends_with.h"
+#include "output/export.h"
 #include "options.h"
 
 enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,

@@ -3,10 +3,10 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-#include "factor_file.h"
-#include "oracles.h"
-#include "solve.h"
-#include "view.h"
+#include "output/factor_file.h"
+#include "oracle/oracles.h"
+#include "engine/solve.h"
+#include "output/view.h"
 
 enum command { COMMAND_SOLVE, COMMAND_COMPARE, COMMAND_VIEWFACTORS, COMMAND_ORACLES, COMMAND_STUDY, COMMAND_HELP,
                COMMAND_STUDY_HELP, COMMAND_VERSION };

@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <unistd.h>
-#include "clock.h"
+#include "util/clock.h"
 #include "progress.h"
 
 void progress_start(struct progress *p, int quiet)

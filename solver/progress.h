@@ -3,8 +3,8 @@
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
-#include "report.h"
-#include "solve.h"
+#include "util/messages.h"
+#include "engine/solve.h"
 
 struct progress {
     int wanted; /* standard error is a terminal and nobody asked for quiet */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "near_first.h"
-#include "refiner.h"
+#include "oracle/refiner.h"
 
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {

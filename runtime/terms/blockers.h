@@ -10,7 +10,7 @@
 #define TERM_BLOCKERS_H
 
 #include "discussion.h"
-#include "terms/shaft.h"
+#include "kernel/shaft.h"
 
 OUTLINE void blockers_find(const struct element *r, const struct element *s, const struct host *host, struct blockers *list)
 {

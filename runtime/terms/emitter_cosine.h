@@ -9,7 +9,7 @@
 
 #include "discussion.h"
 #include "terms/axis.h"
-#include "terms/cosine_bound.h"
+#include "kernel/cosine_bound.h"
 
 TOOL const double *term_emitter_cosine(struct discussion *d, enum emitter_cosine_level level)
 {

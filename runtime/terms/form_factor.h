@@ -23,8 +23,8 @@
 
 #include "discussion.h"
 #include "terms/axis.h"
-#include "terms/point_factor.h"
-#include "terms/polygon_factor.h"
+#include "kernel/point_factor.h"
+#include "kernel/polygon_factor.h"
 
 TOOL double form_factor_disc(struct discussion *d)
 {

@@ -16,8 +16,8 @@
 #define TERM_FORM_FACTOR_RANGE_H
 
 #include "discussion.h"
-#include "terms/point_factor.h"
-#include "terms/point_gradient.h"
+#include "kernel/point_factor.h"
+#include "kernel/point_gradient.h"
 
 enum { FORM_FACTOR_RANGE_DEPTH = 3 };
 

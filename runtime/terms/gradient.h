@@ -8,7 +8,7 @@
 #define TERM_GRADIENT_H
 
 #include "discussion.h"
-#include "terms/point_gradient.h"
+#include "kernel/point_gradient.h"
 
 OUTLINE void gradient_at_centre(const struct element *r, const struct element *s, double gradient[3])
 {

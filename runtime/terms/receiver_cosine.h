@@ -9,7 +9,7 @@
 
 #include "discussion.h"
 #include "terms/axis.h"
-#include "terms/cosine_bound.h"
+#include "kernel/cosine_bound.h"
 
 TOOL const double *term_receiver_cosine(struct discussion *d, enum receiver_cosine_level level)
 {

@@ -18,7 +18,7 @@
 #define TERM_VISIBILITY_H
 
 #include "discussion.h"
-#include "terms/hash.h"
+#include "kernel/hash.h"
 
 /* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
  * written out: at -O2 they cost a quarter more otherwise.) */

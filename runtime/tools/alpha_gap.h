@@ -1,7 +1,7 @@
 /* alpha_gap.h - question: cluster_gap's (cluster_gap.h), with what the two may turn to each other: by how much may the irradiance that
  * the emitter brings to the receiver vary, when both are taken for points whose faces keep their own orientation?
  *     (1/pi) (facing area of r / A_r) (facing area of s) B_s (1/(d - a)^2 - 1/(d + a)^2)                        (W/m2)
- * d the distance of the centres, a the sum of the radii, facing areas by the normal cones of the children (terms/cluster_facing.h); held
+ * d the distance of the centres, a the sum of the radii, facing areas by the normal cones of the children (kernel/cluster_facing.h); held
  * against the larger of `absolute` and `relative` times the scene's mean irradiance. It is never more than what cluster_gap
  * holds against the same, and costs as many cosines as the two have children. Ask it of pairs that cluster_gap found
  * above; nearer than 1.5 a it answers above. Approximate: occlusion is not looked at.
@@ -12,7 +12,7 @@
 
 #include "discussion.h"
 #include "terms/axis.h"
-#include "terms/cluster_facing.h"
+#include "kernel/cluster_facing.h"
 #include "tools/cluster_gap.h"
 
 OUTLINE double alpha_gap_range(const struct element *r, const struct element *s, const struct element *all, const double axis[3])

@@ -9,7 +9,7 @@
 #define TOOL_CLUSTERS_H
 
 #include "discussion.h"
-#include "terms/wider.h"
+#include "kernel/wider.h"
 
 /* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
 static inline int clusters_turned(const struct element *e, const struct element *other, const double v[3],

@@ -5,7 +5,7 @@
 #define TOOL_COPLANAR_H
 
 #include "discussion.h"
-#include "terms/plane_side.h"
+#include "kernel/plane_side.h"
 
 TOOL enum coplanar_answer tool_coplanar(struct discussion *d)
 {

@@ -1,6 +1,6 @@
 /* exact_visibility.h - question: how much do the two elements see of each other, exactly?
  *
- * When the shaft is empty, or one or two faces stand in it, the visibility is integrated (terms/visible_part.h, to 1e-6) and
+ * When the shaft is empty, or one or two faces stand in it, the visibility is integrated (kernel/visible_part.h, to 1e-6) and
  * is then at level exact. too_complex: more faces, clusters, or a host without candidates; then 64 rays are
  * cast. Either way the visibility is known at rays_64 or better.
  * SPDX-License-Identifier: MIT */
@@ -10,7 +10,7 @@
 #include "discussion.h"
 #include "terms/blockers.h"
 #include "terms/visibility.h"
-#include "terms/visible_part.h"
+#include "kernel/visible_part.h"
 
 TOOL enum exact_visibility_answer tool_exact_visibility(struct discussion *d)
 {

@@ -6,7 +6,7 @@
 #define TOOL_LOT_H
 
 #include "discussion.h"
-#include "terms/hash.h"
+#include "kernel/hash.h"
 
 TOOL enum lot_answer tool_lot(struct discussion *d, double share)
 {

@@ -8,7 +8,7 @@
 
 #include "discussion.h"
 #include "terms/distance.h"
-#include "terms/plane_side.h"
+#include "kernel/plane_side.h"
 
 TOOL enum near_answer tool_near(struct discussion *d, double within)
 {

@@ -8,7 +8,7 @@
 #define TOOL_OPENS_H
 
 #include "discussion.h"
-#include "terms/wider.h"
+#include "kernel/wider.h"
 #include "tools/can_split.h"
 
 /* May the surface be opened, and is it the larger? */

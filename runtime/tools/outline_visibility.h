@@ -1,5 +1,5 @@
 /* outline_visibility.h - question: how much do the two surfaces see of each other past the faces in their shaft, seen from some
- * points of the smaller one (terms/outline_visibility.h)?
+ * points of the smaller one (kernel/outline_visibility.h)?
  *
  * Known at rays_64 afterwards, unless it was known better. too_complex: more faces than a list holds, clusters, or a host
  * without candidates; then 64 rays are cast. none and all are approximate: between the points something may be seen.
@@ -8,7 +8,7 @@
 #define TOOL_OUTLINE_VISIBILITY_H
 
 #include "discussion.h"
-#include "terms/outline_visibility.h"
+#include "kernel/outline_visibility.h"
 #include "terms/visibility.h"
 
 TOOL enum outline_visibility_answer tool_outline_visibility(struct discussion *d)

@@ -5,7 +5,7 @@
 #define TOOL_STRADDLE_H
 
 #include "discussion.h"
-#include "terms/plane_side.h"
+#include "kernel/plane_side.h"
 
 TOOL enum straddle_answer tool_straddle(struct discussion *d)
 {

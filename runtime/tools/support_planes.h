@@ -8,7 +8,7 @@
 #define TOOL_SUPPORT_PLANES_H
 
 #include "discussion.h"
-#include "terms/plane_side.h"
+#include "kernel/plane_side.h"
 
 /* -1: e lies behind the plane of `plane`, 0: crosses it, 1: lies in front. */
 static inline int support_planes_side(const struct element *e, const struct element *plane, double flat)

@@ -323,7 +323,7 @@ cp "$here"/runtime/*.h gen
 cp "$here"/runtime/tools/*.h gen/tools
 cp "$here"/runtime/terms/*.h gen/terms
 cp "$here"/../../runtime/oracle.h gen
-[ -f "$here/../../runtime/tool_table.h" ] && cp "$here/../../runtime/tool_table.h" gen
+cp "$here/../../runtime/oracle/tool_table.h" gen
 check "catalog.h" status 0 "$dagc" --emit=catalog-h -o gen/catalog.h catalog.dag
 check "catalog.c" status 0 "$dagc" --emit=catalog-c -o gen/catalog.c catalog.dag
 check "with a header" status 0 $run -o gen/with.c --header gen/with.h good.dag

@@ -10,6 +10,7 @@
 #include "oracle.h"
 
 extern const struct oracle hand_bf, hand_bf_guarded;
+extern const struct oracle *const hand_releases[]; /* all of them; ends with NULL */
 
 /* The form factor of two polygons, each clipped at the other's plane. */
 double hand_form_factor(const struct element *r, const struct element *s);

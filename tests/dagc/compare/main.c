@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "oracles.h"
-#include "refiner.h"
+#include "oracle/refiner.h"
 
 extern const struct oracle *const oracles[]; /* list.c */
 extern const int oracle_count;

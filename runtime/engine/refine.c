@@ -1,0 +1,395 @@
+/* refine.c - refinement in rounds.
+ *
+ * A round takes up to ROUND pairs from the end of the queue and gives each to the refiner, both ways round, which only
+ * reads the hierarchy; so the pairs of a round run in parallel. Then, in their order, links are
+ * appended, elements split, and the children's pairs queued. Invariant: links, their order and the
+ * element indices depend on the scene, the oracle and its parameters alone, never on threads,
+ * timing or release. Taking from the end keeps the queue short: a few rounds' worth, not the square of the faces.
+ *
+ * Where the oracle looks into the shaft between two elements, the candidates it found are handed on: a list
+ * stands once in a pool, with the number of pairs that hold it. A pair whose discussion made none hands on what it
+ * was given; a list that overflowed, or does not hold below, is not kept. Lists spare work and change no answer (kernel/shaft.h).
+ * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited candidates; rounds: derived here]
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "engine/refine.h"
+
+enum { ROUND = 1 << 17, CHUNK = 64 };
+
+int decision_links(enum decision decision)
+{
+    return decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS;
+}
+
+void link_store(struct link *link, const struct terms *terms)
+{
+    link->form_factor = (float)terms->form_factor;
+    link->levels = (uint8_t)(terms->form_factor_level | terms->visibility_level << 4);
+    link->mark = terms->mark_level ? (uint8_t)terms->mark : 0;
+    link->visibility = (uint16_t)(terms->visibility * LINK_VISIBLE + 0.5);
+    if (link->visibility == 0 && terms->visibility > 0)
+        link->visibility = 1;
+    if (link->visibility == LINK_VISIBLE && terms->visibility < 1)
+        link->visibility = LINK_VISIBLE - 1; /* all and none stay what rays found, not what rounding makes */
+}
+
+void link_recall(const struct link *link, struct terms *terms)
+{
+    memset(terms, 0, sizeof *terms);
+    terms->form_factor = (double)link->form_factor;
+    terms->form_factor_level = link->levels & 15;
+    terms->visibility = link->visibility * (1.0 / LINK_VISIBLE);
+    terms->visibility_level = (unsigned char)(link->levels >> 4);
+}
+
+/* Room for `need` items of `size` bytes in *list. Returns 0, or -1 when there is none. */
+static int grow(void *list, size_t *capacity, size_t need, size_t size)
+{
+    size_t more = need + need / 2 + 1024;
+    void *old, *moved;
+    if (need <= *capacity)
+        return 0;
+    if (more > SIZE_MAX / size)
+        return -1;
+    memcpy(&old, list, sizeof old);
+    moved = realloc(old, more * size);
+    if (!moved)
+        return -1;
+    memcpy(list, &moved, sizeof moved);
+    *capacity = more;
+    return 0;
+}
+
+int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
+                    const struct refiner *refiner, int threads)
+{
+    memset(r, 0, sizeof *r);
+    r->hierarchy = hierarchy;
+    r->host = host;
+    r->refiner = refiner;
+    r->threads = threads;
+    r->round = malloc(ROUND * sizeof *r->round);
+    r->outcomes = malloc(ROUND * sizeof *r->outcomes);
+    r->found = malloc(ROUND * sizeof *r->found); /* pages that no oracle fills cost nothing */
+    if (!r->round || !r->outcomes || !r->found) {
+        refinement_close(r);
+        return -1;
+    }
+    return 0;
+}
+
+/* ---- the pool of lists; only between rounds */
+
+static void hold(struct refinement *r, uint32_t list, uint32_t holders)
+{
+    if (list)
+        r->pool[list].holders += holders;
+}
+
+static void let_go(struct refinement *r, uint32_t list)
+{
+    if (list && --r->pool[list].holders == 0) {
+        r->pool[list].next = r->pool_free;
+        r->pool_free = list;
+    }
+}
+
+/* A place for the list, held once; 0 when there is none: then the pairs below make theirs anew. */
+static uint32_t keep(struct refinement *r, const struct blockers *list)
+{
+    uint32_t at = r->pool_free;
+    if (at) {
+        r->pool_free = r->pool[at].next;
+    } else {
+        at = r->pool_count ? r->pool_count : 1;
+        if (at >= UINT32_MAX / 2 || grow(&r->pool, &r->pool_capacity, (size_t)at + 1, sizeof *r->pool) < 0)
+            return 0;
+        r->pool_count = at + 1;
+    }
+    r->pool[at].list = *list;
+    r->pool[at].list.known = BLOCKERS_INHERITED;
+    r->pool[at].holders = 1;
+    return at;
+}
+
+/* What the pairs below pair i of the round are given, held once more; `list`: what it was given itself. */
+static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
+{
+    const struct outcome *o = &r->outcomes[i];
+    if (o->listed && r->found[i].handed)
+        return keep(r, &r->found[i]);
+    if (o->listed)
+        return 0;
+    hold(r, list, 1);
+    return list;
+}
+
+/* ---- discussions */
+
+/* One discussion; the link's values go in and come out, and so does the pair's list. */
+static unsigned char discuss(const struct refinement *r, struct link *link, struct blockers *list)
+{
+    const struct element *elements = r->hierarchy->elements;
+    struct discussion d;
+    enum decision decision;
+    d.receiver = &elements[link->receiver];
+    d.emitter = &elements[link->emitter];
+    d.host = r->host;
+    d.blockers = list;
+    link_recall(link, &d.terms);
+    decision = r->refiner->refine(r->refiner->state, &d);
+    if (decision_links(decision))
+        link_store(link, &d.terms);
+    return (unsigned char)decision;
+}
+
+static int divides(unsigned char decision)
+{
+    return !decision_links((enum decision)decision) && decision != DECISION_STOP;
+}
+
+/* After the discussions of pair i: keep the list for the pairs below, if there will be any. */
+static void note_list(struct refinement *r, int i, const struct blockers *list, int divided)
+{
+    r->outcomes[i].listed = list->known == BLOCKERS_OWN && divided;
+    if (r->outcomes[i].listed)
+        r->found[i] = *list;
+}
+
+/* What the link `there` says of the link back: visibility is the same both ways, and so is the exchange A_r F_rs = A_s F_sr,
+ * which is computed once and serves both: reciprocity holds to the rounding of a link's F. */
+static void turn(struct link *back, const struct link *there, const struct element *elements)
+{
+    double areas = elements[there->receiver].area / elements[there->emitter].area;
+    back->form_factor = (float)((double)there->form_factor * areas);
+    back->visibility = there->visibility;
+    back->levels = there->levels;
+}
+
+/* Discuss the pairs of the round, the second way round with what the first has found. */
+static void discuss_round(struct refinement *r, int count)
+{
+    int i;
+#pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
+    for (i = 0; i < count; i++) {
+        const struct pair *p = &r->round[i];
+        struct outcome *o = &r->outcomes[i];
+        struct link there = { p->receiver, p->emitter, 0, 0, 0, 0 }, back = { p->emitter, p->receiver, 0, 0, 0, 0 };
+        struct blockers list;
+        list.known = BLOCKERS_UNKNOWN;
+        if (p->list)
+            list = r->pool[p->list].list;
+        o->link[0] = there;
+        o->decision[0] = discuss(r, &o->link[0], &list);
+        if (p->both) {
+            if (decision_links((enum decision)o->decision[0]))
+                turn(&back, &o->link[0], r->hierarchy->elements);
+            o->link[1] = back;
+            o->decision[1] = discuss(r, &o->link[1], &list);
+        }
+        note_list(r, i, &list, divides(o->decision[0]) || (p->both && divides(o->decision[1])));
+    }
+}
+
+enum { SPLIT_RECEIVER = 1, SPLIT_EMITTER = 2 };
+
+/* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
+ * itself gives the pairs of its children with each other and themselves. They hold `list`. */
+static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both, uint32_t list)
+{
+    struct hierarchy *h = r->hierarchy;
+    const struct element *e, *f;
+    struct pair *q;
+    uint32_t i, j, from_i = receiver, to_i = receiver + 1, from_j = emitter, to_j = emitter + 1;
+    if (receiver == emitter)
+        split = SPLIT_RECEIVER | SPLIT_EMITTER;
+    if ((split & SPLIT_RECEIVER && hierarchy_split(h, receiver) < 0) || (split & SPLIT_EMITTER && hierarchy_split(h, emitter) < 0))
+        return -1;
+    e = &h->elements[receiver];
+    f = &h->elements[emitter];
+    if (split & SPLIT_RECEIVER) {
+        from_i = e->child;
+        to_i = e->child + e->children;
+    }
+    if (split & SPLIT_EMITTER) {
+        from_j = f->child;
+        to_j = f->child + f->children;
+    }
+    if (grow(&r->queue, &r->queue_capacity, r->queue_count + (size_t)(to_i - from_i) * (to_j - from_j), sizeof *q) < 0)
+        return -1;
+    q = r->queue + r->queue_count;
+    for (i = from_i; i < to_i; i++) {
+        if (receiver != emitter) {
+            for (j = from_j; j < to_j; j++)
+                *q++ = (struct pair){ i, j, (uint32_t)both & 1u, list & 0x7fffffffu };
+            continue;
+        }
+        *q++ = (struct pair){ i, i, 0, list & 0x7fffffffu };
+        for (j = from_j; j < i; j++)
+            *q++ = (struct pair){ i, j, 1, list & 0x7fffffffu };
+    }
+    hold(r, list, (uint32_t)((size_t)(q - r->queue) - r->queue_count));
+    r->queue_count = (size_t)(q - r->queue);
+    return 0;
+}
+
+/* Which elements of the pair as it stands a decision splits; `turned`: it was taken the other way round. */
+static int splits(enum decision decision, int turned)
+{
+    switch (decision) {
+    case DECISION_SUBDIVIDE_RECEIVER:
+        return turned ? SPLIT_EMITTER : SPLIT_RECEIVER;
+    case DECISION_SUBDIVIDE_EMITTER:
+        return turned ? SPLIT_RECEIVER : SPLIT_EMITTER;
+    case DECISION_SUBDIVIDE_BOTH:
+        return SPLIT_RECEIVER | SPLIT_EMITTER;
+    case DECISION_LINK:
+    case DECISION_LINK_CLUSTERS:
+    case DECISION_STOP:
+        break;
+    }
+    return 0;
+}
+
+/* Carry out one decision about (receiver, emitter). */
+static int carry_out(struct refinement *r, const struct link *link, enum decision decision, uint32_t list)
+{
+    int split = splits(decision, 0);
+    r->decided[decision]++;
+    if (split)
+        return subdivide(r, link->receiver, link->emitter, split, 0, list);
+    if (decision == DECISION_STOP)
+        return 0;
+    if (grow(&r->links, &r->link_capacity, r->link_count + 1, sizeof *link) < 0)
+        return -1;
+    r->links[r->link_count++] = *link;
+    return 0;
+}
+
+/* Carry out both decisions about a pair; when both split the same elements, the children stay paired both ways. */
+static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_t list)
+{
+    enum decision there = (enum decision)o->decision[0], back = (enum decision)o->decision[1];
+    int split = splits(there, 0);
+    if (!split || split != splits(back, 1))
+        return carry_out(r, &o->link[0], there, list) < 0 || carry_out(r, &o->link[1], back, list) < 0 ? -1 : 0;
+    r->decided[there]++;
+    r->decided[back]++;
+    return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
+}
+
+static void end_round(struct refinement *r)
+{
+    r->rounds++;
+    if (r->watch)
+        r->watch(r->watch_context, r);
+}
+
+/* Rounds until the queue is empty. */
+static int drain(struct refinement *r)
+{
+    while (r->queue_count > 0) {
+        int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND), i;
+        r->queue_count -= (size_t)count;
+        memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
+        discuss_round(r, count);
+        for (i = 0; i < count; i++) {
+            const struct outcome *o = &r->outcomes[i];
+            int both = (int)r->round[i].both;
+            uint32_t list = hand_on(r, i, r->round[i].list);
+            r->pairs += both ? 2 : 1;
+            if ((both ? carry_out_both(r, o, list) : carry_out(r, &o->link[0], (enum decision)o->decision[0], list)) < 0)
+                return -1;
+            let_go(r, list);
+            let_go(r, r->round[i].list);
+        }
+        end_round(r);
+    }
+    return 0;
+}
+
+int refinement_start(struct refinement *r)
+{
+    struct pair root = { 0, 0, 0, 0 };
+    if (grow(&r->queue, &r->queue_capacity, 1, sizeof root) < 0)
+        return -1;
+    r->queue[r->queue_count++] = root;
+    return drain(r);
+}
+
+int64_t refinement_again(struct refinement *r, const unsigned char *changed)
+{
+    size_t all = r->link_count, from;
+    int64_t moved = 0;
+    r->link_count = 0; /* links that stay are written back at or before the place they were read from */
+    for (from = 0; from < all; from += ROUND) {
+        int count = (int)(all - from < ROUND ? all - from : ROUND), i;
+        const struct link *links = r->links + from;
+#pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
+        for (i = 0; i < count; i++) {
+            struct outcome *o = &r->outcomes[i];
+            struct blockers list;
+            list.known = BLOCKERS_UNKNOWN;
+            o->link[0] = links[i];
+            o->decision[1] = !changed || changed[links[i].receiver] || changed[links[i].emitter];
+            o->decision[0] = o->decision[1] ? discuss(r, &o->link[0], &list) : (unsigned char)DECISION_LINK;
+            note_list(r, i, &list, divides(o->decision[0]));
+        }
+        for (i = 0; i < count; i++) {
+            const struct outcome *o = &r->outcomes[i];
+            uint32_t list;
+            if (!o->decision[1]) {
+                r->links[r->link_count++] = o->link[0];
+                continue;
+            }
+            r->pairs++;
+            moved += !decision_links((enum decision)o->decision[0]) || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            list = hand_on(r, i, 0);
+            if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
+                return -1;
+            let_go(r, list);
+        }
+        end_round(r);
+    }
+    return drain(r) < 0 ? -1 : moved;
+}
+
+int refinement_sort(struct refinement *r)
+{
+    size_t elements = r->hierarchy->count, i;
+    size_t *first = calloc(elements + 2, sizeof *first);
+    struct link *sorted = malloc((r->link_count + 1) * sizeof *sorted);
+    if (!first || !sorted) {
+        free(first);
+        free(sorted);
+        return -1;
+    }
+    memset(r->marked, 0, sizeof r->marked);
+    for (i = 0; i < r->link_count; i++) {
+        first[r->links[i].receiver + 2]++;
+        r->marked[r->links[i].mark]++;
+    }
+    for (i = 2; i < elements + 2; i++)
+        first[i] += first[i - 1];
+    for (i = 0; i < r->link_count; i++)
+        sorted[first[r->links[i].receiver + 1]++] = r->links[i];
+    free(r->links);
+    free(r->first_link);
+    r->links = sorted;
+    r->link_capacity = r->link_count + 1;
+    r->first_link = first;
+    return 0;
+}
+
+void refinement_close(struct refinement *r)
+{
+    free(r->links);
+    free(r->first_link);
+    free(r->queue);
+    free(r->round);
+    free(r->outcomes);
+    free(r->found);
+    free(r->pool);
+    memset(r, 0, sizeof *r);
+}

@@ -1,0 +1,101 @@
+/* refine.h - the refinement loop: a queue of pairs, refined in rounds, leaves links.
+ * SPDX-License-Identifier: MIT */
+#ifndef REFINE_H
+#define REFINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include "hierarchy/hierarchy.h"
+#include "oracle/refiner.h"
+
+/* The receiver gathers form_factor * visibility * B of the emitter. The levels say how well the two
+ * are known, so that a link that is discussed again starts from what it knows. 16 bytes. */
+struct link {
+    uint32_t receiver, emitter; /* elements */
+    float form_factor;
+    uint16_t visibility; /* in units of 1 / LINK_VISIBLE */
+    uint8_t levels; /* of the two: form factor in the low four bits, visibility in the high ones */
+    uint8_t mark;   /* what a tool marked it with, 0: nothing (tools/mark.h) */
+};
+
+enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
+
+/* A pair of elements still to be discussed. */
+struct pair {
+    uint32_t receiver, emitter;
+    uint32_t both : 1;  /* 1: discuss it the other way round too */
+    uint32_t list : 31; /* in the pool: candidates of a pair that holds this one; 0: none */
+};
+
+/* What came of a pair, or of a link discussed again: [0] as it stands, [1] the other way round. */
+struct outcome {
+    struct link link[2];
+    unsigned char decision[2];
+    unsigned char listed; /* refinement.found holds the pair's candidates */
+};
+
+/* A list of candidates that waiting pairs hold, or a place for one. */
+struct pooled {
+    struct blockers list;
+    uint32_t holders; /* 0: free */
+    uint32_t next;    /* free: the next free one, 0: none */
+};
+
+struct refinement;
+
+/* Called after each round, from the calling thread. */
+typedef void refinement_watch(void *context, const struct refinement *refinement);
+
+struct refinement {
+    struct hierarchy *hierarchy; /* borrowed; grows */
+    const struct host *host;     /* borrowed */
+    const struct refiner *refiner;
+    int threads;
+    refinement_watch *watch; /* may be NULL */
+    void *watch_context;
+
+    struct link *links; /* [link_count]; sorted by receiver after refinement_sort */
+    size_t link_count, link_capacity;
+    size_t *first_link; /* [hierarchy->count + 1] after refinement_sort: the links of element e are first_link[e] .. first_link[e + 1] - 1 */
+
+    struct pair *queue; /* taken from the end */
+    size_t queue_count, queue_capacity;
+    struct pair *round;       /* the pairs of this round */
+    struct outcome *outcomes; /* and what came of them */
+    struct blockers *found;   /* and the candidates, where outcome.listed */
+
+    struct pooled *pool; /* [pool_count], [0] unused: lists that pairs hand on to the pairs below them */
+    uint32_t pool_count, pool_free; /* first free one, 0: none */
+    size_t pool_capacity;
+
+    uint64_t pairs, rounds; /* discussions held, rounds gone */
+    uint64_t decided[8];    /* how often each decision was taken */
+    uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
+    int failed;             /* out of memory: the links are incomplete */
+};
+
+/* Prepare an empty refinement. Returns 0, or -1 when out of memory. */
+int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
+                    const struct refiner *refiner, int threads);
+
+/* Refine from the pair (root, root). Returns 0, or -1 when out of memory. */
+int refinement_start(struct refinement *r);
+
+/* Discuss the links again whose receiver or emitter is marked in changed[elements] (NULL: all of them), with
+ * the radiosities as they now are: a link stays, is known better, or gives way to links below it.
+ * Returns how many links changed, or -1 when out of memory. */
+int64_t refinement_again(struct refinement *r, const unsigned char *changed);
+
+/* Sort the links by receiver, keeping their order otherwise. Returns 0 or -1. */
+int refinement_sort(struct refinement *r);
+
+void refinement_close(struct refinement *r);
+
+/* Does the decision make a link? */
+int decision_links(enum decision decision);
+
+/* The same link value from the terms of a discussion, and back. */
+void link_store(struct link *link, const struct terms *terms);
+void link_recall(const struct link *link, struct terms *terms);
+
+#endif

@@ -1,0 +1,193 @@
+/* interpreter.c - the DAG release: the graph itself, walked node by node.
+ *
+ * A node becomes a step: the tool's function, the values of its arguments, and a map from answers to
+ * steps or decisions. Steps stand in topological order, so every arc leads forward and the walk ends.
+ * [Turbet & Sillion, section 4 and figure 3]
+ *
+ * What the tools are given is worked out in arguments.c, what a counting walk counts in statistics.c.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "oracle/program.h"
+#include "oracle/tool_table.h"
+
+static enum decision walk(const void *state, struct discussion *d)
+{
+    const struct step *steps = state, *step = steps;
+    for (;;) {
+        int next = step->next[step->call(d, step->arguments)];
+        if (next < 0)
+            return (enum decision)~next;
+        step = &steps[next];
+    }
+}
+
+static void release_program(struct refiner *r)
+{
+    struct program *p = r->own;
+    if (!p)
+        return;
+    dag_free(p->dag);
+    free(p->steps);
+    free(p->parameters);
+    free(p->arguments);
+    free(p->expressions);
+    free(p->next);
+    free(p->computed);
+    free(p->code);
+    free(p->externs);
+    program_free_tallies(p);
+    free(p);
+}
+
+static const struct tool_entry *find_tool(const char *name)
+{
+    int i;
+    for (i = 0; i < tool_table_count; i++)
+        if (strcmp(tool_table[i].name, name) == 0)
+            return &tool_table[i];
+    return NULL;
+}
+
+/* Steps in the graph's topological order; every span of the dag has been checked by dagc. */
+static int build(struct refiner *r, struct program *p, const struct oracle_graph *g, FILE *errors)
+{
+    const struct dag *dag = p->dag;
+    int i, k, arguments = 0, answers = 0;
+    for (i = 0; i < g->order.count; i++) {
+        const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
+        arguments += n->arguments.count;
+        answers += n->arcs.count;
+    }
+    p->first_parameter = g->parameters.first;
+    p->graph = g;
+    p->answer_count = answers;
+    p->argument_count = arguments;
+    p->steps = calloc((size_t)g->order.count, sizeof *p->steps);
+    p->arguments = calloc((size_t)arguments + 1, sizeof *p->arguments);
+    p->expressions = calloc((size_t)arguments + 1, sizeof *p->expressions);
+    p->next = calloc((size_t)answers + 1, sizeof *p->next);
+    p->parameters = calloc((size_t)g->parameters.count + 1, sizeof *p->parameters);
+    r->block = calloc((size_t)g->parameters.count + 1, sizeof(double));
+    if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !r->block) {
+        fprintf(errors, "%s: error: out of memory\n", g->name);
+        return -1;
+    }
+    for (i = 0; i < g->parameters.count; i++) {
+        const struct parameter *q = &dag->parameters[g->parameters.first + i];
+        struct oracle_parameter *o = &p->parameters[i];
+        o->name = q->name;
+        o->unit = dag->types[q->type].unit_text;
+        o->doc = q->doc;
+        o->value = q->value;
+        o->low = q->low;
+        o->high = q->high;
+        o->integer = dag->types[q->type].base == BASE_INTEGER;
+        o->offset = (size_t)i * sizeof(double);
+    }
+    r->parameters = p->parameters;
+    r->parameter_count = g->parameters.count;
+    arguments = answers = 0;
+    for (i = 0; i < g->order.count; i++) {
+        const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
+        const struct tool_entry *tool = find_tool(dag->tools[n->tool].name);
+        if (!tool || tool->argument_count != n->arguments.count || tool->answer_count != n->arcs.count) {
+            fprintf(errors, "%s: error: this program was built without the tool '%s'; "
+                            "use the flat release\n", g->name, dag->tools[n->tool].name);
+            return -1;
+        }
+        p->steps[i].call = tool->call;
+        p->steps[i].keeps = strcmp(tool->name, "count") == 0 && tool->argument_count == 1 ? KEEPS_COUNT
+                            : strcmp(tool->name, "record") == 0 && tool->argument_count == 2 ? KEEPS_RECORD : KEEPS_NOTHING;
+        p->steps[i].arguments = &p->arguments[arguments];
+        p->steps[i].next = &p->next[answers];
+        for (k = 0; k < n->arguments.count; k++)
+            p->expressions[arguments++] = dag->arguments[n->arguments.first + k].expression;
+        for (k = 0; k < n->arcs.count; k++) {
+            const struct target *t = &dag->arcs[n->arcs.first + k].target;
+            p->next[answers++] = t->kind == TARGET_DECISION ? ~t->index : dag->nodes[t->index].order;
+        }
+    }
+    return program_link(p, g, errors);
+}
+
+static int find_externs(struct program *p, const struct interpretation *how)
+{
+    int i, k;
+    p->externs = calloc((size_t)p->dag->callback_count + 1, sizeof *p->externs);
+    if (!p->externs)
+        return -1;
+    for (i = 0; i < p->dag->callback_count; i++)
+        for (k = 0; k < how->extern_count; k++)
+            if (strcmp(how->externs[k].name, p->dag->callbacks[i].name) == 0)
+                p->externs[i].fact = how->externs[k].call;
+    return 0;
+}
+
+struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, FILE *errors)
+{
+    struct interpretation how = {0};
+    how.path = path;
+    how.text = text;
+    how.oracle = name;
+    return refiner_interpret(&how, errors);
+}
+
+struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors)
+{
+    const char *path = how->path, *name = how->oracle;
+    struct dag_options options = {0};
+    struct refiner *r = calloc(1, sizeof *r);
+    struct program *p = calloc(1, sizeof *p);
+    int index, i;
+    if (!r || !p) {
+        fprintf(errors, "%s: error: out of memory\n", path);
+        free(r);
+        free(p);
+        return NULL;
+    }
+    r->own = p;
+    r->release_state = release_program;
+    options.text = how->text;
+    options.length = how->text ? strlen(how->text) : 0;
+    options.catalog_path = how->catalog_path;
+    options.folders = how->folders;
+    options.folder_count = how->folder_count;
+    options.switches = how->switches;
+    p->dag = dag_load_with(path, &options, errors);
+    if (!p->dag)
+        goto fail;
+    index = dag_oracle(p->dag, name);
+    if (index < 0) {
+        if (name)
+            fprintf(errors, "%s: error: no oracle '%s' here\n", path, name);
+        else
+            fprintf(errors, "%s: error: %d oracles here, not one\n", path, p->dag->oracle_count);
+        goto fail;
+    }
+    if (find_externs(p, how) < 0) {
+        fprintf(errors, "%s: error: out of memory\n", path);
+        goto fail;
+    }
+    if (build(r, p, &p->dag->oracles[index], errors) < 0)
+        goto fail;
+    r->refine = walk;
+    r->state = p->steps;
+    r->oracle = p->dag->oracles[index].name;
+    r->doc = p->dag->oracles[index].doc;
+    r->release = "dag";
+    r->reads = oracle_reads(p->dag, index);
+    r->prepare = program_prepare;
+    for (i = 0; i < r->parameter_count; i++)
+        if (r->parameters[i].integer) {
+            int whole = (int)r->parameters[i].value;
+            memcpy((char *)r->block + r->parameters[i].offset, &whole, sizeof whole);
+        } else {
+            memcpy((char *)r->block + r->parameters[i].offset, &r->parameters[i].value, sizeof(double));
+        }
+    program_prepare(r);
+    return r;
+fail:
+    refiner_close(r);
+    return NULL;
+}

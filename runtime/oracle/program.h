@@ -1,0 +1,73 @@
+/* program.h - an oracle ready to be interpreted: what interpreter.c builds and walks, arguments.c evaluates, and
+ * statistics.c counts.
+ * SPDX-License-Identifier: MIT */
+#ifndef PROGRAM_H
+#define PROGRAM_H
+
+#include <stdio.h>
+#include "dag.h"
+#include "oracle/refiner.h"
+
+/* One operation of a computed step: a number, something read, or an operator on the top of the stack. */
+struct instruction {
+    enum expression_kind kind;
+    int level;
+    double number;
+    double (*term)(struct discussion *d, int level);
+    double (*fact)(const struct discussion *d); /* or an extern */
+};
+
+enum { STACK_MAX = EXPRESSION_DEPTH + 100 };
+
+/* What `arguments` of a computed step points to. */
+struct computed {
+    double unused; /* so that a pointer to double may point here */
+    int (*call)(struct discussion *d, const double *arguments);
+    struct instruction *code;
+    int count;
+    int argument, argument_count; /* in program.expressions */
+};
+
+enum { KEEPS_NOTHING, KEEPS_COUNT, KEEPS_RECORD }; /* of the tools count and record, and of no other */
+
+struct step {
+    int (*call)(struct discussion *d, const double *arguments);
+    const double *arguments;
+    const int *next; /* [answers]: a step, or ~decision */
+    int keeps;       /* what a counting walk keeps of the arguments: KEEPS_... */
+};
+
+struct program {
+    struct step *steps;
+    struct oracle_parameter *parameters;
+    double *arguments; /* of all steps */
+    int *expressions;  /* of all steps: which expression gives each argument */
+    int *next;         /* of all steps */
+    struct computed *computed;
+    int computed_count;
+    struct instruction *code;      /* of all computed steps */
+    struct instruction *externs;   /* per callback of the dag: its function, NULL when not given */
+    int argument_count;
+    struct dag *dag;
+    int first_parameter; /* of the oracle, in dag->parameters */
+    const struct oracle_graph *graph;
+    int answer_count;    /* of all steps */
+    struct tally **tallies; /* [tally_count]: one per thread, NULL: nothing is counted */
+    int tally_count;
+};
+
+/* arguments.c. The call of a step with computed arguments, and those arguments alone, on a stack of STACK_MAX. */
+int program_compute(struct discussion *d, const double *arguments);
+void program_evaluate(struct discussion *d, const struct computed *c, double *stack);
+
+/* Make the steps that need it computed ones. 0, or -1 after a message. */
+int program_link(struct program *p, const struct oracle_graph *g, FILE *errors);
+
+/* Evaluate what is fixed, once, and not in the walk. */
+void program_prepare(struct refiner *r);
+
+/* statistics.c. The walk that counts, and the end of its counters. `state` is the program. */
+enum decision program_walk_counted(const void *state, struct discussion *d);
+void program_free_tallies(struct program *p);
+
+#endif

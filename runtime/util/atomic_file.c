@@ -1,0 +1,126 @@
+/* atomic_file.c - temporary file beside the output, then rename(2).
+ *
+ * The temporary file is made by open(2) with mode 0666, not by mkstemp(3) with 0600: so the
+ * result has the mode that the user's umask asks for.
+ * SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "util/atomic_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "util/messages.h"
+
+static int fail(struct atomic_file *file, int cause)
+{
+    report_error(file->path ? file->path : "output", 0, "cannot write: %s; %s", strerror(cause),
+                 cause == ENOENT || cause == ENOTDIR ? "make the folder first"
+                 : cause == EISDIR                   ? "give the name of a file, not of a folder"
+                 : cause == ENOSPC                   ? "free some space or write elsewhere"
+                                                     : "choose a place where you may write");
+    atomic_discard(file);
+    return -1;
+}
+
+static FILE *open_temporary(struct atomic_file *file)
+{
+    size_t size = strlen(file->target) + 40;
+    file->temporary = malloc(size);
+    if (!file->temporary)
+        return NULL;
+    for (unsigned attempt = 0; attempt < 1000; attempt++) {
+        snprintf(file->temporary, size, "%s.%ld.%u.tmp", file->target, (long)getpid(), attempt);
+        int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            FILE *stream = fdopen(descriptor, "wb");
+            if (!stream) {
+                close(descriptor);
+                unlink(file->temporary);
+            }
+            return stream;
+        }
+        if (errno != EEXIST)
+            break;
+    }
+    int cause = errno;
+    free(file->temporary);
+    file->temporary = NULL; /* there is nothing to unlink */
+    errno = cause;
+    return NULL;
+}
+
+int atomic_open(struct atomic_file *file, const char *path)
+{
+    struct stat status;
+    *file = (struct atomic_file){0};
+    file->path = strdup(path);
+    if (!file->path)
+        return fail(file, ENOMEM);
+    int exists = stat(path, &status) == 0;
+    if (exists && S_ISDIR(status.st_mode))
+        return fail(file, EISDIR);
+    if (exists && !S_ISREG(status.st_mode)) {
+        file->stream = fopen(path, "wb");
+    } else {
+        file->target = exists ? realpath(path, NULL) : strdup(path);
+        if (!file->target)
+            return fail(file, errno);
+        file->stream = open_temporary(file);
+    }
+    return file->stream ? 0 : fail(file, errno);
+}
+
+int atomic_check(const char *path)
+{
+    struct atomic_file file = {0};
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        if (access(path, W_OK) == 0)
+            return 0;
+        int cause = errno; /* opening a pipe would wait for its reader */
+        file.path = strdup(path);
+        return fail(&file, cause);
+    }
+    if (atomic_open(&file, path))
+        return -1;
+    atomic_discard(&file);
+    return 0;
+}
+
+int atomic_commit(struct atomic_file *file)
+{
+    /* Errors may show only when the last block leaves the buffer, or at close. */
+    int failed = ferror(file->stream) || fflush(file->stream);
+    int cause = errno;
+    if (fclose(file->stream) && !failed) {
+        failed = 1;
+        cause = errno;
+    }
+    file->stream = NULL;
+    if (!failed && file->temporary && rename(file->temporary, file->target)) {
+        failed = 1;
+        cause = errno;
+    }
+    if (failed)
+        return fail(file, cause ? cause : EIO);
+    free(file->temporary);
+    file->temporary = NULL;
+    atomic_discard(file);
+    return 0;
+}
+
+void atomic_discard(struct atomic_file *file)
+{
+    if (file->stream)
+        fclose(file->stream);
+    if (file->temporary)
+        unlink(file->temporary);
+    free(file->temporary);
+    free(file->target);
+    free(file->path);
+    *file = (struct atomic_file){0};
+}

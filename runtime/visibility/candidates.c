@@ -1,0 +1,114 @@
+/* candidates.c - what stands in a shaft or along a segment.
+ *
+ * A walk over the clusters, depth first: a box that lies outside is left alone with all it holds, a
+ * face is cut by the shaft's planes. Nothing is allocated and nothing written, so any number of
+ * threads may walk at once while nobody splits. [Haines & Wallace 1994]
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+#include "visibility/candidates.h"
+#include "kernel/shaft.h"
+
+struct walk {
+    const struct hierarchy *h;
+    const struct shaft *shaft;
+    int most, found;
+    uint32_t *faces;
+};
+
+/* Returns 0, or -1 when there is no room left. */
+static int visit(struct walk *w, uint32_t index)
+{
+    const struct element *e = &w->h->elements[index];
+    int c;
+    if (e->vertices) {
+        const struct face *f = &w->h->faces[e->face];
+        if (f->back || !shaft_meets(w->shaft, f->vertex, (int)f->vertices, NULL))
+            return 0;
+        if (w->found == w->most)
+            return -1;
+        w->faces[w->found++] = e->face;
+        return 0;
+    }
+    if (shaft_misses_box(w->shaft, e->vertex[0], e->vertex[1]))
+        return 0;
+    for (c = 0; c < e->children; c++)
+        if (visit(w, e->child + (uint32_t)c) < 0)
+            return -1;
+    return 0;
+}
+
+int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most, uint32_t *faces)
+{
+    struct walk w = { h, shaft, most, 0, faces };
+    return visit(&w, 0) < 0 ? most + 1 : w.found;
+}
+
+void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon *polygon)
+{
+    const struct face *f = &h->faces[face];
+    polygon->n = (int)f->vertices;
+    memcpy(polygon->v, f->vertex, f->vertices * sizeof *f->vertex);
+}
+
+/* Length of the segment inside a box (m). */
+static double inside(const struct segment *g, const double low[3], const double high[3])
+{
+    double from = 0, to = 1, v[3];
+    int k;
+    sub3(v, g->to, g->from);
+    for (k = 0; k < 3; k++) {
+        double a = low[k] - g->from[k], b = high[k] - g->from[k], swap;
+        if (!(fabs(v[k]) > 0)) {
+            if (a > 0 || b < 0)
+                return 0;
+            continue;
+        }
+        a /= v[k];
+        b /= v[k];
+        if (a > b) {
+            swap = a;
+            a = b;
+            b = swap;
+        }
+        from = a > from ? a : from;
+        to = b < to ? b : to;
+    }
+    return from < to ? (to - from) * length3(v) : 0;
+}
+
+static double depth(const struct hierarchy *h, uint32_t index, const struct segment *g, const uint32_t own[2], double least)
+{
+    const struct element *e = &h->elements[index];
+    double low[3], high[3], area = 0, volume = 1, length, sum = 0;
+    int c, k, counts = 1;
+    if (e->vertices)
+        return 0;
+    for (k = 0; k < 3; k++) {
+        double more = 0.5 * (least - (e->vertex[1][k] - e->vertex[0][k]));
+        more = more > 0 ? more : 0;
+        low[k] = e->vertex[0][k] - more;
+        high[k] = e->vertex[1][k] + more;
+        volume *= high[k] - low[k];
+    }
+    length = inside(g, low, high);
+    if (!(length > 0))
+        return 0;
+    for (c = 0; c < e->children; c++) {
+        const struct element *x = &h->elements[e->child + (uint32_t)c];
+        if (!x->vertices) {
+            sum += depth(h, e->child + (uint32_t)c, g, own, least);
+            continue;
+        }
+        if (x->face == own[0] || x->face == own[1])
+            counts = 0;
+        if (!h->faces[x->face].back)
+            area += x->area;
+    }
+    return counts && area > 0 ? sum + 0.25 * area / volume * length : sum;
+}
+
+double candidates_depth(const struct hierarchy *h, const struct segment *segment, uint32_t receiver, uint32_t emitter, double least)
+{
+    const uint32_t own[2] = { receiver, emitter };
+    return depth(h, 0, segment, own, least);
+}

@@ -1,0 +1,138 @@
+/* export.c - see export.h.
+ *
+ * PLY is written here because Assimp's writer knows no other vertex properties than its own, and
+ * the radiosity would be lost; the others go through Assimp.
+ * SPDX-License-Identifier: MIT */
+#include "output/export.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "util/atomic_file.h"
+#include "output/export_assimp.h"
+#include "output/exposure.h"
+#include "output/leaf_mesh.h"
+#include "util/messages.h"
+#include "output/view.h"
+
+enum export_format export_format(const char *path)
+{
+    static const struct { const char *extension; enum export_format format; } known[] = {
+        {".ply", EXPORT_PLY}, {".gltf", EXPORT_GLTF}, {".glb", EXPORT_GLB}, {".obj", EXPORT_OBJ},
+    };
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof *known; i++)
+        if (strcasecmp(dot, known[i].extension) == 0)
+            return known[i].format;
+    return EXPORT_UNKNOWN;
+}
+
+/* Meter the leaves as a picture of all of them would. */
+static int measure(const struct solution *s, struct exposure *exposure)
+{
+    const struct hierarchy *h = s->hierarchy;
+    struct meter_sample *meter = malloc(((size_t)h->count + 1) * sizeof *meter);
+    size_t count = 0;
+    if (!meter)
+        return -1;
+    for (int lamps = 0; lamps < 2 && !count; lamps++)
+        for (uint32_t i = 0; i < h->count; i++) {
+            const struct element *e = &h->elements[i];
+            if (!e->vertices || e->children || e->black)
+                continue;
+            const double *exitance = s->scene->materials[s->scene->faces[e->face].material].exitance;
+            if ((luminance(exitance, 3) > 0) == lamps)
+                meter[count++] = (struct meter_sample){luminance(&s->radiosity[(size_t)i * s->bands], s->bands), e->area};
+        }
+    *exposure = exposure_measure(meter, count);
+    free(meter);
+    return 0;
+}
+
+static void put_u32(FILE *out, uint32_t value)
+{
+    unsigned char bytes[4];
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (unsigned char)(value >> 8 * i);
+    fwrite(bytes, 1, 4, out);
+}
+
+static void put_float(FILE *out, double value)
+{
+    float f = (float)value;
+    uint32_t bits;
+    memcpy(&bits, &f, sizeof bits);
+    put_u32(out, bits);
+}
+
+static void write_ply(FILE *out, const struct leaf_mesh *m, const struct vertex_values *v, const float *colour)
+{
+    fprintf(out, "ply\nformat binary_little_endian 1.0\n"
+                 "comment radiosity_K is B of band K in W/m2; red, green, blue show it exposed, sRGB\n"
+                 "element vertex %u\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property uchar red\nproperty uchar green\nproperty uchar blue\n", (unsigned)v->count);
+    for (uint32_t k = 0; k < v->bands; k++)
+        fprintf(out, "property float radiosity_%u\n", (unsigned)k);
+    fprintf(out, "element face %u\nproperty list uint uint vertex_indices\nend_header\n", (unsigned)m->polygons);
+    for (uint32_t i = 0; i < v->count; i++) {
+        for (int k = 0; k < 3; k++)
+            put_float(out, v->vertices[i].position[k]);
+        for (int k = 0; k < 3; k++)
+            putc(srgb_byte((double)colour[3 * (size_t)i + (size_t)k]), out);
+        for (uint32_t k = 0; k < v->bands; k++)
+            put_float(out, v->value[(size_t)i * v->bands + k]);
+    }
+    for (uint32_t i = 0; i < m->polygons; i++) {
+        put_u32(out, m->start[i + 1] - m->start[i]);
+        for (uint32_t j = m->start[i]; j < m->start[i + 1]; j++)
+            put_u32(out, m->corner[j]);
+    }
+}
+
+static int write_format(const char *path, enum export_format format, int z_up, struct leaf_mesh *m,
+                        const struct vertex_values *v, float *colour)
+{
+    struct atomic_file file;
+    switch (format) {
+    case EXPORT_PLY:
+        if (atomic_open(&file, path))
+            return -1;
+        write_ply(file.stream, m, v, colour);
+        return atomic_commit(&file);
+    case EXPORT_GLTF:
+    case EXPORT_GLB:
+        if (leaf_mesh_triangulate(m, v))
+            return report_error(path, 0, "out of memory for the mesh; write .ply, which needs less");
+        return export_assimp(path, format == EXPORT_GLB ? "glb2" : "gltf2", z_up, m, v, colour);
+    case EXPORT_OBJ:
+        for (size_t i = 0; i < 3 * (size_t)v->count; i++)
+            colour[i] = (float)srgb_byte((double)colour[i]) / 255;
+        return export_assimp(path, "obj", 0, m, v, colour);
+    case EXPORT_UNKNOWN:
+        break;
+    }
+    return report_error(path, 0, "unknown format; name it .ply, .gltf, .glb or .obj");
+}
+
+int export_write(const char *path, const struct solution *s, const struct vertex_values *v)
+{
+    struct exposure exposure;
+    struct leaf_mesh mesh = {0};
+    float *colour = malloc((3 * (size_t)v->count + 1) * sizeof *colour);
+    int result;
+    if (!colour || measure(s, &exposure) || leaf_mesh_build(&mesh, s, v)) {
+        result = report_error(path, 0, "out of memory for the mesh; use a coarser solution");
+    } else {
+        for (uint32_t i = 0; i < v->count; i++) {
+            double c[3];
+            exposure_apply(&exposure, &v->value[(size_t)i * v->bands], v->bands, c);
+            for (size_t k = 0; k < 3; k++)
+                colour[3 * (size_t)i + k] = (float)c[k];
+        }
+        result = write_format(path, export_format(path), view_up_axis(s->scene) == 2, &mesh, v, colour);
+    }
+    leaf_mesh_free(&mesh);
+    free(colour);
+    return result;
+}

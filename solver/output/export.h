@@ -1,0 +1,25 @@
+/* export.h - the solution's mesh for other programs: .ply, .gltf, .glb, .obj.
+ *
+ * One polygon per leaf, corners shared where values are; corners that hang on a larger neighbour's
+ * edge are inserted there, so that no program shows cracks. Colours are the radiosity as a picture
+ * would show it (exposed). In .ply each vertex has
+ *     float x y z, uchar red green blue (sRGB), float radiosity_0 [radiosity_1 radiosity_2] (W/m2)
+ * in binary, little endian. glTF holds linear colours (COLOR_0) and an unlit material, so that
+ * viewers show the radiosity and nothing else, with y up as glTF wants it; .obj holds sRGB colours behind the coordinates of
+ * each vertex, as MeshLab and Blender read them. .gltf comes with a .bin and .obj with a .mtl.
+ * SPDX-License-Identifier: MIT */
+#ifndef EXPORT_H
+#define EXPORT_H
+
+#include "engine/solution.h"
+#include "output/vertex_values.h"
+
+enum export_format { EXPORT_UNKNOWN = -1, EXPORT_PLY, EXPORT_GLTF, EXPORT_GLB, EXPORT_OBJ };
+
+/* The format that the name's extension asks for, in any case of letters. */
+enum export_format export_format(const char *path);
+
+/* Returns 0, or -1 after one line on stderr. Files appear whole or not at all. */
+int export_write(const char *path, const struct solution *solution, const struct vertex_values *values);
+
+#endif

@@ -1,0 +1,87 @@
+/* faces_csv.c - see faces_csv.h.
+ *
+ * Every column is a mean over the whole face, so B = E + rho H holds in each row, to rounding;
+ * solution.radiosity is the mean over what is not buried, which may be more.
+ * SPDX-License-Identifier: MIT */
+#include "output/faces_csv.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "util/atomic_file.h"
+#include "util/messages.h"
+
+/* Sums over the faces that one input became. */
+struct total {
+    double area, irradiance[3];
+};
+
+static void write_name(FILE *out, const char *name)
+{
+    if (!strpbrk(name, ",\"\r\n")) {
+        fputs(name, out);
+        return;
+    }
+    putc('"', out);
+    for (; *name; name++) {
+        if (*name == '"')
+            putc('"', out);
+        putc(*name, out);
+    }
+    putc('"', out);
+}
+
+static void write_header(FILE *out, uint32_t bands)
+{
+    static const char *const quantity[4] = {"E", "rho", "H", "B"};
+    fputs("face,material,area", out);
+    for (int q = 0; q < 4; q++)
+        for (uint32_t k = 0; k < bands; k++)
+            fprintf(out, ",%s_%u", quantity[q], (unsigned)k);
+    putc('\n', out);
+}
+
+static void write_row(FILE *out, const struct solution *s, uint32_t i, const struct total *t)
+{
+    const struct input_face *input = &s->scene->inputs[i];
+    const struct material *m = &s->scene->materials[input->material];
+    int dropped = !(t->area > 0);
+    fprintf(out, "%u,", (unsigned)i);
+    write_name(out, m->name);
+    fprintf(out, ",%.12g", input->area);
+    for (uint32_t k = 0; k < s->bands; k++)
+        fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k]);
+    for (uint32_t k = 0; k < s->bands; k++)
+        fprintf(out, ",%.12g", dropped ? 0 : m->reflectance[k]);
+    for (uint32_t k = 0; k < s->bands; k++)
+        fprintf(out, ",%.12g", dropped ? 0 : t->irradiance[k] / t->area);
+    for (uint32_t k = 0; k < s->bands; k++)
+        fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
+    putc('\n', out);
+}
+
+int faces_csv_write(const char *path, const struct solution *s)
+{
+    struct atomic_file file;
+    struct total *total = calloc((size_t)s->scene->input_count + 1, sizeof *total);
+    if (!total)
+        return report_error(path, 0, "out of memory for the table of faces");
+    if (atomic_open(&file, path)) {
+        free(total);
+        return -1;
+    }
+    for (uint32_t i = 0; i < s->scene->face_count; i++) {
+        struct total *t = &total[s->scene->faces[i].input];
+        size_t element = s->hierarchy->face_element[i];
+        double area = s->hierarchy->elements[element].area;
+        t->area += area;
+        for (uint32_t k = 0; k < s->bands; k++)
+            t->irradiance[k] += area * s->irradiance[element * s->bands + k];
+    }
+    write_header(file.stream, s->bands);
+    for (uint32_t i = 0; i < s->scene->input_count; i++)
+        write_row(file.stream, s, i, &total[i]);
+    free(total);
+    return atomic_commit(&file);
+}

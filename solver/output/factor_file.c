@@ -1,0 +1,196 @@
+/* factor_file.c - the matrix of view factors as text.
+ *
+ * Rows are written many at a time, each by one thread into a text of its own; the texts go out in order. So the bytes do
+ * not depend on the number of threads.
+ * [Boisvert, Pozo & Remington 1996, The Matrix Market Exchange Formats]
+ * SPDX-License-Identifier: MIT */
+#include "output/factor_file.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "util/atomic_file.h"
+#include "output/number_text.h"
+#include "util/messages.h"
+
+const char *const factor_format_names[FACTOR_FORMATS] = { "csv", "coo", "mtx" };
+
+enum { ENTRY = 2 * (NUMBER_TEXT / 2) + NUMBER_TEXT, TEXT_MOST = 1 << 25 };
+
+struct writer {
+    const struct factor_matrix *m;
+    const struct factor_closure *closure;
+    enum factor_format format;
+    struct label { /* "j," or "j " of each column */
+        char text[15];
+        unsigned char length;
+    } *labels;
+    int threads;
+    uint32_t batch;   /* rows at a time */
+    double **row;     /* [threads][inputs], zero between rows */
+    char *text;       /* [batch][room] */
+    size_t room, *length; /* [batch] */
+};
+
+static void fill_row(const struct writer *w, uint32_t i, double *row)
+{
+    const struct factor_closure *c = w->closure;
+    double scale, *restrict to = row;
+    uint32_t n = w->m->inputs, j;
+    if (!(w->m->area[i] > 0))
+        return;
+    scale = (c->scale && !c->both ? c->scale[i] : 1) / w->m->area[i];
+    (void)factor_matrix_row(w->m, i, c->both ? c->scale : NULL, row);
+#pragma omp simd
+    for (j = 0; j < n; j++) {
+        double f = to[j] * scale;
+        to[j] = f < 1 ? f : 1;
+    }
+}
+
+static size_t write_dense(const double *row, uint32_t n, char *text)
+{
+    char *at = text;
+    uint32_t j;
+    for (j = 0; j < n; j++) {
+        if (j)
+            *at++ = ',';
+        at += number_text(at, row[j]);
+    }
+    *at++ = '\n';
+    return (size_t)(at - text);
+}
+
+static size_t write_sparse(const struct writer *w, uint32_t i, const double *row, char *text)
+{
+    const struct label *own = &w->labels[i];
+    char *at = text;
+    uint32_t j;
+    for (j = 0; j < w->m->inputs; j++) {
+        if (!(row[j] > 0))
+            continue;
+        memcpy(at, own->text, sizeof own->text);
+        at += own->length;
+        memcpy(at, w->labels[j].text, sizeof own->text);
+        at += w->labels[j].length;
+        at += number_text(at, row[j]);
+        *at++ = '\n';
+    }
+    return (size_t)(at - text);
+}
+
+static void write_row(const struct writer *w, uint32_t i, uint32_t slot)
+{
+    double *row = w->row[omp_get_thread_num()];
+    char *text = w->text + slot * w->room;
+    fill_row(w, i, row);
+    w->length[slot] = w->format == FACTOR_CSV ? write_dense(row, w->m->inputs, text) : write_sparse(w, i, row, text);
+    memset(row, 0, w->m->inputs * sizeof *row);
+}
+
+/* Entries that are not 0. */
+static uint64_t count_entries(const struct writer *w)
+{
+    uint64_t count = 0;
+    uint32_t i;
+    size_t v;
+    if (w->m->distinct) {
+        for (v = 0; v < w->m->value_count; v++)
+            count += w->m->values[v] > 0;
+        return 2 * count;
+    }
+#pragma omp parallel for schedule(dynamic, 16) num_threads(w->threads) reduction(+ : count)
+    for (i = 0; i < w->m->inputs; i++) {
+        double *row = w->row[omp_get_thread_num()];
+        uint32_t j;
+        fill_row(w, i, row);
+        for (j = 0; j < w->m->inputs; j++)
+            count += row[j] > 0;
+        memset(row, 0, w->m->inputs * sizeof *row);
+    }
+    return count;
+}
+
+static int open_writer(struct writer *w)
+{
+    uint32_t n = w->m->inputs, j, base = w->format == FACTOR_MTX;
+    int t;
+    w->room = (size_t)n * ENTRY + NUMBER_TEXT;
+    w->batch = (uint32_t)(TEXT_MOST / w->room);
+    if (w->batch < 2 * (uint32_t)w->threads)
+        w->batch = 2 * (uint32_t)w->threads;
+    if (w->batch > n)
+        w->batch = n ? n : 1;
+    w->text = malloc(w->batch * w->room);
+    w->length = malloc(w->batch * sizeof *w->length);
+    w->labels = calloc(n + 1, sizeof *w->labels);
+    w->row = calloc((size_t)w->threads, sizeof *w->row);
+    if (!w->text || !w->length || !w->labels || !w->row)
+        return -1;
+    for (t = 0; t < w->threads; t++) {
+        w->row[t] = calloc(n + 1, sizeof **w->row);
+        if (!w->row[t])
+            return -1;
+    }
+    for (j = 0; j < n; j++) {
+        char text[NUMBER_TEXT];
+        int length = number_text_whole(text, j + base);
+        memcpy(w->labels[j].text, text, (size_t)length);
+        w->labels[j].text[length] = w->format == FACTOR_MTX ? ' ' : ',';
+        w->labels[j].length = (unsigned char)(length + 1);
+    }
+    return 0;
+}
+
+static void close_writer(struct writer *w)
+{
+    int t;
+    for (t = 0; w->row && t < w->threads; t++)
+        free(w->row[t]);
+    free(w->row);
+    free(w->text);
+    free(w->length);
+    free(w->labels);
+}
+
+int factor_file_write(const char *path, enum factor_format format, const struct factor_matrix *m, const struct factor_closure *c, int threads)
+{
+    struct writer w = { .m = m, .closure = c, .format = format, .threads = threads };
+    struct atomic_file file = { 0 };
+    uint32_t first, k, n = m->inputs;
+    int status = -1;
+    if (open_writer(&w) < 0) {
+        report_error(path, 0, "out of memory");
+    } else if (atomic_open(&file, path) == 0) {
+        if (format == FACTOR_MTX)
+            fprintf(file.stream, "%%%%MatrixMarket matrix coordinate real general\n%% view factors F_ij, row i to column j\n%u %u %llu\n",
+                    n, n, (unsigned long long)count_entries(&w));
+        for (first = 0; first < n; first += w.batch) {
+            uint32_t count = n - first < w.batch ? n - first : w.batch;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+            for (k = 0; k < count; k++)
+                write_row(&w, first + k, k);
+            for (k = 0; k < count; k++)
+                fwrite(w.text + k * w.room, 1, w.length[k], file.stream);
+        }
+        status = atomic_commit(&file); /* which finds what fwrite could not write */
+    }
+    close_writer(&w);
+    return status;
+}
+
+int factor_file_names(const char *path, const struct scene *scene)
+{
+    struct atomic_file file = { 0 };
+    uint32_t i;
+    if (atomic_open(&file, path) < 0)
+        return -1;
+    for (i = 0; i < scene->input_count; i++) {
+        const char *name = scene->materials[scene->inputs[i].material].name;
+        for (; *name; name++)
+            fputc((unsigned char)*name < ' ' ? ' ' : *name, file.stream);
+        fprintf(file.stream, ".%u\n", i);
+    }
+    return atomic_commit(&file);
+}

@@ -1,0 +1,217 @@
+/* view.c - see view.h.
+ *
+ * To guess a view we try a few dozen, look through each with a coarse picture, and keep the one
+ * that sees the most: fronts rather than backs (an eye within a solid sees backs), far rather than
+ * near (an eye against a wall sees little), many faces rather than one.
+ * SPDX-License-Identifier: MIT */
+#include "output/view.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "geometry.h"
+#include "output/raster.h"
+
+enum { COARSE_X = 40, COARSE_Y = 30, DEFAULT_FOV = 70 };
+
+static int number(const char **text, double *value)
+{
+    char *stop;
+    if (isspace((unsigned char)**text))
+        return -1;
+    *value = strtod(*text, &stop);
+    if (stop == *text || !isfinite(*value))
+        return -1;
+    *text = stop;
+    return 0;
+}
+
+static int character(const char **text, char c)
+{
+    return **text == c ? (++*text, 0) : -1;
+}
+
+static int triple(const char **text, double v[3])
+{
+    return number(text, &v[0]) || character(text, ',') || number(text, &v[1]) || character(text, ',') || number(text, &v[2]) ? -1 : 0;
+}
+
+int view_parse(const char *text, struct view *view)
+{
+    struct view v = {.fov = DEFAULT_FOV};
+    double ahead[3];
+    if (triple(&text, v.eye) || character(&text, ':') || triple(&text, v.at))
+        return -1;
+    if (*text && (character(&text, ':') || number(&text, &v.fov)))
+        return -1;
+    sub3(ahead, v.at, v.eye);
+    double distance = length3(ahead);
+    if (*text || !(distance > 0) || !isfinite(distance) || !(v.fov >= 1 && v.fov <= 170))
+        return -1;
+    *view = v;
+    return 0;
+}
+
+int view_up_axis(const struct scene *scene)
+{
+    double square[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < scene->face_count; i++) {
+        const struct face *f = &scene->faces[i];
+        for (uint32_t j = 2; j < f->vertices; j++) {
+            double a[3], b[3], c[3], twice;
+            sub3(a, f->vertex[j - 1], f->vertex[0]);
+            sub3(b, f->vertex[j], f->vertex[0]);
+            cross3(c, a, b);
+            twice = length3(c);
+            for (int k = 0; k < 3; k++)
+                if (fabs(c[k]) > 0.999 * twice)
+                    square[k] += twice;
+        }
+    }
+    return square[1] > 1.02 * square[2] ? 1 : 2;
+}
+
+void view_frame(const struct view *view, const struct scene *scene, double right[3], double up[3], double ahead[3])
+{
+    double wish[3] = {view->up[0], view->up[1], view->up[2]}, size;
+    sub3(ahead, view->at, view->eye);
+    size = length3(ahead);
+    for (int k = 0; k < 3; k++)
+        ahead[k] /= size;
+    if (!(length3(wish) > 0))
+        wish[view_up_axis(scene)] = 1;
+    cross3(right, ahead, wish);
+    if (!(length3(right) > 1e-6 * length3(wish))) {
+        /* Straight up or down: let y, or else z, point to the top of the picture. */
+        int axis = fabs(ahead[1]) > 0.9 ? 2 : 1;
+        memset(wish, 0, sizeof wish);
+        wish[axis] = 1;
+        cross3(right, ahead, wish);
+    }
+    size = length3(right);
+    for (int k = 0; k < 3; k++)
+        right[k] /= size;
+    cross3(up, right, ahead);
+}
+
+struct camera view_camera(const struct view *view, const struct scene *scene, double aspect)
+{
+    struct camera c;
+    memcpy(c.eye, view->eye, sizeof c.eye);
+    view_frame(view, scene, c.right, c.up, c.ahead);
+    c.high = tan(view->fov * (0.5 * 3.14159265358979323846 / 180));
+    c.wide = c.high * aspect;
+    return c;
+}
+
+/* The score of a view. With cut_away, backs are not seen at all. */
+static int judge(const struct scene *scene, const struct view *view, double diagonal, int cut_away, double *score)
+{
+    struct raster r;
+    uint32_t face[COARSE_X * COARSE_Y], last = NO_FACE;
+    double nearness[COARSE_X * COARSE_Y], sum = 0;
+    if (raster_begin(&r, scene, view, COARSE_X, COARSE_Y, !cut_away))
+        return -1;
+    raster_rows(&r, 0, COARSE_Y, face, nearness);
+    for (int i = 0; i < COARSE_X * COARSE_Y; i++) {
+        double toward[3];
+        if (face[i] == NO_FACE)
+            continue;
+        const struct face *f = &scene->faces[face[i]];
+        double a[3], b[3], n[3];
+        sub3(a, f->vertex[1], f->vertex[0]);
+        sub3(b, f->vertex[2], f->vertex[0]);
+        cross3(n, a, b);
+        sub3(toward, view->eye, f->vertex[0]);
+        if (f->black) {
+            sum -= 0.5; /* it will stay so */
+        } else if (dot3(n, toward) > 0) {
+            sum += fmin(1, 1 / nearness[i] / (0.4 * diagonal)) + (face[i] != last ? 0.5 : 0);
+            if (1 / nearness[i] < 0.08 * diagonal)
+                sum -= 1; /* something large before the eye */
+        } else {
+            sum -= 2;
+        }
+        last = face[i];
+    }
+    raster_end(&r);
+    *score = sum / (COARSE_X * COARSE_Y);
+    return 0;
+}
+
+/* Move the eye along its line of sight until the box of size d around v->at fits into a 4:3 picture. */
+static void step_back(const struct scene *scene, struct view *v, const double d[3])
+{
+    double right[3], up[3], ahead[3], distance = 0, half = tan(v->fov / 360 * 3.14159265358979323846);
+    view_frame(v, scene, right, up, ahead);
+    for (int i = 0; i < 8; i++) {
+        double p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = (i >> k & 1 ? 0.53 : -0.53) * d[k];
+        distance = fmax(distance, fabs(dot3(p, up)) / half - dot3(p, ahead));
+        distance = fmax(distance, fabs(dot3(p, right)) / (half * 4 / 3) - dot3(p, ahead));
+    }
+    for (int k = 0; k < 3; k++)
+        v->eye[k] = v->at[k] - distance * ahead[k];
+}
+
+int view_guess(const struct scene *scene, struct view *view)
+{
+    static const double inset[3] = {0.06, 0.12, 0.25};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, d[3];
+    double best = -INFINITY, score;
+    int up = view_up_axis(scene), x = up == 2 ? 0 : 2, y = up == 2 ? 1 : 0;
+    for (uint32_t i = 0; i < scene->face_count; i++)
+        for (uint32_t j = 0; j < scene->faces[i].vertices; j++)
+            for (int k = 0; k < 3; k++) {
+                low[k] = fmin(low[k], scene->faces[i].vertex[j][k]);
+                high[k] = fmax(high[k], scene->faces[i].vertex[j][k]);
+            }
+    sub3(d, high, low);
+    double diagonal = length3(d);
+    struct view v = {.fov = DEFAULT_FOV};
+    v.up[up] = 1;
+    /* Per corner and inset: across to the other corner, along one wall, along the other. */
+    for (int i = 0; i < 4 * 3 * 3; i++) {
+        int right = i & 1, top = i >> 1 & 1, way = i / 4 % 3;
+        double t = inset[i / 12];
+        v.eye[x] = low[x] + d[x] * (right ? 1 - t : t);
+        v.eye[y] = low[y] + d[y] * (top ? 1 - t : t);
+        v.eye[up] = low[up] + 0.64 * d[up];
+        v.at[x] = way == 2 ? v.eye[x] : low[x] + d[x] * (right ? 0.4 : 0.6);
+        v.at[y] = way == 1 ? v.eye[y] : low[y] + d[y] * (top ? 0.4 : 0.6);
+        v.at[up] = low[up] + 0.36 * d[up];
+        double distance[3];
+        sub3(distance, v.at, v.eye);
+        if (!(length3(distance) > 1e-3 * diagonal))
+            continue;
+        if (judge(scene, &v, diagonal, 0, &score))
+            return -1;
+        if (score > best) {
+            best = score;
+            *view = v;
+        }
+    }
+    if (best > 0.4)
+        return 0;
+    /* No enclosed space: go round it. */
+    for (int i = 0; i < 16; i++) {
+        static const double way[8][2] = {{1, 0.6}, {0.6, 1}, {-0.6, 1}, {-1, 0.6}, {-1, -0.6}, {-0.6, -1}, {0.6, -1}, {1, -0.6}};
+        v.fov = 40;
+        for (int k = 0; k < 3; k++)
+            v.at[k] = 0.5 * (low[k] + high[k]);
+        v.eye[x] = v.at[x] + 1.3 * diagonal * way[i % 8][0];
+        v.eye[y] = v.at[y] + 1.3 * diagonal * way[i % 8][1];
+        v.eye[up] = v.at[up] + (i < 8 ? 0.9 : 2) * diagonal;
+        step_back(scene, &v, d);
+        if (judge(scene, &v, diagonal, 1, &score))
+            return -1;
+        if (score > best || i == 0) {
+            best = score;
+            *view = v;
+        }
+    }
+    return 0;
+}

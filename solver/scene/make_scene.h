@@ -1,0 +1,87 @@
+/* make_scene.h - small scenes made in memory, for tests and studies.
+ * SPDX-License-Identifier: MIT */
+#ifndef MAKE_SCENE_H
+#define MAKE_SCENE_H
+
+#include <stdlib.h>
+#include <string.h>
+#include "hierarchy/scene.h"
+
+enum { MADE_FACES = 4096, MADE_MATERIALS = 16 };
+
+/* An empty scene with room for that many. Returns 0, or -1 when out of memory. */
+static inline int made_open(struct scene *s)
+{
+    memset(s, 0, sizeof *s);
+    s->faces = calloc(MADE_FACES, sizeof *s->faces);
+    s->materials = calloc(MADE_MATERIALS, sizeof *s->materials);
+    s->inputs = calloc(MADE_FACES, sizeof *s->inputs);
+    s->bands = 1;
+    return s->faces && s->materials && s->inputs ? 0 : -1;
+}
+
+/* A grey material. Returns its index. */
+static inline uint32_t made_material(struct scene *s, double rho, double exitance)
+{
+    struct material *m = &s->materials[s->material_count];
+    int k;
+    for (k = 0; k < 3; k++) {
+        m->reflectance[k] = rho;
+        m->exitance[k] = exitance;
+    }
+    m->name = (char *)"made";
+    return s->material_count++;
+}
+
+/* A face with n corners p, counter-clockwise from its front. */
+static inline void made_face(struct scene *s, uint32_t material, int n, const double (*p)[3])
+{
+    struct face *f = &s->faces[s->face_count];
+    memcpy(f->vertex, p, (size_t)n * sizeof *p);
+    f->vertices = (uint32_t)n;
+    f->material = material;
+    f->input = s->face_count;
+    f->black = s->materials[material].reflectance[0] <= 0 && s->materials[material].exitance[0] <= 0;
+    s->inputs[s->face_count].material = material;
+    s->face_count++;
+    s->input_count++;
+}
+
+/* A parallelogram o, o + a, o + a + b, o + b: its front is where a x b points. */
+static inline void made_quad(struct scene *s, uint32_t material, double ox, double oy, double oz,
+                             double ax, double ay, double az, double bx, double by, double bz)
+{
+    const double p[4][3] = { { ox, oy, oz }, { ox + ax, oy + ay, oz + az },
+                             { ox + ax + bx, oy + ay + by, oz + az + bz }, { ox + bx, oy + by, oz + bz } };
+    made_face(s, material, 4, p);
+}
+
+/* A box seen from inside: floor, ceiling, then the four walls. */
+static inline void made_room(struct scene *s, const uint32_t material[6], double x, double y, double z)
+{
+    made_quad(s, material[0], 0, 0, 0, x, 0, 0, 0, y, 0);
+    made_quad(s, material[1], 0, 0, z, 0, y, 0, x, 0, 0);
+    made_quad(s, material[2], 0, 0, 0, 0, 0, z, x, 0, 0);
+    made_quad(s, material[3], 0, y, 0, x, 0, 0, 0, 0, z);
+    made_quad(s, material[4], 0, 0, 0, 0, y, 0, 0, 0, z);
+    made_quad(s, material[5], x, 0, 0, 0, 0, z, 0, y, 0);
+}
+
+static inline void made_scale(struct scene *s, double factor)
+{
+    uint32_t i, j;
+    int k;
+    for (i = 0; i < s->face_count; i++)
+        for (j = 0; j < s->faces[i].vertices; j++)
+            for (k = 0; k < 3; k++)
+                s->faces[i].vertex[j][k] *= factor;
+}
+
+static inline void made_close(struct scene *s)
+{
+    free(s->faces);
+    free(s->materials);
+    free(s->inputs);
+}
+
+#endif

@@ -1,0 +1,143 @@
+/* stability.h - configurations on which radiosity methods are known to fail, each with its right answer.
+ *
+ * One table (stability_cases.c) serves the tests and `radiosity study stability`. A row is a case: a scene made in
+ * memory and a measure of how wrong a method is on it, against a closed form or a condition that must
+ * hold. A cell is a case and a method, with what is expected of it: to stay within a tolerance, or to fail by a
+ * known amount for a known reason. Invariant: a failing cell's expected range lies above its tolerance,
+ * so a cell cannot hold both ways, and evidence that no longer holds is as loud as a broken method.
+ * SPDX-License-Identifier: MIT */
+#ifndef STABILITY_H
+#define STABILITY_H
+
+#include "engine/solve.h"
+
+/* What a method replaces in the computation of light. */
+enum stability_kind {
+    BY_FACTOR, /* the form factor of a pair, `number` says which */
+    BY_RAYS,   /* the visibility of a pair, by `number` rays or as below */
+    BY_ORACLE, /* all: a solution with this oracle and these settings, `number` its closure */
+    BY_RULE    /* a rule that only some cases know; they look at the method itself */
+};
+
+enum stability_sight { BY_FRONTS = 0, BY_FLOAT = -1, BY_INTEGRAL = -2 };
+enum stability_factor { FACTOR_KERNEL, FACTOR_CULLED, FACTOR_DISC, FACTOR_POINT, FACTOR_POLYGON, FACTOR_CONTOUR };
+
+struct stability_method {
+    const char *name;
+    const char *what; /* one line */
+    enum stability_kind kind;
+    int number;
+    const char *oracle;
+    const char *settings[4]; /* "PARAM=VALUE", NULL ends */
+};
+
+/* The columns of the table, in their order: stability_methods.c. */
+enum {
+    NO_METHOD, KERNEL, CULLED, DISC, POINT, POLYGON, CONTOUR,
+    FRONTS, FIXED_EPSILON, RAYS_4, RAYS_16, RAYS_64, INTEGRAL,
+    NORMALISED, JACOBI, SWEEPS_JACOBI, NAIVE_STOP, ONE_PLANE, L2_NORM, LINF_NORM, UMBRA,
+    CORNERS, SAMPLED, BOUNDED, LARGER, LONGER, LINF_GAP, AREA_GAP,
+    BF_1991, BF_NODES, FF, BF, BFV, RELATIVE, GAP, SMOOTH, VIEWFACTORS, DEFAULT, UNCUT, FINE, CLOSED,
+    METHODS
+};
+extern const struct stability_method stability_methods[METHODS];
+
+/* One measurement on its way: what to run, and what came of it. */
+struct stability_trial {
+    const struct stability_method *method;
+    int threads;
+    double error;
+    double count; /* what it cost, mostly links; negative: not counted */
+};
+
+/* What is expected of a method on a case. */
+struct stability_cell {
+    int method;       /* NO_METHOD ends the list */
+    double tolerance; /* the error that still passes */
+    const char *why;  /* a known failure's reason; NULL: the method must pass */
+    double low, high; /* and its error; INFINITY is an error too */
+};
+
+enum { STABILITY_CELLS = 12 };
+
+struct stability_case {
+    const char *name;
+    const char *what;    /* the configuration */
+    const char *right;   /* the right answer */
+    const char *measure; /* what the error is */
+    const char *counted; /* unit of the trial's count where it is part of the evidence, else NULL */
+    int (*run)(struct stability_trial *trial); /* returns 0, or -1 when it cannot be run (out of memory) */
+    struct stability_cell cells[STABILITY_CELLS];
+};
+
+struct stability_group {
+    const char *title;
+    const struct stability_case *cases; /* [count] */
+    int count;
+};
+
+extern const struct stability_group stability_groups[];
+extern const int stability_group_count;
+
+/* What a trial's error means to its cell. */
+enum stability_verdict {
+    VERDICT_PASSES,
+    VERDICT_FAILS_AS_KNOWN,
+    VERDICT_FAILS,  /* though it must pass */
+    VERDICT_CHANGED /* a known failure no longer is, or is another */
+};
+enum stability_verdict stability_judge(const struct stability_cell *cell, double error);
+
+/* Run one cell. Returns 0 or -1. */
+int stability_run(const struct stability_case *c, const struct stability_cell *cell, int threads, struct stability_trial *trial);
+
+/* The tools of the cases: stability_tools.c. */
+
+/* The form factor of two surfaces by a BY_FACTOR method, nothing between them. */
+double stability_factor(const struct stability_method *method, const struct element *r, const struct element *s);
+
+/* Solve a scene with a BY_ORACLE method; `unit`: view factors alone (solve.h), refined and not solved.
+ * Returns 0, or -1 with nothing to close. */
+int stability_solve(struct solve *s, const struct scene *scene, const struct stability_trial *trial, int unit);
+
+/* A scene, and one number from its solution; `at` is the case's own: a reflectance, a level. */
+struct stability_scene {
+    void (*make)(struct scene *scene, double at); /* into an empty one of make_scene.h */
+    double (*measure)(const struct solve *s, double at);
+};
+
+/* Make it, solve it by a BY_ORACLE method, measure it; trial->count becomes the number of links. Returns 0 or -1. */
+int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value);
+
+/* The sum of F over a unit cube's face by a BY_FACTOR method, from one element per face: to the opposite face in [0], to
+ * one of the four beside it in [1]. Returns 0 or -1. */
+int stability_cube_factors(const struct stability_method *method, double f[2]);
+
+/* The view factor from face i to face j that the links make, and the sum over all j. */
+double stability_exchange(const struct solve *s, uint32_t i, uint32_t j);
+double stability_row(const struct solve *s, uint32_t i);
+
+/* Means over a face: B, and H over all of it (first band). */
+double stability_radiosity(const struct solve *s, uint32_t face);
+double stability_irradiance(const struct solve *s, uint32_t face);
+
+/* Two solutions have the same elements and links, to the bit. */
+int stability_same_links(const struct solve *a, const struct solve *b);
+
+/* A number in [0, 1) from a seed that moves on. */
+double stability_random(unsigned *seed);
+
+/* The cases: each stability_*.c gives its measures. */
+#define STABILITY_MEASURES(M) \
+    M(shared_edge) M(shared_edge_halved) M(close_parallel) M(half_apart) M(row_sum) M(straddle) M(straddle_children) \
+    M(coplanar) M(sliver) M(sliver_standing) M(scale_far) M(degenerate_factor) M(closed_forms) \
+    M(tiny_blocker) M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) \
+    M(furnace_95) M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) M(open_plates) \
+    M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) M(hollow_sphere) M(concentric) M(wide_plates) \
+    M(brightness) M(scale) M(large_source) M(large_source_split) M(touching_cells) M(long_receiver) M(range_centre) M(range_quarter) M(four_shadows) \
+    M(bent_quad) M(no_area)
+#define M(name) int stability_##name(struct stability_trial *trial);
+STABILITY_MEASURES(M)
+#undef M
+
+#endif

@@ -1,0 +1,286 @@
+/* study_clustering.c - `radiosity study clustering`: which strategy groups faces best?
+ *
+ * Each strategy of cluster_tree.h solves the scene once with the same oracle. A row tells of its tree: clusters, depth, and
+ * crossed, the clusters whose boxes a random line through the scene meets, sum of box areas over the root's [Goldsmith and
+ * Salmon 1987], which is what searches pay for boxes that are large or overlap. And of the solve: seconds, links, discussions,
+ * rays, peak memory, and error: against a reference, sum A |B - B_ref| / sum A B_ref over faces; in any case the power
+ * imbalance, which in a closed scene is all error, in an open one also what leaves. Counts are exact; seconds are the machine's.
+ * [the comparison, for other oracles: Hasenfratz, Damez, Sillion and Drettakis 1999]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include "util/atomic_file.h"
+#include "output/chart.h"
+#include "util/clock.h"
+#include "commands/commands.h"
+#include "study/faces_reference.h"
+#include "progress.h"
+#include "util/messages.h"
+#include "engine/solve.h"
+
+struct row {
+    const char *strategy;
+    uint32_t clusters, depth, elements;
+    double crossed;
+    double build, clock, cpu; /* s: of the clusters alone; of all, by the clock and of all threads */
+    double memory;            /* MB */
+    uint64_t links, groups;   /* groups: links with a cluster at an end */
+    uint64_t pairs, rays;
+    double imbalance, error;  /* shares; error: NAN without a reference */
+    int converged;
+};
+
+struct table {
+    const struct options *options;
+    struct row row[CLUSTERING_COUNT];
+    int rows;
+};
+
+/* Forget the peak so far, where the system can. */
+static void forget_peak(void)
+{
+    FILE *f = fopen("/proc/self/clear_refs", "w");
+    if (!f)
+        return;
+    fputs("5", f);
+    (void)fclose(f);
+}
+
+/* Peak of resident memory, MB. */
+static double peak(void)
+{
+    struct rusage usage;
+    char line[128];
+    double most = 0;
+    FILE *f = fopen("/proc/self/status", "r");
+    while (f && fgets(line, sizeof line, f))
+        if (strncmp(line, "VmHWM:", 6) == 0)
+            most = strtod(line + 6, NULL) / 1024;
+    if (f)
+        (void)fclose(f);
+    getrusage(RUSAGE_SELF, &usage);
+    return most > 0 ? most : (double)usage.ru_maxrss / 1024;
+}
+
+static double box_area(const struct element *e)
+{
+    struct bounds b;
+    memcpy(b.low, e->vertex[0], sizeof b.low);
+    memcpy(b.high, e->vertex[1], sizeof b.high);
+    return bounds_area(&b);
+}
+
+static void describe_tree(struct row *row, const struct hierarchy *h)
+{
+    double all = box_area(&h->elements[0]);
+    uint32_t i, at, deep, next = 0;
+    for (i = 0; i < h->built; i++)
+        if (!h->elements[i].vertices) {
+            row->clusters++;
+            row->crossed += all > 0 ? box_area(&h->elements[i]) / all : 1;
+        }
+    /* Elements stand level by level, so the last has the most above it. */
+    for (deep = 1, at = h->built - 1; at != 0; deep++, at = next)
+        next = h->elements[at].parent;
+    row->depth = deep;
+}
+
+static void describe_solution(struct row *row, const struct solve *s, const struct faces_reference *reference)
+{
+    struct solution solution = solve_solution(s);
+    const struct element *e = s->hierarchy.elements;
+    size_t i;
+    row->elements = s->hierarchy.count;
+    row->links = s->refinement.link_count;
+    for (i = 0; i < s->refinement.link_count; i++)
+        row->groups += !e[s->refinement.links[i].receiver].vertices || !e[s->refinement.links[i].emitter].vertices;
+    row->pairs = s->refinement.pairs;
+    row->rays = rays_count(s->rays).rays;
+    row->imbalance = s->emitted > 0 ? (s->emitted - s->absorbed) / s->emitted : 0;
+    row->error = reference->count ? faces_reference_error(reference, &solution) : (double)NAN;
+    row->converged = s->converged;
+}
+
+static int run(const struct options *o, const struct scene *scene, const struct faces_reference *reference, struct progress *progress,
+               enum clustering strategy, struct row *row)
+{
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .threads = o->threads, .closure = o->closure,
+                                 .clusters = 1 + (int)strategy, .progress = progress_show, .context = progress };
+    struct refiner *r = oracles_open(o->oracle, o->release);
+    struct hierarchy h;
+    struct solve s;
+    const char *cause;
+    double clock, cpu;
+    int result = -1;
+    if (!r || oracles_set(r, o->settings, o->setting_count) < 0) {
+        refiner_close(r);
+        return -1;
+    }
+    row->strategy = clustering_names[strategy];
+    clock = seconds();
+    if (hierarchy_build_by(&h, scene->faces, scene->face_count, strategy, o->threads) < 0) {
+        refiner_close(r);
+        return report_error(o->scene, 0, "out of memory");
+    }
+    row->build = seconds() - clock;
+    describe_tree(row, &h);
+    hierarchy_free(&h);
+    forget_peak();
+    clock = seconds();
+    cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    if (solve_open(&s, scene, &how, &cause) < 0) {
+        report_error(o->scene, 0, "%s", cause);
+        refiner_close(r);
+        return -1;
+    }
+    if (solve_run(&s, r, &cause) < 0) {
+        report_error(o->scene, 0, "%s", cause);
+    } else {
+        row->clock = seconds() - clock;
+        row->cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+        row->memory = peak();
+        describe_solution(row, &s, reference);
+        result = 0;
+    }
+    progress_end(progress);
+    solve_close(&s);
+    refiner_close(r);
+    return result;
+}
+
+/* ---- outputs */
+
+static void print_heading(FILE *out, const struct options *o)
+{
+    fprintf(out, "%s, oracle %s, %d threads; error of B %s\n", o->scene, o->oracle, o->threads,
+            o->reference ? "per face against the reference, relative L1 by area" : "not known without --reference: look at the power imbalance");
+}
+
+static void print_head(FILE *out)
+{
+    fputs("strategy clusters depth crossed  build s   cpu s clock s     links  of groups      pairs       rays    MB  imbalance  error\n", out);
+}
+
+static void print_row(FILE *out, const struct row *r)
+{
+    fprintf(out, "%-8s %8u %5u %7.1f %8.2f %7.2f %7.2f %9llu  %9llu %10llu %10llu %5.0f   %6.2f %%", r->strategy, r->clusters, r->depth, r->crossed,
+            r->build, r->cpu, r->clock, (unsigned long long)r->links, (unsigned long long)r->groups, (unsigned long long)r->pairs,
+            (unsigned long long)r->rays, r->memory, 100 * r->imbalance);
+    if (isnan(r->error))
+        fputs("      -", out);
+    else
+        fprintf(out, " %4.2f %%", 100 * r->error);
+    fputs(r->converged ? "\n" : "  not converged\n", out);
+}
+
+static void print_csv(FILE *out, const struct table *t)
+{
+    int i;
+    fputs("strategy,clusters,depth,crossed,build_s,cpu_s,clock_s,elements,links,links_of_groups,pairs,rays,memory_mb,imbalance,error,converged\n", out);
+    for (i = 0; i < t->rows; i++) {
+        const struct row *r = &t->row[i];
+        fprintf(out, "%s,%u,%u,%.9g,%.4f,%.4f,%.4f,%u,%llu,%llu,%llu,%llu,%.1f,%.9g,", r->strategy, r->clusters, r->depth, r->crossed, r->build,
+                r->cpu, r->clock, r->elements, (unsigned long long)r->links, (unsigned long long)r->groups, (unsigned long long)r->pairs,
+                (unsigned long long)r->rays, r->memory, r->imbalance);
+        if (!isnan(r->error))
+            fprintf(out, "%.9g", r->error);
+        fprintf(out, ",%d\n", r->converged);
+    }
+}
+
+static void print_markdown(FILE *out, const struct table *t)
+{
+    const struct options *o = t->options;
+    const char *slash = strrchr(o->scene, '/');
+    int i;
+    fprintf(out, "`radiosity study clustering %s`, oracle `%s`, %d threads; error of B %s\n\n", slash ? slash + 1 : o->scene, o->oracle, o->threads,
+            o->reference ? "per face against a reference, relative L1 by area" : "not known: no reference was given");
+    fputs("| strategy | clusters | depth | crossed | build, s | cpu, s | clock, s | links | of groups | pairs | rays | MB | imbalance | error |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n", out);
+    for (i = 0; i < t->rows; i++) {
+        const struct row *r = &t->row[i];
+        fprintf(out, "| %s | %u | %u | %.1f | %.2f | %.1f | %.1f | %llu | %llu | %llu | %llu | %.0f | %.2f %% | ", r->strategy, r->clusters, r->depth,
+                r->crossed, r->build, r->cpu, r->clock, (unsigned long long)r->links, (unsigned long long)r->groups,
+                (unsigned long long)r->pairs, (unsigned long long)r->rays, r->memory, 100 * r->imbalance);
+        if (isnan(r->error))
+            fputs("- |\n", out);
+        else
+            fprintf(out, "%.2f %% |\n", 100 * r->error);
+    }
+}
+
+static int write_table(const char *path, const struct table *t)
+{
+    const char *dot = strrchr(path, '.');
+    struct atomic_file file;
+    if (atomic_open(&file, path))
+        return -1;
+    if (dot && strcmp(dot, ".md") == 0)
+        print_markdown(file.stream, t);
+    else
+        print_csv(file.stream, t);
+    return atomic_commit(&file);
+}
+
+/* Bars of each measure, the first strategy's being 1. */
+static void print_plot(FILE *out, const void *context)
+{
+    const struct table *t = context;
+    const int known = !isnan(t->row[0].error);
+    int i;
+    fprintf(out, "set style data histogram\nset style histogram clustered gap 1\nset style fill solid 0.8 border -1\n"
+                 "set ylabel 'times that of %s'\nset yrange [0:*]\nset grid ytics\nset key below horizontal\n$measures << EOD\nmeasure",
+            t->row[0].strategy);
+    for (i = 0; i < t->rows; i++)
+        fprintf(out, " %s", t->row[i].strategy);
+#define BARS(name, value) \
+    fprintf(out, "\n\"" name "\""); \
+    for (i = 0; i < t->rows; i++) { \
+        const struct row *r = &t->row[i], *first = &t->row[0]; \
+        fprintf(out, " %.6g", (double)first->value > 0 ? (double)r->value / (double)first->value : 0); \
+    }
+    BARS("cpu time", cpu)
+    BARS("links", links)
+    BARS("pairs", pairs)
+    BARS("rays", rays)
+    BARS("memory", memory)
+    if (known) {
+        BARS("error", error)
+    }
+#undef BARS
+    fprintf(out, "\nEOD\nplot for [i=2:%d] $measures using i:xtic(1) title columnheader(i)\n", t->rows + 1);
+}
+
+int study_clustering(const struct options *o, const struct scene *scene)
+{
+    struct table t = { .options = o };
+    struct faces_reference reference = { 0 };
+    struct progress progress;
+    int i, status = 1, only = o->only ? clustering_of(o->only) : -1;
+    if (o->reference && faces_reference_read(&reference, o->reference, scene) < 0)
+        return 1;
+    progress_start(&progress, o->quiet);
+    if (!o->quiet) {
+        print_heading(stdout, o);
+        print_head(stdout);
+        fflush(stdout);
+    }
+    for (i = 0; i < CLUSTERING_COUNT; i++) {
+        if (only >= 0 && i != only)
+            continue;
+        if (run(o, scene, &reference, &progress, (enum clustering)i, &t.row[t.rows]) < 0)
+            goto done;
+        if (!o->quiet) {
+            print_row(stdout, &t.row[t.rows]);
+            fflush(stdout);
+        }
+        t.rows++;
+    }
+    status = (o->out && write_table(o->out, &t) < 0) || (o->chart && chart_draw(o->chart, print_plot, &t) < 0);
+done:
+    faces_reference_free(&reference);
+    return status;
+}

@@ -1,0 +1,154 @@
+#!/bin/sh
+# check_emit.sh - what dagc emits beyond the plain function: proofs, differences, standalone text and the
+# program that ships it. DAGC names the command; a compiler that is missing is reported as skipped.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
+engine=$(dirname "$dagc")/../tests/runtime/embed_engine
+catalog=$top/tests/dagc/test_catalog.dag
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+count=0 bad=0
+
+check() { # NAME COMMAND...
+    name=$1
+    shift
+    count=$((count + 1))
+    if ! "$@" >out 2>&1; then
+        bad=$((bad + 1))
+        echo "failed: $name"
+        head -n 20 out
+    fi
+}
+status() { # WANTED COMMAND...
+    wanted=$1
+    shift
+    "$@"
+    got=$?
+    [ $got = "$wanted" ] || { echo "exit $got, not $wanted"; return 1; }
+}
+says() { # TEXT COMMAND...
+    text=$1
+    shift
+    "$@" 2>&1 | tee said | grep -q -- "$text" || { cat said; return 1; }
+}
+
+# ---- proofs
+for oracle in "$top"/examples/oracles/*.dag; do
+    [ "${oracle##*/}" != common.dag ] || continue # branches alone
+    check "prove ${oracle##*/}" "$dagc" --prove --instrument --trace "$oracle"
+done
+check "prove a user's tool and term" "$dagc" --prove --instrument --trace "$top/examples/user_tool/near_first.dag"
+check "prove branches and externs" says 'proved on all' "$dagc" -Wno-all --catalog "$catalog" --prove --instrument --trace "$top/tests/dagc/emit_branch.dag"
+check "60 random graphs" sh "$top/tests/dagc/prove.sh" "$dagc" 60
+cat >small.dag <<'END'
+oracle small {
+  param most : flux = 1 in [0, inf];
+  start a;
+  node a = look() { left -> b; right -> c; neither -> drop; }
+  node b = weigh(most = most, share = 0.5) { light -> c; heavy -> split; }
+  node c = measure() { done -> keep; }
+}
+END
+# A C compiler that breaks what it is given: the proof must notice.
+for change in 's/return DECISION_DROP/return DECISION_SPLIT/' 's/parameters->most, 0.5/1.5, 0.5/' 's/goto node_b/goto node_c/' \
+              's/discussion->terms.size = d.terms.size/(void)d.terms.size/'; do
+    printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@"\n' "$change" >broken
+    chmod +x broken
+    check "a fault: $change" status 1 env CC="$tmp/broken" "$dagc" -Wno-all --catalog "$catalog" --prove small.dag
+    check "its path: $change" says 'small: small_refine differs in' env CC="$tmp/broken" "$dagc" -Wno-all --catalog "$catalog" --prove small.dag
+done
+check "no compiler" status 1 env CC=no-such-compiler "$dagc" -Wno-all --catalog "$catalog" --prove small.dag
+check "nothing stays behind" sh -c "TMPDIR=$tmp $dagc -Wno-all --catalog $catalog --prove small.dag && ! ls -d $tmp/dagc.* 2>/dev/null"
+
+# ---- differences
+bf=$top/examples/oracles/bf.dag
+cp "$bf" other.dag # beside another common.dag
+sed 's/none -> hidden;  partial | all -> form/none -> hidden; partial -> subdivide_receiver; all -> form/' "$top/examples/oracles/common.dag" >common.dag
+check "diff: the same" status 0 "$dagc" diff "$bf" "$bf"
+check "diff: different" status 1 "$dagc" diff "$bf" other.dag
+check "diff: the witness" says 'visibility(rays = rays): partial' "$dagc" diff "$bf" other.dag
+check "diff: the decision" says '^+ other.dag decides subdivide_receiver after seen' "$dagc" diff "$bf" other.dag
+check "diff: trouble" status 2 "$dagc" diff "$bf" no-such-file.dag
+check "diff: usage" status 2 "$dagc" diff "$bf"
+cat >twice.dag <<'END'
+oracle small {
+  param most : flux = 1 in [0, inf];
+  start a;
+  node a = look() { left -> b; right -> c; neither -> drop; }
+  node b = weigh(most = most, share = 0.5) { light -> again; heavy -> split; }
+  node again = look() { left -> c; otherwise -> drop; }
+  node c = measure() { done -> keep; }
+}
+END
+check "diff: a question asked again has its answer" status 0 "$dagc" diff --catalog "$catalog" small.dag twice.dag
+sed 's/most = most/most = 1/' small.dag >number.dag
+check "diff: a number is not a parameter" status 1 "$dagc" diff --catalog "$catalog" small.dag number.dag
+sed 's/flux = 1 /flux = 2 /' small.dag >default.dag
+check "diff: a default" says '^+ parameter most = 2' "$dagc" diff --catalog "$catalog" small.dag default.dag
+cat >computed.dag <<'END'
+extern glow(size >= rough) : flux in [0, inf] "it shines";
+oracle computed {
+  param most : flux = 1 in [0, inf];
+  start a;
+  node a = weigh(most = max(lamp, glow) * 2, share = min(1, abs(size.fine))) { light -> b; heavy -> split; }
+  node b = weigh(most = most + lamp, share = 0.5) { light -> drop; heavy -> split; }
+}
+END
+check "diff: computed arguments" status 0 "$dagc" diff --catalog "$catalog" computed.dag computed.dag
+for change in 's/max(lamp/min(lamp/' 's/\* 2/* 3/' 's/most + lamp/lamp/' 's/size\.fine/size.rough/' 's/glow(size/glow(where, size/'; do
+    sed "$change" computed.dag >changed.dag
+    check "diff: $change" status 1 "$dagc" diff --catalog "$catalog" computed.dag changed.dag
+done
+check "diff: an expression as a witness" says 'weigh(most = max(lamp, extern glow) \* 2, share = min(1, abs(size.fine))): light' \
+    "$dagc" diff --catalog "$catalog" computed.dag changed.dag
+{ echo 'tool more() question answers (yes, no) "More?";'; cat computed.dag; } >more.dag
+check "diff: other tools" status 2 "$dagc" diff --catalog "$catalog" computed.dag more.dag
+
+# ---- standalone, and the program that ships it
+embed=$top/examples/embed
+mkdir made
+check "made anew" sh -c "cd made && $dagc --standalone --prefix refiner -o refiner.c --header refiner.h $top/examples/oracles/bf_guarded.dag"
+check "refiner.c is what dagc makes" cmp made/refiner.c "$embed/refiner.c"
+check "refiner.h is what dagc makes" cmp made/refiner.h "$embed/refiner.h"
+[ -x "$engine" ] && check "the engine's decisions" sh -c "$engine $top/examples/oracles/bf_guarded.dag >wanted"
+warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
+# Without a term, with one: struct terms has no more than that.
+echo 'oracle cluster { start a; node a = clusters() { receiver -> subdivide_receiver; emitter -> subdivide_emitter; otherwise -> stop; } }' >cluster.dag
+echo 'oracle dark { start a; node a = transfer(relative = 1) { otherwise -> stop; } }' >dark.dag
+for oracle in cluster dark; do
+    check "standalone $oracle" "$dagc" -Wno-all --standalone --instrument --trace -o $oracle.c --header $oracle.h $oracle.dag
+done
+check "no term" says '^    char none; ' cat cluster.h
+check "one term is there" grep -q '^    double form_factor;' dark.h
+check "another is not" sh -c "! grep -q 'visibility_level;' dark.h"
+for oracle in bf bf_guarded viewfactors; do
+    check "standalone $oracle" "$dagc" --standalone --instrument --trace -o $oracle.c --header $oracle.h "$top/examples/oracles/$oracle.dag"
+done
+check "standalone near_first" "$dagc" --standalone --instrument --prefix near_first -I "$top/examples/user_tool" -o near_first.c --header near_first.h "$top/examples/user_tool/near_first.dag"
+for compiler in "gcc -std=c99" "clang -std=c99" "tcc" "g++ -x c++ -std=c++17" "clang++ -x c++ -std=c++17"; do
+    if ! command -v "${compiler%% *}" >/dev/null; then
+        echo "skipped: ${compiler%% *} is not installed"
+        continue
+    fi
+    for oracle in bf bf_guarded viewfactors near_first cluster dark; do
+        check "$compiler $oracle" $compiler $warnings -O2 -c -o $oracle.o $oracle.c
+        # shellcheck disable=SC2016
+        [ "$compiler" = tcc ] || check "symbols of $oracle" sh -c "! nm -g --defined-only $oracle.o | grep -v ' ${oracle}_'"
+    done
+    check "$compiler embed" $compiler $warnings -O2 -o embed "$embed/main.c" "$embed/mesh.c" "$embed/refiner.c" -lm
+    check "$compiler runs" sh -c './embed >got'
+    [ -x "$engine" ] && check "$compiler decides as the engine does" cmp wanted got
+done
+[ -x "$engine" ] || echo "skipped: no $engine to compare with"
+check "--prefix" status 1 "$dagc" --standalone --prefix 9x -o x.c --header x.h "$bf"
+check "no --standalone" status 2 "$dagc" --prefix x "$bf"
+check "a proof writes nothing" status 2 "$dagc" --prove -o x.c "$bf"
+check "no header with a proof" status 2 "$dagc" --prove --header x.h "$bf"
+check "a proof of a drawing" status 2 "$dagc" --prove --emit=dot "$bf"
+check "no --header" status 2 "$dagc" --standalone -o x.c "$bf"
+
+echo "emit: $count checks, $bad failed"
+[ "$bad" = 0 ]

@@ -1,0 +1,103 @@
+/* check_statistics.c - counts of an interpreted graph against those of the refinement.
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include "runtime/make_solve.h"
+#include "oracle/statistics.h"
+#include "suite.h"
+
+/* An oracle that counts depths and records what links bring. */
+static const char counting[] =
+    "oracle counting \"bf, counted\" { start level;\n"
+    "  node level = clusters() { surfaces -> planes;  apart -> stop;  receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node planes = support_planes() { away -> stop;  otherwise -> deep; }\n"
+    "  node deep = count(as = receiver.depth) { done -> energy; }\n"
+    "  node energy = transfer(relative = 0.2) { dark -> stop;  below -> few;  above -> guard; }\n"
+    "  node guard = can_split(min_share = 1e-3) { both -> side;  neither -> few;\n"
+    "                         receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node side = larger() { receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node few = visibility(rays = 16) { none -> stop;  partial | all -> form; }\n"
+    "  node form = form_factor() { done -> note; }\n"
+    "  node note = record(value = emitter.radiosity * form_factor / scene.irradiance, slot = 3) { done -> known; }\n"
+    "  node known = record(value = 0.75) { done -> link; }\n"
+    "}\n";
+
+/* Counting changes nothing, and the counts are those of the refinement: every pair came in at the start, every node was
+ * asked as often as arcs led to it, every decision taken as often as it was carried out. */
+START_TEST(test_statistics)
+{
+    static const char *const decisions[] = { "link", "stop", "subdivide_receiver", "subdivide_emitter", "subdivide_both" };
+    struct scene scene;
+    struct solve s, plain;
+    struct solve_options options = quick(2);
+    struct statistics counted;
+    struct refiner *r, *other;
+    const char *cause;
+    uint64_t deep = 0, noted = 0, sum[5] = { 0 };
+    int i, k, j;
+    furnished(&scene, 1);
+    r = refiner_interpreted("counting.dag", counting, NULL, stderr);
+    other = refiner_interpreted("counting.dag", counting, NULL, stderr);
+    ck_assert_ptr_nonnull(r);
+    ck_assert_int_eq(statistics_take(&counted, r), -1); /* not asked for */
+    ck_assert_int_eq(refiner_count(r, 2), 0);
+    ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_run(&s, r, &cause), 0);
+    ck_assert_int_eq(solve_open(&plain, &scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_run(&plain, other, &cause), 0);
+    same_links(&s, &plain);
+    ck_assert_int_eq(statistics_take(&counted, r), 0);
+    ck_assert_str_eq(counted.nodes[0].name, "level");
+    ck_assert_uint_eq(counted.nodes[0].calls, s.refinement.pairs);
+    for (i = 0; i < counted.node_count; i++) {
+        const struct node_statistics *n = &counted.nodes[i];
+        uint64_t in = i == 0 ? s.refinement.pairs : 0, out = 0;
+        for (j = 0; j < counted.node_count; j++)
+            for (k = 0; k < counted.nodes[j].answer_count; k++)
+                in += strcmp(counted.nodes[j].answers[k].target, n->name) == 0 ? counted.nodes[j].answers[k].count : 0;
+        for (k = 0; k < n->answer_count; k++) {
+            out += n->answers[k].count;
+            for (j = 0; j < 5; j++)
+                sum[j] += strcmp(n->answers[k].target, decisions[j]) == 0 ? n->answers[k].count : 0;
+        }
+        ck_assert_uint_eq(in, n->calls);
+        ck_assert_uint_eq(out, n->calls);
+        if (strcmp(n->name, "deep") == 0)
+            deep = n->calls;
+        if (strcmp(n->name, "note") == 0)
+            noted = n->calls;
+    }
+    for (j = 0; j < 5; j++)
+        ck_assert_uint_eq(sum[j], s.refinement.decided[j]);
+    for (i = 0; i < STATISTICS_COUNTS; i++)
+        deep -= counted.counts[i];
+    ck_assert_uint_eq(deep, 0);
+    ck_assert_uint_gt(counted.counts[0], 0);
+    ck_assert_uint_gt(counted.counts[1], 0);
+    ck_assert_uint_eq(counted.counts[25], 0); /* can_split ends at 24 */
+    ck_assert_uint_gt(noted, 100);
+    ck_assert_uint_eq(counted.records[0].bins[-1 - STATISTICS_LOW], noted); /* 0.75 lies in [1/2, 1) */
+    noted -= counted.records[3].zero;
+    for (i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
+        noted -= counted.records[3].bins[i];
+        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.rays)->irradiance) /* no B is above 20 W/m2, and F <= 1 */
+            ck_assert_uint_eq(counted.records[3].bins[i], 0);
+    }
+    ck_assert_uint_eq(noted, 0);
+    statistics_free(&counted);
+    solve_close(&s);
+    solve_close(&plain);
+    refiner_close(r);
+    refiner_close(other);
+    made_close(&scene);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("statistics");
+    TCase *c = tcase_create("statistics");
+    tcase_set_timeout(c, 300);
+    tcase_add_test(c, test_statistics);
+    suite_add_tcase(suite, c);
+    return suite_failures(suite) != 0;
+}

@@ -1,0 +1,348 @@
+/* check_cut_output.c - what pictures, meshes and tables show of faces that were cut at load: the faces of the file, no more.
+ *
+ * A floor of 2 x 1 m with a wall on it at x = 1, over the first 0.6 m of its width (which cuts it along the whole width), and
+ * a box on the bright side. Radiosities are made up: bright on one side, dark on the other, black under the box.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <dirent.h>
+#include <math.h>
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <assimp/cimport.h>
+#include <assimp/scene.h>
+
+#include "output/contact.h"
+#include "output/export.h"
+#include "output/faces_csv.h"
+#include "geometry.h"
+#include "output/image.h"
+#include "output/leaf_mesh.h"
+#include "hierarchy/scene.h"
+#include "suite.h"
+
+static char folder[64];
+
+static const char *in_folder(const char *name)
+{
+    static char path[512];
+    snprintf(path, sizeof path, "%.60s/%.200s", folder, name);
+    return path;
+}
+
+static const char materials[] = "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl wall_2s\nKd 0.2 0.2 0.2\nnewmtl box\nKd 0.3 0.3 0.3\n";
+static const char room[] =
+    "mtllib cut.mtl\nusemtl floor\n"
+    "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"
+    "usemtl wall_2s\n"
+    "v 1 0 0\nv 1 0.6 0\nv 1 0.6 0.1\nv 1 0 0.1\nf 5 6 7 8\n"
+    "usemtl box\n"
+    "v 0.2 0.2 0\nv 0.8 0.2 0\nv 0.8 0.8 0\nv 0.2 0.8 0\nv 0.2 0.2 0.1\nv 0.8 0.2 0.1\nv 0.8 0.8 0.1\nv 0.2 0.8 0.1\n"
+    "f 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
+enum { FACES = 7 };
+static const double areas[FACES] = { 2, 0.06, 0.36, 0.06, 0.06, 0.06, 0.06 };
+
+struct stage {
+    struct scene scene;
+    struct hierarchy h;
+    struct solution solution;
+    struct vertex_values values;
+    double *b;
+};
+
+static void put(const char *name, const char *text)
+{
+    FILE *f = fopen(in_folder(name), "w");
+    ck_assert_ptr_nonnull(f);
+    ck_assert_int_ge(fputs(text, f), 0);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+static int under_box(const double p[3])
+{
+    return p[0] > 0.2 && p[0] < 0.8 && p[1] > 0.2 && p[1] < 0.8;
+}
+
+static double made_up(const double p[3])
+{
+    return under_box(p) ? 0 : p[0] < 1 ? 4 : 1;
+}
+
+/* An uneven quadtree on every part, then the radiosities. */
+static void stage_open(struct stage *s)
+{
+    uint32_t i;
+    int round;
+    put("cut.mtl", materials);
+    put("cut.obj", room);
+    ck_assert_int_eq(scene_read(&s->scene, in_folder("cut.obj"), NULL), 0);
+    ck_assert_uint_eq(s->scene.input_count, FACES);
+    ck_assert_uint_eq(s->scene.cut, 1);
+    ck_assert_uint_gt(s->scene.parts, 5);
+    ck_assert_int_eq(hierarchy_build(&s->h, s->scene.faces, s->scene.face_count), 0);
+    for (round = 0; round < 4; round++) {
+        uint32_t count = s->h.count;
+        for (i = 0; i < count; i++)
+            if (s->h.elements[i].vertices && !s->h.elements[i].children && (round < 2 || (s->h.elements[i].id >> 20) % 3 == 0))
+                ck_assert_int_eq(hierarchy_split(&s->h, i), 0);
+    }
+    s->b = malloc(s->h.count * sizeof *s->b);
+    ck_assert_ptr_nonnull(s->b);
+    for (i = 0; i < s->h.count; i++)
+        s->b[i] = s->h.elements[i].vertices && s->h.elements[i].face < s->scene.face_count
+                && s->scene.faces[s->h.elements[i].face].input == 0 ? made_up(s->h.elements[i].centre) : 2;
+    for (i = s->h.count; i-- > 0;) /* a face has its parts' mean */
+        if (s->h.elements[i].vertices && s->h.elements[i].children) {
+            int c;
+            s->b[i] = 0;
+            for (c = 0; c < 4; c++)
+                s->b[i] += s->b[s->h.elements[i].child + (uint32_t)c] * s->h.elements[s->h.elements[i].child + (uint32_t)c].area / s->h.elements[i].area;
+        }
+    s->solution = (struct solution){ &s->scene, &s->h, 1, s->b, s->b };
+    ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
+}
+
+static void stage_close(struct stage *s)
+{
+    vertex_values_free(&s->values);
+    hierarchy_free(&s->h);
+    scene_free(&s->scene);
+    free(s->b);
+}
+
+/* What is shown at the point (x, y) of the floor. */
+static double shown(const struct stage *s, double x, double y)
+{
+    const double p[3] = { x, y, 0 };
+    uint32_t f, i, k;
+    for (f = 0; f < s->scene.face_count; f++) {
+        const struct face *face = &s->scene.faces[f];
+        int inside = face->input == 0;
+        for (i = 0; inside && i < face->vertices; i++) {
+            const double *a = face->vertex[i], *b = face->vertex[i + 1 < face->vertices ? i + 1 : 0];
+            inside = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) >= 0;
+        }
+        if (inside) {
+            double value[3];
+            k = vertex_values_at(&s->values, &s->h, f, p, value);
+            (void)k;
+            return value[0];
+        }
+    }
+    ck_abort_msg("no part of the floor at %g %g", x, y);
+    return 0;
+}
+
+/* On both sides of the wall its own light, up to it; the same at the box's sides; past the wall's end half of the jump at the most. */
+START_TEST(test_walls_part)
+{
+    struct stage s;
+    double y, worst = 0;
+    stage_open(&s);
+    for (y = 0.01; y < 0.6 - 1 / 8.0; y += 0.01) {
+        ck_assert_double_eq_tol(shown(&s, 1 - 1e-6, y), 4, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, 1 + 1e-6, y), 1, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, 0.9, y), 4, 1e-4);
+    }
+    for (y = 0.21; y < 0.75; y += 0.01) {
+        ck_assert_double_eq_tol(shown(&s, 0.2 - 1e-6, y), 4, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, y, 0.2 - 1e-6), 4, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, y, 0.8 + 1e-6), 4, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, 0.2 + 1e-6, y), 0, 1e-4);
+    }
+    for (y = 0.61; y < 1; y += 0.01) {
+        double left = shown(&s, 1 - 1e-9, y), right = shown(&s, 1 + 1e-9, y);
+        worst = fmax(worst, fabs(left - right));
+        ck_assert(left > 1.2 && left < 3.8);
+    }
+    printf("past the wall's end the sides differ by at most %.2g\n", worst);
+    ck_assert_double_le(worst, 1.5); /* where no wall is, cut parts blend; their leaves differ in size, so not to the last digit */
+    stage_close(&s);
+}
+END_TEST
+
+/* From above: bright and dark meet at the wall with nothing between, and no pixel of the floor is empty. */
+START_TEST(test_picture)
+{
+    enum { W = 160, H = 80 };
+    const struct view view = { .eye = { 1, 0.5, 40 }, .at = { 1, 0.5, 0 }, .up = { 0, 1, 0 }, .fov = 2 * 0.7161599454704085 }; /* 1 m high at 40 m */
+    png_image image = { .version = PNG_IMAGE_VERSION };
+    unsigned char *rgb;
+    struct stage s;
+    int x, y, bright, dark;
+    stage_open(&s);
+    ck_assert_int_eq(image_write(in_folder("cut.png"), &s.solution, &s.values, &view, W, H, 0), 0);
+    ck_assert_int_ne(png_image_begin_read_from_file(&image, in_folder("cut.png")), 0);
+    image.format = PNG_FORMAT_GRAY;
+    rgb = malloc(PNG_IMAGE_SIZE(image));
+    ck_assert_int_ne(png_image_finish_read(&image, NULL, rgb, 0, NULL), 0);
+    bright = rgb[(H - 8) * W + 4];
+    dark = rgb[(H - 8) * W + W - 4];
+    ck_assert_int_gt(bright, dark + 40);
+    for (y = 2; y < H - 2; y++)
+        for (x = 2; x < W - 2; x++) {
+            double px = (x + 0.5) / 80, py = 1 - (y + 0.5) / 80;
+            int value = rgb[y * W + x];
+            if (fabs(px - 1) < 0.02 || (py > 0.45 && fabs(px - 1) < 0.55) || (px > 0.17 && px < 0.83 && py > 0.17 && py < 0.83))
+                continue; /* the wall's edge, what is blended past its end, the box */
+            ck_assert_msg(abs(value - (px < 1 ? bright : dark)) <= 1, "pixel %d %d is %d", x, y, value);
+        }
+    free(rgb);
+    stage_close(&s);
+}
+END_TEST
+
+/* The meshes that are written cover each face of the file once. */
+START_TEST(test_meshes)
+{
+    static const char *const names[] = { "cut.ply", "cut.gltf", "cut.glb", "cut_out.obj" };
+    struct stage s;
+    size_t n;
+    stage_open(&s);
+    for (n = 0; n < sizeof names / sizeof *names; n++) {
+        const struct aiScene *read;
+        double floor = 0, all = 0;
+        unsigned i, j, m;
+        ck_assert_int_eq(export_write(in_folder(names[n]), &s.solution, &s.values), 0);
+        read = aiImportFile(in_folder(names[n]), 0);
+        ck_assert_msg(read != NULL, "%s: %s", names[n], aiGetErrorString());
+        for (m = 0; m < read->mNumMeshes; m++)
+            for (i = 0; i < read->mMeshes[m]->mNumFaces; i++) {
+                const struct aiMesh *mesh = read->mMeshes[m];
+                const struct aiFace *f = &mesh->mFaces[i];
+                double sum[3] = { 0, 0, 0 }, high = 0;
+                for (j = 2; j < f->mNumIndices; j++) {
+                    double p[3][3], a[3], b[3], c[3];
+                    int k;
+                    for (k = 0; k < 3; k++) {
+                        const struct aiVector3D *v = &mesh->mVertices[f->mIndices[k == 0 ? 0 : j + (unsigned)k - 2]];
+                        p[k][0] = (double)v->x;
+                        p[k][1] = (double)v->y;
+                        p[k][2] = (double)v->z;
+                        high = fmax(high, p[k][2]);
+                    }
+                    sub3(a, p[1], p[0]);
+                    sub3(b, p[2], p[0]);
+                    cross3(c, a, b);
+                    for (k = 0; k < 3; k++)
+                        sum[k] += 0.5 * c[k];
+                }
+                all += length3(sum);
+                if (high <= 0) {
+                    ck_assert_double_gt(sum[2], 0);
+                    floor += sum[2];
+                }
+            }
+        ck_assert_double_eq_tol(floor, areas[0], 1e-5);
+        ck_assert_double_eq_tol(all, 2 + 2 * 0.06 + 0.36 + 4 * 0.06, 1e-5); /* the wall has two sides */
+        aiReleaseImport(read);
+    }
+    stage_close(&s);
+}
+END_TEST
+
+/* No T-junction: every corner of a polygon that lies on another's edge, of the same surface and side, is a corner of that, too. */
+START_TEST(test_no_gaps)
+{
+    struct stage s;
+    struct leaf_mesh m;
+    uint32_t i, j, n, inserted = 0;
+    stage_open(&s);
+    ck_assert_int_eq(leaf_mesh_build(&m, &s.solution, &s.values), 0);
+    for (i = 0; i < m.polygons; i++)
+        for (j = m.start[i]; j < m.start[i + 1]; j++) {
+            uint32_t a = m.corner[j], b = m.corner[j + 1 < m.start[i + 1] ? j + 1 : m.start[i]], c;
+            const struct shared_vertex *p = &s.values.vertices[a], *q = &s.values.vertices[b];
+            ck_assert_uint_ne(a, b);
+            for (c = 0; c < s.values.count; c++) {
+                const struct shared_vertex *r = &s.values.vertices[c];
+                double e[3], w[3], x[3], t, left[3];
+                if (r->material != p->material || dot3(r->normal, p->normal) < 0.99)
+                    continue;
+                sub3(e, q->position, p->position);
+                sub3(w, r->position, p->position);
+                cross3(x, e, w);
+                cross3(left, p->normal, e);
+                t = dot3(w, e) / dot3(e, e);
+                ck_assert_msg(!(length3(x) < 1e-9 && t > 1e-6 && t < 1 - 1e-6)
+                              || contact_sector(r->normal, r->contacts, (const double (*)[3])&s.values.contact[r->contact], left) != r->sector,
+                              "%g %g in the edge from %g %g to %g %g", r->position[0], r->position[1], p->position[0],
+                              p->position[1], q->position[0], q->position[1]);
+            }
+        }
+    for (i = 0; i < m.polygons; i++) {
+        n = m.start[i + 1] - m.start[i];
+        inserted += n > 4;
+    }
+    ck_assert_uint_gt(inserted, 20);
+    leaf_mesh_free(&m);
+    stage_close(&s);
+}
+END_TEST
+
+/* One row per face of the file; the floor's means are its parts' by area. */
+START_TEST(test_table)
+{
+    struct stage s;
+    char line[256];
+    FILE *f;
+    int row = 0;
+    stage_open(&s);
+    ck_assert_int_eq(faces_csv_write(in_folder("cut.csv"), &s.solution), 0);
+    f = fopen(in_folder("cut.csv"), "r");
+    ck_assert_ptr_nonnull(f);
+    ck_assert_ptr_nonnull(fgets(line, sizeof line, f));
+    ck_assert_str_eq(line, "face,material,area,E_0,rho_0,H_0,B_0\n");
+    for (; fgets(line, sizeof line, f); row++) {
+        char name[32];
+        double area, e, rho, h, b;
+        int face;
+        ck_assert_int_lt(row, FACES);
+        ck_assert_int_eq(sscanf(line, "%d,%31[^,],%lf,%lf,%lf,%lf,%lf", &face, name, &area, &e, &rho, &h, &b), 7);
+        ck_assert_int_eq(face, row);
+        ck_assert_double_eq_tol(area, areas[row], 1e-6);
+        ck_assert_double_eq_tol(h, row ? 2 : (4 * (1 - 0.36) + 1) / 2, 1e-5);
+        ck_assert_double_eq_tol(b, rho * h, 1e-9);
+        ck_assert_str_eq(name, row == 0 ? "floor" : row == 1 ? "wall_2s" : "box");
+    }
+    ck_assert_int_eq(row, FACES);
+    fclose(f);
+    stage_close(&s);
+}
+END_TEST
+
+static void remove_folder(void)
+{
+    DIR *d = opendir(folder);
+    struct dirent *e;
+    while (d && (e = readdir(d)))
+        if (e->d_name[0] != '.')
+            unlink(in_folder(e->d_name));
+    if (d)
+        closedir(d);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const char *temporary = getenv("TMPDIR");
+    Suite *suite = suite_create("what is written of cut faces");
+    TCase *c = tcase_create("output");
+    int failed;
+    snprintf(folder, sizeof folder, "%.40s/check_cut.XXXXXX", temporary ? temporary : "/tmp");
+    if (!mkdtemp(folder))
+        return EXIT_FAILURE;
+    tcase_set_timeout(c, 60);
+    tcase_add_test(c, test_walls_part);
+    tcase_add_test(c, test_picture);
+    tcase_add_test(c, test_meshes);
+    tcase_add_test(c, test_no_gaps);
+    tcase_add_test(c, test_table);
+    suite_add_tcase(suite, c);
+    failed = suite_failures(suite);
+    remove_folder();
+    return failed != 0;
+}

@@ -1,0 +1,115 @@
+#!/bin/sh
+# check_options.sh - what radiosity says to options that are empty, huge or malformed, and to outputs that cannot be written:
+# one line, at once, and nothing is left behind. RADIOSITY names the command.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+scenes=$top/examples/scenes
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+count=0 bad=0
+
+# STATUS TEXT ARGUMENT...: ends with this status, and says one line with this text and no word about anything empty.
+says() {
+    wanted=$1 text=$2
+    shift 2
+    count=$((count + 1))
+    "$radiosity" "$@" >out 2>err
+    status=$?
+    if [ $status != "$wanted" ] || [ "$(wc -l <err)" != 1 ] || ! grep -qF -- "$text" err || grep -qE "not;|''|^:" err || [ -s out ]; then
+        bad=$((bad + 1))
+        echo "failed: radiosity $*: exit $status, not $wanted with: $text"
+        cat err
+        head -n 3 out
+    fi
+    rm -f out err
+    if [ -n "$(ls -A)" ]; then
+        bad=$((bad + 1))
+        echo "failed: radiosity $* left $(ls -A)"
+        rm -rf ./*
+    fi
+}
+
+# ---- no value, or one that is none: wrong usage, exit 2
+scene=$scenes/furnace.obj
+for option in --oracle --release --set --tolerance --iterations --closure --statistics --threads -o --image --size --view --faces --json; do
+    says 2 "$option takes" solve "$scene" "$option" ""
+done
+for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
+for option in --thresholds --rays --chart -o; do says 2 "$option takes" study visibility "$scene" "$option" ""; done
+says 2 "--repeats takes" compare "$scene" --repeats ""
+says 2 "--oracle takes" solve "$scene" --oracle=
+says 2 "no command" ""
+says 2 "scene's name" solve ""
+says 2 "study what?" study ""
+says 2 "a value is missing after --image" solve "$scene" --image
+for value in 0 1 -1 nan inf 1e-400 x 1e-3x; do says 2 "--tolerance takes a number above 0 and below 1" solve "$scene" --tolerance $value; done
+for value in 0 -3 1.5 99999999999 x; do
+    says 2 "--iterations takes" solve "$scene" --iterations $value
+    says 2 "--threads takes" solve "$scene" --threads $value
+    says 2 "--repeats takes" compare "$scene" --repeats $value
+done
+for value in x 1x x1 0x1 1x0 20000x1 99999999999999999999x2 1x2x3 1 4294967297x1; do says 2 "--size takes WxH" solve "$scene" --size $value; done
+for value in 1 0,0,0 0,0,0:0,0,0 0,0,0:1,1,1: 0,0,0:1,1,1:200 inf,0,0:1,1,1 1e308,0,0:-1e308,0,0 nan,0,0:1,1,1; do
+    says 2 "--view takes" solve "$scene" --view $value
+done
+for value in 1e308 inf nan 0 -1 5,5 5,3 5, ,5 x 1,,2; do says 2 "--thresholds takes rising numbers from 1e-300 to 1e300" study visibility "$scene" --thresholds $value; done
+for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64,256,1024" study visibility "$scene" --rays $value; done
+says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
+
+# ---- parameters and oracles: exit 1
+says 1 "relative has no value" solve "$scene" --set relative=
+says 1 "'=1' names no parameter" solve "$scene" --set =1
+says 1 "'relative' names no parameter" solve "$scene" --set relative
+says 1 "'x' is not a number" solve "$scene" --set relative=x
+says 1 "'nan' is not a number" solve "$scene" --set relative=nan
+says 1 "out of range; relative takes 0 to inf" solve "$scene" --set relative=-1
+says 1 "relative=1e999: too large to be a number" solve "$scene" --set relative=1e999
+says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --set rays=16.5
+says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --set rays=1e30
+says 1 "has no parameter 'no'; it has epsilon" solve "$scene" --set no=1
+says 1 "no such oracle" solve "$scene" --oracle nix
+says 1 "clusters: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded" \
+    solve "$scene" --release hand
+
+# ---- outputs that cannot be written are told before the scene is read, which is not there
+says 1 "nowhere/x.ply: error: cannot write: No such file or directory; make the folder first" solve none.obj -o nowhere/x.ply
+for option in --image --faces --json --statistics; do
+    says 1 "make the folder first" solve none.obj $option nowhere/x
+    says 1 "give the name of a file, not of a folder" solve none.obj $option /
+done
+says 1 "make the folder first" compare none.obj --json nowhere/x
+says 1 "make the folder first" viewfactors none.obj -o nowhere/x.csv
+says 1 "make the folder first" viewfactors none.obj --json nowhere/x
+says 1 "make the folder first" study stability -o nowhere/x.csv
+says 1 "make the folder first" study visibility none.obj -o nowhere/x.csv
+says 1 "make the folder first" study visibility none.obj --chart nowhere/x.svg
+says 2 "two outputs would go there" solve none.obj --faces x --json x
+if [ "$(id -u)" != 0 ]; then
+    mkdir "$tmp-closed" && chmod 555 "$tmp-closed"
+    says 1 "choose a place where you may write" solve none.obj --faces "$tmp-closed/x"
+    rmdir "$tmp-closed"
+fi
+# What could be written is neither made nor touched when the run fails for another reason.
+says 1 "none.obj: error" solve none.obj --faces x.csv --json y.json --image z.png
+echo precious >../"$(basename "$tmp").kept"
+says 1 "none.obj: error" solve none.obj --faces ../"$(basename "$tmp").kept"
+count=$((count + 1))
+[ "$(cat ../"$(basename "$tmp").kept")" = precious ] || { bad=$((bad + 1)); echo "failed: an output was lost with the run"; }
+rm -f ../"$(basename "$tmp").kept"
+# A pipe nobody reads must not be waited for.
+count=$((count + 1))
+mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
+[ $? = 1 ] && grep -q none.obj err || { bad=$((bad + 1)); echo "failed: a pipe as output"; cat err; }
+
+# ---- a chart of a single threshold draws without a word
+if command -v gnuplot >/dev/null; then
+    count=$((count + 1))
+    "$radiosity" study visibility "$scenes/cornell.obj" --thresholds 5 --rays 4 --set unit_share=1e-3 --set reference=64 --set min_share=1e-3 --chart one.svg -q >out 2>err &&
+        [ -s one.svg ] && [ ! -s err ] && [ ! -s out ] || { bad=$((bad + 1)); echo "failed: a chart of one threshold"; cat err; }
+fi
+
+echo "options: $count checks, $bad failed"
+[ "$bad" = 0 ]

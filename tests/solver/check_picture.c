@@ -1,0 +1,702 @@
+/* check_picture.c - from a solution to pixels and meshes: interpolation, camera, exposure, exports.
+ *
+ * Solutions are made up, so that the right answer is known: constants, bilinear functions, colours
+ * that say where a face stands. Files are written to a folder of their own, removed at the end.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <dirent.h>
+#include <math.h>
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <assimp/cimport.h>
+#include <assimp/scene.h>
+
+#include "output/export.h"
+#include "output/exposure.h"
+#include "geometry.h"
+#include "output/image.h"
+#include "output/leaf_mesh.h"
+#include "output/raster.h"
+#include "suite.h"
+
+static char folder[64];
+
+static const char *in_folder(const char *name)
+{
+    static char path[16][512];
+    static int turn;
+    turn = (turn + 1) % 16;
+    snprintf(path[turn], sizeof path[turn], "%.60s/%.200s", folder, name);
+    return path[turn];
+}
+
+/* ---- a solution made by hand ---- */
+
+enum { FACES_MAX = 8, ELEMENTS_MAX = 60000 };
+
+struct stage {
+    struct face faces[FACES_MAX];
+    struct material materials[FACES_MAX];
+    struct input_face inputs[FACES_MAX];
+    struct scene scene;
+    struct hierarchy h;
+    struct solution solution;
+    struct vertex_values values;
+    double *b;
+};
+
+static struct stage *stage_new(uint32_t bands)
+{
+    struct stage *s = calloc(1, sizeof *s);
+    s->scene.faces = s->faces;
+    s->scene.materials = s->materials;
+    s->scene.inputs = s->inputs;
+    s->scene.bands = bands;
+    s->b = calloc(3 * ELEMENTS_MAX, sizeof *s->b);
+    return s;
+}
+
+static void stage_face(struct stage *s, uint32_t material, uint32_t vertices, const double v[4][3])
+{
+    uint32_t i = s->scene.face_count++;
+    memcpy(s->faces[i].vertex, v, vertices * sizeof v[0]);
+    s->faces[i].vertices = vertices;
+    s->faces[i].material = material;
+    s->faces[i].input = i;
+    s->inputs[i] = (struct input_face){material, 1};
+    s->scene.input_count = i + 1;
+    if (s->scene.material_count <= material)
+        s->scene.material_count = material + 1;
+}
+
+static void stage_build(struct stage *s)
+{
+    ck_assert_int_eq(hierarchy_build(&s->h, s->faces, s->scene.face_count), 0);
+}
+
+static int is_leaf(const struct stage *s, uint32_t i)
+{
+    return s->h.elements[i].vertices && !s->h.elements[i].children;
+}
+
+/* Split some leaves, others not, `rounds` times: a quadtree as uneven as they come. */
+static void stage_split(struct stage *s, int rounds)
+{
+    for (int r = 0; r < rounds; r++) {
+        uint32_t count = s->h.count;
+        for (uint32_t i = 0; i < count; i++)
+            if (is_leaf(s, i) && (s->h.elements[i].depth == 0 || (s->h.elements[i].id >> 20) % 3 == 0))
+                ck_assert_int_eq(hierarchy_split(&s->h, i), 0);
+    }
+    ck_assert_uint_lt(s->h.count, ELEMENTS_MAX);
+}
+
+static void stage_solve(struct stage *s)
+{
+    s->solution = (struct solution){&s->scene, &s->h, s->scene.bands, s->b, s->b};
+    ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
+}
+
+static void stage_free(struct stage *s)
+{
+    vertex_values_free(&s->values);
+    hierarchy_free(&s->h);
+    free(s->b);
+    free(s);
+}
+
+/* ---- interpolation ---- */
+
+static const double SQUARE[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+static const double SKEW[4][3] = {{0, 0, 1}, {3, 0.5, 1}, {2, 2, 1}, {0.25, 1, 1}};
+static const double BELOW[4][3] = {{0, -1, 0}, {1, -1, 0}, {1, 0, 0}, {0, 0, 0}};
+static const double TRIANGLE[4][3] = {{0, 0, 2}, {2, 0, 2}, {0, 1, 3}};
+
+/* From both sides of every leaf's every edge, at points a hair apart, the same value. */
+static void check_seams(const struct stage *s)
+{
+    int seams = 0;
+    for (uint32_t i = 0; i < s->h.count; i++) {
+        const struct element *e = &s->h.elements[i];
+        for (int j = 0; is_leaf(s, i) && j < e->vertices; j++)
+            for (double t = 0.03; t < 1; t += 0.11) {
+                double in[3], out[3], value[2][3];
+                const double *a = e->vertex[j], *b = e->vertex[(j + 1) % e->vertices];
+                for (int k = 0; k < 3; k++) {
+                    double on = a[k] + t * (b[k] - a[k]);
+                    in[k] = on + 1e-9 * (e->centre[k] - on);
+                    out[k] = on - 1e-9 * (e->centre[k] - on);
+                }
+                uint32_t p = vertex_values_at(&s->values, &s->h, e->face, in, value[0]);
+                uint32_t q = vertex_values_at(&s->values, &s->h, e->face, out, value[1]);
+                ck_assert_uint_eq(p, i);
+                seams += p != q;
+                ck_assert_double_eq_tol(value[0][0], value[1][0], 1e-6);
+            }
+    }
+    ck_assert_int_gt(seams, 1000);
+}
+
+START_TEST(test_no_seams)
+{
+    struct stage *s = stage_new(1);
+    stage_face(s, 0, 4, SQUARE);
+    stage_face(s, 0, 4, SKEW);
+    stage_face(s, 0, 3, TRIANGLE);
+    stage_build(s);
+    stage_split(s, 6);
+    for (uint32_t i = 0; i < s->h.count; i++)
+        s->b[i] = (double)(s->h.elements[i].id % 1000) / 100; /* as rough as can be */
+    stage_solve(s);
+    check_seams(s);
+    stage_free(s);
+}
+END_TEST
+
+/* Two faces side by side are one surface when they share plane and material, else not. */
+START_TEST(test_across_faces)
+{
+    for (uint32_t material = 0; material < 2; material++) {
+        struct stage *s = stage_new(1);
+        stage_face(s, 0, 4, SQUARE);
+        stage_face(s, material, 4, BELOW);
+        s->materials[1].exitance[0] = 7;
+        stage_build(s);
+        hierarchy_split(&s->h, s->h.face_element[0]);
+        for (uint32_t i = 0; i < s->h.count; i++)
+            s->b[i] = s->h.elements[i].face == 0 ? 1 : 9;
+        stage_solve(s);
+        double above[3] = {0.3, 1e-9, 0}, below[3] = {0.3, -1e-9, 0}, corner[3] = {0, 0, 0}, value;
+        vertex_values_at(&s->values, &s->h, 0, above, &value);
+        /* Shared: at (0, 0) leaves of 1/4 m2 with 1 and of 1 m2 with 9 meet; (1/4 + 9) / (5/4). */
+        ck_assert_double_eq_tol(value, material ? 1 : 7.4, 1e-6);
+        vertex_values_at(&s->values, &s->h, 1, below, &value);
+        ck_assert_double_eq_tol(value, material ? 9 : 7.4, 1e-6);
+        vertex_values_at(&s->values, &s->h, 1, corner, &value);
+        ck_assert_double_eq_tol(value, material ? 9 : 7.4, 1e-12);
+        stage_free(s);
+    }
+}
+END_TEST
+
+/* In one leaf: bilinear in a quad, linear in a triangle, whatever its shape. */
+START_TEST(test_shape_functions)
+{
+    const double trapezium[4][3] = {{0, 0, 0}, {4, 0, 0}, {3, 0, 1}, {1, 0, 1}};
+    struct stage *s = stage_new(1);
+    stage_face(s, 0, 4, SKEW);
+    stage_face(s, 1, 4, trapezium);
+    stage_face(s, 2, 4, SQUARE);
+    stage_face(s, 3, 3, TRIANGLE);
+    stage_build(s);
+    stage_solve(s);
+    for (uint32_t f = 0; f < 4; f++) {
+        const uint32_t *c = &s->values.corner[4 * (size_t)s->h.face_element[f]];
+        uint32_t n = s->faces[f].vertices;
+        for (uint32_t j = 0; j < n; j++)
+            s->values.value[c[j]] = 1 + j * j;
+        for (double u = 0; u <= 1; u += 0.0625)
+            for (double v = 0; v <= (n == 4 ? 1 : 1 - u); v += 0.0625) {
+                double w[4] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, p[3], value, wanted = 0;
+                if (n == 3)
+                    w[0] = 1 - u - v, w[1] = u, w[2] = v;
+                for (int k = 0; k < 3; k++) {
+                    p[k] = 0;
+                    for (uint32_t j = 0; j < n; j++)
+                        p[k] += w[j] * s->faces[f].vertex[j][k];
+                }
+                for (uint32_t j = 0; j < n; j++)
+                    wanted += w[j] * (1 + j * j);
+                vertex_values_at(&s->values, &s->h, f, p, &value);
+                ck_assert_double_eq_tol(value, wanted, 1e-9);
+            }
+    }
+    stage_free(s);
+}
+END_TEST
+
+/* ---- the camera ---- */
+
+START_TEST(test_view_parse)
+{
+    static const char *const bad[] = {"", "1,2,3", "1,2,3:", "1,2,3:4,5", "1,2,3:1,2,3", "1,2,3:4,5,6:", "1,2,3:4,5,6:0.5",
+                                      "1,2,3:4,5,6:171", "1,2,3:4,5,6:x", "1,2,3:4,5,6:60x", "nan,2,3:4,5,6", "1,2,3:inf,5,6",
+                                      "1, 2,3:4,5,6", "1,2,3:4,5,6:nan", "1;2;3:4;5;6", "1e200,0,0:-1e200,0,0"};
+    struct view v;
+    ck_assert_int_eq(view_parse("1,-2,3.5:4,5e-1,6", &v), 0);
+    ck_assert(v.eye[0] == 1 && v.eye[1] == -2 && v.eye[2] == 3.5 && v.at[0] == 4 && v.at[1] == 0.5 && v.at[2] == 6);
+    ck_assert(v.fov == 70 && v.up[0] == 0 && v.up[1] == 0 && v.up[2] == 0);
+    ck_assert_int_eq(view_parse("0,0,0:0,0,1:39.5", &v), 0);
+    ck_assert(v.fov == 39.5);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        ck_assert_msg(view_parse(bad[i], &v) == -1, "'%s' was taken", bad[i]);
+}
+END_TEST
+
+START_TEST(test_frame_straight_down)
+{
+    struct stage *s = stage_new(1);
+    double right[3], up[3], ahead[3];
+    struct view v;
+    stage_face(s, 0, 4, SQUARE); /* z is up */
+    for (int i = 0; i < 2; i++) {
+        view_parse(i ? "0,0,5:0,0,0" : "0,0,0:1,1,9", &v);
+        view_frame(&v, &s->scene, right, up, ahead);
+        ck_assert_double_eq_tol(length3(right), 1, 1e-12);
+        ck_assert_double_eq_tol(length3(up), 1, 1e-12);
+        ck_assert_double_eq_tol(fabs(dot3(up, ahead)) + fabs(dot3(up, right)) + fabs(dot3(right, ahead)), 0, 1e-12);
+    }
+    ck_assert_double_eq_tol(up[1], 1, 1e-12);
+    ck_assert_double_eq_tol(right[0], 1, 1e-12);
+    stage_free(s);
+}
+END_TEST
+
+struct pixels {
+    int width, height;
+    unsigned char *rgb;
+};
+
+static struct pixels load(const char *path)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    ck_assert_int_ne(png_image_begin_read_from_file(&image, path), 0);
+    image.format = PNG_FORMAT_RGB;
+    struct pixels p = {(int)image.width, (int)image.height, malloc(PNG_IMAGE_SIZE(image))};
+    ck_assert_int_ne(png_image_finish_read(&image, NULL, p.rgb, 0, NULL), 0);
+    return p;
+}
+
+static const unsigned char *at(const struct pixels *p, int x, int y)
+{
+    return &p->rgb[3 * (y * p->width + x)];
+}
+
+/* Which channel leads clearly, 0 to 2, or -1. */
+static int hue(const unsigned char *c)
+{
+    for (int k = 0; k < 3; k++)
+        if (c[k] > 40 + c[(k + 1) % 3] && c[k] > 40 + c[(k + 2) % 3])
+            return k;
+    return -1;
+}
+
+/* Squares 1 m wide at distance 4, before the eye at the origin that looks along +y, z up. */
+static void wall(struct stage *s, uint32_t material, double x, double y, double z, int back)
+{
+    double v[4][3] = {{x, y, z}, {x + 1, y, z}, {x + 1, y, z + 1}, {x, y, z + 1}};
+    if (back) {
+        double t[3];
+        memcpy(t, v[1], sizeof t);
+        memcpy(v[1], v[3], sizeof t);
+        memcpy(v[3], t, sizeof t);
+    }
+    stage_face(s, material, 4, (const double (*)[3])v);
+}
+
+static void colours(struct stage *s)
+{
+    for (uint32_t i = 0; i < s->h.count; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            s->b[3 * i + k] = s->faces[s->h.elements[i].face].material == k ? 2 : 0.02;
+}
+
+START_TEST(test_not_mirrored)
+{
+    struct stage *s = stage_new(3);
+    wall(s, 0, 1, 4, 0, 0);    /* red: right, just above the middle */
+    wall(s, 1, -2, 4, 1, 0);   /* green: left, higher */
+    wall(s, 2, 0, 4, -2, 0);   /* blue: low, right of the middle */
+    wall(s, 2, 0.5, 2, 0, 1);  /* a back before the red one: cut away */
+    wall(s, 1, -1, 8, -4, 0);  /* green behind the blue one: hidden there */
+    stage_build(s);
+    stage_split(s, 3);
+    colours(s);
+    stage_solve(s);
+    struct view v;
+    /* tan(fov / 2) = 0.5: at distance 4 the picture is 4 m high, hence 50 pixels to the metre. */
+    char text[64];
+    snprintf(text, sizeof text, "0,0,0:0,1,0:%.12f", 2 * atan(0.5) * 180 / 3.14159265358979323846);
+    ck_assert_int_eq(view_parse(text, &v), 0);
+    v.up[2] = 1;
+    ck_assert_int_eq(image_write(in_folder("a.png"), &s->solution, &s->values, &v, 240, 200, 0), 0);
+    struct pixels p = load(in_folder("a.png"));
+    ck_assert_int_eq(p.width, 240);
+    ck_assert_int_eq(p.height, 200);
+    /* x in pixels: 120 + 50 x, y: 100 - 50 z */
+    static const struct { int x, y, hue; } expected[] = {
+        {172, 98, 0},  {218, 98, 0},  {172, 52, 0},  {168, 75, -1}, {222, 75, -1}, {195, 102, -1}, {195, 47, -1},
+        {22, 48, 1},   {68, 2, 1},    {72, 25, -1},  {45, 52, -1},
+        {122, 152, 2}, {168, 198, 2}, {122, 198, 2}, {172, 175, -1}, {130, 148, -1},
+        {100, 190, 1}, {100, 80, -1},
+    };
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        ck_assert_msg(hue(at(&p, expected[i].x, expected[i].y)) == expected[i].hue, "pixel %d %d", expected[i].x, expected[i].y);
+    /* Away from the edges a surface of one radiosity is one colour. */
+    ck_assert_mem_eq(at(&p, 180, 90), at(&p, 210, 60), 3);
+    free(p.rgb);
+    stage_free(s);
+}
+END_TEST
+
+START_TEST(test_mesh_lines)
+{
+    struct stage *s = stage_new(1);
+    struct view v;
+    wall(s, 0, 0, 4, 0, 0);
+    stage_build(s);
+    hierarchy_split(&s->h, s->h.face_element[0]);
+    for (uint32_t i = 0; i < s->h.count; i++)
+        s->b[i] = 1;
+    stage_solve(s);
+    char text[64];
+    snprintf(text, sizeof text, "0.5,0,0.5:0.5,1,0.5:%.12f", 2 * atan(0.125) * 180 / 3.14159265358979323846); /* it fills the picture */
+    view_parse(text, &v);
+    v.up[2] = 1;
+    struct pixels p[2];
+    for (int mesh = 0; mesh < 2; mesh++) {
+        ck_assert_int_eq(image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh), 0);
+        p[mesh] = load(in_folder("m.png"));
+    }
+    for (int y = 0; y < 101; y++)
+        for (int x = 0; x < 101; x++) {
+            int plain = at(&p[0], x, y)[0], lined = at(&p[1], x, y)[0];
+            int line = abs(x - 50) == 0 || abs(y - 50) == 0 || x == 0 || y == 0 || x == 100 || y == 100;
+            int beside = abs(x - 50) == 1 || abs(y - 50) == 1 || x == 1 || y == 1 || x == 99 || y == 99;
+            if (line)
+                ck_assert_msg(lined < plain - 20, "no line at %d %d", x, y);
+            else if (!beside)
+                ck_assert_msg(lined == plain, "a line at %d %d", x, y);
+        }
+    free(p[0].rgb);
+    free(p[1].rgb);
+    stage_free(s);
+}
+END_TEST
+
+/* ---- shipped scenes: closed, so every sample meets a front ---- */
+
+static const struct { const char *name, *view; } shipped[] = {
+    {"room", "0.4,0.3,1.9:2.4,3.4,0.7"}, {"td", "2.55,3.75,1.35:2.5,4.6,0.76"}, {"td", "1.2,1.6,1.8:2.7,4.6,0.7"},
+    {"sejour", "5.5,0.25,1.9:2.4,3.2,0.6"}, {"sejour", "0.7,3.0,1.8:4.5,1.2,0.7"}, {"cornell", "0.278,0.273,0.05:0.278,0.273,1"},
+    {"furnace", "0.5,0.5,0.5:1,1,1"}, {"furnace_4", "0.1,0.2,0.3:1,0.5,0.5:120"}, {"maze_8", "0.6,0.6,1.5:3,0.65,1.2"},
+    {"room", NULL}, {"cornell", NULL}, {"td", NULL}, {"sejour", NULL},
+};
+
+START_TEST(test_watertight)
+{
+    char path[128];
+    struct scene s;
+    struct view v;
+    struct raster r;
+    snprintf(path, sizeof path, "examples/scenes/%s.obj", shipped[_i].name);
+    ck_assert_int_eq(scene_read(&s, path, NULL), 0);
+    if (shipped[_i].view)
+        ck_assert_int_eq(view_parse(shipped[_i].view, &v), 0);
+    else
+        ck_assert_int_eq(view_guess(&s, &v), 0);
+    enum { W = 320, H = 240 };
+    uint32_t *face = malloc(W * H * sizeof *face), misses = 0, backs = 0;
+    double *nearness = malloc(W * H * sizeof *nearness);
+    ck_assert_int_eq(raster_begin(&r, &s, &v, W, H, 1), 0);
+    raster_rows(&r, 0, H, face, nearness);
+    for (int i = 0; i < W * H; i++) {
+        misses += face[i] == NO_FACE;
+        for (uint32_t j = 0; j < r.count && face[i] != NO_FACE; j++)
+            if (r.faces[j].face == face[i]) {
+                backs += !r.faces[j].front;
+                break;
+            }
+    }
+    ck_assert_uint_eq(misses, 0);
+    ck_assert_uint_eq(backs, 0);
+    ck_assert_int_eq(view_up_axis(&s), strcmp(shipped[_i].name, "cornell") == 0 ? 1 : 2);
+    raster_end(&r);
+    free(face);
+    free(nearness);
+    scene_free(&s);
+}
+END_TEST
+
+/* Depth against the plane's equation: what the raster says is where the ray meets the face. */
+START_TEST(test_raster_depth)
+{
+    struct stage *s = stage_new(1);
+    struct view v;
+    struct raster r;
+    uint32_t face[64 * 48];
+    double nearness[64 * 48];
+    const double floor[4][3] = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}; /* reaches behind the eye */
+    stage_face(s, 0, 4, floor);
+    ck_assert_int_eq(view_parse("0,0,2:1,0,1:90", &v), 0);
+    ck_assert_int_eq(raster_begin(&r, &s->scene, &v, 64, 48, 0), 0);
+    raster_rows(&r, 0, 48, face, nearness);
+    for (int y = 0; y < 48; y++)
+        for (int x = 0; x < 64; x++) {
+            double d[3];
+            raster_direction(&r, x, y, d);
+            double t = -2 / d[2], px = t * d[0], py = t * d[1];
+            int hit = d[2] < 0 && fabs(px) < 50 && fabs(py) < 50;
+            ck_assert_int_eq(face[64 * y + x] == 0, hit);
+            if (hit)
+                ck_assert_double_eq_tol(nearness[64 * y + x], 1 / t, 1e-12);
+        }
+    raster_end(&r);
+    stage_free(s);
+}
+END_TEST
+
+/* ---- exposure ---- */
+
+START_TEST(test_exposure)
+{
+    /* The same whatever the unit; a lamp in sight changes nothing (it is not metered). */
+    double b[3] = {3, 2, 1}, dim[3], bright[3], zero[1] = {0};
+    struct meter_sample samples[3] = {{1, 1}, {2, 1}, {5, 2}}, scaled[3] = {{1000, 1}, {5000, 2}, {2000, 1}};
+    struct exposure e = exposure_measure(samples, 3), f = exposure_measure(scaled, 3);
+    exposure_apply(&e, b, 3, dim);
+    for (int k = 0; k < 3; k++)
+        b[k] *= 1000;
+    exposure_apply(&f, b, 3, bright);
+    for (int k = 0; k < 3; k++)
+        ck_assert_double_eq_tol(dim[k], bright[k], 1e-12);
+    ck_assert_double_eq_tol(dim[0] / dim[1], 1.5, 1e-12); /* the hue is kept */
+    ck_assert(dim[0] > 0.05 && dim[0] < 0.95);
+    f = exposure_measure(samples, 0);
+    exposure_apply(&f, zero, 1, dim);
+    ck_assert(dim[0] == 0 && dim[1] == 0 && dim[2] == 0);
+    /* sRGB: fixed points of the standard, 18 % grey is 118 (IEC 61966-2-1). */
+    ck_assert_int_eq(srgb_byte(0), 0);
+    ck_assert_int_eq(srgb_byte(1), 255);
+    ck_assert_int_eq(srgb_byte(0.18), 118);
+    ck_assert_int_eq(srgb_byte(-1), 0);
+    ck_assert_int_eq(srgb_byte(7), 255);
+}
+END_TEST
+
+START_TEST(test_bad_sizes)
+{
+    struct stage *s = stage_new(1);
+    stage_face(s, 0, 4, SQUARE);
+    stage_build(s);
+    stage_solve(s);
+    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 0, 10, 0), -1);
+    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0), -1);
+    ck_assert_int_eq(image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0), -1);
+    ck_assert_int_ne(access(in_folder("n.png"), F_OK), 0);
+    /* All black, and seen from outside: still a picture. */
+    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 1, 1, 1), 0);
+    stage_free(s);
+}
+END_TEST
+
+/* ---- exports ---- */
+
+static struct stage *coloured_stage(void)
+{
+    struct stage *s = stage_new(3);
+    stage_face(s, 0, 4, SQUARE);
+    stage_face(s, 1, 4, BELOW);
+    stage_face(s, 2, 3, TRIANGLE);
+    stage_build(s);
+    stage_split(s, 5);
+    colours(s);
+    stage_solve(s);
+    return s;
+}
+
+START_TEST(test_export_format)
+{
+    ck_assert_int_eq(export_format("a.ply"), EXPORT_PLY);
+    ck_assert_int_eq(export_format("d.x/a.GLTF"), EXPORT_GLTF);
+    ck_assert_int_eq(export_format("a.b.glb"), EXPORT_GLB);
+    ck_assert_int_eq(export_format("a.Obj"), EXPORT_OBJ);
+    ck_assert_int_eq(export_format("a.stl"), EXPORT_UNKNOWN);
+    ck_assert_int_eq(export_format("dir.ply/a"), EXPORT_UNKNOWN);
+    ck_assert_int_eq(export_format("ply"), EXPORT_UNKNOWN);
+    ck_assert_int_eq(export_format(""), EXPORT_UNKNOWN);
+}
+END_TEST
+
+/* Every edge inside a face is shared by two polygons, point for point: no T-junction. */
+START_TEST(test_leaf_mesh)
+{
+    struct stage *s = coloured_stage();
+    struct leaf_mesh m;
+    ck_assert_int_eq(leaf_mesh_build(&m, &s->solution, &s->values), 0);
+    for (int triangles = 0; triangles < 2; triangles++) {
+        uint32_t border = 0, pairs = 0;
+        for (uint32_t i = 0; i < m.polygons; i++)
+            for (uint32_t j = m.start[i]; j < m.start[i + 1]; j++) {
+                uint32_t a = m.corner[j], b = m.corner[j + 1 < m.start[i + 1] ? j + 1 : m.start[i]], found = 0;
+                for (uint32_t p = 0; p < m.polygons; p++)
+                    for (uint32_t q = m.start[p]; q < m.start[p + 1]; q++)
+                        found += m.corner[q] == b && m.corner[q + 1 < m.start[p + 1] ? q + 1 : m.start[p]] == a;
+                ck_assert_uint_le(found, 1);
+                pairs += found;
+                /* Alone: then it lies on the border of its face. */
+                const double *u = s->values.vertices[a].position, *v = s->values.vertices[b].position;
+                if (!found) {
+                    int on_border = 0;
+                    for (uint32_t f = 0; f < 3; f++)
+                        for (uint32_t k = 0; k < s->faces[f].vertices; k++) {
+                            double e[3], x[3], y[3], cx[3], cy[3];
+                            sub3(e, s->faces[f].vertex[(k + 1) % s->faces[f].vertices], s->faces[f].vertex[k]);
+                            sub3(x, u, s->faces[f].vertex[k]);
+                            sub3(y, v, s->faces[f].vertex[k]);
+                            cross3(cx, e, x);
+                            cross3(cy, e, y);
+                            on_border |= length3(cx) < 1e-12 && length3(cy) < 1e-12;
+                        }
+                    ck_assert(on_border);
+                    border++;
+                }
+            }
+        ck_assert_uint_gt(pairs, 100);
+        ck_assert_uint_gt(border, 10);
+        if (!triangles)
+            ck_assert_int_eq(leaf_mesh_triangulate(&m, &s->values), 0);
+    }
+    leaf_mesh_free(&m);
+    stage_free(s);
+}
+END_TEST
+
+/* Written files through Assimp: the area of all, and each vertex's colour says its face's. */
+static void check_read_back(const char *path, int y_up)
+{
+    const struct aiScene *scene = aiImportFile(path, 0);
+    ck_assert_msg(scene != NULL, "%s: %s", path, aiGetErrorString());
+    double area = 0, highest = -INFINITY;
+    uint32_t coloured = 0;
+    ck_assert_uint_ge(scene->mNumMeshes, 1);
+    const struct aiMesh *m = scene->mMeshes[0];
+    ck_assert_ptr_nonnull(m->mColors[0]);
+    struct aiMatrix4x4 t = scene->mRootNode->mTransformation;
+    if (!scene->mRootNode->mNumMeshes)
+        aiMultiplyMatrix4(&t, &scene->mRootNode->mChildren[0]->mTransformation);
+    for (uint32_t i = 0; i < m->mNumFaces; i++) {
+        double v[64][3], a[3], b[3], c[3], sum[3] = {0, 0, 0};
+        ck_assert_uint_le(m->mFaces[i].mNumIndices, 64);
+        for (uint32_t j = 0; j < m->mFaces[i].mNumIndices; j++) {
+            const struct aiVector3D *p = &m->mVertices[m->mFaces[i].mIndices[j]];
+            v[j][0] = (double)p->x;
+            v[j][1] = (double)p->y;
+            v[j][2] = (double)p->z;
+        }
+        for (uint32_t j = 2; j < m->mFaces[i].mNumIndices; j++) {
+            sub3(a, v[j - 1], v[0]);
+            sub3(b, v[j], v[0]);
+            cross3(c, a, b);
+            for (int k = 0; k < 3; k++)
+                sum[k] += 0.5 * c[k];
+        }
+        area += length3(sum);
+    }
+    for (uint32_t i = 0; i < m->mNumVertices; i++) {
+        const struct aiColor4D *c = &m->mColors[0][i];
+        struct aiVector3D p = m->mVertices[i];
+        double x = (double)p.x, y = (double)p.y, z = (double)p.z;
+        int k = z > 1.5 ? 2 : y > 1e-6 ? 0 : y < -1e-6 ? 1 : -1;
+        double channel[3] = {(double)c->r, (double)c->g, (double)c->b};
+        for (int o = 0; o < 3 && k >= 0; o++)
+            ck_assert_msg(o == k || channel[k] > channel[o] + 0.2, "%s: vertex %g %g %g is %g %g %g", path, x, y, z, channel[0],
+                          channel[1], channel[2]);
+        coloured += k >= 0;
+        aiTransformVecByMatrix4(&p, &t);
+        highest = fmax(highest, (double)(y_up ? p.y : p.z));
+    }
+    ck_assert_uint_gt(coloured, 50);
+    ck_assert_double_eq_tol(area, 2 + sqrt(2), 1e-5); /* two unit squares, half of |(2 0 0) x (0 1 1)| */
+    ck_assert_double_eq_tol(highest, 3, 1e-6);
+    aiReleaseImport(scene);
+}
+
+START_TEST(test_exports)
+{
+    static const char *const names[] = {"o.ply", "o.gltf", "o.glb", "o.obj"};
+    struct stage *s = coloured_stage();
+    for (int i = 0; i < 4; i++) {
+        ck_assert_int_eq(export_write(in_folder(names[i]), &s->solution, &s->values), 0);
+        check_read_back(in_folder(names[i]), i == 1 || i == 2);
+    }
+    ck_assert_int_eq(export_write(in_folder("o.stl"), &s->solution, &s->values), -1);
+    ck_assert_int_eq(export_write(in_folder("no/o.gltf"), &s->solution, &s->values), -1);
+    ck_assert_int_eq(export_write(in_folder("no/o.ply"), &s->solution, &s->values), -1);
+    stage_free(s);
+}
+END_TEST
+
+/* The bytes of a PLY: header as documented, then radiosity in W/m2 behind each vertex. */
+START_TEST(test_ply_bytes)
+{
+    struct stage *s = stage_new(1);
+    stage_face(s, 0, 4, SQUARE);
+    stage_build(s);
+    s->b[s->h.face_element[0]] = 12.5;
+    stage_solve(s);
+    ck_assert_int_eq(export_write(in_folder("b.ply"), &s->solution, &s->values), 0);
+    FILE *f = fopen(in_folder("b.ply"), "rb");
+    unsigned char bytes[2048];
+    size_t size = fread(bytes, 1, sizeof bytes - 1, f);
+    fclose(f);
+    bytes[size] = 0;
+    const char *end = strstr((const char *)bytes, "end_header\n");
+    ck_assert_ptr_nonnull(end);
+    ck_assert_ptr_nonnull(strstr((const char *)bytes, "element vertex 4\n"));
+    ck_assert_ptr_nonnull(strstr((const char *)bytes, "property float radiosity_0\nelement face 1\n"));
+    const unsigned char *body = (const unsigned char *)end + strlen("end_header\n");
+    ck_assert_uint_eq((size_t)(bytes + size - body), 4 * 19 + 5 * 4);
+    static const unsigned char twelve_and_a_half[4] = {0, 0, 0x48, 0x41};
+    for (int i = 0; i < 4; i++)
+        ck_assert_mem_eq(body + 19 * i + 15, twelve_and_a_half, 4);
+    static const unsigned char four[4] = {4, 0, 0, 0};
+    ck_assert_mem_eq(body + 4 * 19, four, 4);
+    stage_free(s);
+}
+END_TEST
+
+static void remove_folder(void)
+{
+    DIR *d = opendir(folder);
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (e->d_name[0] != '.')
+            unlink(in_folder(e->d_name));
+    if (d)
+        closedir(d);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const char *temporary = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%.40s/check_picture.XXXXXX", temporary ? temporary : "/tmp");
+    if (!mkdtemp(folder))
+        return EXIT_FAILURE;
+    Suite *suite = suite_create("picture");
+    TCase *t = tcase_create("picture");
+    tcase_set_timeout(t, 60);
+    tcase_add_test(t, test_no_seams);
+    tcase_add_test(t, test_across_faces);
+    tcase_add_test(t, test_shape_functions);
+    tcase_add_test(t, test_view_parse);
+    tcase_add_test(t, test_frame_straight_down);
+    tcase_add_test(t, test_not_mirrored);
+    tcase_add_test(t, test_mesh_lines);
+    tcase_add_loop_test(t, test_watertight, 0, sizeof shipped / sizeof *shipped);
+    tcase_add_test(t, test_raster_depth);
+    tcase_add_test(t, test_exposure);
+    tcase_add_test(t, test_bad_sizes);
+    tcase_add_test(t, test_export_format);
+    tcase_add_test(t, test_leaf_mesh);
+    tcase_add_test(t, test_exports);
+    tcase_add_test(t, test_ply_bytes);
+    suite_add_tcase(suite, t);
+    int failed = suite_failures(suite);
+    remove_folder();
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}

@@ -1,0 +1,592 @@
+/* check_scene.c - the scene reader, the helpers below it, and the writers of tables and files.
+ *
+ * Facts come from outside: the scenes' README, geometry done by hand, a second and dumb parse of
+ * the OBJ text. Files are written to a folder of their own, which is removed at the end.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <dirent.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "util/atomic_file.h"
+#include "output/faces_csv.h"
+#include "hierarchy/polygon.h"
+#include "hierarchy/scene.h"
+#include "suite.h"
+
+static const char SCENES[] = "examples/scenes/";
+static const char MTL[] = "newmtl a\nKd 0.5 0.5 0.5\nnewmtl b_2s\nKd 0.25 0.5 0.75\nKe 3 2 1\nnewmtl black\nKd 0 0 0\n";
+static const char SQUARE[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+static char folder[64];
+static char last_error[2048];
+
+static const char *in_folder(const char *name)
+{
+    static char path[64][512]; /* long enough a memory for any one test */
+    static int turn;
+    turn = (turn + 1) % 64;
+    snprintf(path[turn], sizeof path[turn], "%.60s/%.200s", folder, name);
+    return path[turn];
+}
+
+static const char *write_text(const char *name, const char *text)
+{
+    const char *path = in_folder(name);
+    FILE *f = fopen(path, "w");
+    ck_assert_ptr_nonnull(f);
+    fputs(text, f);
+    ck_assert_int_eq(fclose(f), 0);
+    return path;
+}
+
+static char *read_text(const char *path)
+{
+    FILE *f = fopen(path, "r");
+    ck_assert_ptr_nonnull(f);
+    char *text = calloc(1, 1 << 20);
+    ck_assert_uint_gt(fread(text, 1, (1 << 20) - 1, f), 0);
+    fclose(f);
+    return text;
+}
+
+/* Read a scene with stderr kept in last_error. */
+static int read_scene(struct scene *s, const char *path, const struct scene_options *options)
+{
+    const char *log = in_folder("stderr");
+    fflush(stderr);
+    int saved = dup(2), to = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ck_assert(saved >= 0 && to >= 0);
+    dup2(to, 2);
+    int result = scene_read(s, path, options);
+    fflush(stderr);
+    dup2(saved, 2);
+    close(saved);
+    close(to);
+    FILE *f = fopen(log, "r");
+    size_t size = fread(last_error, 1, sizeof last_error - 1, f);
+    last_error[size] = 0;
+    fclose(f);
+    return result;
+}
+
+static int read_obj(struct scene *s, const char *body)
+{
+    char text[8192];
+    write_text("m.mtl", MTL);
+    snprintf(text, sizeof text, "mtllib m.mtl\n%s", body);
+    return read_scene(s, write_text("s.obj", text), NULL);
+}
+
+static void expect_error(const char *body, const char *what)
+{
+    struct scene s;
+    ck_assert_int_eq(read_obj(&s, body), -1);
+    ck_assert_msg(strstr(last_error, what) != NULL, "'%s' is not in '%s'", what, last_error);
+    ck_assert_msg(strstr(last_error, ": error: ") != NULL, "%s", last_error);
+    ck_assert_msg(strchr(last_error, '\n') == last_error + strlen(last_error) - 1, "one line: %s", last_error);
+    ck_assert_uint_eq(s.face_count, 0);
+    ck_assert_ptr_null(s.faces);
+}
+
+static double total_area(const struct scene *s)
+{
+    double area = 0;
+    for (uint32_t i = 0; i < s->input_count; i++)
+        area += s->inputs[i].area;
+    return area;
+}
+
+static double face_area(const struct face *f)
+{
+    double v[4][3], normal[3];
+    memcpy(v, f->vertex, sizeof v);
+    return polygon_normal(v, f->vertices, normal);
+}
+
+/* ---- scenes that ship, against their README ---- */
+
+static const struct fact {
+    const char *name;
+    unsigned polygons, triangles, bands;
+    double area, watts[3];
+} facts[] = {
+    {"cornell", 21, 2, 3, 2.225, {0.732, 0.4905, 0.1261}},
+    {"room", 185, 0, 3, 99.12, {93.6, 98.8, 109.2}},
+    {"td", 1640, 100, 3, 123.8, {60.01, 56.58, 48.7}},
+    {"maze_8", 146, 0, 3, 603.9, {180, 174, 156}},
+    {"maze_16", 519, 0, 3, 2457, {750, 725, 650}},
+    {"sejour", 10421, 1144, 3, 241.1, {130.1, 136.8, 147.3}},
+    {"furnace", 6, 0, 1, 6, {6, 6, 6}},
+    {"furnace_4", 96, 0, 1, 6, {6, 6, 6}},
+};
+
+START_TEST(test_shipped)
+{
+    const struct fact *f = &facts[_i];
+    char path[128];
+    struct scene s;
+    snprintf(path, sizeof path, "%s%s.obj", SCENES, f->name);
+    ck_assert_int_eq(read_scene(&s, path, NULL), 0);
+    ck_assert_str_eq(last_error, "");
+    ck_assert_uint_eq(s.input_count, f->polygons);
+    ck_assert_uint_eq(s.face_count, f->polygons + s.parts - s.cut);
+    ck_assert_uint_eq(s.dropped, 0);
+    ck_assert_uint_eq(s.bands, f->bands);
+    unsigned triangles = 0;
+    double area = 0;
+    double watts[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < s.face_count; i++) {
+        const struct material *m = &s.materials[s.faces[i].material];
+        int first = i == 0 || s.faces[i].input != s.faces[i - 1].input;
+        int last = i + 1 == s.face_count || s.faces[i].input != s.faces[i + 1].input;
+        triangles += first && last && s.faces[i].vertices == 3;
+        for (int k = 0; k < 3; k++)
+            watts[k] += face_area(&s.faces[i]) * m->exitance[k];
+        /* Parts of one polygon are neighbours, and make it up. */
+        ck_assert_uint_eq(s.faces[i].input, i == 0 ? 0 : s.faces[i - 1].input + (uint32_t)first);
+        ck_assert_uint_eq(s.faces[i].back, 0);
+        area = face_area(&s.faces[i]) + (first ? 0 : area);
+        if (last)
+            ck_assert_double_eq_tol(area, s.inputs[s.faces[i].input].area, 1e-12);
+    }
+    ck_assert_uint_le(triangles, f->triangles);
+    ck_assert_uint_ge(triangles + s.cut, f->triangles);
+    ck_assert_double_eq_tol(total_area(&s), f->area, 6e-4 * f->area);
+    for (int k = 0; k < 3; k++)
+        ck_assert_double_eq_tol(watts[k], f->watts[k], 6e-4 * f->watts[k]);
+    scene_free(&s);
+}
+END_TEST
+
+/* Faces in the order of the file's f lines, by a parse that knows nothing but v and f. */
+static void compare_order(const char *path)
+{
+    static double v[40000][3];
+    struct scene s;
+    char line[512];
+    unsigned vertices = 0, faces = 0;
+    uint32_t next = 0;
+    ck_assert_int_eq(read_scene(&s, path, NULL), 0);
+    FILE *f = fopen(path, "r");
+    while (fgets(line, sizeof line, f)) {
+        if (line[0] == 'v' && line[1] == ' ') {
+            ck_assert_int_eq(sscanf(line + 2, "%lf %lf %lf", &v[vertices][0], &v[vertices][1], &v[vertices][2]), 3);
+            vertices++;
+        } else if (line[0] == 'f') {
+            /* Every corner of the file's polygon is one of its face's, or of its parts' when it was cut. */
+            uint32_t first = next;
+            int corners = 0;
+            char *rest = NULL;
+            ck_assert_uint_lt(next, s.face_count);
+            while (next < s.face_count && s.faces[next].input == faces)
+                next++;
+            ck_assert_uint_gt(next, first);
+            for (char *word = strtok_r(line + 2, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest), corners++) {
+                const double *p = v[atoi(word) - 1];
+                int found = 0;
+                for (uint32_t i = first; i < next; i++)
+                    for (uint32_t j = 0; j < s.faces[i].vertices; j++) {
+                        const double *q = s.faces[i].vertex[j];
+                        found |= fabs(p[0] - q[0]) < 2e-6 && fabs(p[1] - q[1]) < 2e-6 && fabs(p[2] - q[2]) < 2e-6;
+                    }
+                ck_assert(found);
+            }
+            if (next == first + 1)
+                ck_assert_int_eq((int)s.faces[first].vertices, corners);
+            faces++;
+        }
+    }
+    fclose(f);
+    ck_assert_uint_eq(faces, s.input_count);
+    scene_free(&s);
+}
+
+START_TEST(test_order)
+{
+    compare_order("examples/scenes/room.obj");
+    compare_order("examples/scenes/sejour.obj");
+    /* Groups and objects that come back, and runs of one material: Assimp would gather them. */
+    char text[1024];
+    write_text("m.mtl", MTL);
+    snprintf(text, sizeof text, "mtllib m.mtl\no one\n%sv 0 0 1\nv 0 0 2\ng x\nusemtl a\nf 1 2 3\nusemtl black\nf 1 2 4\n"
+             "o two\nusemtl a\nf 1 2 5\ng y\nf 1 2 6\no one\nusemtl black\nf 2 3 5\ng x\nusemtl a\nf 3 4 5\no two\nusemtl black\nf 3 4 6\n", SQUARE);
+    compare_order(write_text("order.obj", text));
+}
+END_TEST
+
+/* ---- shapes ---- */
+
+START_TEST(test_two_sided)
+{
+    struct scene s;
+    char body[512];
+    snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 1 2 3\n", SQUARE);
+    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_uint_eq(s.face_count, 3);
+    ck_assert_uint_eq(s.input_count, 2);
+    ck_assert_uint_eq(s.faces[0].back, 0);
+    ck_assert_uint_eq(s.faces[1].back, 1);
+    ck_assert_uint_eq(s.faces[1].input, 0);
+    ck_assert_uint_eq(s.faces[2].input, 1);
+    for (int i = 0; i < 4; i++)
+        ck_assert_mem_eq(s.faces[0].vertex[i], s.faces[1].vertex[3 - i], sizeof s.faces[0].vertex[0]);
+    ck_assert_double_eq_tol(s.inputs[0].area, 1, 1e-12); /* one side */
+    const struct material *m = &s.materials[s.faces[0].material];
+    ck_assert_str_eq(m->name, "b_2s");
+    ck_assert_int_eq(m->two_sided, 1);
+    for (int k = 0; k < 3; k++) {
+        ck_assert_double_eq(m->reflectance[k], 0.25 * (k + 1));
+        ck_assert_double_eq(m->exitance[k], 3 - k);
+    }
+    ck_assert_uint_eq(s.bands, 3);
+    scene_free(&s);
+    const struct scene_options all = {.two_sided = 1};
+    ck_assert_int_eq(read_scene(&s, in_folder("s.obj"), &all), 0);
+    ck_assert_uint_eq(s.face_count, 4);
+    scene_free(&s);
+}
+END_TEST
+
+START_TEST(test_polygons)
+{
+    static const struct { const char *body; unsigned faces; double area; } cases[] = {
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0.001\nv 0 1 0\nf 1 2 3 4\n", 2, 1},              /* not flat */
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0.0001\nv 0 1 0\nf 1 2 3 4\n", 1, 1},             /* flat enough */
+        {"v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n", 2, 1},              /* an arrow head, notch at (.5, .5) */
+        {"v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n", 4, 3}, /* an L */
+        {"v 0 0 0\nv 3 0 0\nv 3 3 0\nv 2 3 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6 7 8\n", 6, 7}, /* a U */
+        {"v 1 0 0\nv 0.5 0.8660254 0\nv -0.5 0.8660254 0\nv -1 0 0\nv -0.5 -0.8660254 0\nv 0.5 -0.8660254 0\nf 1 2 3 4 5 6\n",
+         4, 2.598076},                                                            /* a hexagon: 3 sqrt(3) / 2 */
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 3\nf -4 -3/1/1 -2//7 -1\n", 2, 1.5}, /* repeated; relative; odd parts */
+        {"v 0 0 0\nv 1 0 0\\\n\nv 1 1 0\r\nv 0 1 0\nf 1 2 \\\n 3 4\r\n", 1, 1},         /* continued lines, CR */
+        {"v 0 0 0\n v .5 0 0\n\tv .5 +.5 0\n f 1 2 3\n", 1, 0.125},                     /* bare points, indents */
+    };
+    struct scene s;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ck_assert_int_eq(read_obj(&s, cases[i].body), 0);
+        ck_assert_msg(s.face_count == cases[i].faces, "case %zu: %u faces", i, (unsigned)s.face_count);
+        double area = 0;
+        for (uint32_t j = 0; j < s.face_count; j++) {
+            double v[4][3], normal[3];
+            memcpy(v, s.faces[j].vertex, sizeof v);
+            area += polygon_normal(v, s.faces[j].vertices, normal);
+            ck_assert_msg(normal[2] > 0.99, "case %zu: face %u turned over", i, (unsigned)j);
+        }
+        ck_assert_double_eq_tol(area, cases[i].area, 2e-6);
+        ck_assert_double_eq_tol(total_area(&s), cases[i].area, 2e-6);
+        scene_free(&s);
+    }
+    /* Both halves of a quad that is not flat are one face of the file. */
+    ck_assert_int_eq(read_obj(&s, cases[0].body), 0);
+    ck_assert_uint_eq(s.input_count, 1);
+    ck_assert_uint_eq(s.faces[0].input + s.faces[1].input, 0);
+    scene_free(&s);
+}
+END_TEST
+
+/* A star with many points: ear clipping against the area by the shoelace formula. */
+START_TEST(test_star)
+{
+    enum { N = 400 };
+    static double v[N][3];
+    static uint32_t triangle[N][3], scratch[N];
+    double shoelace = 0, sum = 0;
+    for (int i = 0; i < N; i++) {
+        double angle = 2 * 3.14159265358979323846 * i / N, radius = i % 2 ? 0.3 : 1.0;
+        v[i][0] = radius * cos(angle);
+        v[i][1] = radius * sin(angle);
+        v[i][2] = 5 + 0.5 * v[i][0]; /* in a tilted plane */
+    }
+    for (int i = 0; i < N; i++)
+        shoelace += 0.5 * (v[i][0] * v[(i + 1) % N][1] - v[(i + 1) % N][0] * v[i][1]);
+    uint32_t count = polygon_triangulate(v, N, triangle, scratch);
+    ck_assert_uint_eq(count, N - 2);
+    for (uint32_t i = 0; i < count; i++) {
+        double t[3][3], normal[3];
+        for (int k = 0; k < 3; k++)
+            memcpy(t[k], v[triangle[i][k]], sizeof t[k]);
+        sum += polygon_normal(t, 3, normal);
+        ck_assert(normal[2] > 0);
+    }
+    ck_assert_double_eq_tol(sum, shoelace * sqrt(1.25), 1e-12);
+}
+END_TEST
+
+START_TEST(test_dropped)
+{
+    struct scene s;
+    char body[512];
+    snprintf(body, sizeof body, "%sv 0.5 0 0\nusemtl a\nf 1 2 5\nf 1 1 2\nf 1 2\nf 1\nf 1 2 3 4\nl 1 2\np 3\n", SQUARE);
+    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_uint_eq(s.dropped, 4);
+    ck_assert_uint_eq(s.input_count, 5);
+    ck_assert_uint_eq(s.face_count, 1);
+    ck_assert_uint_eq(s.faces[0].input, 4);
+    ck_assert_double_eq(s.inputs[0].area, 0);
+    ck_assert_double_eq_tol(s.inputs[4].area, 1, 1e-12);
+    ck_assert_ptr_nonnull(strstr(last_error, "warning: 4 degenerate faces"));
+    ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
+    ck_assert_ptr_eq(strchr(last_error, '\n'), last_error + strlen(last_error) - 1);
+    scene_free(&s);
+    const struct scene_options quiet = {.quiet = 1};
+    ck_assert_int_eq(read_scene(&s, in_folder("s.obj"), &quiet), 0);
+    ck_assert_str_eq(last_error, "");
+    scene_free(&s);
+}
+END_TEST
+
+START_TEST(test_black_and_grey)
+{
+    struct scene s;
+    char body[512];
+    snprintf(body, sizeof body, "%susemtl black\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
+    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_uint_eq(s.faces[0].black, 1);
+    ck_assert_uint_eq(s.faces[1].black, 0);
+    ck_assert_uint_eq(s.bands, 1); /* the coloured material is not used */
+    scene_free(&s);
+}
+END_TEST
+
+/* ---- errors: file, line, cause ---- */
+
+START_TEST(test_errors)
+{
+    struct scene s;
+    expect_error("v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite");
+    expect_error("v 0 0 0\nv inf 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite");
+    expect_error("v 0 0 0\nv 1e39 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite");
+    expect_error("v 0 0 0\nv 1 0\nf 1 2 1\n", "s.obj:3: error: a vertex with 2 numbers");
+    expect_error("v 0 0 x\n", "s.obj:2: error: 'x' is not a number");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "s.obj:5: error: vertex index 4 is out of range: 3 vertices");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -4\n", "s.obj:5: error: vertex index -4 is out of range");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n", "s.obj:5: error: vertex index 0 is out of range");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 99999999999999999999\n", "out of range");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf a b c\n", "s.obj:5: error: 'a' is not a corner");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf\n", "s.obj:5: error: a face without corners");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\n", "there is no face");
+    expect_error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "all of its 1 faces are degenerate");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl aa\nf 1 2 3\n", "s.obj:5: error: material 'aa' is in no material library");
+    expect_error("mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:2: error: cannot read the material library");
+    ck_assert_int_eq(read_scene(&s, in_folder("missing.obj"), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "No such file"));
+    ck_assert_int_eq(read_scene(&s, folder, NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "this is a folder"));
+    ck_assert_int_eq(read_scene(&s, write_text("g.xyz", "garbage"), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "cannot be read as a scene"));
+    ck_assert_int_eq(read_scene(&s, write_text("g.gltf", "{\"garbage\": ["), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "g.gltf: error: "));
+    ck_assert_int_eq(read_scene(&s, write_text("empty.obj", ""), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "there is no face"));
+}
+END_TEST
+
+START_TEST(test_bad_materials)
+{
+    static const struct { const char *mtl, *error; } cases[] = {
+        {"newmtl x\n\nKd 0.5 1 0.5\n", "x.mtl:3: error: material 'x' has reflectance 1;"},
+        {"newmtl x\nKd 0.5 -0.1 0.5\n", "x.mtl:2: error: material 'x' has reflectance -0.1;"},
+        {"newmtl x\nKd 0.5 0.5 0.5\nKe 0 0 -2\n", "x.mtl:3: error: material 'x' has exitance -2 W/m2;"},
+        {"newmtl x\nKd 0.5 nan 0.5\n", "x.mtl:2: error: a diffuse colour (Kd) is not finite"},
+        {"newmtl x\nKe 0 nan 0\n", "x.mtl:2: error: an exitance (Ke) is not finite"},
+        {"newmtl x\nKd a b c\n", "x.mtl:2: error: 'a' is not a number"},
+    };
+    struct scene s;
+    const char *obj = write_text("x.obj", "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl x\nf 1 2 3\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_text("x.mtl", cases[i].mtl);
+        ck_assert_int_eq(read_scene(&s, obj, NULL), -1);
+        ck_assert_msg(strstr(last_error, cases[i].error) != NULL, "'%s' is not in '%s'", cases[i].error, last_error);
+    }
+    write_text("x.mtl", "newmtl unused\nKd 2 2 2\nnewmtl x\nKd 0.1 0.9 0.99\nKe 12345.5 0 1e-9\n");
+    ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
+    const struct material *m = &s.materials[s.faces[0].material];
+    ck_assert_double_eq(m->reflectance[0], 0.1);
+    ck_assert_double_eq(m->reflectance[2], 0.99);
+    ck_assert_double_eq(m->exitance[0], 12345.5);
+    ck_assert_double_eq(m->exitance[2], 1e-9);
+    scene_free(&s);
+}
+END_TEST
+
+/* ---- other formats ---- */
+
+/* One triangle, (0 0 0) (1 0 0) (0 1 0), as 36 bytes of little-endian floats in base 64. */
+static const char GLTF[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
+    "\"nodes\":[{\"mesh\":0,\"scale\":[2,2,2],\"translation\":[0,0,5]},{\"mesh\":0,\"scale\":[-1,1,1]}],"
+    "\"materials\":[{\"name\":\"m\",\"doubleSided\":%s,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.25,0.5,0.75,1]},"
+    "\"emissiveFactor\":[1,0.5,0.25]}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+    "\"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+START_TEST(test_gltf)
+{
+    struct scene s;
+    char text[2048];
+    snprintf(text, sizeof text, GLTF, "false");
+    ck_assert_int_eq(read_scene(&s, write_text("t.gltf", text), NULL), 0);
+    ck_assert_uint_eq(s.face_count, 2);
+    const struct material *m = &s.materials[s.faces[0].material];
+    ck_assert_double_eq(m->reflectance[0], 0.25);
+    ck_assert_double_eq(m->reflectance[2], 0.75);
+    ck_assert_double_eq(m->exitance[1], 0.5);
+    ck_assert_int_eq(m->two_sided, 0);
+    ck_assert_double_eq_tol(s.inputs[0].area, 2, 1e-6); /* twice as large */
+    ck_assert_double_eq_tol(s.faces[0].vertex[0][2], 5, 1e-6);
+    /* The mirrored copy keeps its front. */
+    double v[4][3], normal[3];
+    memcpy(v, s.faces[1].vertex, sizeof v);
+    polygon_normal(v, 3, normal);
+    ck_assert_double_eq_tol(normal[2], 1, 1e-6);
+    scene_free(&s);
+    snprintf(text, sizeof text, GLTF, "true");
+    ck_assert_int_eq(read_scene(&s, write_text("t.gltf", text), NULL), 0);
+    ck_assert_uint_eq(s.face_count, 4);
+    scene_free(&s);
+}
+END_TEST
+
+START_TEST(test_ply)
+{
+    struct scene s;
+    const char *ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    ck_assert_int_eq(read_scene(&s, write_text("q.ply", ply), NULL), 0);
+    ck_assert_uint_eq(s.face_count, 1);
+    ck_assert_uint_eq(s.faces[0].vertices, 4);
+    ck_assert_double_eq(s.materials[s.faces[0].material].reflectance[0], 0.5);
+    ck_assert_ptr_nonnull(strstr(last_error, "holds no materials"));
+    scene_free(&s);
+}
+END_TEST
+
+/* ---- files written ---- */
+
+static int files_in_folder(void)
+{
+    DIR *d = opendir(folder);
+    int count = 0;
+    while (readdir(d))
+        count++;
+    closedir(d);
+    return count;
+}
+
+START_TEST(test_atomic)
+{
+    struct atomic_file f;
+    struct stat status;
+    mode_t old = umask(027);
+    const char *path = write_text("out.txt", "before");
+    int files = files_in_folder();
+    ck_assert_int_eq(atomic_open(&f, path), 0);
+    fputs("after", f.stream);
+    atomic_discard(&f);
+    char *text = read_text(path);
+    ck_assert_str_eq(text, "before");
+    free(text);
+    ck_assert_int_eq(atomic_open(&f, path), 0);
+    fputs("after", f.stream);
+    ck_assert_int_eq(atomic_commit(&f), 0);
+    text = read_text(path);
+    ck_assert_str_eq(text, "after");
+    free(text);
+    ck_assert_int_eq(files_in_folder(), files);
+    ck_assert_int_eq(stat(path, &status), 0);
+    ck_assert_int_eq((int)(status.st_mode & 0777), 0640);
+    umask(old);
+    /* A link stays a link, and its file changes. */
+    const char *link = in_folder("link");
+    ck_assert_int_eq(symlink("out.txt", link), 0);
+    ck_assert_int_eq(atomic_open(&f, link), 0);
+    fputs("linked", f.stream);
+    ck_assert_int_eq(atomic_commit(&f), 0);
+    ck_assert(lstat(link, &status) == 0 && S_ISLNK(status.st_mode));
+    text = read_text(path);
+    ck_assert_str_eq(text, "linked");
+    free(text);
+    if (stat("/dev/full", &status) == 0) {
+        ck_assert_int_eq(atomic_open(&f, "/dev/full"), 0);
+        fputs("x", f.stream);
+        ck_assert_int_eq(atomic_commit(&f), -1);
+    }
+    ck_assert_int_eq(atomic_open(&f, in_folder("no/such/file")), -1);
+    ck_assert_int_eq(atomic_open(&f, folder), -1);
+    atomic_discard(&f);
+}
+END_TEST
+
+START_TEST(test_faces_csv)
+{
+    struct scene s;
+    struct hierarchy h;
+    write_text("n.mtl", "newmtl a, \"b\"_2s\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    const char *obj = write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n");
+    ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
+    ck_assert_uint_eq(s.face_count, 2);
+    ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
+    double b[8] = {0}, irradiance[8] = {0};
+    ck_assert_uint_le(h.count, 8);
+    b[h.face_element[0]] = 3; /* front */
+    b[h.face_element[1]] = 1; /* back */
+    irradiance[h.face_element[0]] = 4;
+    struct solution solution = {&s, &h, s.bands, b, irradiance};
+    ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution), 0);
+    char *text = read_text(in_folder("f.csv"));
+    ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0\n"
+                           "0,\"a, \"\"b\"\"_2s\",0,0,0,0,0\n"
+                           "1,\"a, \"\"b\"\"_2s\",1,1,0.5,2,2\n");
+    free(text);
+    hierarchy_free(&h);
+    scene_free(&s);
+}
+END_TEST
+
+static void remove_folder(void)
+{
+    DIR *d = opendir(folder);
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (e->d_name[0] != '.')
+            unlink(in_folder(e->d_name));
+    if (d)
+        closedir(d);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const char *temporary = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%.40s/check_scene.XXXXXX", temporary ? temporary : "/tmp");
+    if (!mkdtemp(folder))
+        return EXIT_FAILURE;
+    Suite *suite = suite_create("scene");
+    TCase *t = tcase_create("scene");
+    tcase_set_timeout(t, 60);
+    tcase_add_loop_test(t, test_shipped, 0, sizeof facts / sizeof *facts);
+    tcase_add_test(t, test_order);
+    tcase_add_test(t, test_two_sided);
+    tcase_add_test(t, test_polygons);
+    tcase_add_test(t, test_star);
+    tcase_add_test(t, test_dropped);
+    tcase_add_test(t, test_black_and_grey);
+    tcase_add_test(t, test_errors);
+    tcase_add_test(t, test_bad_materials);
+    tcase_add_test(t, test_gltf);
+    tcase_add_test(t, test_ply);
+    tcase_add_test(t, test_atomic);
+    tcase_add_test(t, test_faces_csv);
+    suite_add_tcase(suite, t);
+    int failed = suite_failures(suite);
+    remove_folder();
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
