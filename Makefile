@@ -30,7 +30,7 @@ wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
 wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
-wall_engine     = $(wall_visibility) oracle engine
+wall_engine     = $(wall_visibility) oracle engine radiosity.h
 ROOMS     = util oracle hierarchy visibility engine
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))

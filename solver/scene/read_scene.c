@@ -376,13 +376,3 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
         scene_free(scene);
     return result;
 }
-
-void scene_free(struct scene *scene)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        free(scene->materials[i].name);
-    free(scene->materials);
-    free(scene->faces);
-    free(scene->inputs);
-    *scene = (struct scene){0};
-}
