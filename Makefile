@@ -29,7 +29,7 @@ LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
-PUBLIC    = catalog.dag discussion.h geometry.h oracle.h standalone.h
+PUBLIC    = catalog.dag discussion.h geometry.h oracle.h radiosity.h standalone.h
 TOOLKIT   = $(PUBLIC) kernel terms tools
 wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy

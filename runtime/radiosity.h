@@ -107,10 +107,11 @@ struct RadPolygons {
     const double *positions;   /* [position_count * 3], m */
     size_t position_count;
     const uint32_t *indices;   /* [sum of sizes] */
-    const uint32_t *sizes;     /* [count], each at least 3; or NULL */
+    const uint32_t *sizes;     /* [count]; those below 3 are polygons without area; or NULL */
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
+    int single_precision; /* 1: positions have been floats, as in many file formats, and faces need be no flatter than these allow */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
