@@ -35,8 +35,8 @@ wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
 wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
-wall_engine     = $(wall_visibility) oracle engine radiosity.h
-wall_solver     = $(TOOLKIT) radiosity.h util
+wall_engine     = $(wall_visibility) oracle engine
+wall_solver     = $(TOOLKIT) util
 ROOMS     = util oracle hierarchy visibility engine
 # 1: the command sees wall_solver and links the library alone.
 BY_LIBRARY =

@@ -102,7 +102,8 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after it. Polygon i has
  * sizes[i] corners (all have `size` when sizes is NULL), whose indices into positions stand one polygon after the other,
- * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. */
+ * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. Polygons without area, also
+ * those of fewer than three corners, are dropped and counted, and keep their place in all lists of polygons. */
 struct RadPolygons {
     const double *positions;   /* [position_count * 3], m */
     size_t position_count;
