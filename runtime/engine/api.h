@@ -15,7 +15,7 @@
 #include "radiosity.h"
 #include "util/messages.h"
 
-enum { MESSAGE_SIZE = 1024 };
+enum { MESSAGE_SIZE = 8192 };
 
 struct RadDeviceObject {
     atomic_int holders;
