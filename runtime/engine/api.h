@@ -59,6 +59,7 @@ struct RadSolutionObject {
     RadOracle oracle;
     struct camera camera;
     struct solve solve;
+    int done; /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
 

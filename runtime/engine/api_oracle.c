@@ -217,7 +217,7 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
     report->parameters = r->parameters;
     report->parameter_count = r->parameter_count;
     report->reads_importance = (r->reads & REFINER_READS_IMPORTANCE) != 0;
-    report->reads_tolerance = (r->reads & REFINER_READS_ALLOWANCE) != 0;
+    report->reads_tolerance = (r->reads & REFINER_READS_TOLERANCE) != 0;
 }
 
 static int find_parameter(const struct refiner *r, const char *name)

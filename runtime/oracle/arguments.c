@@ -259,7 +259,7 @@ static unsigned expression_reads(const struct dag *dag, int expression)
     unsigned reads = 0;
     if (e->kind == EXPRESSION_FACT)
         reads = strcmp(dag->facts[e->index].name, "receiver.importance") == 0 ? REFINER_READS_IMPORTANCE
-                : strcmp(dag->facts[e->index].name, "receiver.allowance") == 0 ? REFINER_READS_ALLOWANCE : 0;
+                : strcmp(dag->facts[e->index].name, "receiver.tolerance") == 0 ? REFINER_READS_TOLERANCE : 0;
     if (e->left >= 0)
         reads |= expression_reads(dag, e->left);
     return e->right >= 0 ? reads | expression_reads(dag, e->right) : reads;

@@ -9,7 +9,7 @@
 /* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long as
  * no parameter is set meanwhile. */
 /* What an oracle reads that a solver need not provide to others. */
-enum { REFINER_READS_IMPORTANCE = 1, REFINER_READS_ALLOWANCE = 2 };
+enum { REFINER_READS_IMPORTANCE = 1, REFINER_READS_TOLERANCE = 2 };
 
 struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
@@ -55,7 +55,7 @@ struct interpretation {
  * tool, term or fact that the program was built without. */
 struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors);
 
-/* Which of the facts receiver.importance and receiver.allowance the graph's expressions read, for refiner.reads. The
+/* Which of the facts receiver.importance and receiver.tolerance the graph's expressions read, for refiner.reads. The
  * interpreter sets it; a compiled oracle does not know its graph, so whoever has that sets it. */
 struct dag;
 unsigned oracle_reads(const struct dag *dag, int oracle);

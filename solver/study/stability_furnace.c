@@ -43,7 +43,7 @@ static double furnace_error(const struct solve *s, double rho)
     uint32_t i;
     for (i = 0; i < s->hierarchy.count; i++)
         if (s->hierarchy.elements[i].vertices)
-            worst = fmax(worst, fabs(s->radiosity[i] * (1 - rho) - 1));
+            worst = fmax(worst, fabs(s->state.radiosity[i] * (1 - rho) - 1));
     return worst;
 }
 
@@ -103,7 +103,7 @@ static int sweep_furnace(struct stability_trial *trial, double rho, struct solve
         if (status == 0) {
             status = solve_run(&s, refiner, &cause);
             *error = furnace_error(&s, rho);
-            *sweeps = s.sweeps;
+            *sweeps = s.report.sweeps;
             solve_close(&s);
         }
     }

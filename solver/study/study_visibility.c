@@ -114,7 +114,7 @@ static int run(const struct options *o, const struct scene *scene, struct progre
         report_error(o->scene, 0, "%s", cause);
         goto done;
     }
-    *area = threshold * fmax(get(r, "unit"), get(r, "unit_share") * rays_host(s.rays)->area);
+    *area = threshold * fmax(get(r, "unit"), get(r, "unit_share") * rays_host(s.problem.rays)->area);
     if (solve_run(&s, r, &cause) < 0) {
         report_error(o->scene, 0, "%s", cause);
     } else if (statistics_take(&statistics, r) < 0) {
