@@ -28,7 +28,7 @@
 #include "scene/import_text.h"
 #include "scene/obj_scan.h"
 #include "hierarchy/polygon.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "hierarchy/cut_faces.h"
 
 /* How far from its mean plane a quad's corner may lie, relative to the quad's size. */
