@@ -3,7 +3,7 @@
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 
 struct progress {

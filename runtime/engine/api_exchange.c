@@ -37,11 +37,11 @@ static int watch(void *context, const struct refinement *r)
 /* The oracle's limits for another tolerance: the error of half shadow falls with what is left to it. */
 static struct refiner *default_oracle(double tolerance)
 {
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    struct refiner *refiner = oracle_open(NULL, "viewfactors", RELEASE_FLAT, NULL);
     for (int i = 0; refiner && i < refiner->parameter_count; i++) {
         const char *name = refiner->parameters[i].name;
         if (strcmp(name, "shadow") == 0 || strcmp(name, "group_shadow") == 0)
-            (void)refiner_set(refiner, name, refiner_get(refiner, i) * tolerance / MEANT);
+            (void)refiner_set(refiner, name, refiner_get(refiner, i) * tolerance / MEANT, NULL);
     }
     return refiner;
 }

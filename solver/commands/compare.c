@@ -9,7 +9,7 @@
 #include "commands/commands.h"
 #include "output/json_file.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 
 /* The order of the report: the first that there is is the yardstick. */

@@ -8,7 +8,7 @@
 #include "output/image.h"
 #include "output/json_file.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 #include "oracle/statistics.h"
 #include "output/statistics_file.h"

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "study/stability.h"
 
 static void make_cube(struct scene *s, double rho)
@@ -97,7 +97,7 @@ static int sweep_furnace(struct stability_trial *trial, double rho, struct solve
     int status = made_open(&scene);
     if (refiner && status == 0) {
         make_cube(&scene, rho);
-        (void)refiner_set(refiner, "relative", 1); /* six elements are as good as many here */
+        (void)refiner_set(refiner, "relative", 1, NULL); /* six elements are as good as many here */
         how.threads = trial->threads;
         status = solve_open(&s, &scene, &how, &cause);
         if (status == 0) {

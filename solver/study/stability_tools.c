@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "study/stability.h"
 #include "terms/form_factor.h"
 

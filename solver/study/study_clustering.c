@@ -18,7 +18,7 @@
 #include "commands/commands.h"
 #include "study/faces_reference.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 
 struct row {

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include "runtime/make_pair.h"
 #include "runtime/make_solve.h"
-#include "oracle/oracles.h"
+#include "oracles.h"
 #include "suite.h"
 #include "kernel/cluster_facing.h"
 #include "tools/alpha_gap.h"
@@ -641,7 +641,7 @@ START_TEST(test_interpreted)
     unsigned state = 61;
     int i, k, seen[8] = { 0 }, kinds = 0;
     snprintf(text, sizeof text, "oracle told { %s }\n", told[_i].text);
-    r = refiner_interpreted("told.dag", text, NULL, stderr);
+    r = interpreted("told.dag", text, NULL);
     ck_assert_ptr_nonnull(r);
     tree_open(&t, 2, &state);
     for (i = 0; i < 20000; i++) {

@@ -8,7 +8,7 @@
 #include <string.h>
 #include "hierarchy/hierarchy.h"
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 #include "suite.h"
 #include "kernel/hash.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 #include "suite.h"
 

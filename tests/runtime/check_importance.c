@@ -6,6 +6,7 @@
 #include "engine/residual.h"
 #include "runtime/make_solve.h"
 #include "output/view.h"
+#include "oracles.h"
 #include "suite.h"
 
 /* BF with a threshold by importance; `%s`: that threshold. */
@@ -27,7 +28,7 @@ static void solve_view(struct solve *s, const struct scene *scene, const char *t
     const char *cause;
     struct refiner *r;
     snprintf(text, sizeof text, weighted, threshold);
-    r = refiner_interpreted("weighted.dag", text, NULL, stderr);
+    r = interpreted("weighted.dag", text, NULL);
     ck_assert_ptr_nonnull(r);
     ck_assert_uint_eq(r->reads, REFINER_READS_IMPORTANCE);
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
@@ -349,9 +350,9 @@ START_TEST(test_residual_groups)
     made_quad(&scene, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     for (i = 0; i < 16; i++)
         made_quad(&scene, 0, 0.5 + 0.025 * (i % 4), 0.4 + 0.025 * (i / 4), 1, 0, 0.02, 0, 0.02, 0, 0);
-    r = refiner_interpreted("grouped.dag", grouped, NULL, stderr);
+    r = interpreted("grouped.dag", grouped, NULL);
     ck_assert_ptr_nonnull(r);
-    ck_assert_ptr_null(refiner_set(r, "epsilon", eps));
+    ck_assert_int_eq(refiner_set(r, "epsilon", eps, NULL), 0);
     ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(&s, r, &cause), 0);
     for (i = 0; i < s.refinement.link_count; i++)

@@ -14,7 +14,7 @@
 #include "oracle/builtin.h"
 #include "scene/make_scene.h"
 #include "scene/read_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "runtime/path_reference.h"
 #include "engine/solve.h"
 #include "suite.h"

@@ -7,6 +7,7 @@
 #include "oracle/builtin.h"
 #include "runtime/make_solve.h"
 #include "oracle/statistics.h"
+#include "oracles.h"
 #include "output/view.h"
 #include "suite.h"
 
@@ -72,7 +73,7 @@ static void set(struct refiner *r, double length)
             value = 1e4;
         else if (p->unit[0] && !(value > 0))
             value = strcmp(p->unit, "m2") == 0 ? 0.02 : strcmp(p->unit, "W") == 0 ? 0.5 : 0.01;
-        ck_assert_ptr_null(refiner_set(r, p->name, value * grown(p->unit, length)));
+        ck_assert_int_eq(refiner_set(r, p->name, value * grown(p->unit, length), NULL), 0);
     }
 }
 
@@ -140,7 +141,7 @@ START_TEST(test_oracle)
     for (p = 0; p <= POWERS; p++) {
         double length = p ? ldexp(1, powers[p - 1]) : 1;
         struct camera camera;
-        r[p] = refiner_interpreted("scale.dag", oracle->name ? oracle->text : rest, oracle->name, stderr);
+        r[p] = interpreted("scale.dag", oracle->name ? oracle->text : rest, oracle->name);
         ck_assert_ptr_nonnull(r[p]);
         ck_assert_int_eq(refiner_count(r[p], 2), 0);
         run(&s[p], &scene[p], r[p], &camera, length);

@@ -94,7 +94,6 @@ START_TEST(test_same_links)
     struct scene scene;
     struct solve one, other;
     int k;
-    oracles_register_hand(hand_releases);
     furnished(&scene, 1);
     solve_with(&one, &scene, oracle[_i], RELEASE_FLAT, NULL, quick(1));
     for (k = 0; k < 4; k++) {

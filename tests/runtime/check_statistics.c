@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include "runtime/make_solve.h"
 #include "oracle/statistics.h"
+#include "oracles.h"
 #include "suite.h"
 
 /* An oracle that counts depths and records what links bring. */
@@ -35,8 +36,8 @@ START_TEST(test_statistics)
     uint64_t deep = 0, noted = 0, sum[5] = { 0 };
     int i, k, j;
     furnished(&scene, 1);
-    r = refiner_interpreted("counting.dag", counting, NULL, stderr);
-    other = refiner_interpreted("counting.dag", counting, NULL, stderr);
+    r = interpreted("counting.dag", counting, NULL);
+    other = interpreted("counting.dag", counting, NULL);
     ck_assert_ptr_nonnull(r);
     ck_assert_int_eq(statistics_take(&counted, r), -1); /* not asked for */
     ck_assert_int_eq(refiner_count(r, 2), 0);

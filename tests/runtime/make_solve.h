@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 
 static inline struct solve_options quick(int threads)
