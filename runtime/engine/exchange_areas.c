@@ -8,7 +8,8 @@
  * out is of fourth order. Pairs nearer than so many radii, by the tolerance, have the contour integral (kernel/polygon_factor.h).
  *
  * In half shadow each pair is seen from points of its one face, past the blockers of the whole group: their shadows
- * on the other group's plane are cast once per point and taken from all its faces (kernel/outline.h).
+ * on the other group's plane are cast once per point and taken from all its faces (kernel/outline.h). Where more stand between than
+ * a list holds, and where a part of a face is linked to a group, each pair is looked into by itself.
  *
  * Invariant: one value per pair serves both rows, so A_i F_ij = A_j F_ji to rounding; no value is above the smaller area.
  * [moments: Taylor's formula for Lambert's kernel, derived here; shadows: kernel/outline.h]
@@ -19,7 +20,7 @@
 #include "kernel/outline_visibility.h"
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
-#include "kernel/shaft.h"
+#include "terms/visibility.h"
 #include "tools/group_level.h"
 
 enum { MOMENTS = 6 }; /* xx yy zz xy xz yz */
@@ -352,6 +353,33 @@ static void shaded_block(const struct factor_matrix *f, const struct points *p, 
     }
 }
 
+/* The exchange area of two faces or parts, looked into by itself. Rays where too many stand between, as the graphs do. */
+static double pair_exchange(const struct element *r, const struct element *s, const struct host *host)
+{
+    double e = r->area * polygon_factor(r, s, 1), least = r->area < s->area ? r->area : s->area;
+    struct blockers list = { .known = BLOCKERS_UNKNOWN };
+    if (!(e > 0))
+        return 0;
+    blockers_find(r, s, host, &list);
+    if (list.covered)
+        return 0;
+    if (list.count > BLOCKERS_MAX)
+        e *= visibility_rays(r, s, host, visibility_rays_of(VISIBILITY_RAYS_64));
+    else if (list.count > 0)
+        e *= outline_visibility(r, s, host, &list);
+    return e < least ? e : least;
+}
+
+/* A block of which no more is known than what it links. */
+static void pair_block(const struct factor_matrix *f, const struct element *r, const struct element *s, struct face_range rows,
+                       struct face_range columns, double *out)
+{
+    uint32_t i, j;
+    for (i = rows.from; i < rows.to; i++)
+        for (j = columns.from; j < columns.to; j++)
+            *out++ = pair_exchange(group_level_group(r) ? face_at(f->tree, i) : r, group_level_group(s) ? face_at(f->tree, j) : s, &f->tree->host);
+}
+
 /* What the link says of its pairs. */
 static void fill_block(const struct factor_matrix *m, const struct points *p, const struct link *link, const struct factor_block *block,
                        struct room *room)
@@ -366,15 +394,20 @@ static void fill_block(const struct factor_matrix *m, const struct points *p, co
         *out = e < least ? e : least;
         return;
     }
-    list.known = BLOCKERS_UNKNOWN;
+    if (r->depth || s->depth) { /* a part of a face against a group */
+        pair_block(m, r, s, rows, columns, out);
+        return;
+    }
     if (link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE) {
         clear_block(m, p, r, s, rows, columns, room, out);
         return;
     }
+    list.known = BLOCKERS_UNKNOWN;
     blockers_find(r, s, &t->host, &list);
-    if (list.count > BLOCKERS_MAX) /* no oracle of ours links such groups */
-        list.count = 0;
-    shaded_block(m, p, r, s, rows, columns, &list, room, out);
+    if (list.count > BLOCKERS_MAX)
+        pair_block(m, r, s, rows, columns, out);
+    else
+        shaded_block(m, p, r, s, rows, columns, &list, room, out);
 }
 
 /* ---- */
