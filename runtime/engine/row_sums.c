@@ -114,7 +114,7 @@ static void close_row(struct rows *rows, uint32_t leaf, double row)
     double area;
     row = exposed_row(s, leaf, row, &area);
     rows->excess += row > 1 ? area * (row - 1) : 0;
-    s->row_scale[leaf] = !(area > 0) ? 0 : row > 1 || (row > 0 && s->closed > 0) ? 1 / row : 1;
+    s->row_scale[leaf] = !(area > 0) ? 0 : closure_row_scale(row, 1, s->closed > 0);
     s->row_above[leaf] = s->row_scale[leaf];
     s->row_gift[leaf] = row > 0 || s->closed <= 0 || !(rows->seeing > 0) ? 0
                               : (area > 0 ? s->exposed[leaf] : 1) / rows->seeing;

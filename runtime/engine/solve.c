@@ -8,10 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "visibility/enclosure.h"
 #include "engine/error_control.h"
 #include "engine/transport.h"
 #include "util/clock.h"
-#include "engine/enclosure.h"
 #include "engine/importance.h"
 #include "engine/oracle_inputs.h"
 #include "engine/row_sums.h"
@@ -144,7 +144,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
         goto fail;
     publish_guess(s);
     if (options->closure != CLOSURE_NONE)
-        s->closed = enclosure_decide(s);
+        s->closed = enclosure_decide(s->rays, &s->hierarchy, brightest, options->threads, &s->closed_rays);
     free(brightest);
     s->seconds.build = seconds() - start;
     return 0;

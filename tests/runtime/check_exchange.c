@@ -50,27 +50,27 @@ static double wall_to_wall(int cells, int deep)
 {
     struct scene scene;
     plates(&scene, cells);
-    struct factor_tree tree;
-    struct factor_matrix matrix;
+    struct exchange_tree tree;
+    struct exchange_areas matrix;
     struct refinement refinement;
     const char *cause;
-    ck_assert_int_eq(factor_tree_open(&tree, scene.faces, scene.face_count, 2, &cause), 0);
+    ck_assert_int_eq(exchange_tree_open(&tree, scene.faces, scene.face_count, 2, &cause), 0);
     const struct refiner refiner = { .refine = link_groups, .state = &deep };
     ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
     ck_assert_int_eq(refinement_start(&refinement), 0);
-    ck_assert_int_eq(factor_matrix_open(&matrix, &tree, &scene, &refinement, 2.5, 2), 0);
+    ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, 2.5, 2), 0);
     uint32_t wall = (uint32_t)(cells * cells);
     double *row = calloc(scene.input_count, sizeof *row), sum = 0;
     for (uint32_t i = 0; i < wall; i++) {
         memset(row, 0, scene.input_count * sizeof *row);
-        (void)factor_matrix_row(&matrix, i, NULL, row);
+        (void)exchange_areas_row(&matrix, i, NULL, row);
         for (uint32_t j = wall; j < 2 * wall; j++)
             sum += row[j];
     }
     free(row);
-    factor_matrix_close(&matrix);
+    exchange_areas_close(&matrix);
     refinement_close(&refinement);
-    factor_tree_close(&tree);
+    exchange_tree_close(&tree);
     made_close(&scene);
     return sum;
 }
