@@ -8,6 +8,7 @@
 #include "util/ends_with.h"
 #include "output/export.h"
 #include "options.h"
+#include "kernel/constants.h"
 
 enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
            FACES, JSON, FORMAT, NAMES, REPEATS, ONLY, REFERENCE, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
@@ -220,12 +221,11 @@ static int take(struct options *o, const struct option *p, char *value)
     case ITERATIONS:
         return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
     case CLOSURE:
-        for (i = 0; i < FACTOR_CLOSURES && strcmp(value, factor_closure_names[i]) != 0; i++)
+        for (i = 0; i < CLOSURES && strcmp(value, closure_names[i]) != 0; i++)
             ;
-        if (i == FACTOR_CLOSURES || (i == FACTOR_CLOSURE_RECIPROCAL && o->command != COMMAND_VIEWFACTORS))
+        if (i == CLOSURES || (i == CLOSURE_RECIPROCAL && o->command != COMMAND_VIEWFACTORS))
             return wrong(o->command == COMMAND_VIEWFACTORS ? "--closure knows none, rows and reciprocal, not" : "--closure knows none and rows, not", value);
-        o->factor_closure = (enum factor_closure_kind)i;
-        o->closure = i == FACTOR_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE;
+        o->closure = (enum closure)i;
         return 0;
     case FORMAT:
         for (i = 0; i < FACTOR_FORMATS && strcmp(value, factor_format_names[i]) != 0; i++)
@@ -404,7 +404,7 @@ int options_parse(struct options *o, int count, char **arguments)
     if (o->command == COMMAND_COMPARE)
         o->oracle = DEFAULT_BY_HAND;
     if (o->command == COMMAND_VIEWFACTORS)
-        o->tolerance = 3e-4;
+        o->tolerance = EXCHANGE_TOLERANCE;
     if (o->command == COMMAND_STUDY) {
         status = study_of(o, arguments[i]);
         if (status || o->command == COMMAND_STUDY_HELP)

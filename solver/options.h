@@ -18,7 +18,7 @@ struct options {
     const char *scene, *oracle;
     enum release release;
     int release_given;
-    enum closure closure;
+    enum closure closure; /* reciprocal: of COMMAND_VIEWFACTORS only */
     int clusters; /* 1 + the strategy that builds them; 0: the default */
     const char *statistics; /* NULL: not wanted */
     char **settings; /* [setting_count] "NAME=VALUE", owned */
@@ -30,7 +30,6 @@ struct options {
     struct view view;
     int view_given;
     enum factor_format format; /* of COMMAND_VIEWFACTORS, and the rest of this block with it */
-    enum factor_closure_kind factor_closure;
     const char *names; /* NULL: not wanted */
     enum study study;       /* of COMMAND_STUDY, and the rest of this block with it */
     const char *only;       /* stability: the case to run; clustering: the strategy; NULL: all */
