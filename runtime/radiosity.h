@@ -114,7 +114,7 @@ struct RadPolygons {
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
-    int single_precision; /* 1: positions have been floats, as in many file formats, and faces need be no flatter than these allow */
+    int single_precision; /* 1: positions have been floats; then what is thinner or bent by less than these can say is taken so */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
