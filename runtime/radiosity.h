@@ -102,15 +102,17 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after it. Polygon i has
  * sizes[i] corners (all have `size` when sizes is NULL), whose indices into positions stand one polygon after the other,
- * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. */
+ * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. Polygons without area, also
+ * those of fewer than three corners, are dropped and counted, and keep their place in all lists of polygons. */
 struct RadPolygons {
     const double *positions;   /* [position_count * 3], m */
     size_t position_count;
     const uint32_t *indices;   /* [sum of sizes] */
-    const uint32_t *sizes;     /* [count], each at least 3; or NULL */
+    const uint32_t *sizes;     /* [count]; those below 3 are polygons without area; or NULL */
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
+    int single_precision; /* 1: positions have been floats, as in many file formats, and faces need be no flatter than these allow */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);

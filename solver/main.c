@@ -1,6 +1,7 @@
 /* main.c - the command radiosity: parse the options, read the scene, run the command.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
+#include "scene/read_scene.h"
 #include "util/atomic_file.h"
 #include "commands/commands.h"
 #include "dag.h"

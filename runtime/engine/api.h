@@ -15,7 +15,7 @@
 #include "radiosity.h"
 #include "util/messages.h"
 
-enum { MESSAGE_SIZE = 1024 };
+enum { MESSAGE_SIZE = 8192 };
 
 struct RadDeviceObject {
     atomic_int holders;
@@ -34,12 +34,11 @@ struct RadDeviceObject {
 struct RadSceneObject {
     atomic_int holders;
     RadDevice device;
-    struct RadMaterial *materials; /* [material_count] */
+    struct RadMaterial *materials; /* [material_count]; NULL after the commit */
     uint32_t material_count;
     struct RadPolygons polygons;   /* borrowed until the commit; zero before they are set and after it */
     int polygons_set, committed;
     struct scene scene;            /* empty before the commit */
-    double *areas;                 /* [scene.input_count]: m2, one side */
     struct RadSceneReport report;
 };
 

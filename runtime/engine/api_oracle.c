@@ -258,7 +258,7 @@ double radGetOracleParameter(RadOracle oracle, const char *name)
 
 enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)
 {
-    return oracle->refiner->refine(oracle->refiner->state, discussion);
+    return oracle && discussion ? oracle->refiner->refine(oracle->refiner->state, discussion) : DECISION_STOP;
 }
 
 int radCountOracle(RadOracle oracle)

@@ -99,7 +99,7 @@ static void take_materials(struct solve *s)
     const struct scene *scene = s->scene;
     uint32_t i, k;
     for (i = 0; i < scene->face_count; i++) {
-        const struct material *m = &scene->materials[scene->faces[i].material];
+        const struct RadMaterial *m = &scene->materials[scene->faces[i].material];
         for (k = 0; k < s->bands; k++) {
             s->exitance[(size_t)i * s->bands + k] = s->options.unit ? 1 : m->exitance[k];
             s->reflectance[(size_t)i * s->bands + k] = s->options.unit ? 0 : m->reflectance[k];

@@ -1,5 +1,6 @@
 /* command_study.c - `radiosity study`: experiments whose table is the result.
  * SPDX-License-Identifier: MIT */
+#include "scene/read_scene.h"
 #include "commands/commands.h"
 
 int command_study(const struct options *o)
