@@ -15,7 +15,7 @@ const char *const *radGetOracleNames(void)
 
 const char *radGetDefaultOracle(void)
 {
-    return DEFAULT_ORACLE;
+    return RAD_DEFAULT_ORACLE;
 }
 
 static const struct builtin *find_builtin(const char *name)

@@ -257,6 +257,11 @@ void radGetLinks(RadSolution solution, struct RadLinks *links)
     *links = (struct RadLinks){ (const struct RadLink *)(const void *)r->links, r->link_count, r->first_link };
 }
 
+const struct host *radGetHost(RadSolution solution)
+{
+    return solution && !solution->dead ? rays_host(solution->solve.rays) : NULL;
+}
+
 static uint32_t count_leaves(const struct hierarchy *h)
 {
     uint32_t leaves = 0;
@@ -282,7 +287,7 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .closed = s->options.closure == CLOSURE_NONE ? -1 : s->closed, .closed_rays = s->closed_rays,
         .importance = { s->importance.sweeps, s->importance.largest, s->importance.mean, s->importance.seen },
         .tolerance = { s->allowance.target, s->allowance.largest, s->allowance.area },
-        .seconds = { s->seconds.build, s->seconds.refine, s->seconds.iterate, s->seconds.in_rays } };
+        .seconds = { s->seconds.build, s->seconds.refine, s->seconds.iterate, s->seconds.in_rays, s->seconds.clusters } };
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

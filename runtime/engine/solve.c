@@ -121,6 +121,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     if (hierarchy_build_by(&s->hierarchy, scene->faces, scene->face_count, options->clusters ? (enum clustering)(options->clusters - 1) : CLUSTERING_DEFAULT,
                            options->threads) < 0)
         return -1;
+    s->seconds.clusters = seconds() - start;
     s->exitance = malloc(values * sizeof *s->exitance);
     s->reflectance = malloc(values * sizeof *s->reflectance);
     brightest = malloc(scene->face_count * sizeof *brightest);

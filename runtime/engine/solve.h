@@ -35,7 +35,7 @@ struct solve_options {
 
 /* Seconds by the clock in each phase. */
 struct solve_seconds {
-    double build, refine, iterate, in_rays; /* in_rays: inside Embree, mean over threads, part of refine */
+    double build, refine, iterate, in_rays, clusters; /* clusters: the tree above the faces, part of build; in_rays: inside Embree, mean over threads, part of refine */
 };
 
 /* What the view makes of light (importance.c): [room], element by element. */

@@ -17,6 +17,7 @@ struct made_scene {
     uint32_t count;
     struct RadMaterial materials[MADE_MATERIALS];
     uint32_t material_count;
+    int as_given; /* its polygons are taken for flat, and not cut where others stand in them */
 };
 
 /* A grey material. Returns its index. */

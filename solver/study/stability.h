@@ -102,7 +102,6 @@ struct stability_how {
     const char *oracle;
     const char *const *settings; /* "PARAM=VALUE", NULL-terminated */
     int threads;
-    int as_given;                /* its polygons are taken for flat, and are not cut where others stand in them */
     struct RadSolveOptions options;
 };
 /* Returns 0, or -1 with nothing to close. */

@@ -131,10 +131,11 @@ int stability_row_sum(struct stability_trial *trial)
     return 0;
 }
 
-/* A wall through the floor's edge, its lower half below the floor's plane. */
+/* A wall through the floor's edge, its lower half below the floor's plane; it stays whole. */
 static struct made_scene two_straddling(void)
 {
     struct made_scene scene = one_grey();
+    scene.as_given = 1;
     made_quad(&scene, 0, 0, 0, -0.5, 0, 1, 0, 0, 0, 1);
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     return scene;

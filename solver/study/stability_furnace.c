@@ -86,7 +86,7 @@ int stability_furnace_L(struct stability_trial *trial)
 static int sweep_furnace(struct stability_trial *trial, double rho, const struct RadSolveOptions *options, double *error, int *sweeps)
 {
     static const char *const six_elements[] = { "relative=1", NULL }; /* they are as good as many here */
-    const struct stability_how how = { radGetDefaultOracle(), six_elements, trial->threads, 0, *options };
+    const struct stability_how how = { radGetDefaultOracle(), six_elements, trial->threads, *options };
     struct made_scene cube = { .count = 0 };
     struct solved s;
     make_cube(&cube, rho);

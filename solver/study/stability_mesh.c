@@ -16,7 +16,6 @@ static struct made_scene lamp_and_floor(void)
 /* What is asked of the two scenes of a case: B of the first `count` faces, and whether all must be the same to the bit. */
 struct comparison {
     const struct made_scene *one, *other;
-    int as_given; /* the other's polygons */
     uint32_t count;
     int exact;
 };
@@ -37,10 +36,9 @@ static double difference(const struct solved *a, const struct solved *b, const s
 static int solve_both(struct stability_trial *trial, const struct comparison *c, struct solved solved[2])
 {
     const struct stability_method *m = trial->method->kind == BY_ORACLE ? trial->method : &stability_methods[DEFAULT];
-    struct stability_how how = { m->oracle, m->settings, trial->threads, 0, { .tolerance = 1e-6 } };
+    const struct stability_how how = { m->oracle, m->settings, trial->threads, { .tolerance = 1e-6 } };
     if (stability_solve_so(&solved[0], c->one, &how) < 0)
         return -1;
-    how.as_given = c->as_given;
     if (stability_solve_so(&solved[1], c->other, &how) < 0) {
         solved_close(&solved[0]);
         return -1;
@@ -54,14 +52,15 @@ static int solve_both(struct stability_trial *trial, const struct comparison *c,
 int stability_bent_quad(struct stability_trial *trial)
 {
     static const double corner[4][3] = { { 0, 0, 1 }, { 1, 0, 0.4 }, { 1, 1, 1 }, { 0, 1, 0.4 } };
-    static const double half[2][3][3] = { { { 0, 0, 1 }, { 1, 0, 0.4 }, { 1, 1, 1 } }, { { 0, 0, 1 }, { 1, 1, 1 }, { 0, 1, 0.4 } } };
+    static const double half[2][3][3] = { { { 0, 1, 0.4 }, { 0, 0, 1 }, { 1, 0, 0.4 } }, { { 1, 0, 0.4 }, { 1, 1, 1 }, { 0, 1, 0.4 } } };
     struct made_scene split = lamp_and_floor(), bent = split;
     struct solved solved[2];
     int one_plane = trial->method == &stability_methods[ONE_PLANE];
     made_face(&split, 0, 3, half[0]);
     made_face(&split, 0, 3, half[1]);
     made_face(&bent, 0, 4, corner);
-    const struct comparison c = { &split, &bent, one_plane, one_plane ? 2 : 4, !one_plane };
+    bent.as_given = one_plane;
+    const struct comparison c = { &split, &bent, one_plane ? 2 : 4, !one_plane };
     if (solve_both(trial, &c, solved) < 0)
         return -1;
     solved_close(&solved[0]);
@@ -82,7 +81,7 @@ int stability_no_area(struct stability_trial *trial)
     made_face(&dirty, 0, 3, line);
     made_face(&dirty, 0, 3, twice);
     made_face(&dirty, 0, 3, good);
-    const struct comparison c = { &clean, &dirty, 0, 3, 1 };
+    const struct comparison c = { &clean, &dirty, 3, 1 };
     if (solve_both(trial, &c, solved) < 0)
         return -1;
     if (radGetSceneReport(solved[0].scene, &one) < 0 || radGetSceneReport(solved[1].scene, &other) < 0 || other.dropped != 2

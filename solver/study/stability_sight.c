@@ -212,10 +212,11 @@ static double leak(const struct solved *s, double x)
 /* Solve two rooms and find the light that came through. */
 static int leaked(struct stability_trial *trial, double wall, int turned, int whole, double *error)
 {
-    const struct made_scene scene = two_rooms(wall, turned, whole);
+    struct made_scene scene = two_rooms(wall, turned, whole);
     struct solved s;
     if (trial->method->kind == BY_RAYS)
         return exchange(trial, &scene, 0, 1, error);
+    scene.as_given = trial->method == &stability_methods[UNCUT];
     if (stability_solve(&s, &scene, trial, 0) < 0)
         return -1;
     *error = leak(&s, wall);

@@ -36,14 +36,14 @@ double stability_factor(const struct stability_method *method, const struct elem
 }
 
 /* The scene, committed. Returns NULL after a message. */
-static RadScene commit_scene(RadDevice device, const struct made_scene *made, int as_given)
+static RadScene commit_scene(RadDevice device, const struct made_scene *made)
 {
-    const struct RadPolygons polygons = { made->position[0], made->corners, made->index, made->size, 0, made->material,
-                                          made->count };
+    const struct RadPolygons polygons = { .positions = made->position[0], .position_count = made->corners, .indices = made->index,
+                                          .sizes = made->size, .materials = made->material, .count = made->count, .as_given = made->as_given };
     RadScene scene = radNewScene(device);
     if (!scene || radSetSceneMaterials(scene, made->materials, made->material_count) < 0
         || radSetSceneSharedPolygons(scene, &polygons) < 0
-        || (as_given && radSetSceneFlags(scene, RAD_SCENE_AS_GIVEN) < 0) || radCommitScene(scene) < 0) {
+        || radCommitScene(scene) < 0) {
         report_device(device, "study stability");
         radReleaseScene(scene);
         return NULL;
@@ -58,7 +58,7 @@ static int make_solution(struct solved *s, const struct made_scene *made, const 
     while (how->settings[count])
         count++;
     RadDevice device = open_device(NULL, how->threads);
-    RadScene scene = device ? commit_scene(device, made, how->as_given) : NULL;
+    RadScene scene = device ? commit_scene(device, made) : NULL;
     RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT, (char *const *)how->settings, count) : NULL;
     if (oracle)
         status = (solve ? solved_open : solved_begin)(s, device, "study stability", scene, oracle, &how->options);
@@ -84,7 +84,7 @@ int stability_solve(struct solved *s, const struct made_scene *made, const struc
 {
     const struct stability_method *m = trial->method;
     const struct stability_how how = {
-        m->oracle, m->settings, trial->threads, m == &stability_methods[UNCUT],
+        m->oracle, m->settings, trial->threads,
         { .tolerance = 1e-6, .closure = (enum RadClosure)m->number, .unit = unit },
     };
     return stability_solve_so(s, made, &how);

@@ -10,7 +10,7 @@
 #include "util/ends_with.h"
 #include "util/messages.h"
 
-const char *const release_names[] = {
+const char *const release_words[] = {
     [RAD_RELEASE_FLAT] = "flat", [RAD_RELEASE_DAG] = "dag", [RAD_RELEASE_HAND] = "hand", NULL
 };
 

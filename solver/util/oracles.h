@@ -1,12 +1,12 @@
 /* oracles.h - oracles as the command line names them.
  * SPDX-License-Identifier: MIT */
-#ifndef ORACLES_H
-#define ORACLES_H
+#ifndef SOLVER_ORACLES_H
+#define SOLVER_ORACLES_H
 
 #include <stdio.h>
 #include "radiosity.h"
 
-extern const char *const release_names[]; /* of enum RadRelease; NULL-terminated */
+extern const char *const release_words[]; /* of enum RadRelease; NULL-terminated */
 
 /* `oracle`: the name of a built-in oracle, or a .dag file; settings: [count] texts "NAME=VALUE" for its parameters.
  * Returns NULL after a message. */
