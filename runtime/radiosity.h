@@ -61,7 +61,9 @@ enum RadError {
 };
 
 struct RadDeviceOptions {
-    int threads; /* 0: as many as there are processors */
+    int threads;           /* 0: as many as there are processors */
+    const char *compiler;  /* C compiler for the flat release of files and texts; NULL: "cc" */
+    const char *temporary; /* folder for what it makes; NULL: "/tmp" */
 };
 
 /* Told of every error (code) and of every warning (RAD_ERROR_NONE), from the calling thread; `message` is good until it returns. */
@@ -172,7 +174,7 @@ RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelea
 /* A .dag file ("-": standard input), or the text of one under the name `path`; `oracle`: which of the file's, NULL: the only one.
  * RAD_RELEASE_FLAT needs a C compiler and compiles it now. */
 RAD_API RadOracle radLoadOracle(RadDevice device, const char *path, const char *oracle, enum RadRelease release);
-RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *oracle);
+RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *oracle, enum RadRelease release);
 /* A refiner that dagc generated and that the program is linked with, or one written by hand. Borrowed. */
 RAD_API RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *oracle, const char *release);
 /* Let radNewOracle find it by name as RAD_RELEASE_HAND. Borrowed. Returns 0, or -1. */

@@ -5,9 +5,8 @@
 #include "util/atomic_file.h"
 #include "commands/commands.h"
 #include "dag.h"
-#include "hand.h"
-#include "oracle/oracles.h"
-#include "util/messages.h"
+#include "util/oracles.h"
+#include "util/report.h"
 
 /* What cannot be written is told before the work, not after. Returns 0 or the exit status. */
 static int outputs_checked(const struct options *o)
@@ -55,7 +54,6 @@ int main(int count, char **arguments)
 {
     struct options o;
     int status = options_parse(&o, count, arguments);
-    oracles_register_hand(hand_releases);
     if (status == 0)
         status = outputs_checked(&o);
     if (status == 0)

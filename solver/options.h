@@ -4,7 +4,7 @@
 #define OPTIONS_H
 
 #include "output/factor_file.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 #include "output/view.h"
 

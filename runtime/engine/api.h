@@ -10,6 +10,7 @@
 #include <stdatomic.h>
 #include "engine/solve.h"
 #include "hierarchy/scene.h"
+#include "oracle/oracles.h"
 #include "oracle/refiner.h"
 #include "oracle/statistics.h"
 #include "radiosity.h"
@@ -20,6 +21,7 @@ enum { MESSAGE_SIZE = 8192 };
 struct RadDeviceObject {
     atomic_int holders;
     int threads;
+    char *compiler, *temporary; /* of the options; NULL: none given */
     pthread_mutex_t lock; /* of all that follows */
     enum RadError error;  /* the first since it was asked for */
     char message[MESSAGE_SIZE];
@@ -27,8 +29,7 @@ struct RadDeviceObject {
     void *tell_user;
     RadProgressFunction progress;
     void *progress_user;
-    const struct oracle **hand; /* [hand_count]: radRegisterOracle */
-    int hand_count;
+    struct oracle_sources sources; /* of radRegisterOracle */
 };
 
 struct RadSceneObject {
@@ -59,12 +60,13 @@ struct RadSolutionObject {
     RadOracle oracle;
     struct camera camera;
     struct solve solve;
+    int done; /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
 
 /* The device's first error becomes this one, unless there is one; its message function is told. Returns -1. */
-int api_fail(RadDevice device, enum RadError code, const char *format, ...) PRINTF_LIKE(3, 4);
-void api_warn(RadDevice device, const char *format, ...) PRINTF_LIKE(2, 3);
+int api_fail(RadDevice device, enum RadError code, const char *format, ...) MESSAGE_LIKE(3, 4);
+void api_warn(RadDevice device, const char *format, ...) MESSAGE_LIKE(2, 3);
 
 /* Calls the progress function, if there is one. Returns what it says. */
 int api_progress(RadDevice device, const struct RadProgress *progress);

@@ -23,7 +23,7 @@ static uint64_t child_id(uint64_t parent, uint32_t k)
 static void reset_fields(struct element *e)
 {
     e->importance = 1;
-    e->allowance = INFINITY;
+    e->tolerance = INFINITY;
 }
 
 static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
@@ -186,7 +186,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
         c->radiosity = e->radiosity;
         c->reflectance = e->reflectance;
         c->importance = e->importance;
-        c->allowance = e->allowance;
+        c->tolerance = e->tolerance;
         c->id = child_id(e->id, i);
     }
     e->child = first;

@@ -5,7 +5,7 @@
 #include "study/stability.h"
 #include "terms/form_factor.h"
 #include "util/device.h"
-#include "util/oracles.h"
+#include "util/open_oracle.h"
 
 double stability_factor(const struct stability_method *method, const struct element *r, const struct element *s)
 {

@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: MIT */
 #include "util/device.h"
 
-#include "util/messages.h"
+#include <stdlib.h>
+
+#include "util/report.h"
 
 static const struct oracle *const *hand_releases;
 
@@ -18,9 +20,16 @@ static void say_warning(void *where, enum RadError code, const char *message)
         report_warning(where, 0, "%s", message);
 }
 
+static const char *from_environment(const char *name)
+{
+    const char *value = getenv(name);
+    return value && *value ? value : NULL;
+}
+
 RadDevice open_device(const char *where, int threads)
 {
-    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = threads });
+    const struct RadDeviceOptions options = { threads, from_environment("CC"), from_environment("TMPDIR") };
+    RadDevice device = radNewDevice(&options);
     if (!device) {
         report_device(NULL, where ? where : "radiosity");
         return NULL;

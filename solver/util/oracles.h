@@ -1,18 +1,21 @@
-/* oracles.h - oracles as the command line names them.
+/* oracles.h - oracles as the command is asked for them: messages go to stderr, the compiler is the environment's.
  * SPDX-License-Identifier: MIT */
 #ifndef SOLVER_ORACLES_H
 #define SOLVER_ORACLES_H
 
 #include <stdio.h>
-#include "radiosity.h"
+#include "oracle/oracles.h"
 
-extern const char *const release_words[]; /* of enum RadRelease; NULL-terminated */
+/* As oracle_open, with the hand-written releases. Returns NULL after a message on stderr. */
+struct refiner *oracles_open(const char *oracle, enum release release);
 
-/* `oracle`: the name of a built-in oracle, or a .dag file; settings: [count] texts "NAME=VALUE" for its parameters.
- * Returns NULL after a message. */
-RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release, char *const *settings, int count);
+/* Is there a hand-written release of this oracle? */
+int oracles_by_hand(const char *oracle);
 
-/* The built-in oracles and their parameters. Returns 0, or -1 after a message. */
-int print_oracles(FILE *out);
+/* Apply the count texts "NAME=VALUE" to a refiner. Returns 0, or -1 after a message. */
+int oracles_set(struct refiner *refiner, char *const *settings, int count);
+
+/* The built-in oracles and their parameters, for --help and `radiosity oracles`. */
+void oracles_print(FILE *out);
 
 #endif

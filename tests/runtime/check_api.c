@@ -294,10 +294,10 @@ START_TEST(test_oracles)
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "release");
     ck_assert_ptr_null(radLoadOracle(device, "nowhere.dag", NULL, RAD_RELEASE_DAG));
     expect_error(device, RAD_ERROR_INVALID_ORACLE, "nowhere.dag");
-    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start b; }", NULL));
+    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start b; }", NULL, RAD_RELEASE_DAG));
     expect_error(device, RAD_ERROR_INVALID_ORACLE, "mine:1:");
     RadOracle own = radParseOracle(device, "mine", "oracle a \"one\" { param x : ratio = 0.25 in [0, 1]; start t;"
-                                   " node t = transfer(relative = x) { otherwise -> stop; } }", NULL);
+                                   " node t = transfer(relative = x) { otherwise -> stop; } }", NULL, RAD_RELEASE_DAG);
     ck_assert_msg(own != NULL, "%s", radGetDeviceErrorMessage(device));
     radGetOracleReport(own, &r);
     ck_assert_str_eq(r.doc, "one");
@@ -313,6 +313,16 @@ START_TEST(test_oracles)
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no parameter 'y'; it has x");
     ck_assert_double_nan(radGetOracleParameter(own, "y"));
     radReleaseOracle(own);
+    RadOracle flat = radParseOracle(device, "mine", "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL, RAD_RELEASE_FLAT);
+    ck_assert_msg(flat != NULL, "%s", radGetDeviceErrorMessage(device));
+    radGetOracleReport(flat, &r);
+    ck_assert_str_eq(r.release, "flat");
+    ck_assert_int_gt((int)strlen(r.fingerprint), 0);
+    radReleaseOracle(flat);
+    radReleaseDevice(device);
+    device = radNewDevice(&(struct RadDeviceOptions){ .compiler = "no-such-compiler" });
+    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL, RAD_RELEASE_FLAT));
+    expect_error(device, RAD_ERROR_UNSUPPORTED, "no-such-compiler");
     radReleaseDevice(device);
 }
 END_TEST
@@ -428,7 +438,7 @@ START_TEST(test_no_handle)
     ck_assert_ptr_null(radGetSceneMaterials(NULL));
     ck_assert_ptr_null(radNewOracle(NULL, "bf", RAD_RELEASE_FLAT));
     ck_assert_ptr_null(radLoadOracle(NULL, "bf", NULL, RAD_RELEASE_FLAT));
-    ck_assert_ptr_null(radParseOracle(NULL, "bf", "", NULL));
+    ck_assert_ptr_null(radParseOracle(NULL, "bf", "", NULL, RAD_RELEASE_DAG));
     ck_assert_ptr_null(radNewOracleCompiled(NULL, NULL, NULL));
     ck_assert_int_eq(radRegisterOracle(NULL, NULL), -1);
     ck_assert_int_eq(radHasOracle(NULL, NULL, RAD_RELEASE_FLAT), 0);
