@@ -107,10 +107,11 @@ struct RadPolygons {
     const double *positions;   /* [position_count * 3], m */
     size_t position_count;
     const uint32_t *indices;   /* [sum of sizes] */
-    const uint32_t *sizes;     /* [count], each at least 3; or NULL */
+    const uint32_t *sizes;     /* [count]; those below 3 are polygons without area; or NULL */
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
+    int single_precision; /* 1: positions have been floats, as in many file formats, and faces need be no flatter than these allow */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
@@ -249,9 +250,10 @@ RAD_API RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struc
 RAD_API void radRetainSolution(RadSolution solution);
 RAD_API void radReleaseSolution(RadSolution solution);
 
-/* Refine from the root, without solving. Returns 0, or -1. */
+/* Refine from the root, without solving, once and before radStep. Returns 0, or -1. */
 RAD_API int radRefine(RadSolution solution);
-/* One pass: refine (again), then solve over the links. Returns 1 while links still change, 0 when done, -1 on error. */
+/* One pass: refine from the root if nothing has, solve over the links, discuss them again in that light. Returns 1 while links
+ * change and passes are left, 0 when done, -1 on error. */
 RAD_API int radStep(RadSolution solution);
 /* Passes until no link changes. Returns 0, or -1. */
 RAD_API int radSolve(RadSolution solution);
@@ -270,7 +272,8 @@ struct RadLink {
     uint8_t mark;
 };
 
-/* Read-only views of a solution: good until it is stepped or released. */
+/* Read-only views of a solution: good until it is stepped or released. All zero where there is none: no links before
+ * radRefine or radStep, nothing of a solution that was cancelled. */
 struct RadElements {
     const struct element *elements; /* [count]; 0 is the root; children of one element are neighbours */
     uint32_t count;
@@ -312,12 +315,13 @@ struct RadExchangeOptions {
     double tolerance;  /* error of a row's sum to work for; 0: 3e-4 */
     enum RadClosure closure;
 };
+/* Oracle NULL: the built-in viewfactors, its limits made for the tolerance. Returns NULL on error. */
 RAD_API RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExchangeOptions *options);
 RAD_API void radRetainExchange(RadExchange exchange);
 RAD_API void radReleaseExchange(RadExchange exchange);
 
 /* Row i of F_ij: share of what leaves polygon i evenly that meets polygon j; row[RadSceneReport.polygons], the caller's. Safe from
- * many threads at once. Returns its sum. */
+ * many threads at once. Returns its sum, or -1. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 
 struct RadExchangeReport {

@@ -13,17 +13,18 @@ void progress_start(struct progress *p, int quiet)
     p->next = seconds() + 0.3;
 }
 
-void progress_show(void *context, const struct solve *s, const char *phase)
+int progress_show(void *context, const struct solve *s, const char *phase)
 {
     struct progress *p = context;
     double now;
     if (!p->wanted || (now = seconds()) < p->next)
-        return;
+        return 0;
     fprintf(stderr, "\r%-6s pass %d, round %llu: %.3g pairs (%zu waiting), %.3g links, %.3g rays, residual %.1e \033[K",
             phase, s->passes + 1, (unsigned long long)s->refinement.rounds, (double)s->refinement.pairs,
             s->refinement.queue_count, (double)s->refinement.link_count, (double)rays_count(s->rays).rays, s->residual);
     p->shown = 1;
     p->next = now + 0.1;
+    return 0;
 }
 
 void progress_say(struct progress *p, const char *format, ...)

@@ -14,7 +14,7 @@ struct progress {
 
 void progress_start(struct progress *p, int quiet);
 /* For solve_options.progress; the context is a struct progress. */
-void progress_show(void *context, const struct solve *solve, const char *phase);
+int progress_show(void *context, const struct solve *solve, const char *phase);
 /* The same line with another text. */
 void progress_say(struct progress *p, const char *format, ...) PRINTF_LIKE(2, 3);
 void progress_end(struct progress *p);

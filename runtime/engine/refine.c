@@ -279,11 +279,13 @@ static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_
     return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
 }
 
-static void end_round(struct refinement *r)
+/* Returns 0, or -1 when the watch says that it is enough. */
+static int end_round(struct refinement *r)
 {
     r->rounds++;
-    if (r->watch)
-        r->watch(r->watch_context, r);
+    if (r->watch && r->watch(r->watch_context, r) != 0)
+        r->cancelled = 1;
+    return r->cancelled ? -1 : 0;
 }
 
 /* Rounds until the queue is empty. */
@@ -304,7 +306,8 @@ static int drain(struct refinement *r)
             let_go(r, list);
             let_go(r, r->round[i].list);
         }
-        end_round(r);
+        if (end_round(r) < 0)
+            return -1;
     }
     return 0;
 }
@@ -350,7 +353,8 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
                 return -1;
             let_go(r, list);
         }
-        end_round(r);
+        if (end_round(r) < 0)
+            return -1;
     }
     return drain(r) < 0 ? -1 : moved;
 }

@@ -99,7 +99,7 @@ static void take_materials(struct solve *s)
     const struct scene *scene = s->scene;
     uint32_t i, k;
     for (i = 0; i < scene->face_count; i++) {
-        const struct material *m = &scene->materials[scene->faces[i].material];
+        const struct RadMaterial *m = &scene->materials[scene->faces[i].material];
         for (k = 0; k < s->bands; k++) {
             s->exitance[(size_t)i * s->bands + k] = s->options.unit ? 1 : m->exitance[k];
             s->reflectance[(size_t)i * s->bands + k] = s->options.unit ? 0 : m->reflectance[k];
@@ -186,12 +186,13 @@ static void account(struct solve *s)
     }
 }
 
-static void watch(void *context, const struct refinement *refinement)
+static int watch(void *context, const struct refinement *refinement)
 {
     struct solve *s = context;
     (void)refinement;
-    if (s->options.progress)
-        s->options.progress(s->options.context, s, "refine");
+    if (s->options.progress && s->options.progress(s->options.context, s, "refine") != 0)
+        s->cancelled = 1;
+    return s->cancelled;
 }
 
 int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause)
@@ -206,6 +207,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
         return -1;
     if (!s->options.unit)
         expose(s, 0);
+    s->refined = 1;
     s->seconds.refine += seconds() - start;
     s->seconds.in_rays = rays_count(s->rays).seconds / s->options.threads;
     return 0;
@@ -244,40 +246,57 @@ static int links_groups(const struct solve *s)
     return s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
 }
 
-int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
+/* What an oracle is told before the first refinement. */
+static int prepare(struct solve *s, const struct refiner *refiner, int importance, double error, const char **cause)
 {
-    int64_t changed = 1;
-    int settled = 0, importance = s->options.camera && refiner->reads & REFINER_READS_IMPORTANCE;
-    double error = allowance_target(refiner, rays_host(s->rays));
     *cause = "out of memory";
     if (importance && importance_start(s) < 0)
         return -1;
     if (error > 0)
         allowance_start(s, error);
-    if (solve_refine(s, refiner, cause) < 0)
+    return solve_refine(s, refiner, cause);
+}
+
+int solve_step(struct solve *s, const struct refiner *refiner, const char **cause)
+{
+    int importance = s->options.camera && refiner->reads & REFINER_READS_IMPORTANCE;
+    double error = allowance_target(refiner, rays_host(s->rays)), start, middle;
+    int rough, last;
+    int64_t changed;
+    if (!s->refined && prepare(s, refiner, importance, error, cause) < 0)
         return -1;
-    for (s->passes = 0; changed > 0 && s->passes < (error > 0 ? PASSES_OF_ALLOWANCE : PASSES); s->passes++) {
-        double start = seconds(), middle;
-        int rough = error <= 0 && links_groups(s), last = rough && settled;
-        if (iterate(s, rough && !last && ROUGH > s->options.tolerance ? ROUGH : s->options.tolerance, cause) < 0)
-            return -1;
-        publish(s);
-        if (importance && importance_solve(s) < 0)
-            return -1;
-        middle = seconds();
-        changed = error > 0 ? refine_for_error(s, cause) : last ? 0 : refine_again(s, cause);
-        if (changed < 0)
-            return -1;
-        settled = (uint64_t)changed * SETTLED <= s->refinement.link_count;
-        if (rough && settled && !last)
-            changed = 1; /* solved roughly: once more */
-        s->seconds.iterate += middle - start;
-        s->seconds.refine += seconds() - middle;
-    }
-    s->converged = s->converged && changed == 0;
+    start = seconds();
+    rough = error <= 0 && links_groups(s);
+    last = rough && s->settled;
+    if (iterate(s, rough && !last && ROUGH > s->options.tolerance ? ROUGH : s->options.tolerance, cause) < 0)
+        return -1;
+    publish(s);
+    if (importance && importance_solve(s) < 0)
+        return -1;
+    middle = seconds();
+    changed = error > 0 ? refine_for_error(s, cause) : last ? 0 : refine_again(s, cause);
+    if (changed < 0)
+        return -1;
+    s->changing = (uint64_t)changed;
+    s->settled = (uint64_t)changed * SETTLED <= s->refinement.link_count;
+    if (rough && s->settled && !last)
+        changed = 1; /* solved roughly: once more */
+    s->seconds.iterate += middle - start;
+    s->seconds.refine += seconds() - middle;
     s->seconds.in_rays = rays_count(s->rays).seconds / s->options.threads;
+    s->passes++;
+    s->converged = s->converged && changed == 0;
     account(s);
-    return 0;
+    return changed > 0 && s->passes < (error > 0 ? PASSES_OF_ALLOWANCE : PASSES);
+}
+
+int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
+{
+    int more;
+    do
+        more = solve_step(s, refiner, cause);
+    while (more > 0);
+    return more;
 }
 
 struct solution solve_solution(const struct solve *s)

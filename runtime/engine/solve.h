@@ -29,7 +29,7 @@ struct solve_options {
     int clusters; /* 1 + the strategy that groups faces; 0: the default */
     const struct camera *camera; /* whose picture counts, for oracles that read importance; NULL: every place counts alike */
     int unit;         /* ignore the materials: every face has B = 1 and stays so (view factors) */
-    void (*progress)(void *context, const struct solve *solve, const char *phase);
+    int (*progress)(void *context, const struct solve *solve, const char *phase); /* anything but 0 cancels */
     void *context; /* of progress, which may be NULL */
 };
 
@@ -82,6 +82,9 @@ struct solve {
 
     uint32_t leaves;
     int passes, sweeps;      /* solves, and sweeps of all of them */
+    int refined, settled;    /* the links are there; so few changed that the next solve may be the last */
+    int cancelled;           /* by options.progress: everything is as far as it came, and no further */
+    uint64_t changing;       /* links that the last pass changed */
     int converged;           /* the last solve reached the tolerance and changed no link */
     double residual;         /* of the last sweep: sum A |dB| / sum A B over leaves */
     double emitted, absorbed; /* W, all bands */
@@ -105,6 +108,10 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
 /* Refine with `refiner` and solve until no link changes and iteration error is below tolerance.
  * Returns 0, or -1 with *cause set. */
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause);
+
+/* One pass: refine from the root when there are no links yet, solve over them, discuss them again. Returns 1 while links
+ * changed and passes are left, 0 when it was the last, -1 with *cause set. */
+int solve_step(struct solve *s, const struct refiner *refiner, const char **cause);
 
 /* Refine once from the root, without solving. */
 int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause);

@@ -147,9 +147,11 @@ int balance_solve(struct solve *s, struct balance *x)
         }
         s->residual = x->residual = power > 0 ? change / power : 0;
         x->converged = x->residual * rho <= x->tolerance * (1 - rho);
-        if (s->options.progress)
-            s->options.progress(s->options.context, s, "solve");
+        if (s->options.progress && s->options.progress(s->options.context, s, "solve") != 0) {
+            s->cancelled = 1;
+            break;
+        }
     }
     free(moved);
-    return 0;
+    return s->cancelled ? -1 : 0;
 }

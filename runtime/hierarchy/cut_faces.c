@@ -1,4 +1,4 @@
-/* scene_cut.c - see scene_cut.h.
+/* cut_faces.c - see cut_faces.h.
  *
  * A wall that stands in the middle of a floor divides it in two that share no light. Refinement halves faces at midpoints
  * and never quite comes to the wall: there are always parts on both sides of it, and light leaks along them.
@@ -570,10 +570,11 @@ static int replace(struct scene *scene, const struct cutter *cutters, int thread
     return 0;
 }
 
-int scene_cut(struct scene *scene)
+int scene_cut(struct scene *scene, int threads)
 {
     struct cluster_tree tree;
-    int threads = scene->face_count < FEW ? 1 : omp_get_max_threads(), status = 0, t;
+    threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : omp_get_max_threads();
+    int status = 0, t;
     struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
     uint32_t i;
     if (!cutters || (scene->face_count && cluster_tree_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0)) {

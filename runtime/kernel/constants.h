@@ -11,6 +11,8 @@
 
 /* ---- scenes (hierarchy) */
 
+#define SCENE_FLAT_QUAD 1e-4 /* of a quad's size: corners no farther from its mean plane make it flat, else it is two triangles. Chosen */
+
 /* ---- visibility */
 
 /* ---- links and transport (engine) */

@@ -19,7 +19,8 @@
 
 enum { PACKET = 16 };
 
-/* One thread's counters, alone on their cache lines. */
+/* Counters of a thread, alone on their cache lines. A thread that a program brings itself may have any number, so threads may
+ * share a tally; they add to it one at a time. */
 struct tally {
     uint64_t rays;
     uint64_t nanoseconds;
@@ -47,8 +48,8 @@ static uint64_t now(void)
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct rays *rays = (const struct rays *)(const void *)host;
-    struct tally *tally = &rays->tallies[omp_get_thread_num()];
-    uint64_t hits = 0;
+    struct tally *tally = &rays->tallies[omp_get_thread_num() % rays->threads];
+    uint64_t hits = 0, inside = 0;
     int first, i;
     for (first = 0; first < count; first += PACKET) {
         int n = count - first < PACKET ? count - first : PACKET;
@@ -89,11 +90,14 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
             rtcOccluded16(valid, rays->scene, &context, &packet);
 #endif
         }
-        tally->nanoseconds += now() - start;
+        inside += now() - start;
         for (i = 0; i < n; i++)
             hits |= (uint64_t)(packet.tfar[i] < 0) << (first + i); /* Embree: -inf when occluded */
     }
+#pragma omp atomic
     tally->rays += (uint64_t)count;
+#pragma omp atomic
+    tally->nanoseconds += inside;
     return hits;
 }
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "commands/commands.h"
+#include "scene/read_scene.h"
 
 int with_scene(const struct options *o, int (*run)(const struct options *options, const struct scene *scene))
 {

@@ -39,11 +39,12 @@ struct work {
     struct { double refine, fill, write; } seconds;
 };
 
-static void watch(void *context, const struct refinement *r)
+static int watch(void *context, const struct refinement *r)
 {
     struct work *w = context;
     progress_say(&w->progress, "refine round %llu: %.3g pairs (%zu waiting), %.3g links, %.3g rays", (unsigned long long)r->rounds,
                  (double)r->pairs, r->queue_count, (double)r->link_count, (double)rays_count(w->tree.rays).rays);
+    return 0;
 }
 
 /* Pairs nearer than so many radii are integrated exactly. The error of others falls with the fourth power of distance. */

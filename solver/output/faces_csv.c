@@ -44,12 +44,12 @@ static void write_header(FILE *out, uint32_t bands)
 
 static void write_row(FILE *out, const struct solution *s, uint32_t i, const struct total *t)
 {
-    const struct input_face *input = &s->scene->inputs[i];
-    const struct material *m = &s->scene->materials[input->material];
+    uint32_t material = s->scene->input_materials[i];
+    const struct RadMaterial *m = &s->scene->materials[material];
     int dropped = !(t->area > 0);
     fprintf(out, "%u,", (unsigned)i);
-    write_name(out, m->name);
-    fprintf(out, ",%.12g", input->area);
+    write_name(out, s->scene->names[material]);
+    fprintf(out, ",%.12g", s->scene->areas[i]);
     for (uint32_t k = 0; k < s->bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k]);
     for (uint32_t k = 0; k < s->bands; k++)

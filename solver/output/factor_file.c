@@ -187,7 +187,7 @@ int factor_file_names(const char *path, const struct scene *scene)
     if (atomic_open(&file, path) < 0)
         return -1;
     for (i = 0; i < scene->input_count; i++) {
-        const char *name = scene->materials[scene->inputs[i].material].name;
+        const char *name = scene->names[scene->input_materials[i]];
         for (; *name; name++)
             fputc((unsigned char)*name < ' ' ? ' ' : *name, file.stream);
         fprintf(file.stream, ".%u\n", i);

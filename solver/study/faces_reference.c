@@ -127,7 +127,7 @@ double faces_reference_error(const struct faces_reference *r, const struct solut
     }
     for (uint32_t i = 0; area && arrives && i < r->count; i++) {
         size_t input = r->face[i];
-        const struct material *m = &s->scene->materials[s->scene->inputs[input].material];
+        const struct RadMaterial *m = &s->scene->materials[s->scene->input_materials[input]];
         for (uint32_t k = 0; k < r->bands; k++) {
             double b = area[input] > 0 ? m->exitance[k] + m->reflectance[k] * arrives[input * r->bands + k] / area[input] : 0;
             double reference = r->value[(size_t)i * r->bands + k];

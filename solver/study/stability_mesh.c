@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "hierarchy/polygon.h"
 #include "study/stability.h"
 

@@ -258,7 +258,7 @@ static int leaked(struct stability_trial *trial, double wall, int turned, int wh
         made_close(&scene);
         return status;
     }
-    if ((trial->method != &stability_methods[UNCUT] && scene_cut(&scene) < 0) || stability_solve(&s, &scene, trial, 0) < 0) {
+    if ((trial->method != &stability_methods[UNCUT] && scene_cut(&scene, 0) < 0) || stability_solve(&s, &scene, trial, 0) < 0) {
         made_close(&scene);
         return -1;
     }

@@ -2,6 +2,7 @@
  * B = E / (1 - rho) in any closed shape; an open scene must not gain.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
+#include "scene/read_scene.h"
 #include "engine/enclosure.h"
 #include "runtime/make_solve.h"
 #include "suite.h"

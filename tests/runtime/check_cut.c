@@ -10,6 +10,7 @@
 #include <time.h>
 #include "geometry.h"
 #include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/cut_faces.h"
 #include "suite.h"
@@ -98,7 +99,7 @@ static uint32_t cut_floor(struct scene *s)
     struct scene was;
     uint32_t parts;
     copy(&was, s);
-    ck_assert_int_eq(scene_cut(s), 0);
+    ck_assert_int_eq(scene_cut(s, 0), 0);
     check_parts(&was, s);
     parts = parts_of(s, 0);
     free(was.faces);
@@ -211,7 +212,7 @@ START_TEST(test_slanted)
                 add_back(&s);
         }
         copy(&was, &s);
-        ck_assert_int_eq(scene_cut(&s), 0);
+        ck_assert_int_eq(scene_cut(&s, 0), 0);
         check_parts(&was, &s);
         free(was.faces);
         made_close(&s);
@@ -275,8 +276,8 @@ START_TEST(test_scale)
                 for (k = 0; k < 3; k++)
                     a.faces[i].vertex[j][k] = b.faces[i].vertex[j][k] = s.faces[i].vertex[j][k] * 1.25 + 0.01;
         made_scale(&b, ldexp(1, powers[p]));
-        ck_assert_int_eq(scene_cut(&a), 0);
-        ck_assert_int_eq(scene_cut(&b), 0);
+        ck_assert_int_eq(scene_cut(&a, 0), 0);
+        ck_assert_int_eq(scene_cut(&b, 0), 0);
         ck_assert_uint_gt(a.face_count, s.face_count);
         ck_assert_uint_eq(a.face_count, b.face_count);
         made_scale(&a, ldexp(1, powers[p]));
@@ -309,7 +310,7 @@ START_TEST(test_far)
             made_quad(&s, 0, 1.7, 0, z, 0, 3, 0, 0, 0, 2);
             made_quad(&s, 0, 1.7002, 4, z, 0, 30, 0, 0, 0, 2);
         }
-        ck_assert_int_eq(scene_cut(&s), 0);
+        ck_assert_int_eq(scene_cut(&s, 0), 0);
         ck_assert_uint_eq(s.face_count, 4 * n);
         ck_assert_uint_eq(s.cut, n);
         ck_assert_uint_eq(s.parts, 2 * n);
@@ -331,12 +332,12 @@ START_TEST(test_unchanged)
     struct scene s, was;
     struct face *faces;
     ck_assert_int_eq(made_open(&s), 0);
-    ck_assert_int_eq(scene_cut(&s), 0); /* no faces at all */
+    ck_assert_int_eq(scene_cut(&s, 0), 0); /* no faces at all */
     made_material(&s, 0.5, 0);
     made_room(&s, grey, 4, 5, 3);
     faces = s.faces;
     copy(&was, &s);
-    ck_assert_int_eq(scene_cut(&s), 0);
+    ck_assert_int_eq(scene_cut(&s, 0), 0);
     ck_assert_ptr_eq(s.faces, faces);
     ck_assert_uint_eq(s.face_count, 6);
     ck_assert_int_eq(memcmp(s.faces, was.faces, 6 * sizeof *faces), 0);
@@ -356,7 +357,7 @@ START_TEST(test_degenerate)
     made_face(&s, 0, 3, point);
     made_quad(&s, 0, 0, 0, 0, 4, 0, 0, 0, 3, 0);
     made_quad(&s, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0);
-    ck_assert_int_eq(scene_cut(&s), 0);
+    ck_assert_int_eq(scene_cut(&s, 0), 0);
     ck_assert_uint_eq(s.cut, 0);
     ck_assert_uint_eq(s.face_count, 5);
     made_close(&s);
@@ -387,7 +388,7 @@ START_TEST(test_files)
             area[s.faces[i].input] += polygon_normal(s.faces[i].vertex, s.faces[i].vertices, n);
     }
     for (i = 0; i < s.input_count; i++)
-        ck_assert_double_eq_tol(area[i], s.inputs[i].area, 1e-9 * s.inputs[i].area);
+        ck_assert_double_eq_tol(area[i], s.areas[i], 1e-9 * s.areas[i]);
     free(area);
     scene_free(&s);
 }
@@ -414,7 +415,7 @@ START_TEST(test_many)
     s.faces[s.face_count] = (struct face){ .vertex = { { 0, 10.3, -3 }, { N, 10.3, -3 }, { N, 10.3, 3 }, { 0, 10.3, 3 } }, .vertices = 4, .input = s.face_count };
     s.face_count++;
     start = clock();
-    ck_assert_int_eq(scene_cut(&s), 0);
+    ck_assert_int_eq(scene_cut(&s, 0), 0);
     seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
     printf("%u faces cut in %.2f s\n", s.face_count, seconds);
     ck_assert_uint_eq(s.cut, N); /* each field under the wall; its own contacts are short and on no one line */

@@ -13,6 +13,7 @@
 #include <string.h>
 #include "oracle/builtin.h"
 #include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "oracle/oracles.h"
 #include "runtime/path_reference.h"
 #include "engine/solve.h"

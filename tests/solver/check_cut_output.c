@@ -21,7 +21,7 @@
 #include "geometry.h"
 #include "output/image.h"
 #include "output/leaf_mesh.h"
-#include "hierarchy/scene.h"
+#include "scene/read_scene.h"
 #include "suite.h"
 
 static char folder[64];

@@ -15,6 +15,7 @@
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 
+#include "scene/read_scene.h"
 #include "output/export.h"
 #include "output/exposure.h"
 #include "geometry.h"
@@ -40,8 +41,9 @@ enum { FACES_MAX = 8, ELEMENTS_MAX = 60000 };
 
 struct stage {
     struct face faces[FACES_MAX];
-    struct material materials[FACES_MAX];
-    struct input_face inputs[FACES_MAX];
+    struct RadMaterial materials[FACES_MAX];
+    double areas[FACES_MAX];
+    uint32_t input_materials[FACES_MAX];
     struct scene scene;
     struct hierarchy h;
     struct solution solution;
@@ -54,7 +56,8 @@ static struct stage *stage_new(uint32_t bands)
     struct stage *s = calloc(1, sizeof *s);
     s->scene.faces = s->faces;
     s->scene.materials = s->materials;
-    s->scene.inputs = s->inputs;
+    s->scene.areas = s->areas;
+    s->scene.input_materials = s->input_materials;
     s->scene.bands = bands;
     s->b = calloc(3 * ELEMENTS_MAX, sizeof *s->b);
     return s;
@@ -67,7 +70,8 @@ static void stage_face(struct stage *s, uint32_t material, uint32_t vertices, co
     s->faces[i].vertices = vertices;
     s->faces[i].material = material;
     s->faces[i].input = i;
-    s->inputs[i] = (struct input_face){material, 1};
+    s->areas[i] = 1;
+    s->input_materials[i] = material;
     s->scene.input_count = i + 1;
     if (s->scene.material_count <= material)
         s->scene.material_count = material + 1;

@@ -16,7 +16,7 @@
 #include "util/atomic_file.h"
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
-#include "hierarchy/scene.h"
+#include "scene/read_scene.h"
 #include "suite.h"
 
 static const char SCENES[] = "examples/scenes/";
@@ -98,7 +98,7 @@ static double total_area(const struct scene *s)
 {
     double area = 0;
     for (uint32_t i = 0; i < s->input_count; i++)
-        area += s->inputs[i].area;
+        area += s->areas[i];
     return area;
 }
 
@@ -142,7 +142,7 @@ START_TEST(test_shipped)
     double area = 0;
     double watts[3] = {0, 0, 0};
     for (uint32_t i = 0; i < s.face_count; i++) {
-        const struct material *m = &s.materials[s.faces[i].material];
+        const struct RadMaterial *m = &s.materials[s.faces[i].material];
         int first = i == 0 || s.faces[i].input != s.faces[i - 1].input;
         int last = i + 1 == s.face_count || s.faces[i].input != s.faces[i + 1].input;
         triangles += first && last && s.faces[i].vertices == 3;
@@ -153,7 +153,7 @@ START_TEST(test_shipped)
         ck_assert_uint_eq(s.faces[i].back, 0);
         area = face_area(&s.faces[i]) + (first ? 0 : area);
         if (last)
-            ck_assert_double_eq_tol(area, s.inputs[s.faces[i].input].area, 1e-12);
+            ck_assert_double_eq_tol(area, s.areas[s.faces[i].input], 1e-12);
     }
     ck_assert_uint_le(triangles, f->triangles);
     ck_assert_uint_ge(triangles + s.cut, f->triangles);
@@ -236,9 +236,9 @@ START_TEST(test_two_sided)
     ck_assert_uint_eq(s.faces[2].input, 1);
     for (int i = 0; i < 4; i++)
         ck_assert_mem_eq(s.faces[0].vertex[i], s.faces[1].vertex[3 - i], sizeof s.faces[0].vertex[0]);
-    ck_assert_double_eq_tol(s.inputs[0].area, 1, 1e-12); /* one side */
-    const struct material *m = &s.materials[s.faces[0].material];
-    ck_assert_str_eq(m->name, "b_2s");
+    ck_assert_double_eq_tol(s.areas[0], 1, 1e-12); /* one side */
+    const struct RadMaterial *m = &s.materials[s.faces[0].material];
+    ck_assert_str_eq(s.names[s.faces[0].material], "b_2s");
     ck_assert_int_eq(m->two_sided, 1);
     for (int k = 0; k < 3; k++) {
         ck_assert_double_eq(m->reflectance[k], 0.25 * (k + 1));
@@ -328,8 +328,8 @@ START_TEST(test_dropped)
     ck_assert_uint_eq(s.input_count, 5);
     ck_assert_uint_eq(s.face_count, 1);
     ck_assert_uint_eq(s.faces[0].input, 4);
-    ck_assert_double_eq(s.inputs[0].area, 0);
-    ck_assert_double_eq_tol(s.inputs[4].area, 1, 1e-12);
+    ck_assert_double_eq(s.areas[0], 0);
+    ck_assert_double_eq_tol(s.areas[4], 1, 1e-12);
     ck_assert_ptr_nonnull(strstr(last_error, "warning: 4 degenerate faces"));
     ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
     ck_assert_ptr_eq(strchr(last_error, '\n'), last_error + strlen(last_error) - 1);
@@ -406,7 +406,7 @@ START_TEST(test_bad_materials)
     }
     write_text("x.mtl", "newmtl unused\nKd 2 2 2\nnewmtl x\nKd 0.1 0.9 0.99\nKe 12345.5 0 1e-9\n");
     ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
-    const struct material *m = &s.materials[s.faces[0].material];
+    const struct RadMaterial *m = &s.materials[s.faces[0].material];
     ck_assert_double_eq(m->reflectance[0], 0.1);
     ck_assert_double_eq(m->reflectance[2], 0.99);
     ck_assert_double_eq(m->exitance[0], 12345.5);
@@ -435,12 +435,12 @@ START_TEST(test_gltf)
     snprintf(text, sizeof text, GLTF, "false");
     ck_assert_int_eq(read_scene(&s, write_text("t.gltf", text), NULL), 0);
     ck_assert_uint_eq(s.face_count, 2);
-    const struct material *m = &s.materials[s.faces[0].material];
+    const struct RadMaterial *m = &s.materials[s.faces[0].material];
     ck_assert_double_eq(m->reflectance[0], 0.25);
     ck_assert_double_eq(m->reflectance[2], 0.75);
     ck_assert_double_eq(m->exitance[1], 0.5);
     ck_assert_int_eq(m->two_sided, 0);
-    ck_assert_double_eq_tol(s.inputs[0].area, 2, 1e-6); /* twice as large */
+    ck_assert_double_eq_tol(s.areas[0], 2, 1e-6); /* twice as large */
     ck_assert_double_eq_tol(s.faces[0].vertex[0][2], 5, 1e-6);
     /* The mirrored copy keeps its front. */
     double v[4][3], normal[3];
