@@ -35,8 +35,8 @@ wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
 wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
-wall_engine     = $(wall_visibility) oracle engine radiosity.h
-wall_solver     = $(TOOLKIT) radiosity.h util
+wall_engine     = $(wall_visibility) oracle engine
+wall_solver     = $(TOOLKIT) util
 ROOMS     = util oracle hierarchy visibility engine
 # 1: the command sees wall_solver and links the library alone.
 BY_LIBRARY =
@@ -106,7 +106,10 @@ $(BUILD)/libradiosity.so: $(RUNTIME) $(LIBDAGC) runtime/package/exported.map
 
 $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(if $(BY_LIBRARY),$(ARCHIVE),$(RUNTIME) $(LIBDAGC))
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
-$(TESTS): %: %.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+BY_API    = $(BUILD)/tests/runtime/check_api
+$(BY_API): %: %.o $(ARCHIVE)
+	$(CC) $(LDFLAGS) -o $@ $^ $(ENGINE_LIBS) $$(pkg-config --libs check)
+$(filter-out $(BY_API),$(TESTS)): %: %.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)

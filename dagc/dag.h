@@ -418,6 +418,16 @@ struct dag *dag_load_switched(const char *switches, const char *name, const char
 
 void dag_free(struct dag *dag); /* NULL is fine */
 
+/* The system's C compiler and where its files may stand for a while; NULL: "cc", "/tmp". */
+struct dag_compiler {
+    const char *command, *temporary;
+};
+
+/* The oracles as machine code: emits C, compiles it against the runtime's headers (which the library carries) and
+ * loads it. Returns dlopen's handle, in which each oracle is `const struct oracle NAME_oracle` (oracle.h), or NULL with the
+ * cause in `message`. The dag must hold one oracle at least. */
+void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message, size_t size);
+
 /* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or many. */
 int dag_oracle(const struct dag *dag, const char *name);
 

@@ -63,6 +63,12 @@ static void emit(struct dag *dag, struct job *job)
     dag_emit_depfile(dag, job->outputs);
 }
 
+static const char *from_environment(const char *name)
+{
+    const char *value = getenv(name);
+    return value != NULL && *value != '\0' ? value : NULL;
+}
+
 static void passes(struct dag *dag, void *context)
 {
     struct job *job = context;
@@ -106,9 +112,10 @@ static void passes(struct dag *dag, void *context)
             return;
     }
     dag_fingerprint(dag);
-    if (job->prove)
-        job->proved = dag_prove(dag, &job->c, stdout);
-    else
+    if (job->prove) {
+        struct dag_compiler compiler = {from_environment("CC"), from_environment("TMPDIR")};
+        job->proved = dag_prove(dag, &job->c, &compiler, stdout);
+    } else
         emit(dag, job);
 }
 

@@ -11,13 +11,10 @@
 #define _XOPEN_SOURCE 700
 
 #include <dlfcn.h>
-#include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "compile.h"
 #include "headers.h"
 #include "prove.h"
 
@@ -42,8 +39,8 @@ static const char record_text[] =
 struct proof {
     struct dag *dag;
     const struct emit_options *options;
+    const struct dag_compiler *compiler;
     FILE *report;
-    char folder[256];
     void *library;
     const struct oracle_graph *oracle;
     int number;                /* of the oracle */
@@ -190,21 +187,7 @@ static void print_run(const struct dag *dag, struct text *out, const struct emit
     dag_print(out, "    return result;\n}\n");
 }
 
-/* ---- files and programs */
-
-static int write_file(const struct proof *proof, const char *name, const struct text *text)
-{
-    char path[320];
-    snprintf(path, sizeof path, "%s/%s", proof->folder, name);
-    FILE *file = fopen(path, "wb");
-    int bad = file == NULL || text->failed || fwrite(text->bytes, 1, text->length, file) != text->length;
-    if (file != NULL)
-        bad |= fclose(file) != 0;
-    if (bad)
-        fprintf(stderr, "dagc: error: cannot write %s: %s\n", path,
-                text->failed ? "out of memory" : strerror(errno));
-    return bad ? -1 : 0;
-}
+/* ---- the library */
 
 static const char *embedded(const char *name)
 {
@@ -214,10 +197,17 @@ static const char *embedded(const char *name)
     return "";
 }
 
-static int write_sources(struct proof *proof)
+static int build(struct proof *proof)
 {
+    enum { C, CATALOG, DISCUSSION, ORACLE, TOOLS, FILES };
+    static const char *const names[FILES] = {"oracles.c", "catalog.h", "discussion.h", "oracle.h", "tools.h"};
     struct dag *dag = proof->dag;
-    struct text catalog = {0}, discussion = {0}, oracle = {0}, tools = {0}, c = {0};
+    struct text texts[FILES] = {{0}};
+    struct c_file files[FILES];
+    char message[4096] = "out of memory";
+    /* Much text is compiled without optimising, which would take minutes. */
+    const char *const flags[] = {dag->order_count > OPTIMISED_NODES ? "-O0" : "-O1", NULL};
+    int failed = 0;
     dag->runtime_header = "discussion.h";
     for (int i = 0; i < dag->tool_count; i++)
         dag->tools[i].header = "tools.h";
@@ -225,86 +215,26 @@ static int write_sources(struct proof *proof)
         dag->terms[i].header = "tools.h";
     for (int i = 0; i < dag->fact_count; i++)
         dag->facts[i].c = dag_format(&dag->arena, "d->record->facts[%d]", i);
-    dag_emit_catalog_h(dag, &catalog, NULL);
-    print_discussion(dag, &discussion, proof->width);
-    dag_print(&oracle, "%s", embedded("oracle.h"));
-    dag_print(&tools, "/* all are in discussion.h */\n");
-    dag_emit_c(dag, &c, NULL, NULL, proof->options);
-    print_run(dag, &c, proof->options);
-    int result = write_file(proof, "catalog.h", &catalog) | write_file(proof, "discussion.h", &discussion) |
-                 write_file(proof, "oracle.h", &oracle) | write_file(proof, "tools.h", &tools) |
-                 write_file(proof, "oracles.c", &c);
-    dag_text_free(&catalog);
-    dag_text_free(&discussion);
-    dag_text_free(&oracle);
-    dag_text_free(&tools);
-    dag_text_free(&c);
-    return result;
-}
-
-static int compile(const struct proof *proof, const char *source, const char *library)
-{
-    char include[300];
-    char *given = getenv("CC"), *cc = given != NULL && *given != '\0' ? given : (char *)"cc";
-    snprintf(include, sizeof include, "-I%s", proof->folder);
-    /* Much text is compiled without optimising, which would take minutes. */
-    char *optimise = proof->dag->order_count > OPTIMISED_NODES ? (char *)"-O0" : (char *)"-O1";
-    char *arguments[] = {cc, (char *)"-std=c11", optimise, (char *)"-shared", (char *)"-fPIC",
-                         (char *)"-ffp-contract=off", include, (char *)"-o", (char *)library,
-                         (char *)source, (char *)"-lm", NULL};
-    fflush(NULL);
-    pid_t child = fork();
-    int status = 0;
-    if (child == 0) {
-        execvp(cc, arguments);
-        _exit(127);
+    dag_emit_catalog_h(dag, &texts[CATALOG], NULL);
+    print_discussion(dag, &texts[DISCUSSION], proof->width);
+    dag_print(&texts[ORACLE], "%s", embedded("oracle.h"));
+    dag_print(&texts[TOOLS], "/* all are in discussion.h */\n");
+    dag_emit_c(dag, &texts[C], NULL, NULL, proof->options);
+    print_run(dag, &texts[C], proof->options);
+    for (int i = 0; i < FILES; i++) {
+        files[i] = (struct c_file){names[i], texts[i].bytes, texts[i].length};
+        failed |= texts[i].failed;
     }
-    while (child > 0 && waitpid(child, &status, 0) < 0)
-        if (errno != EINTR)
-            return -1;
-    if (child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        return 0;
-    fprintf(stderr, "dagc: error: the C compiler '%s' failed; set CC to another\n", cc);
-    return -1;
-}
-
-static int build(struct proof *proof)
-{
-    char source[320], library[320];
-    const char *parent = getenv("TMPDIR");
-    int length = snprintf(proof->folder, sizeof proof->folder, "%s/dagc.XXXXXX",
-                          parent != NULL && *parent != '\0' ? parent : "/tmp");
-    if (length >= (int)sizeof proof->folder || mkdtemp(proof->folder) == NULL) {
-        proof->folder[0] = '\0';
-        fprintf(stderr, "dagc: error: cannot make a temporary folder: %s\n", strerror(errno));
-        return -1;
-    }
-    snprintf(source, sizeof source, "%s/oracles.c", proof->folder);
-    snprintf(library, sizeof library, "%s/oracles.so", proof->folder);
-    if (write_sources(proof) < 0 || compile(proof, source, library) < 0)
-        return -1;
-    proof->library = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+    if (!failed)
+        proof->library = dag_compile(files, FILES, flags, proof->compiler, message, sizeof message);
+    for (int i = 0; i < FILES; i++)
+        dag_text_free(&texts[i]);
     if (proof->library == NULL) {
-        fprintf(stderr, "dagc: error: cannot load what was compiled: %s\n", dlerror());
+        fprintf(stderr, "dagc: error: %s\n", message);
         return -1;
     }
     *(void **)&proof->run = dlsym(proof->library, "prove_run");
     return proof->run != NULL ? 0 : -1;
-}
-
-static void clean(struct proof *proof)
-{
-    static const char *const names[] = {"catalog.h", "discussion.h", "oracle.h", "tools.h",
-                                        "oracles.c", "oracles.so"};
-    char path[320];
-    if (proof->library != NULL)
-        dlclose(proof->library);
-    for (size_t i = 0; i < sizeof names / sizeof *names && proof->folder[0] != '\0'; i++) {
-        snprintf(path, sizeof path, "%s/%s", proof->folder, names[i]);
-        unlink(path);
-    }
-    if (proof->folder[0] != '\0')
-        rmdir(proof->folder);
 }
 
 /* ---- walking */
@@ -642,23 +572,25 @@ static void prove_all(struct dag *dag, void *context)
     }
 }
 
-int dag_prove(struct dag *dag, const struct emit_options *options, FILE *report)
+int dag_prove(struct dag *dag, const struct emit_options *options, const struct dag_compiler *compiler, FILE *report)
 {
     struct request request = {0};
     struct protector *outer = dag->arena.protector;
     request.proof.dag = dag;
     request.proof.options = options;
+    request.proof.compiler = compiler;
     request.proof.report = report;
     request.proof.width = 1;
     for (int i = 0; i < dag->tool_count; i++)
         if (dag->tools[i].parameters.count > request.proof.width)
             request.proof.width = dag->tools[i].parameters.count;
-    /* Of its own, so that the temporary folder goes even when memory runs out. */
+    /* Of its own, so that the library goes even when memory runs out. */
     if (dag_protect(dag, prove_all, &request) != 0) {
         fprintf(stderr, "dagc: error: out of memory\n");
         request.result = -1;
     }
     dag->arena.protector = outer;
-    clean(&request.proof);
+    if (request.proof.library != NULL)
+        dlclose(request.proof.library);
     return request.result;
 }

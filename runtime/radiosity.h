@@ -61,7 +61,9 @@ enum RadError {
 };
 
 struct RadDeviceOptions {
-    int threads; /* 0: as many as there are processors */
+    int threads;           /* 0: as many as there are processors */
+    const char *compiler;  /* C compiler for the flat release of files and texts; NULL: "cc" */
+    const char *temporary; /* folder for what it makes; NULL: "/tmp" */
 };
 
 /* Told of every error (code) and of every warning (RAD_ERROR_NONE), from the calling thread; `message` is good until it returns. */
@@ -102,7 +104,8 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after it. Polygon i has
  * sizes[i] corners (all have `size` when sizes is NULL), whose indices into positions stand one polygon after the other,
- * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. */
+ * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. Polygons without area, also
+ * those of fewer than three corners, are dropped and counted, and keep their place in all lists of polygons. */
 struct RadPolygons {
     const double *positions;   /* [position_count * 3], m */
     size_t position_count;
@@ -168,7 +171,7 @@ RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelea
 /* A .dag file ("-": standard input), or the text of one under the name `path`; `oracle`: which of the file's, NULL: the only one.
  * RAD_RELEASE_FLAT needs a C compiler and compiles it now. */
 RAD_API RadOracle radLoadOracle(RadDevice device, const char *path, const char *oracle, enum RadRelease release);
-RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *oracle);
+RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *oracle, enum RadRelease release);
 /* A refiner that dagc generated and that the program is linked with, or one written by hand. Borrowed. */
 RAD_API RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *oracle, const char *release);
 /* Let radNewOracle find it by name as RAD_RELEASE_HAND. Borrowed. Returns 0, or -1. */

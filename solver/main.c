@@ -4,10 +4,8 @@
 #include <string.h>
 
 #include "commands/commands.h"
-#include "hand.h"
-#include "oracle/oracles.h"
 #include "util/atomic_file.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 static int (*const commands[COMMANDS])(const struct options *) = {
     [COMMAND_SOLVE] = command_solve,           [COMMAND_COMPARE] = command_compare,
@@ -39,7 +37,6 @@ int main(int count, char **arguments)
 {
     struct options o;
     int status = options_parse(&o, count, arguments);
-    oracles_register_hand(hand_releases);
     if (status < 0) {
         status = check_outputs(&o);
         if (status == 0)

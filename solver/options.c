@@ -7,11 +7,12 @@
 #include <getopt.h>
 #include <omp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "option_table.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 }; /* what getopt_long returns: a letter, or one of these */
 

@@ -20,8 +20,8 @@ int progress_show(void *context, const struct solve *s, const char *phase)
     if (!p->wanted || (now = seconds()) < p->next)
         return 0;
     fprintf(stderr, "\r%-6s pass %d, round %llu: %.3g pairs (%zu waiting), %.3g links, %.3g rays, residual %.1e \033[K",
-            phase, s->passes + 1, (unsigned long long)s->refinement.rounds, (double)s->refinement.pairs,
-            s->refinement.queue_count, (double)s->refinement.link_count, (double)rays_count(s->rays).rays, s->residual);
+            phase, s->report.passes + 1, (unsigned long long)s->refinement.rounds, (double)s->refinement.pairs,
+            s->refinement.queue_count, (double)s->refinement.link_count, (double)rays_count(s->problem.rays).rays, s->report.residual);
     p->shown = 1;
     p->next = now + 0.1;
     return 0;

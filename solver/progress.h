@@ -3,7 +3,7 @@
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 
 struct progress {
@@ -13,7 +13,7 @@ struct progress {
 };
 
 void progress_start(struct progress *p, int quiet);
-/* For solve_options.progress; the context is a struct progress. */
+/* For solve_options.progress; the context is a struct progress. Returns 0: never cancels. */
 int progress_show(void *context, const struct solve *solve, const char *phase);
 /* The same line with another text. */
 void progress_say(struct progress *p, const char *format, ...) PRINTF_LIKE(2, 3);

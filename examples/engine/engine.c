@@ -14,7 +14,7 @@ static const uint32_t materials[6] = { 0, 1, 1, 1, 1, 1 }; /* the ceiling has ma
 static RadScene make_cube(RadDevice device, double rho)
 {
     struct RadMaterial material[2] = { { { rho, rho, rho }, { 1, 1, 1 }, 0 }, { { rho, rho, rho }, { 0, 0, 0 }, 0 } };
-    struct RadPolygons cube = { &corners[0][0], 8, &faces[0][0], NULL, 4, materials, 6 };
+    struct RadPolygons cube = { &corners[0][0], 8, &faces[0][0], NULL, 4, materials, 6, 0 };
     RadScene scene = radNewScene(device);
     if (radSetSceneMaterials(scene, material, 2) < 0 || radSetSceneSharedPolygons(scene, &cube) < 0 || radCommitScene(scene) < 0) {
         radReleaseScene(scene);

@@ -40,14 +40,15 @@ static void make_square(struct element *e, double x, double z, double size, doub
 int main(int count, char **arguments)
 {
     struct interpretation how = { 0 };
+    struct messages messages = { 0 };
     struct refiner *dag, *flat = refiner_compiled(&near_first_oracle, "flat");
     const struct host host = { .occluded = occluded, .area = 6, .extent = 1, .exitance = 1, .irradiance = 4, .radiosity = 1,
                                .importance = 1, .ray_offset = 1e-6, .flat = 1e-9 };
     int decided[DECISIONS] = { 0 }, i, wrong = 0;
     how.path = count > 1 ? arguments[1] : "near_first.dag";
-    dag = refiner_interpret(&how, stderr);
+    dag = refiner_interpret(&how, &messages);
     if (!dag || !flat)
-        return 1;
+        return fprintf(stderr, "%s\n", messages_text(&messages)), 1;
     for (i = 0; i < 2000; i++) {
         struct element receiver, emitter;
         struct discussion a, b;

@@ -10,16 +10,18 @@
 #include <stdatomic.h>
 #include "engine/solve.h"
 #include "hierarchy/scene.h"
+#include "oracle/oracles.h"
 #include "oracle/refiner.h"
 #include "oracle/statistics.h"
 #include "radiosity.h"
 #include "util/messages.h"
 
-enum { MESSAGE_SIZE = 1024 };
+enum { MESSAGE_SIZE = 8192 };
 
 struct RadDeviceObject {
     atomic_int holders;
     int threads;
+    char *compiler, *temporary; /* of the options; NULL: none given */
     pthread_mutex_t lock; /* of all that follows */
     enum RadError error;  /* the first since it was asked for */
     char message[MESSAGE_SIZE];
@@ -27,19 +29,17 @@ struct RadDeviceObject {
     void *tell_user;
     RadProgressFunction progress;
     void *progress_user;
-    const struct oracle **hand; /* [hand_count]: radRegisterOracle */
-    int hand_count;
+    struct oracle_sources sources; /* of radRegisterOracle */
 };
 
 struct RadSceneObject {
     atomic_int holders;
     RadDevice device;
-    struct RadMaterial *materials; /* [material_count] */
+    struct RadMaterial *materials; /* [material_count]; NULL after the commit */
     uint32_t material_count;
     struct RadPolygons polygons;   /* borrowed until the commit; zero before they are set and after it */
     int polygons_set, committed;
     struct scene scene;            /* empty before the commit */
-    double *areas;                 /* [scene.input_count]: m2, one side */
     struct RadSceneReport report;
 };
 
@@ -60,12 +60,13 @@ struct RadSolutionObject {
     RadOracle oracle;
     struct camera camera;
     struct solve solve;
+    int done; /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
 
 /* The device's first error becomes this one, unless there is one; its message function is told. Returns -1. */
-int api_fail(RadDevice device, enum RadError code, const char *format, ...) PRINTF_LIKE(3, 4);
-void api_warn(RadDevice device, const char *format, ...) PRINTF_LIKE(2, 3);
+int api_fail(RadDevice device, enum RadError code, const char *format, ...) MESSAGE_LIKE(3, 4);
+void api_warn(RadDevice device, const char *format, ...) MESSAGE_LIKE(2, 3);
 
 /* Calls the progress function, if there is one. Returns what it says. */
 int api_progress(RadDevice device, const struct RadProgress *progress);

@@ -34,6 +34,14 @@ RadDevice radNewDevice(const struct RadDeviceOptions *options)
         return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device's lock");
     }
     atomic_init(&device->holders, 1);
+    device->compiler = options && options->compiler ? strdup(options->compiler) : NULL;
+    device->temporary = options && options->temporary ? strdup(options->temporary) : NULL;
+    if (options && ((options->compiler && !device->compiler) || (options->temporary && !device->temporary))) {
+        radReleaseDevice(device);
+        return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device");
+    }
+    device->sources.compiler = device->compiler;
+    device->sources.temporary = device->temporary;
     device->threads = threads ? threads : omp_get_num_procs() < THREADS_MAX ? omp_get_num_procs() : THREADS_MAX;
     return device;
 }
@@ -49,7 +57,9 @@ void radReleaseDevice(RadDevice device)
     if (!device || atomic_fetch_sub(&device->holders, 1) != 1)
         return;
     pthread_mutex_destroy(&device->lock);
-    free(device->hand);
+    oracle_sources_free(&device->sources);
+    free(device->compiler);
+    free(device->temporary);
     free(device);
 }
 

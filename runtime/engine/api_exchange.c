@@ -16,6 +16,7 @@ struct RadExchangeObject {
     atomic_int holders;
     RadScene scene;
     const char *phase;
+    int cancelled;
     struct factor_tree tree;
     struct refinement refinement;
     struct factor_matrix matrix;
@@ -27,19 +28,20 @@ struct RadExchangeObject {
 
 static int watch(void *context, const struct refinement *r)
 {
-    const struct RadExchangeObject *x = context;
+    struct RadExchangeObject *x = context;
     const struct RadProgress progress = { x->phase, 1, r->rounds, r->pairs, r->queue_count, r->link_count, rays_count(x->tree.rays).rays, 0 };
-    return api_progress(x->scene->device, &progress);
+    x->cancelled |= api_progress(x->scene->device, &progress) != 0;
+    return x->cancelled;
 }
 
 /* The oracle's limits for another tolerance: the error of half shadow falls with what is left to it. */
 static struct refiner *default_oracle(double tolerance)
 {
-    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    struct refiner *refiner = oracle_open(NULL, "viewfactors", RELEASE_FLAT, NULL);
     for (int i = 0; refiner && i < refiner->parameter_count; i++) {
         const char *name = refiner->parameters[i].name;
         if (strcmp(name, "shadow") == 0 || strcmp(name, "group_shadow") == 0)
-            (void)refiner_set(refiner, name, refiner_get(refiner, i) * tolerance / MEANT);
+            (void)refiner_set(refiner, name, refiner_get(refiner, i) * tolerance / MEANT, NULL);
     }
     return refiner;
 }
@@ -114,10 +116,8 @@ static int compute(RadExchange x, RadOracle oracle, const struct RadExchangeOpti
     middle = seconds();
     x->report.seconds.refine = middle - start;
     x->phase = "factors";
-    if (watch(x, &x->refinement) != 0) {
-        x->refinement.cancelled = 1;
+    if (watch(x, &x->refinement) != 0)
         return -1;
-    }
     if (factor_matrix_open(&x->matrix, &x->tree, &x->scene->scene, &x->refinement, near, x->scene->device->threads) < 0
         || take_account(x, o, tolerance) < 0 || factor_closure_make(&x->closure, kinds[o->closure], &x->matrix, x->sums, x->sky) < 0)
         return -1;
@@ -159,7 +159,7 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
     x->scene = scene;
     radRetainScene(scene);
     if (factor_tree_open(&x->tree, scene->scene.faces, scene->scene.face_count, device->threads, &cause) < 0 || compute(x, oracle, o) < 0) {
-        if (x->refinement.cancelled)
+        if (x->cancelled)
             api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
         else
             api_fail(device, api_cause(cause), "%s", cause);

@@ -1,7 +1,6 @@
 /* api_oracle.c - oracles: built in, from a file or a text, compiled into the program, or registered by hand.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
@@ -18,51 +17,52 @@ const char *radGetDefaultOracle(void)
     return DEFAULT_ORACLE;
 }
 
-static const struct builtin *find_builtin(const char *name)
+static int is_builtin(const char *name)
 {
-    for (const struct builtin *b = builtins; b->name; b++)
-        if (strcmp(b->name, name) == 0)
-            return b;
-    return NULL;
+    for (const char *const *b = builtin_names; *b; b++)
+        if (strcmp(*b, name) == 0)
+            return 1;
+    return 0;
 }
 
-static const struct oracle *find_hand(RadDevice device, const char *name)
+static const struct oracle *find_registered(RadDevice device, const char *name)
 {
     const struct oracle *found = NULL;
     pthread_mutex_lock(&device->lock);
-    for (int i = 0; i < device->hand_count && !found; i++)
-        if (strcmp(device->hand[i]->name, name) == 0)
-            found = device->hand[i];
+    for (int i = 0; i < device->sources.hand_count && !found; i++)
+        if (strcmp(device->sources.hand[i]->name, name) == 0)
+            found = device->sources.hand[i];
     pthread_mutex_unlock(&device->lock);
     return found;
 }
 
+/* Can this program call it? Returns 0, or -1 after an error. */
+static int check_compiled(RadDevice device, const struct oracle *oracle)
+{
+    if (!oracle || !oracle->name || !oracle->refine || !oracle->defaults)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a compiled oracle needs a name, defaults and a refine function");
+    if (oracle->abi != RUNTIME_ABI)
+        return api_fail(device, RAD_ERROR_INVALID_ORACLE, "oracle %s was compiled against ABI %d, not %d; compile it anew with this version's headers",
+                        oracle->name, oracle->abi, RUNTIME_ABI);
+    return 0;
+}
+
 int radRegisterOracle(RadDevice device, const struct oracle *oracle)
 {
-    int status = 0;
-    if (!device)
+    if (!device || check_compiled(device, oracle) < 0)
         return -1;
-    if (!oracle || !oracle->name || !oracle->refine || !oracle->defaults)
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle to register needs a name, defaults and a refine function");
-    if (oracle->abi != RUNTIME_ABI)
-        return api_fail(device, RAD_ERROR_INVALID_ORACLE, "oracle %s was compiled against ABI %d, not %d; compile it anew", oracle->name, oracle->abi, RUNTIME_ABI);
     pthread_mutex_lock(&device->lock);
-    const struct oracle **more = realloc(device->hand, (size_t)(device->hand_count + 1) * sizeof *more);
-    if (more) {
-        device->hand = more;
-        device->hand[device->hand_count++] = oracle;
-    } else {
-        status = -1;
-    }
+    int status = oracle_register(&device->sources, oracle);
     pthread_mutex_unlock(&device->lock);
-    return status < 0 ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory") : 0;
+    return status < 0 ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for oracle %s", oracle->name) : 0;
 }
 
 int radHasOracle(RadDevice device, const char *name, enum RadRelease release)
 {
     if (!device || !name)
         return 0;
-    return release == RAD_RELEASE_HAND ? find_hand(device, name) != NULL : find_builtin(name) != NULL;
+    return release == RAD_RELEASE_HAND ? find_registered(device, name) != NULL
+                                       : (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG) && is_builtin(name);
 }
 
 /* Takes the refiner over; NULL is out of memory. */
@@ -81,95 +81,79 @@ static RadOracle make_oracle(RadDevice device, struct refiner *refiner)
     return oracle;
 }
 
+/* Of two that files and texts have. */
+static int check_release(RadDevice device, enum RadRelease release)
+{
+    if (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG)
+        return 0;
+    return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "release %d: RAD_RELEASE_FLAT and RAD_RELEASE_DAG are there, and no other", (int)release);
+}
+
+/* The graph `text`, or of the file `path` when it is NULL. */
+static RadOracle load(RadDevice device, const char *path, const char *text, const char *name, enum RadRelease release)
+{
+    static const enum RadError codes[] = { [MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY, [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
+                                           [MESSAGE_GRAPH] = RAD_ERROR_INVALID_ORACLE, [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
+                                           [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY };
+    const struct oracle_sources how = { .compiler = device->sources.compiler, .temporary = device->sources.temporary };
+    struct messages messages = { 0 };
+    if (check_release(device, release) < 0)
+        return NULL;
+    struct refiner *refiner = oracle_load(&how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    RadOracle oracle = refiner ? make_oracle(device, refiner) : NULL;
+    if (!refiner)
+        api_fail(device, codes[messages.cause], "%s", messages.cause == MESSAGE_NONE ? "out of memory for an oracle" : messages_text(&messages));
+    messages_free(&messages);
+    return oracle;
+}
+
 RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release)
 {
+    struct messages messages = { 0 };
     if (!device)
         return NULL;
-    if (!name || (release != RAD_RELEASE_HAND && !find_builtin(name))) {
+    if (!name || (release != RAD_RELEASE_HAND && !is_builtin(name))) {
         api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "there is no built-in oracle '%s'; radGetOracleNames tells those that there are", name ? name : "");
         return NULL;
     }
     if (release == RAD_RELEASE_HAND) {
-        const struct oracle *hand = find_hand(device, name);
+        const struct oracle *hand = find_registered(device, name);
         if (hand)
             return make_oracle(device, refiner_compiled(hand, "hand"));
         api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "no hand-written release of oracle '%s' has been registered", name);
         return NULL;
     }
-    if (release != RAD_RELEASE_FLAT && release != RAD_RELEASE_DAG) {
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "%d is no release", (int)release);
+    if (check_release(device, release) < 0)
         return NULL;
-    }
-    return make_oracle(device, oracles_open(name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT));
-}
-
-/* The DAG release; what is wrong with the graph becomes the device's error. */
-static RadOracle interpret(RadDevice device, const char *path, const char *text, const char *name)
-{
-    char *said = NULL;
-    size_t length = 0;
-    FILE *errors = open_memstream(&said, &length);
-    RadOracle oracle = NULL;
-    if (!errors) {
-        api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for an oracle");
-        return NULL;
-    }
-    struct refiner *refiner = refiner_interpreted(path, text, name, errors);
-    fclose(errors);
-    while (length > 0 && said[length - 1] == '\n')
-        said[--length] = 0;
-    if (refiner)
-        oracle = make_oracle(device, refiner);
-    else
-        api_fail(device, RAD_ERROR_INVALID_ORACLE, "%s", said && *said ? said : "out of memory for a graph");
-    free(said);
-    return oracle;
+    struct refiner *refiner = oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    messages_free(&messages); /* a built-in graph is right: there can have been no memory, and make_oracle says so */
+    return make_oracle(device, refiner);
 }
 
 RadOracle radLoadOracle(RadDevice device, const char *path, const char *name, enum RadRelease release)
 {
     if (!device)
         return NULL;
-    if (!path) {
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle's file needs a name");
-        return NULL;
-    }
-    if (release == RAD_RELEASE_DAG)
-        return interpret(device, path, NULL, name);
-    if (release != RAD_RELEASE_FLAT) {
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a file has a flat release and a DAG release, and no other");
-        return NULL;
-    }
-    struct refiner *refiner = oracles_open(path, RELEASE_FLAT);
-    if (refiner)
-        return make_oracle(device, refiner);
-    api_fail(device, RAD_ERROR_INVALID_ORACLE, "%s: cannot be compiled; try RAD_RELEASE_DAG", path);
+    if (path)
+        return load(device, path, NULL, name, release);
+    api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle's file needs a name");
     return NULL;
 }
 
-RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *name)
+RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *name, enum RadRelease release)
 {
     if (!device)
         return NULL;
-    if (!path || !text) {
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a graph needs a name and a text");
-        return NULL;
-    }
-    return interpret(device, path, text, name);
+    if (path && text)
+        return load(device, path, text, name, release);
+    api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a graph needs a text, and a name for messages");
+    return NULL;
 }
 
 RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *compiled, const char *release)
 {
-    if (!device)
+    if (!device || check_compiled(device, compiled) < 0)
         return NULL;
-    if (!compiled || !compiled->refine || !compiled->defaults) {
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a compiled oracle needs defaults and a refine function");
-        return NULL;
-    }
-    if (compiled->abi != RUNTIME_ABI) {
-        api_fail(device, RAD_ERROR_INVALID_ORACLE, "oracle %s was compiled against ABI %d, not %d; compile it anew", compiled->name, compiled->abi, RUNTIME_ABI);
-        return NULL;
-    }
     return make_oracle(device, refiner_compiled(compiled, release ? release : "flat"));
 }
 
@@ -208,57 +192,37 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
     if (!oracle)
         return;
     const struct refiner *r = oracle->refiner;
-    const struct builtin *b = find_builtin(r->oracle);
     report->name = r->oracle;
     report->release = r->release;
     report->doc = r->doc;
-    if (b && strcmp(r->release, "flat") == 0)
-        report->fingerprint = b->flat->fingerprint;
+    report->fingerprint = r->fingerprint ? r->fingerprint : "";
     report->parameters = r->parameters;
     report->parameter_count = r->parameter_count;
     report->reads_importance = (r->reads & REFINER_READS_IMPORTANCE) != 0;
-    report->reads_tolerance = (r->reads & REFINER_READS_ALLOWANCE) != 0;
-}
-
-static int find_parameter(const struct refiner *r, const char *name)
-{
-    for (int i = 0; name && i < r->parameter_count; i++)
-        if (strcmp(r->parameters[i].name, name) == 0)
-            return i;
-    return -1;
+    report->reads_tolerance = (r->reads & REFINER_READS_TOLERANCE) != 0;
 }
 
 int radSetOracleParameter(RadOracle oracle, const char *name, double value)
 {
+    struct messages messages = { 0 };
     if (!oracle)
         return -1;
-    const struct refiner *r = oracle->refiner;
-    int i = find_parameter(r, name);
-    if (i < 0) {
-        char names[MESSAGE_SIZE / 2] = "";
-        for (int k = 0; k < r->parameter_count; k++) {
-            size_t at = strlen(names);
-            snprintf(names + at, sizeof names - at, "%s %s", k ? "," : "", r->parameters[k].name);
-        }
-        return api_fail(oracle->device, RAD_ERROR_INVALID_ARGUMENT, "oracle %s has no parameter '%s'; it has%s", r->oracle, name ? name : "", names);
-    }
-    const struct oracle_parameter *p = &r->parameters[i];
-    const char *cause = refiner_set(oracle->refiner, name, value);
-    if (cause)
-        return api_fail(oracle->device, RAD_ERROR_INVALID_ARGUMENT, "%s = %g: %s; %s takes %s%g to %g%s%s", name, value, cause, name,
-                        p->integer ? "whole numbers from " : "", p->low, p->high, *p->unit ? " " : "", p->unit);
-    return 0;
+    int status = refiner_set(oracle->refiner, name ? name : "", value, &messages);
+    if (status < 0)
+        api_fail(oracle->device, RAD_ERROR_INVALID_ARGUMENT, "%s", messages_text(&messages));
+    messages_free(&messages);
+    return status;
 }
 
 double radGetOracleParameter(RadOracle oracle, const char *name)
 {
-    int i = oracle ? find_parameter(oracle->refiner, name) : -1;
+    int i = oracle && name ? refiner_find(oracle->refiner, name) : -1;
     return i < 0 ? (double)NAN : refiner_get(oracle->refiner, i);
 }
 
 enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)
 {
-    return oracle->refiner->refine(oracle->refiner->state, discussion);
+    return oracle && discussion ? oracle->refiner->refine(oracle->refiner->state, discussion) : DECISION_STOP;
 }
 
 int radCountOracle(RadOracle oracle)

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
-#include "hierarchy/build_scene.h"
-#include "hierarchy/cut_faces.h"
 
 /* A RadFace is a struct face under the name that programs know. */
 _Static_assert(sizeof(struct RadFace) == sizeof(struct face) && offsetof(struct RadFace, vertices) == offsetof(struct face, vertices)
@@ -41,7 +39,6 @@ void radReleaseScene(RadScene scene)
         return;
     scene_free(&scene->scene);
     free(scene->materials);
-    free(scene->areas);
     radReleaseDevice(scene->device);
     free(scene);
 }
@@ -85,99 +82,6 @@ int radSetSceneSharedPolygons(RadScene scene, const struct RadPolygons *polygons
     return 0;
 }
 
-static uint32_t polygon_size_of(const struct RadPolygons *p, uint32_t i)
-{
-    return p->sizes ? p->sizes[i] : p->size;
-}
-
-static uint32_t polygon_material(const struct RadPolygons *p, uint32_t i)
-{
-    return p->materials ? p->materials[i] : 0;
-}
-
-static int check_polygons(RadScene scene)
-{
-    const struct RadPolygons *p = &scene->polygons;
-    size_t at = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
-        uint32_t size = polygon_size_of(p, i), material = polygon_material(p, i);
-        if (size < 3)
-            return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "polygon %u has %u corners; it needs 3 or more", (unsigned)i, (unsigned)size);
-        if (material >= scene->material_count)
-            return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "polygon %u has material %u, but there are %u, from 0", (unsigned)i,
-                            (unsigned)material, (unsigned)scene->material_count);
-        for (uint32_t j = 0; j < size; j++, at++) {
-            if (p->indices[at] >= p->position_count)
-                return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "corner %u of polygon %u is position %u, but there are %zu, from 0",
-                                (unsigned)j, (unsigned)i, (unsigned)p->indices[at], p->position_count);
-            if (!api_finite(p->positions + 3 * (size_t)p->indices[at], 3))
-                return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "position %u, corner %u of polygon %u, is not finite; correct its coordinates",
-                                (unsigned)p->indices[at], (unsigned)j, (unsigned)i);
-        }
-    }
-    return 0;
-}
-
-/* Materials that no polygon has may hold anything. */
-static int check_materials(RadScene scene)
-{
-    const struct RadPolygons *p = &scene->polygons;
-    for (uint32_t i = 0; i < p->count; i++) {
-        uint32_t material = polygon_material(p, i);
-        const struct RadMaterial *m = &scene->materials[material];
-        for (int k = 0; k < 3; k++) {
-            if (!(m->reflectance[k] >= 0 && m->reflectance[k] < 1))
-                return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "material %u, of polygon %u, has reflectance %g; it must be 0 or more and below 1",
-                                (unsigned)material, (unsigned)i, m->reflectance[k]);
-            if (!(m->exitance[k] >= 0 && isfinite(m->exitance[k])))
-                return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "material %u, of polygon %u, has exitance %g W/m2; it must be 0 or more and finite",
-                                (unsigned)material, (unsigned)i, m->exitance[k]);
-        }
-    }
-    return 0;
-}
-
-static int copy_materials(struct scene *to, const RadScene from)
-{
-    to->materials = calloc(from->material_count, sizeof *to->materials);
-    if (!to->materials)
-        return -1;
-    to->material_count = from->material_count;
-    for (uint32_t i = 0; i < from->material_count; i++) {
-        memcpy(to->materials[i].reflectance, from->materials[i].reflectance, sizeof to->materials[i].reflectance);
-        memcpy(to->materials[i].exitance, from->materials[i].exitance, sizeof to->materials[i].exitance);
-        to->materials[i].two_sided = from->materials[i].two_sided;
-    }
-    return 0;
-}
-
-static int make_faces(RadScene scene)
-{
-    const struct RadPolygons *p = &scene->polygons;
-    struct scene *s = &scene->scene;
-    struct scene_builder b = { .scene = s };
-    size_t at = 0;
-    int status = copy_materials(s, scene);
-    for (uint32_t i = 0; i < p->count && status == 0; i++) {
-        uint32_t size = polygon_size_of(p, i);
-        status = scene_builder_polygon(&b, p->positions, p->indices + at, size, polygon_material(p, i));
-        at += size;
-    }
-    if (status == 0 && s->face_count)
-        status = scene_cut(s);
-    if (status == 0)
-        status = scene_builder_end(&b);
-    scene_builder_free(&b);
-    scene->areas = malloc(p->count * sizeof *scene->areas);
-    if (status < 0 || !scene->areas)
-        return api_fail(scene->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for a scene of %u polygons", (unsigned)p->count);
-    if (!s->face_count)
-        return api_fail(scene->device, RAD_ERROR_INVALID_SCENE, "all of the %u polygons are degenerate; give one with an area", (unsigned)p->count);
-    for (uint32_t i = 0; i < p->count; i++)
-        scene->areas[i] = s->inputs[i].area;
-    return 0;
-}
-
 static void make_report(RadScene scene)
 {
     const struct scene *s = &scene->scene;
@@ -188,8 +92,10 @@ static void make_report(RadScene scene)
         r->low[k] = INFINITY;
         r->high[k] = -INFINITY;
     }
-    for (uint32_t i = 0; i < s->input_count; i++)
-        r->area += s->inputs[i].area * (s->materials[s->inputs[i].material].two_sided ? 2 : 1);
+    for (uint32_t i = 0; i < scene->polygons.count; i++) {
+        uint32_t material = scene->polygons.materials ? scene->polygons.materials[i] : 0;
+        r->area += s->areas[i] * (s->materials[material].two_sided ? 2 : 1);
+    }
     for (uint32_t i = 0; i < s->face_count; i++)
         for (uint32_t j = 0; j < s->faces[i].vertices; j++)
             for (int k = 0; k < 3; k++) {
@@ -204,16 +110,13 @@ int radCommitScene(RadScene scene)
         return -1;
     if (!scene->materials || !scene->polygons_set)
         return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "set %s before radCommitScene", scene->materials ? "polygons" : "materials");
-    if (check_polygons(scene) < 0 || check_materials(scene) < 0)
-        return -1;
-    if (make_faces(scene) < 0) {
-        scene_free(&scene->scene);
-        free(scene->areas);
-        scene->areas = NULL;
-        return -1;
-    }
+    struct scene_error error;
+    if (scene_build(&scene->scene, &scene->polygons, scene->materials, scene->material_count, scene->device->threads, &error) < 0)
+        return api_fail(scene->device, error.code, "%s", error.text);
     make_report(scene);
     scene->polygons = (struct RadPolygons){ 0 };
+    free(scene->materials);
+    scene->materials = NULL; /* the engine has its own */
     scene->committed = 1;
     return 0;
 }
@@ -235,10 +138,10 @@ const struct RadFace *radGetSceneFaces(RadScene scene)
 
 const double *radGetScenePolygonAreas(RadScene scene)
 {
-    return scene && scene->committed ? scene->areas : NULL;
+    return scene && scene->committed ? scene->scene.areas : NULL;
 }
 
 const struct RadMaterial *radGetSceneMaterials(RadScene scene)
 {
-    return scene ? scene->materials : NULL;
+    return !scene ? NULL : scene->committed ? scene->scene.materials : scene->materials;
 }

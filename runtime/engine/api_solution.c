@@ -70,8 +70,8 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
 static int watch(void *context, const struct solve *s, const char *phase)
 {
     const struct RadSolutionObject *solution = context;
-    const struct RadProgress progress = { phase, s->passes + 1, s->refinement.rounds, s->refinement.pairs, s->refinement.queue_count,
-                                          s->refinement.link_count, rays_count(s->rays).rays, s->residual };
+    const struct RadProgress progress = { phase, s->report.passes + 1, s->refinement.rounds, s->refinement.pairs, s->refinement.queue_count,
+                                          s->refinement.link_count, rays_count(s->problem.rays).rays, s->report.residual };
     return api_progress(solution->scene->device, &progress);
 }
 
@@ -153,7 +153,7 @@ static int give_up(RadSolution solution, const char *cause)
 {
     RadDevice device = solution->scene->device;
     solution->dead = 1;
-    if (solution->solve.cancelled)
+    if (solution->solve.report.cancelled)
         return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
     return api_fail(device, api_cause(cause), "%s", cause);
 }
@@ -167,12 +167,18 @@ static int not_dead(RadSolution solution)
     return 0;
 }
 
+/* Are there links? */
+static int is_refined(RadSolution solution)
+{
+    return solution->solve.refinement.hierarchy != NULL;
+}
+
 int radRefine(RadSolution solution)
 {
     const char *cause;
     if (not_dead(solution) < 0)
         return -1;
-    if (solution->solve.refined)
+    if (is_refined(solution))
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION, "radRefine comes first and once; radStep refines further");
     if (solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return give_up(solution, cause);
@@ -184,17 +190,24 @@ int radStep(RadSolution solution)
     const char *cause;
     if (not_dead(solution) < 0)
         return -1;
-    int more = solve_step(&solution->solve, solution->oracle->refiner, &cause);
+    if (solution->done)
+        return 0;
+    if (!is_refined(solution) && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
+        return give_up(solution, cause);
+    int more = solve_step(&solution->solve, &cause);
+    solution->done = more == 0;
     return more < 0 ? give_up(solution, cause) : more;
 }
 
 int radSolve(RadSolution solution)
 {
-    int more;
-    do
-        more = radStep(solution);
-    while (more > 0);
-    return more;
+    const char *cause;
+    if (not_dead(solution) < 0)
+        return -1;
+    if (!solution->done && solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
+        return give_up(solution, cause);
+    solution->done = 1;
+    return 0;
 }
 
 int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, double *irradiance)
@@ -202,9 +215,10 @@ int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, 
     if (not_dead(solution) < 0)
         return -1;
     const struct solve *s = &solution->solve;
-    const struct scene *scene = s->scene;
-    if (band >= s->bands)
-        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT, "there is no band %u; there are %u, from 0", (unsigned)band, (unsigned)s->bands);
+    const struct scene *scene = s->problem.scene;
+    const uint32_t bands = s->problem.bands;
+    if (band >= bands)
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT, "there is no band %u; there are %u, from 0", (unsigned)band, (unsigned)bands);
     double *area = calloc(2 * (size_t)scene->input_count, sizeof *area), *bare = area ? area + scene->input_count : NULL;
     if (!area)
         return api_fail(solution->scene->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for values of %u polygons", (unsigned)scene->input_count);
@@ -218,11 +232,11 @@ int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, 
         uint32_t e = s->hierarchy.face_element[i], input = scene->faces[i].input;
         double a = s->hierarchy.elements[e].area;
         area[input] += a;
-        bare[input] += a * s->exposed[e];
+        bare[input] += a * s->operator.uncovered[e];
         if (radiosity)
-            radiosity[input] += a * s->exposed[e] * s->radiosity[(size_t)e * s->bands + band];
+            radiosity[input] += a * s->operator.uncovered[e] * s->state.radiosity[(size_t)e * bands + band];
         if (irradiance)
-            irradiance[input] += a * s->irradiance[(size_t)e * s->bands + band];
+            irradiance[input] += a * s->state.irradiance[(size_t)e * bands + band];
     }
     for (uint32_t i = 0; i < scene->input_count; i++) {
         if (radiosity && bare[i] > 0)
@@ -242,8 +256,8 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
     if (!solution || solution->dead)
         return;
     const struct solve *s = &solution->solve;
-    *elements = (struct RadElements){ s->hierarchy.elements, s->started, s->hierarchy.built, s->hierarchy.face_element, s->bands,
-                                      s->radiosity, s->irradiance, s->exposed };
+    *elements = (struct RadElements){ s->hierarchy.elements, s->started, s->hierarchy.built, s->hierarchy.face_element, s->problem.bands,
+                                      s->state.radiosity, s->state.irradiance, s->operator.uncovered };
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)
@@ -251,7 +265,7 @@ void radGetLinks(RadSolution solution, struct RadLinks *links)
     if (!links)
         return;
     *links = (struct RadLinks){ 0 };
-    if (!solution || solution->dead || !solution->solve.refined)
+    if (!solution || solution->dead || !is_refined(solution))
         return;
     const struct refinement *r = &solution->solve.refinement;
     *links = (struct RadLinks){ (const struct RadLink *)(const void *)r->links, r->link_count, r->first_link };
@@ -273,16 +287,17 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     if (!solution)
         return;
     const struct solve *s = &solution->solve;
+    const struct row_report *rows = &s->report.rows;
     *report = (struct RadReport){
-        .elements = s->hierarchy.count, .leaves = count_leaves(&s->hierarchy), .bands = s->bands, .links = s->refinement.link_count,
-        .pairs = s->refinement.pairs, .rounds = s->refinement.rounds, .rays = rays_count(s->rays).rays,
-        .passes = s->passes, .iterations = s->sweeps, .converged = s->converged, .changing = s->changing, .residual = s->residual,
-        .emitted = s->emitted, .absorbed = s->absorbed,
-        .rows = { s->row_low, s->row_high, s->row_defect, s->row_defect_most, s->row_blind, s->row_excess },
-        .closed = s->options.closure == CLOSURE_NONE ? -1 : s->closed, .closed_rays = s->closed_rays,
+        .elements = s->hierarchy.count, .leaves = count_leaves(&s->hierarchy), .bands = s->problem.bands, .links = s->refinement.link_count,
+        .pairs = s->refinement.pairs, .rounds = s->refinement.rounds, .rays = rays_count(s->problem.rays).rays,
+        .passes = s->report.passes, .iterations = s->report.sweeps, .converged = s->report.converged, .changing = s->report.changing,
+        .residual = s->report.residual, .emitted = s->report.emitted, .absorbed = s->report.absorbed,
+        .rows = { rows->low, rows->high, rows->defect_mean, rows->defect_most, rows->blind_area, rows->moved },
+        .closed = s->problem.options.closure == CLOSURE_NONE ? -1 : s->problem.closed, .closed_rays = s->problem.closed_rays,
         .importance = { s->importance.sweeps, s->importance.largest, s->importance.mean, s->importance.seen },
-        .tolerance = { s->allowance.target, s->allowance.largest, s->allowance.area },
-        .seconds = { s->seconds.build, s->seconds.refine, s->seconds.iterate, s->seconds.in_rays } };
+        .tolerance = { s->error.target, s->error.largest, s->error.area },
+        .seconds = { s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate, s->report.seconds.in_rays } };
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

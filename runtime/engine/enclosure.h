@@ -3,10 +3,10 @@
 #ifndef ENCLOSURE_H
 #define ENCLOSURE_H
 
-#include "engine/solve.h"
+#include "engine/problem.h"
 
 /* 1 when light that walks through the scene never leaves it nor meets the black back of a one-sided face, else 0; 0 without
- * light. Counts the steps in closed_rays. */
-int enclosure_decide(struct solve *s);
+ * light. *rays: the steps that say so. */
+int enclosure_decide(const struct problem *p, const struct hierarchy *h, uint64_t *rays);
 
 #endif

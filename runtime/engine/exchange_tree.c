@@ -175,7 +175,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, int count)
         h->elements[i].parent = parent;
         h->elements[i].id = hash64(i + HASH_STEP);
         h->elements[i].importance = 1;
-        h->elements[i].allowance = INFINITY;
+        h->elements[i].tolerance = INFINITY;
         h->elements[i].radiosity = 1;
     }
     return first;
@@ -596,7 +596,7 @@ static int build(struct factor_tree *t, const struct hierarchy *plain, double fl
     memset(h->elements, 0, sizeof *h->elements);
     h->elements[0].id = hash64(HASH_STEP);
     h->elements[0].importance = 1;
-    h->elements[0].allowance = INFINITY;
+    h->elements[0].tolerance = INFINITY;
     h->elements[0].radiosity = 1;
     make_cluster(&b, scratch, list, order, 0, (struct face_range){ 0, b.planes }, 0);
     h->built = h->count;

@@ -20,6 +20,9 @@ struct link {
 
 enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
 
+/* The mark by which graphs say that a link was too large and could not be split (runtime/tools/mark.h). */
+enum { LINK_GUARDED = 1 };
+
 /* A pair of elements still to be discussed. */
 struct pair {
     uint32_t receiver, emitter;
@@ -43,7 +46,7 @@ struct pooled {
 
 struct refinement;
 
-/* Called after each round, from the calling thread. Anything but 0 ends the refinement. */
+/* Called after each round, from the calling thread; nonzero stops. */
 typedef int refinement_watch(void *context, const struct refinement *refinement);
 
 struct refinement {
@@ -71,20 +74,19 @@ struct refinement {
     uint64_t pairs, rounds; /* discussions held, rounds gone */
     uint64_t decided[8];    /* how often each decision was taken */
     uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
-    int cancelled;          /* by `watch`: the links are incomplete */
+    int failed;             /* out of memory: the links are incomplete */
 };
 
 /* Prepare an empty refinement. Returns 0, or -1 when out of memory. */
 int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
                     const struct refiner *refiner, int threads);
 
-/* Refine from the pair (root, root). Returns 0, or -1 when out of memory or cancelled. */
+/* Refine from the pair (root, root). Returns 0, or -1 when out of memory. */
 int refinement_start(struct refinement *r);
 
 /* Discuss the links again whose receiver or emitter is marked in changed[elements] (NULL: all of them), with
  * the radiosities as they now are: a link stays, is known better, or gives way to links below it.
- * Returns how many links changed, or -1 when out of memory or
- * cancelled. */
+ * Returns how many links changed, or -1 when out of memory. */
 int64_t refinement_again(struct refinement *r, const unsigned char *changed);
 
 /* Sort the links by receiver, keeping their order otherwise. Returns 0 or -1. */

@@ -61,7 +61,7 @@ static void measure_surface(struct element *e)
 static void reset_fields(struct element *e)
 {
     e->importance = 1;
-    e->allowance = INFINITY;
+    e->tolerance = INFINITY;
 }
 
 static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
@@ -248,7 +248,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
             c->radiosity = e->radiosity;
             c->reflectance = e->reflectance;
             c->importance = e->importance;
-            c->allowance = e->allowance;
+            c->tolerance = e->tolerance;
             c->id = child_id(e->id, (uint32_t)i);
             measure_surface(c);
             memcpy(c->normal, e->normal, sizeof c->normal);

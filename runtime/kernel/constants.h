@@ -15,7 +15,27 @@
 
 /* ---- visibility */
 
+#define CONTACT_RAYS 8  /* rays per point. chosen: cosine-spread, enough that two may go astray */
+#define CONTACT_BACKS 6 /* of CONTACT_RAYS that must meet backs for a point to lie inside a solid. chosen: two may meet
+                           fronts of what reaches into the solid; points outside meet backs of closed solids never */
+
 /* ---- links and transport (engine) */
+
+#define HYSTERESIS 0.02 /* relative. What an oracle sees of radiosity, spread and importance lags this far behind the
+                           truth, so that passes end; chosen, below the 5 % that the oracles' own thresholds decide by */
+#define ROUGH_TOLERANCE 0.005 /* relative L1 error of B. Where groups are linked, passes before the last ones solve to
+                                 this: a quarter of HYSTERESIS, so that oracles do not notice; must stay below it */
+#define SETTLED 1000    /* links per changed link. Passes solve to the tolerance once no more links change than one in
+                           this many; chosen: so few cannot bring many others to change */
+#define ROW_SHADOW 0.5  /* of the cap. Leaves whose row is below this take nothing of what is capped off others: their
+                           row is small because something stands before them, not by error; chosen */
+#define IMPORTANCE_LEAST 1e-4 /* of the largest importance. What oracles see is no less, so that nothing divides by 0;
+                                 chosen, far below what a picture of 8 bits shows */
+#define ERROR_STEP 1.4  /* factor by which an error tolerance falls per pass; Bekaert and Willems 1996 */
+#define ERROR_ENOUGH 0.25 /* of the error to be held: the most that all links of a leaf may bring together by the
+                             oracle's own measure before the leaf is given up; chosen */
+#define PIVOT_RELIABLE 0.3 /* cosine. A side whose mean normal is turned less than this to the other side is seen on
+                              edge: that normal says nothing of what passes, only the place does; chosen */
 
 /* ---- exchange areas (engine) */
 

@@ -142,7 +142,7 @@ static struct instruction *compile(const struct refiner *r, int expression, stru
 }
 
 /* Can every name in the tree be evaluated here? 0, or -1 after a message. *size gets the room its code needs. */
-static int link_expression(const struct program *p, int expression, const char *oracle, int *size, FILE *errors)
+static int link_expression(const struct program *p, int expression, const char *oracle, int *size, struct messages *messages)
 {
     const struct dag *dag = p->dag;
     const struct expression *e = &dag->expressions[expression];
@@ -164,20 +164,17 @@ static int link_expression(const struct program *p, int expression, const char *
                 name = dag->terms[dag->needs[k].term].name;
             }
         if (!p->externs[e->index].fact) {
-            fprintf(errors, "%s: error: the extern '%s' is not registered; give its C function in "
-                            "interpretation.externs, or use the flat release\n",
-                    oracle, dag->callbacks[e->index].name);
-            return -1;
+            return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: the extern '%s' is not registered; give its C "
+                                "function in interpretation.externs, or use the flat release",
+                                oracle, dag->callbacks[e->index].name);
         }
     }
-    if (what) {
-        fprintf(errors, "%s: error: this program was built without the %s '%s'; use the flat release\n",
-                oracle, what, name);
+    if (what)
+        return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: this program was built without the %s '%s'; use the "
+                            "flat release", oracle, what, name);
+    if (e->left >= 0 && link_expression(p, e->left, oracle, size, messages) < 0)
         return -1;
-    }
-    if (e->left >= 0 && link_expression(p, e->left, oracle, size, errors) < 0)
-        return -1;
-    return e->right >= 0 ? link_expression(p, e->right, oracle, size, errors) : 0;
+    return e->right >= 0 ? link_expression(p, e->right, oracle, size, messages) : 0;
 }
 
 void program_prepare(struct refiner *r)
@@ -205,7 +202,7 @@ static int is_computed(const struct dag *dag, const struct node *n)
 }
 
 /* Each computed step gets its part of the room for all code. */
-int program_link(struct program *p, const struct oracle_graph *g, FILE *errors)
+int program_link(struct program *p, const struct oracle_graph *g, struct messages *messages)
 {
     const struct dag *dag = p->dag;
     int i, k, size = 0, argument = 0, *first = NULL;
@@ -221,9 +218,9 @@ int program_link(struct program *p, const struct oracle_graph *g, FILE *errors)
         struct computed *c = &p->computed[p->computed_count];
         if (is_computed(dag, n)) {
             if (n->arguments.count > STACK_MAX - EXPRESSION_DEPTH) {
-                fprintf(errors, "%s: error: '%s' has too many arguments to compute\n", g->name, n->tool_name);
                 free(first);
-                return -1;
+                return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: '%s' has too many arguments to compute",
+                                    g->name, n->tool_name);
             }
             c->call = p->steps[i].call;
             c->argument = argument;
@@ -232,7 +229,7 @@ int program_link(struct program *p, const struct oracle_graph *g, FILE *errors)
             p->steps[i].arguments = &c->unused;
             first[p->computed_count++] = size;
             for (k = 0; k < n->arguments.count; k++)
-                if (link_expression(p, p->expressions[argument + k], g->name, &size, errors) < 0) {
+                if (link_expression(p, p->expressions[argument + k], g->name, &size, messages) < 0) {
                     free(first);
                     return -1;
                 }
@@ -248,8 +245,7 @@ int program_link(struct program *p, const struct oracle_graph *g, FILE *errors)
     return 0;
 memory:
     free(first);
-    fprintf(errors, "%s: error: out of memory\n", g->name);
-    return -1;
+    return messages_say(messages, MESSAGE_MEMORY, "out of memory");
 }
 
 /* The same for one tree. */
@@ -259,7 +255,7 @@ static unsigned expression_reads(const struct dag *dag, int expression)
     unsigned reads = 0;
     if (e->kind == EXPRESSION_FACT)
         reads = strcmp(dag->facts[e->index].name, "receiver.importance") == 0 ? REFINER_READS_IMPORTANCE
-                : strcmp(dag->facts[e->index].name, "receiver.allowance") == 0 ? REFINER_READS_ALLOWANCE : 0;
+                : strcmp(dag->facts[e->index].name, "receiver.tolerance") == 0 ? REFINER_READS_TOLERANCE : 0;
     if (e->left >= 0)
         reads |= expression_reads(dag, e->left);
     return e->right >= 0 ? reads | expression_reads(dag, e->right) : reads;

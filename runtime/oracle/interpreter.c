@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
+#include "oracle/load_graph.h"
 #include "oracle/program.h"
 #include "oracle/tool_table.h"
 
@@ -50,7 +51,7 @@ static const struct tool_entry *find_tool(const char *name)
 }
 
 /* Steps in the graph's topological order; every span of the dag has been checked by dagc. */
-static int build(struct refiner *r, struct program *p, const struct oracle_graph *g, FILE *errors)
+static int build(struct refiner *r, struct program *p, const struct oracle_graph *g, struct messages *messages)
 {
     const struct dag *dag = p->dag;
     int i, k, arguments = 0, answers = 0;
@@ -70,8 +71,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
     p->parameters = calloc((size_t)g->parameters.count + 1, sizeof *p->parameters);
     r->block = calloc((size_t)g->parameters.count + 1, sizeof(double));
     if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !r->block) {
-        fprintf(errors, "%s: error: out of memory\n", g->name);
-        return -1;
+        return messages_say(messages, MESSAGE_MEMORY, "out of memory");
     }
     for (i = 0; i < g->parameters.count; i++) {
         const struct parameter *q = &dag->parameters[g->parameters.first + i];
@@ -92,9 +92,8 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
         const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
         const struct tool_entry *tool = find_tool(dag->tools[n->tool].name);
         if (!tool || tool->argument_count != n->arguments.count || tool->answer_count != n->arcs.count) {
-            fprintf(errors, "%s: error: this program was built without the tool '%s'; "
-                            "use the flat release\n", g->name, dag->tools[n->tool].name);
-            return -1;
+            return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: this program was built without the tool '%s'; "
+                                "use the flat release", g->name, dag->tools[n->tool].name);
         }
         p->steps[i].call = tool->call;
         p->steps[i].keeps = strcmp(tool->name, "count") == 0 && tool->argument_count == 1 ? KEEPS_COUNT
@@ -108,7 +107,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
             p->next[answers++] = t->kind == TARGET_DECISION ? ~t->index : dag->nodes[t->index].order;
         }
     }
-    return program_link(p, g, errors);
+    return program_link(p, g, messages);
 }
 
 static int find_externs(struct program *p, const struct interpretation *how)
@@ -124,24 +123,23 @@ static int find_externs(struct program *p, const struct interpretation *how)
     return 0;
 }
 
-struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, FILE *errors)
+struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, struct messages *messages)
 {
     struct interpretation how = {0};
     how.path = path;
     how.text = text;
     how.oracle = name;
-    return refiner_interpret(&how, errors);
+    return refiner_interpret(&how, messages);
 }
 
-struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors)
+struct refiner *refiner_interpret(const struct interpretation *how, struct messages *messages)
 {
-    const char *path = how->path, *name = how->oracle;
     struct dag_options options = {0};
     struct refiner *r = calloc(1, sizeof *r);
     struct program *p = calloc(1, sizeof *p);
     int index, i;
     if (!r || !p) {
-        fprintf(errors, "%s: error: out of memory\n", path);
+        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
         free(r);
         free(p);
         return NULL;
@@ -154,22 +152,14 @@ struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors
     options.folders = how->folders;
     options.folder_count = how->folder_count;
     options.switches = how->switches;
-    p->dag = dag_load_with(path, &options, errors);
+    p->dag = load_graph(how->path, &options, how->oracle, &index, messages);
     if (!p->dag)
         goto fail;
-    index = dag_oracle(p->dag, name);
-    if (index < 0) {
-        if (name)
-            fprintf(errors, "%s: error: no oracle '%s' here\n", path, name);
-        else
-            fprintf(errors, "%s: error: %d oracles here, not one\n", path, p->dag->oracle_count);
-        goto fail;
-    }
     if (find_externs(p, how) < 0) {
-        fprintf(errors, "%s: error: out of memory\n", path);
+        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
         goto fail;
     }
-    if (build(r, p, &p->dag->oracles[index], errors) < 0)
+    if (build(r, p, &p->dag->oracles[index], messages) < 0)
         goto fail;
     r->refine = walk;
     r->state = p->steps;

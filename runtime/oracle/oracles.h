@@ -4,6 +4,7 @@
 #define ORACLES_H
 
 #include "oracle/refiner.h"
+#include "util/messages.h"
 
 #define DEFAULT_ORACLE "clusters"
 #define DEFAULT_BY_HAND "bf_guarded" /* of `compare`: the one nearest to it that has a hand-written release */
@@ -12,20 +13,27 @@ enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASES };
 
 extern const char *const release_names[RELEASES]; /* "flat", "dag", "hand" */
 
-/* `oracle`: the name of a built-in oracle, or a .dag file. A file's flat release is compiled with the
- * system's `cc` and loaded. Returns NULL after a message on stderr. */
-struct refiner *oracles_open(const char *oracle, enum release release);
+/* What a program adds to the built-in oracles; all zero: nothing. */
+struct oracle_sources {
+    const struct oracle **hand; /* [hand_count]: releases written by hand, or generated and linked with */
+    int hand_count;
+    const char *compiler, *temporary; /* for the flat release of files; NULL: "cc", "/tmp" */
+};
 
-/* The hand-written releases that there are: a table that ends with NULL and is borrowed. */
-void oracles_register_hand(const struct oracle *const *table);
+/* Registers a release under its own name; it is borrowed. Returns 0, or -1: out of memory, or of another RUNTIME_ABI. */
+int oracle_register(struct oracle_sources *sources, const struct oracle *oracle);
+void oracle_sources_free(struct oracle_sources *sources);
 
-/* Is there a hand-written release of this oracle? */
-int oracles_by_hand(const char *oracle);
+/* Is there a registered release of this oracle? */
+int oracle_by_hand(const struct oracle_sources *sources, const char *oracle);
 
-/* Apply the count texts "NAME=VALUE" to a refiner. Returns 0, or -1 after a message. */
-int oracles_set(struct refiner *refiner, char *const *settings, int count);
+/* A built-in or registered oracle by its name, or, when `oracle` looks like a file's name (ends in .dag, has a '/', is
+ * "-"), the only one of that file. `sources` NULL: none. Returns NULL after a message. */
+struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle, enum release release,
+                             struct messages *messages);
 
-/* The built-in oracles and their parameters, for --help and `radiosity oracles`. */
-void oracles_print(FILE *out);
+/* An oracle of a file, or of a text under the name `path`; `name` NULL: the only one. FLAT or DAG. */
+struct refiner *oracle_load(const struct oracle_sources *sources, const char *path, const char *text, const char *name,
+                             enum release release, struct messages *messages);
 
 #endif

@@ -4,9 +4,9 @@
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
-#include <stdio.h>
 #include "dag.h"
 #include "oracle/refiner.h"
+#include "util/messages.h"
 
 /* One operation of a computed step: a number, something read, or an operator on the top of the stack. */
 struct instruction {
@@ -61,7 +61,7 @@ int program_compute(struct discussion *d, const double *arguments);
 void program_evaluate(struct discussion *d, const struct computed *c, double *stack);
 
 /* Make the steps that need it computed ones. 0, or -1 after a message. */
-int program_link(struct program *p, const struct oracle_graph *g, FILE *errors);
+int program_link(struct program *p, const struct oracle_graph *g, struct messages *messages);
 
 /* Evaluate what is fixed, once, and not in the walk. */
 void program_prepare(struct refiner *r);

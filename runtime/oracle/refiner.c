@@ -1,5 +1,6 @@
 /* refiner.c - parameters by name, for every release alike.
  * SPDX-License-Identifier: MIT */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "oracle/refiner.h"
@@ -46,29 +47,51 @@ struct refiner *refiner_compiled(const struct oracle *oracle, const char *releas
     r->state = r->block;
     r->oracle = oracle->name;
     r->doc = oracle->doc;
+    r->fingerprint = oracle->fingerprint;
     r->release = release;
     r->parameters = oracle->parameters;
     r->parameter_count = oracle->parameter_count;
     return r;
 }
 
-const char *refiner_set(struct refiner *r, const char *name, double value)
+int refiner_find(const struct refiner *r, const char *name)
 {
     int i;
-    for (i = 0; i < r->parameter_count; i++) {
-        const struct oracle_parameter *p = &r->parameters[i];
-        if (strcmp(p->name, name) != 0)
-            continue;
-        if (!(value >= p->low && value <= p->high))
-            return "out of range";
-        if (p->integer && value != floor(value))
-            return "not a whole number";
-        write_parameter(r, i, value);
-        if (r->prepare)
-            r->prepare(r);
-        return NULL;
-    }
-    return "no such parameter";
+    for (i = 0; i < r->parameter_count; i++)
+        if (strcmp(r->parameters[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+static int say_none_such(const struct refiner *r, const char *name, struct messages *messages)
+{
+    char names[1000] = "";
+    size_t used = 0;
+    int i;
+    for (i = 0; i < r->parameter_count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s %s", i ? "," : "", r->parameters[i].name);
+    return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s has no parameter '%s'; it has%s", r->oracle, name,
+                        r->parameter_count ? names : " none");
+}
+
+int refiner_set(struct refiner *r, const char *name, double value, struct messages *messages)
+{
+    int i = refiner_find(r, name);
+    if (i < 0)
+        return say_none_such(r, name, messages);
+    const struct oracle_parameter *p = &r->parameters[i];
+    const char *cause = NULL;
+    if (!(value >= p->low && value <= p->high))
+        cause = "out of range";
+    else if (p->integer && value != floor(value))
+        cause = "not a whole number";
+    if (cause)
+        return messages_say(messages, MESSAGE_ARGUMENT, "%s = %g: %s; %s takes %s%g to %g%s%s", name, value, cause, name,
+                            p->integer ? "whole numbers from " : "", p->low, p->high, *p->unit ? " " : "", p->unit);
+    write_parameter(r, i, value);
+    if (r->prepare)
+        r->prepare(r);
+    return 0;
 }
 
 void refiner_close(struct refiner *r)

@@ -3,18 +3,19 @@
 #ifndef REFINER_H
 #define REFINER_H
 
-#include <stdio.h>
 #include "oracle.h"
+#include "util/messages.h"
 
 /* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long as
  * no parameter is set meanwhile. */
 /* What an oracle reads that a solver need not provide to others. */
-enum { REFINER_READS_IMPORTANCE = 1, REFINER_READS_ALLOWANCE = 2 };
+enum { REFINER_READS_IMPORTANCE = 1, REFINER_READS_TOLERANCE = 2 };
 
 struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
     const void *state; /* a parameter structure, or the interpreter's program */
     const char *oracle, *release, *doc;
+    const char *fingerprint; /* of the graph it was compiled from; NULL when interpreted */
     const struct oracle_parameter *parameters; /* [parameter_count] */
     int parameter_count;
     unsigned reads;                           /* REFINER_READS_..., as far as the graph is known: see oracle_reads */
@@ -29,9 +30,9 @@ struct refiner {
 struct refiner *refiner_compiled(const struct oracle *oracle, const char *release);
 
 /* The DAG release: load `path` ("-": standard input) or, when `text` is not NULL, that text under the name
- * `path`, and interpret the oracle called `name` (NULL: the only one). Errors are written to `errors`;
- * returns NULL then. */
-struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, FILE *errors);
+ * `path`, and interpret the oracle called `name` (NULL: the only one). Returns NULL
+ * after a message. */
+struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, struct messages *messages);
 
 /* A C function that an oracle names with `extern`, for the interpreter; the flat release is linked with it. */
 struct extern_entry {
@@ -53,15 +54,16 @@ struct interpretation {
 
 /* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and so is a
  * tool, term or fact that the program was built without. */
-struct refiner *refiner_interpret(const struct interpretation *how, FILE *errors);
+struct refiner *refiner_interpret(const struct interpretation *how, struct messages *messages);
 
-/* Which of the facts receiver.importance and receiver.allowance the graph's expressions read, for refiner.reads. The
+/* Which of the facts receiver.importance and receiver.tolerance the graph's expressions read, for refiner.reads. The
  * interpreter sets it; a compiled oracle does not know its graph, so whoever has that sets it. */
 struct dag;
 unsigned oracle_reads(const struct dag *dag, int oracle);
 
-/* Set a parameter. Returns NULL when done, else the cause as a phrase ("no such parameter", ...). */
-const char *refiner_set(struct refiner *refiner, const char *name, double value);
+/* Set a parameter. Returns 0, or -1 after a message that names the parameter and its range, or those there are. */
+int refiner_set(struct refiner *refiner, const char *name, double value, struct messages *messages);
+int refiner_find(const struct refiner *refiner, const char *name); /* a parameter's index; -1: there is none */
 double refiner_get(const struct refiner *refiner, int parameter);
 
 void refiner_close(struct refiner *refiner); /* NULL is fine */

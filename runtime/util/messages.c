@@ -1,33 +1,35 @@
-/* report.c - messages on stderr in the form that editors and compilers share.
+/* messages.c - see messages.h.
  * SPDX-License-Identifier: MIT */
 #include "util/messages.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 
-static void report(const char *path, uint32_t line, const char *kind, const char *format, va_list arguments)
+int messages_say(struct messages *m, enum message_cause cause, const char *format, ...)
 {
-    char text[1024];
-    vsnprintf(text, sizeof text, format, arguments);
-    if (line)
-        fprintf(stderr, "%s:%u: %s: %s\n", path, (unsigned)line, kind, text);
-    else
-        fprintf(stderr, "%s: %s: %s\n", path, kind, text);
-}
-
-int report_error(const char *path, uint32_t line, const char *format, ...)
-{
-    va_list arguments;
+    va_list arguments, again;
+    if (!m || m->cause != MESSAGE_NONE)
+        return -1;
     va_start(arguments, format);
-    report(path, line, "error", format, arguments);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    m->cause = cause;
+    m->text = length < 0 ? NULL : malloc((size_t)length + 1);
+    if (m->text)
+        vsnprintf(m->text, (size_t)length + 1, format, arguments);
     va_end(arguments);
     return -1;
 }
 
-void report_warning(const char *path, uint32_t line, const char *format, ...)
+const char *messages_text(const struct messages *m)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    report(path, line, "warning", format, arguments);
-    va_end(arguments);
+    return m->text ? m->text : m->cause == MESSAGE_NONE ? "" : "out of memory";
+}
+
+void messages_free(struct messages *m)
+{
+    free(m->text);
+    *m = (struct messages){0};
 }

@@ -1,19 +1,33 @@
-/* report.h - one way to say what went wrong: "path[:line]: error: cause; how to mend it".
+/* messages.h - what went wrong, kept for whoever called: nothing in the engine prints.
+ *
+ * The first error stays, later ones follow from it. All zero: nothing has been said. A function that takes one
+ * may be given NULL, and then only fails.
  * SPDX-License-Identifier: MIT */
-#ifndef REPORT_H
-#define REPORT_H
-
-#include <stdint.h>
+#ifndef MESSAGES_H
+#define MESSAGES_H
 
 #if defined __GNUC__
-#define PRINTF_LIKE(text, first) __attribute__((__format__(__printf__, text, first)))
+#define MESSAGE_LIKE(text, first) __attribute__((__format__(__printf__, text, first)))
 #else
-#define PRINTF_LIKE(text, first)
+#define MESSAGE_LIKE(text, first)
 #endif
 
-/* Both write one line to stderr; line 0 stands for "no line". report_error returns -1, so that
- * a function can `return report_error(...)`. */
-int report_error(const char *path, uint32_t line, const char *format, ...) PRINTF_LIKE(3, 4);
-void report_warning(const char *path, uint32_t line, const char *format, ...) PRINTF_LIKE(3, 4);
+enum message_cause {
+    MESSAGE_NONE,
+    MESSAGE_ARGUMENT, /* a name that nobody has, a value out of range */
+    MESSAGE_GRAPH,    /* dagc's: lines "FILE:LINE:COLUMN: error: ..." as they stand */
+    MESSAGE_COMPILER, /* of the C compiler; what it printed follows on lines of its own */
+    MESSAGE_MEMORY
+};
+
+struct messages {
+    enum message_cause cause;
+    char *text; /* but for GRAPH a sentence without a newline at its end; NULL: there was no memory for it */
+};
+
+/* Returns -1, so that a function can `return messages_say(...)`. */
+int messages_say(struct messages *messages, enum message_cause cause, const char *format, ...) MESSAGE_LIKE(3, 4);
+const char *messages_text(const struct messages *messages); /* never NULL */
+void messages_free(struct messages *messages);              /* and nothing has been said again */
 
 #endif

@@ -322,28 +322,6 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
     return fate;
 }
 
-double rays_exposed(const struct rays *rays, const struct element *e)
-{
-    enum { SIDE = 4, DIRECTIONS = 8, MOST = 6 };
-    const struct hemisphere above = hemisphere_over(e->normal);
-    double direction[DIRECTIONS][3];
-    int i, j, k, m, buried = 0;
-    for (m = 0; m < DIRECTIONS; m++)
-        hemisphere_direction(direction[m], &above, m, DIRECTIONS, 0);
-    for (i = 0; i < SIDE; i++)
-        for (j = 0; j < SIDE; j++) {
-            double p[3], side[3], length;
-            int inside = 0;
-            surface_point(p, e, (i + 0.5) / SIDE, (j + 0.5) / SIDE);
-            for (k = 0; k < 3; k++)
-                p[k] = (p[k] + rays->host.ray_offset * e->normal[k] - rays->origin[k]) * rays->scale;
-            for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
-                inside += first_hit(rays, p, direction[m], &length, side) == RAY_MEETS_BACK;
-            buried += inside >= MOST;
-        }
-    return 1 - buried / (double)(SIDE * SIDE);
-}
-
 const struct host *rays_host(const struct rays *rays)
 {
     return &rays->host;

@@ -6,7 +6,7 @@
 #include "options.h"
 #include "engine/solve.h"
 #include "hierarchy/scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 
 int command_solve(const struct options *options);
 int command_compare(const struct options *options);

@@ -9,7 +9,7 @@
 #include "commands/commands.h"
 #include "output/json_file.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 
 /* The order of the report: the first that there is is the yardstick. */
@@ -142,7 +142,7 @@ static double solve_once(const struct options *o, const struct scene *scene, con
     if (solve_run(&s, refiner, &cause) < 0)
         report_error(o->scene, 0, "%s", cause);
     else {
-        result = s.seconds.refine;
+        result = s.report.seconds.refine;
         *pairs = s.refinement.pairs;
         *links = s.refinement.link_count;
     }

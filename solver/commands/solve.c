@@ -8,7 +8,7 @@
 #include "output/image.h"
 #include "output/json_file.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 #include "oracle/statistics.h"
 #include "output/statistics_file.h"
@@ -72,8 +72,8 @@ static int solve_scene(const struct options *o, const struct scene *scene)
     } else {
         progress_end(&progress);
         start = seconds();
-        if (!s.converged && !o->quiet)
-            report_warning(o->scene, 0, "not converged after %d sweeps: residual %.1e", s.sweeps, s.residual);
+        if (!s.report.converged && !o->quiet)
+            report_warning(o->scene, 0, "not converged after %d sweeps: residual %.1e", s.report.sweeps, s.report.residual);
         status = write_outputs(o, &s) < 0;
         if (o->statistics && statistics_write(o->statistics, refiner) < 0)
             status = 1;

@@ -12,7 +12,7 @@
 #include "output/factor_file.h"
 #include "output/json_file.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 /* The tolerance that the oracle's defaults are made for. */
 #define MEANT 3e-4
@@ -63,7 +63,7 @@ static struct refiner *oracle(const struct options *o)
     for (i = 0; i < refiner->parameter_count; i++) {
         const char *name = refiner->parameters[i].name;
         if (strcmp(name, "shadow") == 0 || strcmp(name, "group_shadow") == 0)
-            (void)refiner_set(refiner, name, refiner_get(refiner, i) * o->tolerance / MEANT);
+            (void)refiner_set(refiner, name, refiner_get(refiner, i) * o->tolerance / MEANT, NULL);
     }
     if (oracles_set(refiner, o->settings, o->setting_count) < 0) {
         refiner_close(refiner);

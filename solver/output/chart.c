@@ -8,7 +8,7 @@
 
 #include "util/atomic_file.h"
 #include "util/ends_with.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 int chart_draw(const char *path, void (*print)(FILE *script, const void *context), const void *context)
 {

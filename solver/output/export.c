@@ -13,7 +13,7 @@
 #include "output/export_assimp.h"
 #include "output/exposure.h"
 #include "output/leaf_mesh.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "output/view.h"
 
 enum export_format export_format(const char *path)

@@ -15,7 +15,7 @@
 #include <assimp/scene.h>
 
 #include "util/atomic_file.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 enum { FILES_MAX = 4 };
 

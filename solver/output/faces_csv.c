@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "util/atomic_file.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 /* Sums over the faces that one input became. */
 struct total {

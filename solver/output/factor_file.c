@@ -12,7 +12,7 @@
 
 #include "util/atomic_file.h"
 #include "output/number_text.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 const char *const factor_format_names[FACTOR_FORMATS] = { "csv", "coo", "mtx" };
 

@@ -18,7 +18,7 @@
 #include "output/exposure.h"
 #include "geometry.h"
 #include "output/raster.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 enum { SIDE = 3, METER = 4, BAND = 4 }; /* samples per pixel side, pixels per meter sample, pixel rows per task */
 

@@ -3,7 +3,7 @@
 #include <string.h>
 #include "util/atomic_file.h"
 #include "output/json_file.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 static int dump(json_t *value, FILE *stream)
 {

@@ -6,7 +6,7 @@
 #include "util/atomic_file.h"
 #include "util/ends_with.h"
 #include "output/json_file.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "oracle/statistics.h"
 #include "output/statistics_file.h"
 

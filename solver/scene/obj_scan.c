@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "util/messages.h"
+#include "util/report.h"
 #include "util/text_file.h"
 
 /* One line of a text, its words split off one by one. */

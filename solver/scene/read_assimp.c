@@ -16,7 +16,7 @@
 
 #include "scene/import_text.h"
 #include "scene/obj_scan.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 struct reader {
     struct scene_file *file;

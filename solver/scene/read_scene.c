@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "util/messages.h"
+#include "util/report.h"
 
 int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
 {

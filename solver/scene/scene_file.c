@@ -11,7 +11,7 @@
 
 #include "scene/read_assimp.h"
 #include "util/ends_with.h"
-#include "util/messages.h"
+#include "util/report.h"
 
 /* Make *array hold one more than `count`. Returns 0, or -1 when out of memory. */
 static int grow(void **array, size_t count, size_t capacity, size_t size)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "util/messages.h"
+#include "util/report.h"
 #include "util/text_file.h"
 
 enum { COLUMNS = 64 };

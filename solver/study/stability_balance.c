@@ -45,7 +45,7 @@ static double radiosity_at(const struct solve *s, uint32_t face, int depth, doub
         }
         e = next;
     }
-    return s->radiosity[(size_t)e * s->bands];
+    return s->state.radiosity[(size_t)e * s->problem.bands];
 }
 
 /* The larger of |value / known - 1| and `error`. */
@@ -57,7 +57,7 @@ static double off(double error, double value, double known)
 static double plates_error(const struct solve *s, double known)
 {
     double error = off(off(0, stability_radiosity(s, 0), known), stability_radiosity(s, 1), known);
-    return fmax(error, s->absorbed / s->emitted - 1);
+    return fmax(error, s->report.absorbed / s->report.emitted - 1);
 }
 
 int stability_open_plates(struct stability_trial *trial)

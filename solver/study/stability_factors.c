@@ -246,7 +246,7 @@ int stability_coplanar(struct stability_trial *trial)
                 two_close(&t);
                 return -1;
             }
-            wrong += s.refinement.link_count > 0 || rays_count(s.rays).rays > 0;
+            wrong += s.refinement.link_count > 0 || rays_count(s.problem.rays).rays > 0;
             solve_close(&s);
         }
         two_close(&t);

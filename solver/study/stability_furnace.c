@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "study/stability.h"
 
 static void make_cube(struct scene *s, double rho)
@@ -43,7 +43,7 @@ static double furnace_error(const struct solve *s, double rho)
     uint32_t i;
     for (i = 0; i < s->hierarchy.count; i++)
         if (s->hierarchy.elements[i].vertices)
-            worst = fmax(worst, fabs(s->radiosity[i] * (1 - rho) - 1));
+            worst = fmax(worst, fabs(s->state.radiosity[i] * (1 - rho) - 1));
     return worst;
 }
 
@@ -97,13 +97,13 @@ static int sweep_furnace(struct stability_trial *trial, double rho, struct solve
     int status = made_open(&scene);
     if (refiner && status == 0) {
         make_cube(&scene, rho);
-        (void)refiner_set(refiner, "relative", 1); /* six elements are as good as many here */
+        (void)refiner_set(refiner, "relative", 1, NULL); /* six elements are as good as many here */
         how.threads = trial->threads;
         status = solve_open(&s, &scene, &how, &cause);
         if (status == 0) {
             status = solve_run(&s, refiner, &cause);
             *error = furnace_error(&s, rho);
-            *sweeps = s.sweeps;
+            *sweeps = s.report.sweeps;
             solve_close(&s);
         }
     }

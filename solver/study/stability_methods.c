@@ -1,6 +1,6 @@
 /* stability_methods.c - the columns of the failure table.
  * SPDX-License-Identifier: MIT */
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "study/stability.h"
 
 const struct stability_method stability_methods[METHODS] = {

@@ -49,7 +49,7 @@ static int changed(struct stability_trial *trial, double brighter, double larger
             double error = fabs((double)b.refinement.link_count / (double)a.refinement.link_count - 1);
             int same = stability_same_links(&a, &b);
             for (i = 0; same && i < a.hierarchy.count; i++)
-                same = b.radiosity[i] == brighter * a.radiosity[i];
+                same = b.state.radiosity[i] == brighter * a.state.radiosity[i];
             trial->error = fmax(trial->error, same ? 0 : error > 0 ? error : 1);
             trial->count = (double)b.refinement.link_count;
             status = 0;
@@ -354,7 +354,7 @@ static int core_error(struct stability_trial *trial, double side, double *error)
                     best = c;
             e = x->child + best;
         }
-        *error = fabs(s.radiosity[e] / 0.5 - shadowed(side, s.hierarchy.elements[e].centre[0], s.hierarchy.elements[e].centre[1]))
+        *error = fabs(s.state.radiosity[e] / 0.5 - shadowed(side, s.hierarchy.elements[e].centre[0], s.hierarchy.elements[e].centre[1]))
                / known_point(-0.1, 0.1, -0.1, 0.1, 2);
         trial->count = (double)s.refinement.link_count;
         solve_close(&s);

@@ -79,12 +79,12 @@ static uint64_t simple_occluded(const struct host *host, int count, const struct
 static double visible(const struct solve *s, const struct stability_trial *trial, uint32_t i, uint32_t j)
 {
     int rays = trial->method->number;
-    struct simple_host simple = { *rays_host(s->rays), s->scene, rays == BY_FLOAT };
+    struct simple_host simple = { *rays_host(s->problem.rays), s->problem.scene, rays == BY_FLOAT };
     struct discussion d;
     memset(&d, 0, sizeof d);
     d.receiver = &s->hierarchy.elements[s->hierarchy.face_element[i]];
     d.emitter = &s->hierarchy.elements[s->hierarchy.face_element[j]];
-    d.host = rays == BY_FRONTS || rays == BY_FLOAT ? &simple.host : rays_host(s->rays);
+    d.host = rays == BY_FRONTS || rays == BY_FLOAT ? &simple.host : rays_host(s->problem.rays);
     if (rays == BY_INTEGRAL) {
         (void)tool_exact_visibility(&d);
         return d.terms.visibility;
@@ -105,7 +105,7 @@ static int exchange(struct stability_trial *trial, const struct scene *scene, ui
         if (stability_solve(&s, scene, trial, 1) < 0)
             return -1;
         *f = stability_exchange(&s, i, j);
-        trial->count = (trial->count > 0 ? trial->count : 0) + (double)rays_count(s.rays).rays;
+        trial->count = (trial->count > 0 ? trial->count : 0) + (double)rays_count(s.problem.rays).rays;
     } else {
         if (solve_open(&s, scene, &how, &cause) < 0)
             return -1;
@@ -238,10 +238,10 @@ static double leak(const struct solve *s, double x)
             continue;
         for (j = 0; j < e->vertices; j++)
             beyond &= e->vertex[j][0] <= x + 1e-9;
-        power += e->area * s->radiosity[i];
+        power += e->area * s->state.radiosity[i];
         area += e->area;
         if (beyond)
-            most = fmax(most, s->radiosity[i]);
+            most = fmax(most, s->state.radiosity[i]);
     }
     return most / (power / area);
 }

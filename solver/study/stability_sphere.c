@@ -61,9 +61,9 @@ static double mean(const struct solve *s, uint32_t from, uint32_t to, uint32_t m
     uint32_t f;
     for (f = from; f < to; f++) {
         uint32_t e = s->hierarchy.face_element[f];
-        if (material != UINT32_MAX && s->scene->faces[f].material != material)
+        if (material != UINT32_MAX && s->problem.scene->faces[f].material != material)
             continue;
-        sum += s->hierarchy.elements[e].area * (irradiance ? s->irradiance : s->radiosity)[(size_t)e * s->bands];
+        sum += s->hierarchy.elements[e].area * (irradiance ? s->state.irradiance : s->state.radiosity)[(size_t)e * s->problem.bands];
         area += s->hierarchy.elements[e].area;
     }
     return sum / area;
@@ -110,7 +110,7 @@ static void make_sphere(struct scene *s, double level)
 static double dark_irradiance(const struct solve *s, double level)
 {
     (void)level;
-    return 0.5 * (mean(s, 0, s->scene->face_count, 0, 1) + mean(s, 0, s->scene->face_count, 2, 1));
+    return 0.5 * (mean(s, 0, s->problem.scene->face_count, 0, 1) + mean(s, 0, s->problem.scene->face_count, 2, 1));
 }
 
 int stability_sphere(struct stability_trial *trial)
@@ -133,7 +133,7 @@ static void make_hollow(struct scene *s, double level)
 static double wall_radiosity(const struct solve *s, double level)
 {
     (void)level;
-    return 0.5 * (mean(s, 0, s->scene->face_count, 1, 0) + mean(s, 0, s->scene->face_count, 3, 0));
+    return 0.5 * (mean(s, 0, s->problem.scene->face_count, 1, 0) + mean(s, 0, s->problem.scene->face_count, 3, 0));
 }
 
 int stability_hollow_sphere(struct stability_trial *trial)
@@ -155,7 +155,7 @@ static void make_concentric(struct scene *s, double level)
 static double outer_radiosity(const struct solve *s, double level)
 {
     (void)level;
-    return mean(s, s->scene->face_count / 2, s->scene->face_count, UINT32_MAX, 0);
+    return mean(s, s->problem.scene->face_count / 2, s->problem.scene->face_count, UINT32_MAX, 0);
 }
 
 int stability_concentric(struct stability_trial *trial)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "scene/make_scene.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "study/stability.h"
 #include "terms/form_factor.h"
 
@@ -128,12 +128,12 @@ double stability_row(const struct solve *s, uint32_t i)
 
 double stability_radiosity(const struct solve *s, uint32_t face)
 {
-    return s->radiosity[(size_t)s->hierarchy.face_element[face] * s->bands];
+    return s->state.radiosity[(size_t)s->hierarchy.face_element[face] * s->problem.bands];
 }
 
 double stability_irradiance(const struct solve *s, uint32_t face)
 {
-    return s->irradiance[(size_t)s->hierarchy.face_element[face] * s->bands];
+    return s->state.irradiance[(size_t)s->hierarchy.face_element[face] * s->problem.bands];
 }
 
 int stability_same_links(const struct solve *a, const struct solve *b)

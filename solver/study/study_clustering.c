@@ -18,7 +18,7 @@
 #include "commands/commands.h"
 #include "study/faces_reference.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 
 struct row {
@@ -98,10 +98,10 @@ static void describe_solution(struct row *row, const struct solve *s, const stru
     for (i = 0; i < s->refinement.link_count; i++)
         row->groups += !e[s->refinement.links[i].receiver].vertices || !e[s->refinement.links[i].emitter].vertices;
     row->pairs = s->refinement.pairs;
-    row->rays = rays_count(s->rays).rays;
-    row->imbalance = s->emitted > 0 ? (s->emitted - s->absorbed) / s->emitted : 0;
+    row->rays = rays_count(s->problem.rays).rays;
+    row->imbalance = s->report.emitted > 0 ? (s->report.emitted - s->report.absorbed) / s->report.emitted : 0;
     row->error = reference->count ? faces_reference_error(reference, &solution) : (double)NAN;
-    row->converged = s->converged;
+    row->converged = s->report.converged;
 }
 
 static int run(const struct options *o, const struct scene *scene, const struct faces_reference *reference, struct progress *progress,

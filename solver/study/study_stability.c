@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include "util/atomic_file.h"
 #include "commands/commands.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "study/stability.h"
 
 enum format { PLAIN, MARKDOWN, CSV };

@@ -18,7 +18,7 @@
 #include "output/chart.h"
 #include "commands/commands.h"
 #include "progress.h"
-#include "util/messages.h"
+#include "util/report.h"
 #include "engine/solve.h"
 #include "oracle/statistics.h"
 
@@ -80,16 +80,18 @@ static void read_counts(const struct statistics *s, struct cell *cells, int tool
 
 static int set(struct refiner *r, const char *name, double value)
 {
-    const char *cause = refiner_set(r, name, value);
-    return cause ? report_error("tester", 0, "%s = %g: %s", name, value, cause) : 0;
+    struct messages messages = { 0 };
+    int status = refiner_set(r, name, value, &messages);
+    if (status < 0)
+        report_error("tester", 0, "%s", messages_text(&messages));
+    messages_free(&messages);
+    return status;
 }
 
 static double get(const struct refiner *r, const char *name)
 {
-    int i;
-    for (i = 0; i < r->parameter_count && strcmp(r->parameters[i].name, name) != 0; i++)
-        ;
-    return i < r->parameter_count ? refiner_get(r, i) : 0;
+    int i = refiner_find(r, name);
+    return i >= 0 ? refiner_get(r, i) : 0;
 }
 
 /* One solve with the tester: up to three numbers of rays at one threshold. */
@@ -114,7 +116,7 @@ static int run(const struct options *o, const struct scene *scene, struct progre
         report_error(o->scene, 0, "%s", cause);
         goto done;
     }
-    *area = threshold * fmax(get(r, "unit"), get(r, "unit_share") * rays_host(s.rays)->area);
+    *area = threshold * fmax(get(r, "unit"), get(r, "unit_share") * rays_host(s.problem.rays)->area);
     if (solve_run(&s, r, &cause) < 0) {
         report_error(o->scene, 0, "%s", cause);
     } else if (statistics_take(&statistics, r) < 0) {

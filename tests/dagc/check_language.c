@@ -357,9 +357,9 @@ START_TEST(same_bits)
     fprintf(out, "};\nconst int oracle_count = %d;\n", ORACLES);
     fclose(out);
     run("cp -r tests/dagc/runtime/* tests/dagc/compare/main.c runtime/oracle.h %s%s%s", place, "", "");
-    run("mkdir %s/oracle%s%s", place, "", "");
+    run("mkdir %s/oracle %s/util && cp runtime/util/messages.[ch] %s/util", place, place, place);
     run("cp runtime/oracle/tool_table.h runtime/oracle/program.h runtime/oracle/refiner.[ch] runtime/oracle/interpreter.c "
-        "runtime/oracle/arguments.c runtime/oracle/statistics.[ch] %s/oracle%s%s", place, "", "");
+        "runtime/oracle/arguments.c runtime/oracle/statistics.[ch] runtime/oracle/load_graph.[ch] %s/oracle%s%s", place, "", "");
     run("%s --emit=catalog-h -o %s/catalog.h %s", dagc, place, catalog);
     run("%s --emit=catalog-c -o %s/catalog.c %s", dagc, place, catalog);
     snprintf(top, sizeof top, "%s -Wno-all --catalog %s --header %s/oracles.h", dagc, catalog, place);
@@ -375,8 +375,8 @@ START_TEST(same_bits)
                  "%s -std=c11 %s -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -ffp-contract=off $SANITIZE",
                  compilers[i], levels[i]);
         char command[16384];
-        snprintf(command, sizeof command, "%s -I%s -I%s/oracle -Idagc -o %s/compare %s/*.c %s/oracle/*.c %s/../libdagc.a -lm", compile, place,
-                 place, place, place, place, top);
+        snprintf(command, sizeof command, "%s -I%s -I%s/oracle -Idagc -o %s/compare %s/*.c %s/oracle/*.c %s/util/*.c %s/../libdagc.a -lm", compile,
+                 place, place, place, place, place, place, top);
         run("%s%s%s", command, "", "");
         run("%s/compare %s/g.dag %s", place, place, catalog);
     }

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include "runtime/make_pair.h"
 #include "runtime/make_solve.h"
-#include "oracle/oracles.h"
+#include "oracles.h"
 #include "suite.h"
 #include "kernel/cluster_facing.h"
 #include "tools/alpha_gap.h"
@@ -519,7 +519,7 @@ START_TEST(test_self_pairs)
         struct discussion d;
         memset(&d, 0, sizeof d);
         d.receiver = d.emitter = &s.hierarchy.elements[i];
-        d.host = rays_host(s.rays);
+        d.host = rays_host(s.problem.rays);
         ck_assert_int_eq(r->refine(r->state, &d), d.receiver->vertices ? DECISION_STOP : DECISION_SUBDIVIDE_BOTH);
         clusters += !d.receiver->vertices;
     }
@@ -641,7 +641,7 @@ START_TEST(test_interpreted)
     unsigned state = 61;
     int i, k, seen[8] = { 0 }, kinds = 0;
     snprintf(text, sizeof text, "oracle told { %s }\n", told[_i].text);
-    r = refiner_interpreted("told.dag", text, NULL, stderr);
+    r = interpreted("told.dag", text, NULL);
     ck_assert_ptr_nonnull(r);
     tree_open(&t, 2, &state);
     for (i = 0; i < 20000; i++) {

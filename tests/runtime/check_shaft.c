@@ -6,7 +6,6 @@
  * are put to the test in double precision alone, and counted.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,6 +15,7 @@
 #include "scene/read_scene.h"
 #include "visibility/rays.h"
 #include "engine/refine.h"
+#include "oracles.h"
 #include "suite.h"
 #include "tools/exact_visibility.h"
 #include "tools/extinction.h"
@@ -479,25 +479,11 @@ END_TEST
 
 /* ---- through the refinement loop */
 
-/* The flat release of tests/runtime/peer.dag, made by dagc and cc as solver/compile_oracle.c would. */
 static struct refiner *flat_peer(void)
 {
-    const char *dagc = getenv("DAGC"), *cc = getenv("CC");
-    char folder[] = "/tmp/check_shaft.XXXXXX", command[1024], library[64];
-    const struct oracle *oracle;
-    void *handle;
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    snprintf(command, sizeof command, "%s -o %s/peer.c --header %s/peer.h tests/runtime/peer.dag && %s -std=c11 -O2 -fPIC -shared -ffp-contract=off"
-             " -Iruntime -Ibuild/gen -I%s -o %s/peer.so %s/peer.c -lm", dagc ? dagc : "build/bin/dagc", folder, folder,
-             cc && *cc ? cc : "cc", folder, folder, folder);
-    ck_assert_int_eq(system(command), 0);
-    snprintf(library, sizeof library, "%s/peer.so", folder);
-    handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
-    ck_assert_ptr_nonnull(handle);
-    oracle = dlsym(handle, "peer_oracle");
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    ck_assert_int_eq(system(command), 0);
-    return oracle ? refiner_compiled(oracle, "flat") : NULL;
+    struct refiner *r = oracles_open("tests/runtime/peer.dag", RELEASE_FLAT);
+    ck_assert_ptr_nonnull(r);
+    return r;
 }
 
 /* A refiner that looks at what it is given, and in `forget` mode takes it away. */
@@ -532,7 +518,7 @@ START_TEST(test_refined)
     size_t i;
     uint32_t k;
     for (i = 0; i < sizeof ways / sizeof *ways; i++) {
-        struct spy s = { ways[i].flat ? flat_peer() : refiner_interpreted("tests/runtime/peer.dag", NULL, NULL, stderr), ways[i].forget, 0 }, *at = &s;
+        struct spy s = { ways[i].flat ? flat_peer() : interpreted("tests/runtime/peer.dag", NULL, NULL), ways[i].forget, 0 }, *at = &s;
         struct refiner watched = { .refine = spy, .state = &at };
         struct refinement r;
         struct world *now = &w[i > 0];

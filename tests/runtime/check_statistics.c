@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include "runtime/make_solve.h"
 #include "oracle/statistics.h"
+#include "oracles.h"
 #include "suite.h"
 
 /* An oracle that counts depths and records what links bring. */
@@ -35,8 +36,8 @@ START_TEST(test_statistics)
     uint64_t deep = 0, noted = 0, sum[5] = { 0 };
     int i, k, j;
     furnished(&scene, 1);
-    r = refiner_interpreted("counting.dag", counting, NULL, stderr);
-    other = refiner_interpreted("counting.dag", counting, NULL, stderr);
+    r = interpreted("counting.dag", counting, NULL);
+    other = interpreted("counting.dag", counting, NULL);
     ck_assert_ptr_nonnull(r);
     ck_assert_int_eq(statistics_take(&counted, r), -1); /* not asked for */
     ck_assert_int_eq(refiner_count(r, 2), 0);
@@ -79,7 +80,7 @@ START_TEST(test_statistics)
     noted -= counted.records[3].zero;
     for (i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
         noted -= counted.records[3].bins[i];
-        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.rays)->irradiance) /* no B is above 20 W/m2, and F <= 1 */
+        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.problem.rays)->irradiance) /* no B is above 20 W/m2, and F <= 1 */
             ck_assert_uint_eq(counted.records[3].bins[i], 0);
     }
     ck_assert_uint_eq(noted, 0);

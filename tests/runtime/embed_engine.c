@@ -1,6 +1,7 @@
 /* embed_engine.c - examples/embed with the engine in the refiner's place: its own text, other names.
  * What the two print must be the same. Usage: embed_engine ORACLE.dag
  * SPDX-License-Identifier: MIT */
+#include "oracles.h"
 #include "oracle/refiner.h" /* the runtime's; its guard keeps the generated one out */
 #include "standalone.h"
 
@@ -32,7 +33,7 @@ static void engine_defaults(struct engine_parameters *parameters)
 /* The interpreter: neither generated nor compiled with the flat release. */
 static enum decision engine_refine(const struct engine_parameters *parameters, struct discussion *d)
 {
-    refiner_set(engine, "min_share", parameters->min_share);
+    refiner_set(engine, "min_share", parameters->min_share, NULL);
     return engine->refine(engine->state, d);
 }
 
@@ -43,7 +44,7 @@ int embed_main(void);
 int main(int count, char **arguments)
 {
     int result = 1;
-    if (count == 2 && (engine = refiner_interpreted(arguments[1], NULL, NULL, stderr)) != NULL)
+    if (count == 2 && (engine = interpreted(arguments[1], NULL, NULL)) != NULL)
         result = embed_main();
     refiner_close(engine);
     return result;

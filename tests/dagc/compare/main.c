@@ -46,7 +46,7 @@ static void set(struct refiner *a, struct refiner *b)
         double v = value(p->low, p->high);
         if (p->integer)
             v = floor(v);
-        if (refiner_set(a, p->name, v) || refiner_set(b, p->name, v))
+        if (refiner_set(a, p->name, v, NULL) || refiner_set(b, p->name, v, NULL))
             exit(2);
     }
 }
@@ -63,6 +63,7 @@ int main(int count, char **arguments)
     static unsigned char script[4096];
     const struct extern_entry externs[] = { { "outside", outside } };
     struct interpretation how = { 0 };
+    struct messages messages = { 0 };
     long calls = 0, wrong = 0, numbers = 0;
     int g, w, i, k;
     if (count < 3)
@@ -74,20 +75,17 @@ int main(int count, char **arguments)
         how.oracle = oracles[g]->name;
         how.switches = "no-all"; /* random graphs, that no analysis would let pass */
         if (g == 0) { /* without the extern it must say so and fail */
-            FILE *errors = tmpfile();
-            char text[512] = "";
             how.extern_count = 0;
-            dag = refiner_interpret(&how, errors);
-            rewind(errors);
-            if (dag || !fgets(text, sizeof text, errors) || !strstr(text, "the extern 'outside' is not registered"))
-                return fprintf(stderr, "an extern that is not registered: %s\n", text), 1;
-            fclose(errors);
+            dag = refiner_interpret(&how, &messages);
+            if (dag || !strstr(messages_text(&messages), "the extern 'outside' is not registered"))
+                return fprintf(stderr, "an extern that is not registered: %s\n", messages_text(&messages)), 1;
+            messages_free(&messages);
         }
         how.externs = externs;
         how.extern_count = 1;
-        dag = refiner_interpret(&how, stderr);
+        dag = refiner_interpret(&how, &messages);
         if (!dag || !flat)
-            return 2;
+            return fprintf(stderr, "%s\n", messages_text(&messages)), 2;
         for (w = 0; w < 300; w++) {
             struct discussion a, b;
             enum decision x, y;

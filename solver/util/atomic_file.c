@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "util/messages.h"
+#include "util/report.h"
 
 static int fail(struct atomic_file *file, int cause)
 {

@@ -1,0 +1,36 @@
+/* load_graph.c - see load_graph.h.
+ * SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700 /* open_memstream */
+#include "oracle/load_graph.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct dag *load_graph(const char *path, const struct dag_options *options, const char *name, int *index,
+                       struct messages *messages)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *errors = open_memstream(&text, &length);
+    if (!errors) {
+        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
+        return NULL;
+    }
+    struct dag *dag = dag_load_with(path, options, errors);
+    if (fclose(errors) != 0 || !text)
+        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
+    else if (!dag)
+        (void)messages_say(messages, MESSAGE_GRAPH, "%s", text);
+    free(text);
+    if (!dag)
+        return NULL;
+    *index = dag_oracle(dag, name);
+    if (*index >= 0)
+        return dag;
+    if (name)
+        (void)messages_say(messages, MESSAGE_ARGUMENT, "no oracle '%s' here", name);
+    else
+        (void)messages_say(messages, MESSAGE_ARGUMENT, "%d oracles here, not one", dag->oracle_count);
+    dag_free(dag);
+    return NULL;
+}
