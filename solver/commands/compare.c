@@ -130,7 +130,7 @@ static void print_difference(const struct panel *p)
 static double solve_once(const struct options *o, const struct scene *scene, const struct refiner *refiner,
                          struct progress *progress, uint64_t *pairs, size_t *links)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = (enum closure)o->closure,
                                  .threads = o->threads, .progress = progress_show, .context = progress };
     struct solve s;
     const char *cause;
@@ -195,7 +195,7 @@ static json_t *compare_json(const struct panel *p, size_t links, const double se
                      "links", (json_int_t)links, "differences", (json_int_t)p->differences, "releases", releases);
 }
 
-int command_compare(const struct options *o, const struct scene *scene)
+static int compare_scene(const struct options *o, const struct scene *scene)
 {
     struct progress progress;
     struct panel panel = { 0 }, *at = &panel;
@@ -228,4 +228,9 @@ done:
     for (k = 0; k < panel.count; k++)
         refiner_close(panel.releases[k]);
     return status;
+}
+
+int command_compare(const struct options *o)
+{
+    return with_scene(o, compare_scene);
 }

@@ -33,13 +33,13 @@ static int write_outputs(const struct options *o, const struct solve *s)
     return failed ? -1 : 0;
 }
 
-int command_solve(const struct options *o, const struct scene *scene)
+static int solve_scene(const struct options *o, const struct scene *scene)
 {
     struct progress progress;
     const struct camera camera = view_camera(&o->view, scene, o->width / (double)o->height);
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure, .clusters = o->clusters, .camera = o->view_given ? &camera : NULL,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = (enum closure)o->closure, .clusters = o->clusters ? 1 + clustering_of(o->clusters) : 0, .camera = o->view_given ? &camera : NULL,
                                  .threads = o->threads, .progress = progress_show, .context = &progress };
-    struct refiner *refiner = oracles_open(o->oracle, o->release);
+    struct refiner *refiner = oracles_open(o->oracle, (enum release)o->release);
     struct solve s;
     const char *cause;
     double start;
@@ -85,4 +85,9 @@ int command_solve(const struct options *o, const struct scene *scene)
     solve_close(&s);
     refiner_close(refiner);
     return status;
+}
+
+int command_solve(const struct options *o)
+{
+    return with_scene(o, solve_scene);
 }

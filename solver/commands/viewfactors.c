@@ -104,7 +104,7 @@ static int take_account(struct work *w)
     factor_matrix_sums(&w->matrix, NULL, w->sums);
     for (i = 0; i < n; i++)
         share[i] = w->matrix.area[i] > 0 ? w->sums[i] / w->matrix.area[i] : 1;
-    factor_sky_ask(w->sky, &w->matrix, share, w->o->factor_closure == FACTOR_CLOSURE_NONE ? w->o->tolerance : 0, w->o->threads);
+    factor_sky_ask(w->sky, &w->matrix, share, w->o->closure == RAD_CLOSURE_NONE ? w->o->tolerance : 0, w->o->threads);
     a->low = INFINITY;
     for (i = 0; i < n; i++) {
         const struct factor_sky *sky = &w->sky[i];
@@ -142,12 +142,12 @@ static void print(const struct work *w)
     printf("row sums  %.9f to %.9f\n", a->low, a->high);
     if (a->closed)
         printf("defect    |1 - sum| %.2e at the most, %.2e in the mean, of %u rows that see no sky%s\n", a->worst, a->mean, a->closed,
-               w->o->factor_closure ? ", before closure" : "");
+               w->o->closure ? ", before closure" : "");
     if (a->open)
         printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not normalised away\n", 100 * a->sky, 100 * a->sky_most, a->open);
     if (a->covered)
         printf("covered   %u rows that others stand on: their covered parts see nothing\n", a->covered);
-    if (w->o->factor_closure)
+    if (w->o->closure)
         printf("closure   factors changed by up to %.2e%s; defect left %.1e\n", w->closure.most,
                w->closure.both ? ", the same both ways" : "; A_i F_ij is no longer A_j F_ji", w->closure.left);
 }
@@ -168,7 +168,7 @@ static int report(const struct work *w)
                            "row_sum_smallest", a->low, "row_sum_largest", a->high,
                            "row_defect_largest", a->worst, "row_defect_mean", a->mean, "rows_closed", (int)a->closed,
                            "rows_to_sky", (int)a->open, "rows_covered", (int)a->covered, "to_sky_largest", a->sky_most, "to_sky_mean", a->sky,
-                           "closure", factor_closure_names[o->factor_closure], "closure_largest_change", w->closure.most,
+                           "closure", factor_closure_names[o->closure], "closure_largest_change", w->closure.most,
                            "closure_defect_left", w->closure.left, "seconds", w->seconds.refine + w->seconds.fill + w->seconds.write,
                            "seconds_refine", w->seconds.refine, "seconds_fill", w->seconds.fill, "seconds_write", w->seconds.write));
 }
@@ -183,7 +183,7 @@ static int run(struct work *w)
     w->seconds.refine = now - start;
     progress_say(&w->progress, "factors of %zu links", w->refinement.link_count);
     if (factor_matrix_open(&w->matrix, &w->tree, w->scene, &w->refinement, near(o), o->threads) < 0 || take_account(w) < 0
-        || factor_closure_make(&w->closure, o->factor_closure, &w->matrix, w->sums, w->sky) < 0)
+        || factor_closure_make(&w->closure, (enum factor_closure_kind)o->closure, &w->matrix, w->sums, w->sky) < 0)
         return report_error(o->scene, 0, "out of memory; a larger --tolerance needs less");
     start = now;
     now = seconds();
@@ -197,7 +197,7 @@ static int run(struct work *w)
     return report(w);
 }
 
-int command_viewfactors(const struct options *o, const struct scene *scene)
+static int viewfactors_scene(const struct options *o, const struct scene *scene)
 {
     struct work w = { .o = o, .scene = scene };
     const char *cause;
@@ -214,4 +214,9 @@ int command_viewfactors(const struct options *o, const struct scene *scene)
     refinement_close(&w.refinement);
     factor_tree_close(&w.tree);
     return status;
+}
+
+int command_viewfactors(const struct options *o)
+{
+    return with_scene(o, viewfactors_scene);
 }

@@ -107,9 +107,9 @@ static void describe_solution(struct row *row, const struct solve *s, const stru
 static int run(const struct options *o, const struct scene *scene, const struct faces_reference *reference, struct progress *progress,
                enum clustering strategy, struct row *row)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .threads = o->threads, .closure = o->closure,
+    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .threads = o->threads, .closure = (enum closure)o->closure,
                                  .clusters = 1 + (int)strategy, .progress = progress_show, .context = progress };
-    struct refiner *r = oracles_open(o->oracle, o->release);
+    struct refiner *r = oracles_open(o->oracle, (enum release)o->release);
     struct hierarchy h;
     struct solve s;
     const char *cause;
