@@ -4,13 +4,16 @@
 #include <string.h>
 
 #include "commands/commands.h"
+#include "hand.h"
+#include "study/study.h"
 #include "util/atomic_file.h"
+#include "util/device.h"
 #include "util/report.h"
 
-static int (*const commands[COMMANDS])(const struct options *) = {
+static int (*const commands[COMMANDS])(const struct options *, const struct open_scene *) = {
     [COMMAND_SOLVE] = command_solve,           [COMMAND_COMPARE] = command_compare,
-    [COMMAND_VIEWFACTORS] = command_viewfactors, [COMMAND_STABILITY] = command_stability,
-    [COMMAND_VISIBILITY] = command_visibility, [COMMAND_CLUSTERING] = command_clustering,
+    [COMMAND_VIEWFACTORS] = command_viewfactors, [COMMAND_STABILITY] = study_stability,
+    [COMMAND_VISIBILITY] = study_visibility,   [COMMAND_CLUSTERING] = study_clustering,
     [COMMAND_ORACLES] = command_oracles,
 };
 
@@ -33,14 +36,29 @@ static int check_outputs(const struct options *o)
     return 0;
 }
 
+/* Run the command, on the scene where it takes one. Returns the exit status. */
+static int run(const struct options *o)
+{
+    const struct scene_options how = { o->two_sided, o->quiet };
+    struct open_scene scene;
+    if (!o->scene)
+        return commands[o->command](o, NULL);
+    if (open_scene(&scene, o->scene, &how, o->threads) < 0)
+        return 1;
+    int status = commands[o->command](o, &scene);
+    close_scene(&scene);
+    return status;
+}
+
 int main(int count, char **arguments)
 {
     struct options o;
     int status = options_parse(&o, count, arguments);
+    register_hand_releases(hand_releases);
     if (status < 0) {
         status = check_outputs(&o);
         if (status == 0)
-            status = commands[o.command](&o);
+            status = run(&o);
     }
     options_free(&o);
     return fflush(stdout) != 0 && status == 0 ? 1 : status;

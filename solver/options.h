@@ -55,6 +55,13 @@ struct options {
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on stderr. */
 int options_parse(struct options *o, int count, char **arguments);
 
+/* How to solve, as far as the command line says. */
+static inline struct RadSolveOptions solve_options(const struct options *o)
+{
+    return (struct RadSolveOptions){ .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi,
+                                     .closure = o->closure, .clustering = o->clusters };
+}
+
 /* The files that shall be written, "-" for standard output among them. Returns how many. */
 int options_outputs(const struct options *o, const char *paths[OUTPUTS_MAX]);
 

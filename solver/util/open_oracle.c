@@ -3,6 +3,7 @@
 #include "util/open_oracle.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,6 +36,20 @@ static RadOracle refuse_oracle(RadDevice device, const char *oracle, enum RadRel
     return NULL;
 }
 
+/* The message to an oracle that could not be made: a graph's errors stand in lines of their own, each with its place.
+ * Returns NULL. */
+static RadOracle refuse_graph(RadDevice device, const char *oracle)
+{
+    const char *message = radGetDeviceErrorMessage(device);
+    if (!ends_with(message, "\n")) {
+        report_device(device, oracle);
+        return NULL;
+    }
+    fputs(message, stderr);
+    (void)radGetDeviceError(device);
+    return NULL;
+}
+
 /* Apply one text "NAME=VALUE". Returns 0, or -1 after a message. */
 static int apply_setting(RadDevice device, RadOracle oracle, const char *setting)
 {
@@ -55,6 +70,14 @@ static int apply_setting(RadDevice device, RadOracle oracle, const char *setting
     return radSetOracleParameter(oracle, name, value) < 0 ? report_device(device, "--set") : 0;
 }
 
+int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (apply_setting(device, oracle, settings[i]) < 0)
+            return -1;
+    return 0;
+}
+
 RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release, char *const *settings, int count)
 {
     RadOracle opened;
@@ -65,46 +88,11 @@ RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease rele
     } else {
         opened = radLoadOracle(device, oracle, NULL, release);
     }
-    if (!opened) {
-        const char *message = radGetDeviceErrorMessage(device);
-        if (strstr(message, ": error: ")) { /* the graph's errors, each with its place */
-            fputs(message, stderr);
-            if (!ends_with(message, "\n"))
-                fputc('\n', stderr);
-            (void)radGetDeviceError(device);
-        } else {
-            report_device(device, oracle);
-        }
+    if (!opened)
+        return refuse_graph(device, oracle);
+    if (set_oracle(device, opened, settings, count) < 0) {
+        radReleaseOracle(opened);
         return NULL;
     }
-    for (int i = 0; i < count; i++)
-        if (apply_setting(device, opened, settings[i]) < 0) {
-            radReleaseOracle(opened);
-            return NULL;
-        }
     return opened;
-}
-
-int print_oracles(FILE *out)
-{
-    RadDevice device = open_device(NULL, 1);
-    if (!device)
-        return -1;
-    for (const char *const *name = radGetOracleNames(); *name; name++) {
-        struct RadOracleReport report;
-        RadOracle oracle = open_oracle(device, *name, RAD_RELEASE_FLAT, NULL, 0);
-        if (!oracle) {
-            radReleaseDevice(device);
-            return -1;
-        }
-        radGetOracleReport(oracle, &report);
-        fprintf(out, "%s%s: %s\n", report.name, strcmp(*name, radGetDefaultOracle()) == 0 ? " (default)" : "", report.doc);
-        for (int i = 0; i < report.parameter_count; i++) {
-            const struct oracle_parameter *p = &report.parameters[i];
-            fprintf(out, "  %-10s %8g %-5s %s\n", p->name, p->value, p->unit, p->doc);
-        }
-        radReleaseOracle(oracle);
-    }
-    radReleaseDevice(device);
-    return 0;
 }

@@ -3,7 +3,6 @@
 #ifndef OPEN_ORACLE_H
 #define OPEN_ORACLE_H
 
-#include <stdio.h>
 #include "radiosity.h"
 
 extern const char *const release_words[]; /* of enum RadRelease; NULL-terminated */
@@ -12,7 +11,7 @@ extern const char *const release_words[]; /* of enum RadRelease; NULL-terminated
  * Returns NULL after a message. */
 RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release, char *const *settings, int count);
 
-/* The built-in oracles and their parameters. Returns 0, or -1 after a message. */
-int print_oracles(FILE *out);
+/* Apply texts "NAME=VALUE" to an oracle. Returns 0, or -1 after a message. */
+int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int count);
 
 #endif
