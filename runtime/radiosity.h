@@ -325,7 +325,9 @@ struct RadExchangeOptions {
     double tolerance;  /* error of a row's sum to work for; 0: 3e-4 */
     enum RadClosure closure;
 };
-/* Oracle NULL: the built-in viewfactors, its limits made for the tolerance. Returns NULL on error. */
+/* The built-in oracle viewfactors, its limits made for the tolerance (0: the default). Returns NULL on error. */
+RAD_API RadOracle radNewExchangeOracle(RadDevice device, double tolerance);
+/* Oracle NULL: the same. Returns NULL on error. */
 RAD_API RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExchangeOptions *options);
 RAD_API void radRetainExchange(RadExchange exchange);
 RAD_API void radReleaseExchange(RadExchange exchange);

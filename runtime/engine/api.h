@@ -71,6 +71,9 @@ void api_warn(RadDevice device, const char *format, ...) MESSAGE_LIKE(2, 3);
 /* Calls the progress function, if there is one. Returns what it says. */
 int api_progress(RadDevice device, const struct RadProgress *progress);
 
+/* A handle that takes the refiner over; NULL for a refiner is out of memory. Returns NULL after an error. */
+RadOracle api_oracle(RadDevice device, struct refiner *refiner);
+
 /* The code of a cause that the engine gives as a constant string. */
 enum RadError api_cause(const char *cause);
 

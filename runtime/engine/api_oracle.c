@@ -65,8 +65,7 @@ int radHasOracle(RadDevice device, const char *name, enum RadRelease release)
                                        : (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG) && is_builtin(name);
 }
 
-/* Takes the refiner over; NULL is out of memory. */
-static RadOracle make_oracle(RadDevice device, struct refiner *refiner)
+RadOracle api_oracle(RadDevice device, struct refiner *refiner)
 {
     RadOracle oracle = refiner ? calloc(1, sizeof *oracle) : NULL;
     if (!oracle) {
@@ -100,7 +99,7 @@ static RadOracle load(RadDevice device, const char *path, const char *text, cons
     if (check_release(device, release) < 0)
         return NULL;
     struct refiner *refiner = oracle_load(&how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
-    RadOracle oracle = refiner ? make_oracle(device, refiner) : NULL;
+    RadOracle oracle = refiner ? api_oracle(device, refiner) : NULL;
     if (!refiner)
         api_fail(device, codes[messages.cause], "%s", messages.cause == MESSAGE_NONE ? "out of memory for an oracle" : messages_text(&messages));
     messages_free(&messages);
@@ -119,15 +118,15 @@ RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease relea
     if (release == RAD_RELEASE_HAND) {
         const struct oracle *hand = find_registered(device, name);
         if (hand)
-            return make_oracle(device, refiner_compiled(hand, "hand"));
+            return api_oracle(device, refiner_compiled(hand, "hand"));
         api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "no hand-written release of oracle '%s' has been registered", name);
         return NULL;
     }
     if (check_release(device, release) < 0)
         return NULL;
     struct refiner *refiner = oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
-    messages_free(&messages); /* a built-in graph is right: there can have been no memory, and make_oracle says so */
-    return make_oracle(device, refiner);
+    messages_free(&messages); /* a built-in graph is right: there can have been no memory, and api_oracle says so */
+    return api_oracle(device, refiner);
 }
 
 RadOracle radLoadOracle(RadDevice device, const char *path, const char *name, enum RadRelease release)
@@ -154,7 +153,7 @@ RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *compiled, 
 {
     if (!device || check_compiled(device, compiled) < 0)
         return NULL;
-    return make_oracle(device, refiner_compiled(compiled, release ? release : "flat"));
+    return api_oracle(device, refiner_compiled(compiled, release ? release : "flat"));
 }
 
 void radRetainOracle(RadOracle oracle)

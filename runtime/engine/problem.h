@@ -7,23 +7,18 @@
 
 #include <stdint.h>
 #include "engine/camera.h"
+#include "engine/closure.h"
 #include "hierarchy/scene.h"
 #include "visibility/rays.h"
 
 struct solve;
-
-/* What is done about row sums, the sums of F V over what a leaf sees (row_sums.c). */
-enum closure {
-    CLOSURE_NONE, /* rows above 1 are capped, each face keeping its power */
-    CLOSURE_ROWS  /* every row is 1 in a closed scene, at most 1 in an open one */
-};
 
 struct solve_options {
     double tolerance; /* relative L1 error of B that iteration may leave, > 0 */
     int iterations;   /* sweeps per solve at the most */
     int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
     int threads;
-    enum closure closure;
+    enum closure closure; /* none: rows above 1 are capped, each face keeping its power (row_sums.c); or rows */
     int clusters; /* 1 + the strategy that groups faces; 0: the default */
     const struct camera *camera; /* whose picture counts, for oracles that read importance; NULL: all places alike */
     int unit;     /* ignore the materials: every face has B = 1 and stays so (view factors) */

@@ -103,7 +103,7 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     struct operator *op = rows->op;
     int closed = op->problem->closed > 0;
     rows->excess += row > 1 ? area * (row - 1) : 0;
-    op->row_scale[leaf] = !(area > 0) ? 0 : row > 1 || (row > 0 && closed) ? 1 / row : 1;
+    op->row_scale[leaf] = !(area > 0) ? 0 : closure_row_scale(row, 1, closed);
     op->row_above[leaf] = op->row_scale[leaf];
     op->row_share[leaf] = row > 0 || !closed || !(rows->seeing > 0) ? 0
                         : (area > 0 ? op->uncovered[leaf] : 1) / rows->seeing;

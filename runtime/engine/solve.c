@@ -8,12 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "engine/enclosure.h"
 #include "engine/solve.h"
 #include "engine/transport.h"
 #include "kernel/constants.h"
 #include "util/clock.h"
 #include "visibility/contact_fraction.h"
+#include "visibility/enclosure.h"
 
 /* Where the solver lowers error tolerances a pass may be one step of them. */
 enum { PASSES = 32, PASSES_OF_ERROR_CONTROL = 200 };
@@ -150,7 +150,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
         goto fail;
     oracle_inputs_guess(p, h);
     if (options->closure != CLOSURE_NONE)
-        p->closed = enclosure_decide(p, h, &p->closed_rays);
+        p->closed = enclosure_decide(p->rays, h, brightest, options->threads, &p->closed_rays);
     free(brightest);
     s->report.seconds.build = seconds() - start;
     return 0;

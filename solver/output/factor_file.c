@@ -19,8 +19,8 @@ const char *const factor_format_names[FACTOR_FORMATS] = { "csv", "coo", "mtx" };
 enum { ENTRY = 2 * (NUMBER_TEXT / 2) + NUMBER_TEXT, TEXT_MOST = 1 << 25 };
 
 struct writer {
-    const struct factor_matrix *m;
-    const struct factor_closure *closure;
+    const struct exchange *exchange;
+    uint32_t faces;
     enum factor_format format;
     struct label { /* "j," or "j " of each column */
         char text[15];
@@ -28,26 +28,10 @@ struct writer {
     } *labels;
     int threads;
     uint32_t batch;   /* rows at a time */
-    double **row;     /* [threads][inputs], zero between rows */
+    double **row;     /* [threads][faces] */
     char *text;       /* [batch][room] */
     size_t room, *length; /* [batch] */
 };
-
-static void fill_row(const struct writer *w, uint32_t i, double *row)
-{
-    const struct factor_closure *c = w->closure;
-    double scale, *restrict to = row;
-    uint32_t n = w->m->inputs, j;
-    if (!(w->m->area[i] > 0))
-        return;
-    scale = (c->scale && !c->both ? c->scale[i] : 1) / w->m->area[i];
-    (void)factor_matrix_row(w->m, i, c->both ? c->scale : NULL, row);
-#pragma omp simd
-    for (j = 0; j < n; j++) {
-        double f = to[j] * scale;
-        to[j] = f < 1 ? f : 1;
-    }
-}
 
 static size_t write_dense(const double *row, uint32_t n, char *text)
 {
@@ -67,7 +51,7 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
     const struct label *own = &w->labels[i];
     char *at = text;
     uint32_t j;
-    for (j = 0; j < w->m->inputs; j++) {
+    for (j = 0; j < w->faces; j++) {
         if (!(row[j] > 0))
             continue;
         memcpy(at, own->text, sizeof own->text);
@@ -84,37 +68,27 @@ static void write_row(const struct writer *w, uint32_t i, uint32_t slot)
 {
     double *row = w->row[omp_get_thread_num()];
     char *text = w->text + slot * w->room;
-    fill_row(w, i, row);
-    w->length[slot] = w->format == FACTOR_CSV ? write_dense(row, w->m->inputs, text) : write_sparse(w, i, row, text);
-    memset(row, 0, w->m->inputs * sizeof *row);
+    (void)exchange_row(w->exchange, i, row);
+    w->length[slot] = w->format == FACTOR_CSV ? write_dense(row, w->faces, text) : write_sparse(w, i, row, text);
 }
 
 /* Entries that are not 0. */
 static uint64_t count_entries(const struct writer *w)
 {
     uint64_t count = 0;
-    uint32_t i;
-    size_t v;
-    if (w->m->distinct) {
-        for (v = 0; v < w->m->value_count; v++)
-            count += w->m->values[v] > 0;
-        return 2 * count;
-    }
 #pragma omp parallel for schedule(dynamic, 16) num_threads(w->threads) reduction(+ : count)
-    for (i = 0; i < w->m->inputs; i++) {
+    for (uint32_t i = 0; i < w->faces; i++) {
         double *row = w->row[omp_get_thread_num()];
-        uint32_t j;
-        fill_row(w, i, row);
-        for (j = 0; j < w->m->inputs; j++)
+        (void)exchange_row(w->exchange, i, row);
+        for (uint32_t j = 0; j < w->faces; j++)
             count += row[j] > 0;
-        memset(row, 0, w->m->inputs * sizeof *row);
     }
     return count;
 }
 
 static int open_writer(struct writer *w)
 {
-    uint32_t n = w->m->inputs, j, base = w->format == FACTOR_MTX;
+    uint32_t n = w->faces, j, base = w->format == FACTOR_MTX;
     int t;
     w->room = (size_t)n * ENTRY + NUMBER_TEXT;
     w->batch = (uint32_t)(TEXT_MOST / w->room);
@@ -154,11 +128,11 @@ static void close_writer(struct writer *w)
     free(w->labels);
 }
 
-int factor_file_write(const char *path, enum factor_format format, const struct factor_matrix *m, const struct factor_closure *c, int threads)
+int factor_file_write(const char *path, enum factor_format format, const struct exchange *exchange, int threads)
 {
-    struct writer w = { .m = m, .closure = c, .format = format, .threads = threads };
+    struct writer w = { .exchange = exchange, .faces = exchange->areas.inputs, .format = format, .threads = threads };
     struct atomic_file file = { 0 };
-    uint32_t first, k, n = m->inputs;
+    uint32_t first, k, n = w.faces;
     int status = -1;
     if (open_writer(&w) < 0) {
         report_error(path, 0, "out of memory");
