@@ -10,8 +10,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "hierarchy/bvh.h"
-
 /* ---- readers */
 
 static void *field_of(struct options *o, const struct option_row *row)
@@ -75,9 +73,7 @@ static int read_setting(struct options *o, const struct option_row *row, const c
 /* The words that a choice is made of. */
 static const char *const *words_of(const struct option_row *row)
 {
-#define CLUSTERING_NAME(constant, name, help) #name,
-    static const char *const clusterings[] = {CLUSTERINGS(CLUSTERING_NAME) NULL};
-    return row->words ? row->words : clusterings;
+    return row->words ? row->words : radGetClusteringNames();
 }
 
 /* The number of the word, or -1. */

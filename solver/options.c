@@ -76,8 +76,9 @@ static int print_command_help(enum command command)
     int width = 0;
     printf("usage: radiosity %s%s%s%s\n%s", c->name, *c->argument ? " " : "", c->argument,
            command == COMMAND_ORACLES ? "" : " [options]", c->lesson);
-    for (int i = 0; command == COMMAND_CLUSTERING && i < CLUSTERING_COUNT; i++)
-        printf("  %-6s %s\n", clustering_names[i], clustering_helps[i]);
+    const char *const *names = radGetClusteringNames();
+    for (int i = 0; command == COMMAND_CLUSTERING && names[i]; i++)
+        printf("  %-6s %s\n", names[i], radGetClusteringDoc(names[i]));
     printf("\n");
     for (int i = 0; i < option_row_count; i++) {
         int length = option_rows[i].commands >> command & 1 ? option_text(&option_rows[i], text) : 0;
