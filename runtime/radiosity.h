@@ -115,6 +115,8 @@ struct RadPolygons {
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
     int single_precision; /* 1: positions have been floats; then what is thinner or bent by less than these can say is taken so */
+    int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand in it; for studies of
+                     what comes of it */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
@@ -162,7 +164,9 @@ enum RadRelease {
     RAD_RELEASE_HAND  /* what a program has registered by hand */
 };
 
-/* The built-in oracles' names, NULL-terminated; constant. The default is radGetDefaultOracle(). */
+/* The built-in oracles' names, NULL-terminated; constant. The default is radGetDefaultOracle(), RAD_DEFAULT_ORACLE when
+ * the program was compiled. */
+#define RAD_DEFAULT_ORACLE "clusters"
 RAD_API const char *const *radGetOracleNames(void);
 RAD_API const char *radGetDefaultOracle(void);
 
@@ -293,6 +297,9 @@ struct RadLinks {
 };
 RAD_API void radGetElements(RadSolution solution, struct RadElements *elements);
 RAD_API void radGetLinks(RadSolution solution, struct RadLinks *links);
+/* What discussions of two elements of this solution ask: rays, candidates, totals. With it a program can ask an oracle, a term
+ * or a tool about a pair of its own choice. Good until the solution is stepped or released; NULL: there is none. */
+RAD_API const struct host *radGetHost(RadSolution solution);
 
 struct RadReport {
     uint32_t elements, leaves, bands;
@@ -308,7 +315,8 @@ struct RadReport {
     uint64_t closed_rays;
     struct { int sweeps; double largest, mean, seen; } importance; /* sweeps 0: none was asked for */
     struct { double target, largest, area; } tolerance;            /* of error control (W/m2, m2); target 0: none */
-    struct { double build, refine, iterate, in_rays; } seconds;    /* in_rays: within Embree, mean over threads, part of refine */
+    /* clusters: the tree above the faces, part of build; in_rays: within Embree, mean over threads, part of refine */
+    struct { double build, refine, iterate, in_rays, clusters; } seconds;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
 

@@ -252,18 +252,28 @@ for name in $(cat options) $(dagc -W | sed -n 's/^  *\([a-z]*-[a-z-]*\) .*/\1/p'
     check "dagc(1) knows $name" sh -c "sed -e 's/\\\\-/-/g' -e 's/Fl -/--/g' -e 's/Fl /-/g' $prefix/share/man/man1/dagc.1 | grep -q -e '^\.It .*$name' -e '^\.Ic $name'"
 done
 
-# Every option and oracle of the command is in radiosity(1) with its argument, and the page has no other.
-radiosity --help | sed -n 's/^  \(-[-a-zA-Z]* [^ ][^ ]*\) .*/\1/p; s/^  \(-[-a-zA-Z]*\)  .*/\1/p' | sort >options
-awk '/^\.Sh DESCRIPTION/ { on = 1 } /^\.Sh SCENES/ { on = 0 } on && /^\.It Fl / { sub(/^\.It Fl /, "-"); gsub(/\\-/, "-"); sub(/ Ar /, " "); print }' \
-    "$prefix/share/man/man1/radiosity.1" | sort >described
-check "radiosity --help has options" sh -c "[ \$(wc -l <options) -gt 20 ]"
-check "radiosity(1) has the options of --help and no other" diff options described
+# Every option of every command is in radiosity(1) with its argument, and the page has no other.
+page=$prefix/share/man/man1/radiosity.1
+for command in solve compare viewfactors "study stability" "study visibility" "study clustering"; do
+    # shellcheck disable=SC2086
+    radiosity $command --help | sed -n 's/^  \(-[-a-zA-Z]* [^ ][^ ]*\) .*/\1/p; s/^  \(-[-a-zA-Z]*\)  .*/\1/p' >options
+    awk -v command="radiosity $command" '/^\.S[sh] / { on = $0 == ".Ss " command || $0 == ".Ss " command " scene" }
+        on && /^\.It Fl / { sub(/^\.It Fl /, "-"); gsub(/\\-/, "-"); sub(/ Ar /, " "); print }' "$page" >described
+    check "$command --help has options" sh -c "[ \$(wc -l <options) -gt 3 ]"
+    check "radiosity(1) has the options of $command --help and no other" diff options described
+    cat options >>all
+done
 for name in $(radiosity oracles | sed -n 's/^\([a-z_]*\)[ :].*/\1/p'); do
-    check "radiosity(1) knows the oracle $name" grep -q "^\.It Cm $name" "$prefix/share/man/man1/radiosity.1"
+    check "radiosity(1) knows the oracle $name" grep -q "^\.It Cm $name" "$page"
 done
-for option in $(sed -n -e 's/\\-/-/g' -e 's/.*Fl \(--*[a-z-]*\).*/-\1/p' "$top/solver/man/radiosity.1" | grep -v -e '^--name$' | sort -u); do
-    check "radiosity has the option $option that radiosity(1) speaks of" grep -q -e "^$option" options
+for option in $(sed -n -e 's/\\-/-/g' -e 's/.*Fl \(--*[a-z-]*\).*/-\1/p' "$top/solver/man/radiosity.1" | grep -v -e '^--name$' -e '^--help$' -e '^--version$' | sort -u); do
+    check "radiosity has the option $option that radiosity(1) speaks of" grep -q -e "^$option" all
 done
+# README tells of them in words of its own: of no option that there is not.
+sed -n 's/^| \(`-[^|]*`\) |.*/\1/p; s/^| \(`-.*`\) | .*/\1/p' "$top/README.md" | grep -o '`--*[a-z-]*' | tr -d '`' | sort -u >told
+sed 's/ .*//' all | sort -u >known
+check "README has a table of options" sh -c "[ \$(wc -l <told) -gt 15 ]"
+check "README's options are radiosity's" sh -c "! comm -23 told known | grep ."
 
 # ---- the editors' files are well-formed and know the words of the language
 if have node; then

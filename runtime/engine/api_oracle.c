@@ -14,7 +14,7 @@ const char *const *radGetOracleNames(void)
 
 const char *radGetDefaultOracle(void)
 {
-    return DEFAULT_ORACLE;
+    return RAD_DEFAULT_ORACLE;
 }
 
 static int is_builtin(const char *name)

@@ -271,6 +271,11 @@ void radGetLinks(RadSolution solution, struct RadLinks *links)
     *links = (struct RadLinks){ (const struct RadLink *)(const void *)r->links, r->link_count, r->first_link };
 }
 
+const struct host *radGetHost(RadSolution solution)
+{
+    return solution && !solution->dead ? rays_host(solution->solve.problem.rays) : NULL;
+}
+
 static uint32_t count_leaves(const struct hierarchy *h)
 {
     uint32_t leaves = 0;
@@ -297,7 +302,8 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .closed = s->problem.options.closure == CLOSURE_NONE ? -1 : s->problem.closed, .closed_rays = s->problem.closed_rays,
         .importance = { s->importance.sweeps, s->importance.largest, s->importance.mean, s->importance.seen },
         .tolerance = { s->error.target, s->error.largest, s->error.area },
-        .seconds = { s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate, s->report.seconds.in_rays } };
+        .seconds = { s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate, s->report.seconds.in_rays,
+                     s->report.seconds.clusters } };
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

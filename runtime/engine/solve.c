@@ -129,6 +129,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     if (hierarchy_build_by(h, scene->faces, scene->face_count,
                            options->clusters ? (enum clustering)(options->clusters - 1) : CLUSTERING_DEFAULT, options->threads) < 0)
         return -1;
+    s->report.seconds.clusters = seconds() - start;
     brightest = malloc(scene->face_count * sizeof *brightest);
     if (!brightest || read_materials(p) < 0 || make_room(s) < 0)
         goto fail;

@@ -25,8 +25,9 @@ struct report {
     double residual;           /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
     double emitted, absorbed;  /* W, all bands */
     struct row_report rows;
-    struct { double build, refine, iterate, in_rays; } seconds; /* by the clock; in_rays: inside Embree, mean over
-                                                                   threads, part of refine */
+    /* By the clock; in_rays: inside Embree, mean over threads, part of refine; clusters: the tree above the faces, part of
+     * build. */
+    struct { double build, refine, iterate, in_rays, clusters; } seconds;
     int cancelled;             /* by the progress function */
 };
 

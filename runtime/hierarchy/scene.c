@@ -157,8 +157,9 @@ static void add_polygon(struct builder *b, uint32_t input, const uint32_t *indic
         return;
     }
     b->used[material] = SEEN;
-    if (count == 3 || (count == 4 && polygon_flat(b->corner, 4, fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(b->corner, 4)))
-                       && polygon_convex_quad(b->corner))) {
+    if (count == 3 || (count == 4 && b->polygons->as_given)
+        || (count == 4 && polygon_flat(b->corner, 4, fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(b->corner, 4)))
+            && polygon_convex_quad(b->corner))) {
         *area = polygon_normal(b->corner, count, normal);
         add_face(b, whole, count, material, input);
         return;
@@ -219,7 +220,7 @@ static int build(struct builder *b, int threads)
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
     scene->bands = bands(b);
-    return scene_cut(scene, threads) < 0 ? out_of_memory(b->error) : 0;
+    return !b->polygons->as_given && scene_cut(scene, threads) < 0 ? out_of_memory(b->error) : 0;
 }
 
 int scene_build(struct scene *scene, const struct RadPolygons *polygons, const struct RadMaterial *materials,

@@ -59,4 +59,17 @@
 #define EXCHANGE_NEAR_FALL 0.25 /* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
 #define CLOSURE_ENOUGH 1e-12 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
 
+/* ---- pictures and meshes (solver/output) */
+
+#define OUTPUT_TOUCH 1e-4 /* of a face's size: what is nearer stands on it, as faces are cut where others are that near */
+#define OUTPUT_SAME_PLANE 0.99985 /* cosine of one degree: faces turned less are one surface. chosen: flat when shaded */
+#define OUTPUT_NO_LINE 0.01 /* sine between two planes below which they have no line to speak of, as where faces are cut */
+#define OUTPUT_SAME_LINE 0.999998 /* cosine of a tenth of a degree: one direction. chosen */
+#define OUTPUT_REACH 4 /* OUTPUT_TOUCHes along a wall and ... */
+#define OUTPUT_RISE 3  /* ... up it, where it must be to stand here. chosen: clear of what touches, near enough to be local */
+#define EXPOSURE_MIDDLE 0.34 /* where the log-mean of a picture goes. chosen: 0.18 is a film's middle grey, rooms with
+                                bright walls want more */
+#define EXPOSURE_BRIGHT 0.98 /* share of a picture that is darker than what the shoulder is measured by. chosen: lamps
+                                and highlights are less */
+
 #endif
