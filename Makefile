@@ -39,7 +39,7 @@ wall_engine     = $(wall_visibility) oracle engine
 wall_solver     = $(TOOLKIT) util
 ROOMS     = util oracle hierarchy visibility engine
 # 1: the command sees wall_solver and links the library alone.
-BY_LIBRARY =
+BY_LIBRARY = 1
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))
 # common.dag holds what they share, and no oracle.

@@ -1,12 +1,15 @@
-/* read_scene.c - see read_scene.h.
+/* read_scene.h - a scene file straight to a scene of the engine, for tests that look inside.
  * SPDX-License-Identifier: MIT */
-#include "scene/read_scene.h"
+#ifndef READ_SCENE_H
+#define READ_SCENE_H
 
 #include <stdlib.h>
-
+#include "hierarchy/scene.h"
+#include "scene/scene_file.h"
 #include "util/report.h"
 
-int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
+/* Returns 0, or -1 after one line on stderr; then *scene is empty. */
+static inline int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
 {
     struct scene_file file;
     struct scene_error error;
@@ -31,3 +34,5 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
     scene_file_free(&file);
     return result;
 }
+
+#endif
