@@ -2,7 +2,7 @@
  * B = E / (1 - rho) in any closed shape; an open scene must not gain.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
-#include "runtime/read_scene.h"
+#include "scene/read_scene.h"
 #include "runtime/make_solve.h"
 #include "suite.h"
 

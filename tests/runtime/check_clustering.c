@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/hierarchy.h"
-#include "runtime/make_scene.h"
-#include "runtime/oracles.h"
+#include "scene/make_scene.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 #include "suite.h"
 #include "kernel/hash.h"

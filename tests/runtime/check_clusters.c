@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "runtime/make_scene.h"
-#include "runtime/oracles.h"
+#include "scene/make_scene.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 #include "suite.h"
 

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <time.h>
 #include "geometry.h"
-#include "runtime/make_scene.h"
-#include "runtime/read_scene.h"
+#include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "hierarchy/polygon.h"
 #include "hierarchy/cut_faces.h"
 #include "suite.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 #include "engine/exchange_areas.h"
 #include "kernel/plane_side.h"
-#include "runtime/make_scene.h"
+#include "scene/make_scene.h"
 #include "suite.h"
 #include "tools/group_level.h"
 

@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "oracle/builtin.h"
-#include "runtime/make_scene.h"
-#include "runtime/read_scene.h"
-#include "runtime/oracles.h"
+#include "scene/make_scene.h"
+#include "scene/read_scene.h"
+#include "util/oracles.h"
 #include "runtime/path_reference.h"
 #include "engine/solve.h"
 #include "suite.h"

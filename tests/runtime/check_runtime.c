@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "runtime/make_scene.h"
+#include "scene/make_scene.h"
 #include "visibility/contact_fraction.h"
 #include "visibility/rays.h"
 #include "engine/refine.h"

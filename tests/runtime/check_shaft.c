@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "visibility/candidates.h"
-#include "runtime/make_scene.h"
-#include "runtime/read_scene.h"
+#include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "visibility/rays.h"
 #include "engine/refine.h"
 #include "oracles.h"

@@ -5,7 +5,7 @@
 #include "study/closed_forms.h"
 #include "hand.h"
 #include "runtime/make_pair.h"
-#include "runtime/oracles.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 #include "suite.h"
 #include "terms/form_factor.h"

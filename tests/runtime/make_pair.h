@@ -6,7 +6,7 @@
 #include <check.h>
 #include <math.h>
 #include "hierarchy/hierarchy.h"
-#include "runtime/make_scene.h"
+#include "scene/make_scene.h"
 
 struct two {
     struct scene scene;

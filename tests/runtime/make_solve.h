@@ -6,8 +6,8 @@
 #include <check.h>
 #include <math.h>
 #include <string.h>
-#include "runtime/make_scene.h"
-#include "runtime/oracles.h"
+#include "scene/make_scene.h"
+#include "util/oracles.h"
 #include "engine/solve.h"
 
 static inline struct solve_options quick(int threads)

@@ -18,7 +18,7 @@
 #include <omp.h>
 #include "util/embree.h"
 #include "geometry.h"
-#include "runtime/read_scene.h"
+#include "scene/read_scene.h"
 #include "kernel/hash.h"
 
 #define INVERSE_PI 0.31830988618379067154

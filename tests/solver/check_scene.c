@@ -17,7 +17,7 @@
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
 #include "load_scene.h"
-#include "runtime/read_scene.h"
+#include "scene/read_scene.h"
 #include "suite.h"
 
 static const char SCENES[] = "examples/scenes/";

@@ -1,15 +1,12 @@
-/* read_scene.h - a scene file straight to a scene of the engine, for tests that look inside.
+/* read_scene.c - see read_scene.h.
  * SPDX-License-Identifier: MIT */
-#ifndef READ_SCENE_H
-#define READ_SCENE_H
+#include "scene/read_scene.h"
 
 #include <stdlib.h>
-#include "hierarchy/scene.h"
-#include "scene/scene_file.h"
+
 #include "util/report.h"
 
-/* Returns 0, or -1 after one line on stderr; then *scene is empty. */
-static inline int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
+int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
 {
     struct scene_file file;
     struct scene_error error;
@@ -34,5 +31,3 @@ static inline int scene_read(struct scene *scene, const char *path, const struct
     scene_file_free(&file);
     return result;
 }
-
-#endif
