@@ -13,8 +13,7 @@ double known_point(double x0, double x1, double y0, double y1, double h)
 double known_penumbra(const double source[4], double h, const double blocker[4], double z)
 {
     double hidden[4], f = known_point(source[0], source[1], source[2], source[3], h);
-    int k;
-    for (k = 0; k < 4; k += 2) {
+    for (int k = 0; k < 4; k += 2) {
         hidden[k] = fmax(source[k], blocker[k] * h / z);
         hidden[k + 1] = fmin(source[k + 1], blocker[k + 1] * h / z);
         if (hidden[k] >= hidden[k + 1])

@@ -159,9 +159,8 @@ static void print_row(FILE *out, const struct row *r)
 
 static void print_csv(FILE *out, const struct table *t)
 {
-    int i;
     fputs("strategy,clusters,depth,crossed,build_s,cpu_s,clock_s,elements,links,links_of_groups,pairs,rays,memory_mb,imbalance,error,converged\n", out);
-    for (i = 0; i < t->rows; i++) {
+    for (int i = 0; i < t->rows; i++) {
         const struct row *r = &t->row[i];
         fprintf(out, "%s,%u,%u,%.9g,%.4f,%.4f,%.4f,%u,%llu,%llu,%llu,%llu,%.1f,%.9g,", r->strategy, r->clusters, r->depth, r->crossed, r->build,
                 r->cpu, r->clock, r->elements, (unsigned long long)r->links, (unsigned long long)r->groups, (unsigned long long)r->pairs,
@@ -176,12 +175,11 @@ static void print_markdown(FILE *out, const struct table *t)
 {
     const struct options *o = t->options;
     const char *slash = strrchr(o->scene, '/');
-    int i;
     fprintf(out, "`radiosity study clustering %s`, oracle `%s`, %d threads; error of B %s\n\n", slash ? slash + 1 : o->scene, o->oracle, o->threads,
             o->reference ? "per face against a reference, relative L1 by area" : "not known: no reference was given");
     fputs("| strategy | clusters | depth | crossed | build, s | cpu, s | clock, s | links | of groups | pairs | rays | MB | imbalance | error |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n", out);
-    for (i = 0; i < t->rows; i++) {
+    for (int i = 0; i < t->rows; i++) {
         const struct row *r = &t->row[i];
         fprintf(out, "| %s | %u | %u | %.1f | %.2f | %.1f | %.1f | %llu | %llu | %llu | %llu | %.0f | %.2f %% | ", r->strategy, r->clusters, r->depth,
                 r->crossed, r->build, r->cpu, r->clock, (unsigned long long)r->links, (unsigned long long)r->groups,
@@ -211,15 +209,14 @@ static void print_plot(FILE *out, const void *context)
 {
     const struct table *t = context;
     const int known = !isnan(t->row[0].error);
-    int i;
     fprintf(out, "set style data histogram\nset style histogram clustered gap 1\nset style fill solid 0.8 border -1\n"
                  "set ylabel 'times that of %s'\nset yrange [0:*]\nset grid ytics\nset key below horizontal\n$measures << EOD\nmeasure",
             t->row[0].strategy);
-    for (i = 0; i < t->rows; i++)
+    for (int i = 0; i < t->rows; i++)
         fprintf(out, " %s", t->row[i].strategy);
 #define BARS(name, value) \
     fprintf(out, "\n\"" name "\""); \
-    for (i = 0; i < t->rows; i++) { \
+    for (int i = 0; i < t->rows; i++) { \
         const struct row *r = &t->row[i], *first = &t->row[0]; \
         fprintf(out, " %.6g", (double)first->value > 0 ? (double)r->value / (double)first->value : 0); \
     }

@@ -94,8 +94,7 @@ static void print_reason(char text[96], const struct stability_cell *cell, const
 /* The cell of a case for a method, or -1. */
 static int cell_of(const struct stability_case *c, int method)
 {
-    int k;
-    for (k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++)
+    for (int k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++)
         if (c->cells[k].method == method)
             return k;
     return -1;
@@ -203,10 +202,9 @@ static void print_markdown(FILE *out, const struct results *r)
 static void print_csv(FILE *out, const struct results *r)
 {
     static const char *const verdict[] = { "passes", "fails", "FAILS", "CHANGED" };
-    int i, k;
-    for (i = 0; i < r->group->count; i++) {
+    for (int i = 0; i < r->group->count; i++) {
         const struct stability_case *c = &r->group->cases[i];
-        for (k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++) {
+        for (int k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++) {
             const struct result *result = &r->result[i * STABILITY_CELLS + k];
             if (!result->run)
                 continue;
@@ -221,13 +219,12 @@ static void print_csv(FILE *out, const struct results *r)
 
 static void print_all(FILE *out, const struct results *results, enum format format)
 {
-    int g;
     if (format == CSV)
         fprintf(out, "group,case,method,error,tolerance,result,why,count,measure\n");
     if (format == MARKDOWN)
         fprintf(out, "# Where methods fail\n\nMade by `radiosity study stability -o FILE.md`. A cell is the method's error; "
                      "`fails: why` stands where it is above the tolerance of the cell; - where the two have nothing to do with each other.\n");
-    for (g = 0; g < stability_group_count; g++)
+    for (int g = 0; g < stability_group_count; g++)
         (format == CSV ? print_csv : format == MARKDOWN ? print_markdown : print_plain)(out, &results[g]);
 }
 
@@ -255,14 +252,13 @@ static enum format format_of(const char *path)
 
 static int find(const char *name)
 {
-    int g, i;
-    for (g = 0; g < stability_group_count; g++)
-        for (i = 0; i < stability_groups[g].count; i++)
+    for (int g = 0; g < stability_group_count; g++)
+        for (int i = 0; i < stability_groups[g].count; i++)
             if (strcmp(stability_groups[g].cases[i].name, name) == 0)
                 return 0;
     report_error("--only", 0, "no case is called '%s'; the cases are", name);
-    for (g = 0; g < stability_group_count; g++)
-        for (i = 0; i < stability_groups[g].count; i++)
+    for (int g = 0; g < stability_group_count; g++)
+        for (int i = 0; i < stability_groups[g].count; i++)
             fprintf(stderr, "  %-20s %s\n", stability_groups[g].cases[i].name, stability_groups[g].cases[i].what);
     return -1;
 }

@@ -47,9 +47,8 @@ static struct verdict judge(const struct cell *c)
     const double z = 1.959963984540054;
     struct verdict v = { 0, 0, 0, 0, 1 };
     double n, middle, half;
-    int i, k;
-    for (i = 0; i < CLASSES; i++)
-        for (k = 0; k < CLASSES; k++) {
+    for (int i = 0; i < CLASSES; i++)
+        for (int k = 0; k < CLASSES; k++) {
             v.asked += c->matrix[i][k];
             v.wrong += i == k ? 0 : c->matrix[i][k];
         }
@@ -125,10 +124,9 @@ static int run(const struct options *o, const struct open_scene *scene, struct p
 
 static void print_row(FILE *out, const struct options *o, const struct table *t, int row)
 {
-    int k;
     struct verdict v = judge(&t->cells[row][0]);
     fprintf(out, "%9.4g %10.4g %10llu", o->thresholds[row], t->area[row], (unsigned long long)v.asked);
-    for (k = 0; k < o->ray_count; k++) {
+    for (int k = 0; k < o->ray_count; k++) {
         v = judge(&t->cells[row][k]);
         if (v.asked)
             fprintf(out, "   %5.2f [%5.2f, %5.2f]", 100 * v.part, 100 * v.low, 100 * v.high);
@@ -140,10 +138,9 @@ static void print_row(FILE *out, const struct options *o, const struct table *t,
 
 static void print_head(FILE *out, const struct options *o)
 {
-    int k;
     fprintf(out, "wrong answers in %%, [95 %% interval]; thresholds of projected area, in units and m2\n");
     fprintf(out, "threshold         m2      pairs");
-    for (k = 0; k < o->ray_count; k++)
+    for (int k = 0; k < o->ray_count; k++)
         fprintf(out, "   %9d rays       ", o->rays[k]);
     fputc('\n', out);
 }
@@ -151,19 +148,18 @@ static void print_head(FILE *out, const struct options *o)
 /* A line per threshold and number of rays; none_as_all: the reference said none, the tool all. */
 static void print_csv(FILE *out, const struct options *o, const struct table *t)
 {
-    int i, k, a, b;
     fputs("threshold,area_m2,rays,pairs,wrong,percent,percent_low,percent_high", out);
-    for (a = 0; a < CLASSES; a++)
-        for (b = 0; b < CLASSES; b++)
+    for (int a = 0; a < CLASSES; a++)
+        for (int b = 0; b < CLASSES; b++)
             fprintf(out, ",%s_as_%s", class_names[a], class_names[b]);
     fputc('\n', out);
-    for (i = 0; i < o->threshold_count; i++)
-        for (k = 0; k < o->ray_count; k++) {
+    for (int i = 0; i < o->threshold_count; i++)
+        for (int k = 0; k < o->ray_count; k++) {
             const struct verdict v = judge(&t->cells[i][k]);
             fprintf(out, "%.9g,%.9g,%d,%llu,%llu,%.9g,%.9g,%.9g", o->thresholds[i], t->area[i], o->rays[k], (unsigned long long)v.asked,
                     (unsigned long long)v.wrong, 100 * v.part, 100 * v.low, 100 * v.high);
-            for (a = 0; a < CLASSES; a++)
-                for (b = 0; b < CLASSES; b++)
+            for (int a = 0; a < CLASSES; a++)
+                for (int b = 0; b < CLASSES; b++)
                     fprintf(out, ",%llu", (unsigned long long)t->cells[i][k].matrix[a][b]);
             fputc('\n', out);
         }
