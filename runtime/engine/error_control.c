@@ -21,19 +21,17 @@
 #define STEP 1.4
 #define ENOUGH 0.25 /* of eps: the most that all links of a leaf may bring together before it is given up */
 
-static double parameter(const struct refiner *r, const char *name)
+static double parameter(const struct refiner *r, enum catalog_role role)
 {
-    int i;
-    for (i = 0; i < r->parameter_count; i++)
-        if (strcmp(r->parameters[i].name, name) == 0)
-            return refiner_get(r, i);
-    return 0;
+    int i = refiner_find_role(r, role, -1);
+    return i < 0 ? 0 : refiner_get(r, i);
 }
 
 double allowance_target(const struct refiner *r, const struct host *host)
 {
-    double absolute = parameter(r, "epsilon"), relative = parameter(r, "relative") * host->radiosity;
-    return r->reads & REFINER_READS_ALLOWANCE ? absolute > relative ? absolute : relative : 0;
+    double absolute = parameter(r, ROLE_ERROR_TOLERANCE);
+    double relative = parameter(r, ROLE_RELATIVE_ERROR_TOLERANCE) * host->radiosity;
+    return refiner_reads(r, FACT_RECEIVER_ALLOWANCE) ? absolute > relative ? absolute : relative : 0;
 }
 
 /* The least of the children's, bottom up, where that is less than what is there. */

@@ -247,7 +247,7 @@ static int links_groups(const struct solve *s)
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     int64_t changed = 1;
-    int settled = 0, importance = s->options.camera && refiner->reads & REFINER_READS_IMPORTANCE;
+    int settled = 0, importance = s->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE);
     double error = allowance_target(refiner, rays_host(s->rays));
     *cause = "out of memory";
     if (importance && importance_start(s) < 0)

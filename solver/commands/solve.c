@@ -50,12 +50,12 @@ int command_solve(const struct options *o, const struct scene *scene)
         refiner_close(refiner);
         return 1;
     }
-    if (o->view_given && !o->image && !(refiner->reads & REFINER_READS_IMPORTANCE)) {
+    if (o->view_given && !o->image && !refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)) {
         report_error("--view", 0, "is for a picture, or for an oracle that reads importance: add --image FILE.png");
         refiner_close(refiner);
         return 2;
     }
-    if (o->statistics && refiner_count(refiner, o->threads) < 0) {
+    if (o->statistics && refiner_count(refiner) < 0) {
         report_error(o->statistics, 0, "out of memory for the statistics");
         refiner_close(refiner);
         return 1;

@@ -56,14 +56,10 @@ static double near(const struct options *o)
 static struct refiner *oracle(const struct options *o)
 {
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    int i;
     if (!refiner)
         return NULL;
-    for (i = 0; i < refiner->parameter_count; i++) {
-        const char *name = refiner->parameters[i].name;
-        if (strcmp(name, "shadow") == 0 || strcmp(name, "group_shadow") == 0)
-            (void)refiner_set(refiner, name, refiner_get(refiner, i) * o->tolerance / MEANT, NULL);
-    }
+    for (int i = -1; (i = refiner_find_role(refiner, ROLE_SHADOW_TOLERANCE, i)) >= 0;)
+        (void)refiner_set(refiner, refiner->parameters[i].name, refiner_get(refiner, i) * o->tolerance / MEANT, NULL);
     if (oracles_set(refiner, o->settings, o->setting_count) < 0) {
         refiner_close(refiner);
         return NULL;

@@ -108,7 +108,7 @@ static int run(const struct options *o, const struct scene *scene, struct progre
     if (!r || set(r, "threshold", threshold) < 0 || set(r, "rays_1", rays[0]) < 0 || set(r, "rays_2", rays[tools > 1 ? 1 : 0]) < 0
         || set(r, "rays_3", rays[tools - 1]) < 0 || oracles_set(r, o->settings, o->setting_count) < 0)
         goto done;
-    if (refiner_count(r, o->threads) < 0) {
+    if (refiner_count(r) < 0) {
         report_error(o->scene, 0, "out of memory");
         goto done;
     }
