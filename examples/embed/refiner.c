@@ -157,7 +157,7 @@ enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
-enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
+enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_PRESUMED, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
 
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
@@ -808,8 +808,9 @@ static inline uint64_t refiner_hash64(uint64_t x)
  * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
  * smaller area over the number of segments, bounds the weight of parts that touch.
  *
+ * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
- *             for it here gets four rays.
+ *             for one of these two here gets four rays.
  * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
  *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
  *             scrambled by a hash of both path identities: no shared random state, so the answer depends on
