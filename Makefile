@@ -1,4 +1,5 @@
-# make          the commands build/dagc and build/radiosity
+# make          the commands dagc and radiosity in build/bin, build/libradiosity.a and .so
+# make dagc     dagc and libdagc.a alone, which need a C compiler and libc
 # make check    the tests
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
@@ -8,10 +9,12 @@
 # make reference  build/bin/reference, which path traces radiosities per face to measure solutions by
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make bench    what the releases cost, in instructions
-# make install  dagc and what its users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
+# make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
+# make install-dagc  the part of it that is dagc's
 # SPDX-License-Identifier: MIT
 
 CC       = gcc
+OBJCOPY  = objcopy
 BUILD    = build
 OPT      = -O2 -g
 WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
@@ -20,11 +23,13 @@ CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fopenmp $(SANITIZE)
 CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE) -fopenmp
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
+# What the library is linked with, and what the command needs besides.
+ENGINE_LIBS = $(EMBREE) $(if $(findstring clang,$(shell $(CC) --version)),-lomp,-lgomp) -lpthread -ldl -lm
 LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
-PUBLIC    = catalog.dag discussion.h geometry.h oracle.h standalone.h
+PUBLIC    = catalog.dag discussion.h geometry.h oracle.h radiosity.h standalone.h
 TOOLKIT   = $(PUBLIC) kernel terms tools
 wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
@@ -32,6 +37,8 @@ wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
 wall_engine     = $(wall_visibility) oracle engine
 ROOMS     = util oracle hierarchy visibility engine
+# The command sees public headers, what is inline of a pair's geometry, and the clock; it links the library.
+wall_solver     = $(TOOLKIT)
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))
 # common.dag holds what they share, and no oracle.
@@ -40,9 +47,16 @@ FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,$(ROOMS:%=runtime/%)) $(BUILD)/gen/catalog.o $(FLAT) $(BUILD)/gen/builtin.o
 SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(call objects,tests/hand)
+# What tests of the engine's insides read scenes and name oracles with.
+SUPPORT   = $(call objects,$(wildcard tests/support/*/))
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh tests/*/check_*.sh)
-OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
+# Of what goes into the library, each object is compiled once, for the archive, the shared library, the commands and the tests.
+SHARED    = $(call objects,dagc) $(RUNTIME) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
+ARCHIVE   = $(BUILD)/libradiosity.a
+LIBRARY_VERSION = $(shell sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' runtime/radiosity.h)
+SONAME    = libradiosity.so.$(basename $(LIBRARY_VERSION))
+OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
 FUZZ_SECONDS = 60
 
@@ -51,9 +65,11 @@ FUZZ_SECONDS = 60
 .SECONDARY:
 
 all: packages
-	@$(MAKE) --no-print-directory commands
-.PHONY: commands
+	@$(MAKE) --no-print-directory commands library
+.PHONY: commands library dagc
 commands: $(BUILD)/bin/dagc $(BUILD)/bin/radiosity
+library: $(ARCHIVE) $(BUILD)/libradiosity.so
+dagc: $(BUILD)/bin/dagc $(LIBDAGC)
 
 # What is built by what: catalog.dag -> libdagc -> dagc -> everything that includes discussion.h.
 $(BUILD)/bin/dagc: $(BUILD)/dagc/main.o $(LIBDAGC)
@@ -80,9 +96,21 @@ $(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.
 	@mkdir -p $(@D)
 	sh runtime/oracle/builtin.sh $(ORACLES) > $@
 
-$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
-$(TESTS): %: %.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+# One object in which only radiosity.h's functions are global: a program's own libdagc, or its own `link`, meets none of ours.
+$(ARCHIVE): $(RUNTIME) $(LIBDAGC)
+	$(LD) -r -d -o $(BUILD)/libradiosity.o $^
+	$(OBJCOPY) -w --keep-global-symbol='rad[A-Z]*' $(BUILD)/libradiosity.o
+	rm -f $@
+	ar rcs $@ $(BUILD)/libradiosity.o
+$(BUILD)/libradiosity.so: $(RUNTIME) $(LIBDAGC) runtime/package/exported.map
+	$(CC) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
+
+$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+BY_API    = $(BUILD)/tests/runtime/check_api
+$(BY_API): %: %.o $(ARCHIVE)
+	$(CC) $(LDFLAGS) -o $@ $^ $(ENGINE_LIBS) $$(pkg-config --libs check)
+$(filter-out $(BY_API),$(TESTS)): %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
@@ -91,15 +119,18 @@ $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUI
 $(foreach room,$(ROOMS),$(eval $(BUILD)/runtime/$(room)/%.o: CPPFLAGS += -I$(WALLS)/$(room)))
 $(BUILD)/runtime/oracle/%.o $(BUILD)/runtime/engine/%.o: CPPFLAGS += -Idagc
 $(BUILD)/dagc/%.o: CPPFLAGS += -Idagc
-$(BUILD)/solver/%.o: CPPFLAGS += -Isolver -Iruntime -Idagc -Itests/hand
-$(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/hand -Isolver -Iruntime -Idagc
+$(BUILD)/solver/%.o: CPPFLAGS += -Isolver -I$(WALLS)/solver -Itests/hand
+$(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/support -Itests/hand -Isolver -Iruntime -Idagc
 $(BUILD)/examples/%.o: CPPFLAGS += -Iruntime
 $(BUILD)/gen/%.o: CPPFLAGS += -Iruntime -Iruntime/oracle -Idagc
 
 $(WALLS)/made: Makefile
 	@rm -rf $(WALLS)
-	@$(foreach room,$(ROOMS),mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) touch $@
-$(filter $(BUILD)/runtime/%,$(RUNTIME)): | $(WALLS)/made
+	@$(foreach room,$(ROOMS) solver,mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) \
+	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/clock.h $(WALLS)/solver/util && touch $@
+$(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
+$(SHARED): CFLAGS += -fPIC
+$(RUNTIME): CFLAGS += -fvisibility=hidden
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -158,7 +189,7 @@ include install.mk
 # Path-traced radiosities per face, to measure solutions by.
 .PHONY: reference
 reference: $(BUILD)/bin/reference
-$(BUILD)/bin/reference: $(BUILD)/tests/runtime/reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(BUILD)/bin/reference: $(BUILD)/tests/runtime/reference.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
 
 # Rows of view factors against rays, in a room of 6,528 faces or any other number.

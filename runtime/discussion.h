@@ -55,7 +55,7 @@ struct element {
     double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
     double reflectance;  /* rho, largest band; cluster: area mean */
     double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
-    double allowance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
+    double tolerance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     uint32_t parent;     /* index in the hierarchy; the root is its own parent */
     uint32_t face;       /* surface: index of the face it is part of */
 };

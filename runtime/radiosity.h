@@ -61,7 +61,9 @@ enum RadError {
 };
 
 struct RadDeviceOptions {
-    int threads; /* 0: as many as there are processors */
+    int threads;           /* 0: as many as there are processors */
+    const char *compiler;  /* C compiler for the flat release of files and texts; NULL: "cc" */
+    const char *temporary; /* folder for what it makes; NULL: "/tmp" */
 };
 
 /* Told of every error (code) and of every warning (RAD_ERROR_NONE), from the calling thread; `message` is good until it returns. */
@@ -102,15 +104,19 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after it. Polygon i has
  * sizes[i] corners (all have `size` when sizes is NULL), whose indices into positions stand one polygon after the other,
- * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. */
+ * counter-clockwise seen from the front. Concave and bent polygons are cut into flat convex ones. Polygons without area, also
+ * those of fewer than three corners, are dropped and counted, and keep their place in all lists of polygons. */
 struct RadPolygons {
     const double *positions;   /* [position_count * 3], m */
     size_t position_count;
     const uint32_t *indices;   /* [sum of sizes] */
-    const uint32_t *sizes;     /* [count], each at least 3; or NULL */
+    const uint32_t *sizes;     /* [count]; those below 3 are polygons without area; or NULL */
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
+    int single_precision; /* 1: positions have been floats; then what is thinner or bent by less than these can say is taken so */
+    int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand in it; for studies of
+                     what comes of it */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
@@ -158,7 +164,9 @@ enum RadRelease {
     RAD_RELEASE_HAND  /* what a program has registered by hand */
 };
 
-/* The built-in oracles' names, NULL-terminated; constant. The default is radGetDefaultOracle(). */
+/* The built-in oracles' names, NULL-terminated; constant. The default is radGetDefaultOracle(), RAD_DEFAULT_ORACLE when
+ * the program was compiled. */
+#define RAD_DEFAULT_ORACLE "clusters"
 RAD_API const char *const *radGetOracleNames(void);
 RAD_API const char *radGetDefaultOracle(void);
 
@@ -167,7 +175,7 @@ RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelea
 /* A .dag file ("-": standard input), or the text of one under the name `path`; `oracle`: which of the file's, NULL: the only one.
  * RAD_RELEASE_FLAT needs a C compiler and compiles it now. */
 RAD_API RadOracle radLoadOracle(RadDevice device, const char *path, const char *oracle, enum RadRelease release);
-RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *oracle);
+RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *oracle, enum RadRelease release);
 /* A refiner that dagc generated and that the program is linked with, or one written by hand. Borrowed. */
 RAD_API RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *oracle, const char *release);
 /* Let radNewOracle find it by name as RAD_RELEASE_HAND. Borrowed. Returns 0, or -1. */
@@ -249,9 +257,10 @@ RAD_API RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struc
 RAD_API void radRetainSolution(RadSolution solution);
 RAD_API void radReleaseSolution(RadSolution solution);
 
-/* Refine from the root, without solving. Returns 0, or -1. */
+/* Refine from the root, without solving, once and before radStep. Returns 0, or -1. */
 RAD_API int radRefine(RadSolution solution);
-/* One pass: refine (again), then solve over the links. Returns 1 while links still change, 0 when done, -1 on error. */
+/* One pass: refine from the root if nothing has, solve over the links, discuss them again in that light. Returns 1 while links
+ * change and passes are left, 0 when done, -1 on error. */
 RAD_API int radStep(RadSolution solution);
 /* Passes until no link changes. Returns 0, or -1. */
 RAD_API int radSolve(RadSolution solution);
@@ -270,7 +279,8 @@ struct RadLink {
     uint8_t mark;
 };
 
-/* Read-only views of a solution: good until it is stepped or released. */
+/* Read-only views of a solution: good until it is stepped or released. All zero where there is none: no links before
+ * radRefine or radStep, nothing of a solution that was cancelled. */
 struct RadElements {
     const struct element *elements; /* [count]; 0 is the root; children of one element are neighbours */
     uint32_t count;
@@ -287,6 +297,9 @@ struct RadLinks {
 };
 RAD_API void radGetElements(RadSolution solution, struct RadElements *elements);
 RAD_API void radGetLinks(RadSolution solution, struct RadLinks *links);
+/* What discussions of two elements of this solution ask: rays, candidates, totals. With it a program can ask an oracle, a term
+ * or a tool about a pair of its own choice. Good until the solution is stepped or released; NULL: there is none. */
+RAD_API const struct host *radGetHost(RadSolution solution);
 
 struct RadReport {
     uint32_t elements, leaves, bands;
@@ -302,7 +315,8 @@ struct RadReport {
     uint64_t closed_rays;
     struct { int sweeps; double largest, mean, seen; } importance; /* sweeps 0: none was asked for */
     struct { double target, largest, area; } tolerance;            /* of error control (W/m2, m2); target 0: none */
-    struct { double build, refine, iterate, in_rays; } seconds;    /* in_rays: within Embree, mean over threads, part of refine */
+    /* clusters: the tree above the faces, part of build; in_rays: within Embree, mean over threads, part of refine */
+    struct { double build, refine, iterate, in_rays, clusters; } seconds;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
 
@@ -312,12 +326,15 @@ struct RadExchangeOptions {
     double tolerance;  /* error of a row's sum to work for; 0: 3e-4 */
     enum RadClosure closure;
 };
+/* The built-in oracle viewfactors, its limits made for the tolerance (0: the default). Returns NULL on error. */
+RAD_API RadOracle radNewExchangeOracle(RadDevice device, double tolerance);
+/* Oracle NULL: the same. Returns NULL on error. */
 RAD_API RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExchangeOptions *options);
 RAD_API void radRetainExchange(RadExchange exchange);
 RAD_API void radReleaseExchange(RadExchange exchange);
 
 /* Row i of F_ij: share of what leaves polygon i evenly that meets polygon j; row[RadSceneReport.polygons], the caller's. Safe from
- * many threads at once. Returns its sum. */
+ * many threads at once. Returns its sum, or -1. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 
 struct RadExchangeReport {

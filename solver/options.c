@@ -1,481 +1,316 @@
-/* options.c - parse the command line. One table holds every option: the parser and the help derive from it.
+/* options.c - parse the command line by the table of options, and print --help from it.
+ *
+ * getopt_long does the parsing; that an option may be abbreviated as long as it is clear is its doing, too.
  * SPDX-License-Identifier: MIT */
-#include <errno.h>
-#include <limits.h>
-#include <omp.h>
-#include <stdlib.h>
-#include <string.h>
-#include "util/ends_with.h"
-#include "output/export.h"
 #include "options.h"
 
-enum key { ORACLE, RELEASE, SET, CLUSTERS, TOLERANCE, ITERATIONS, JACOBI, CLOSURE, STATISTICS, THREADS, TWO_SIDED, OUT, IMAGE, SIZE, VIEW, MESH,
-           FACES, JSON, FORMAT, NAMES, REPEATS, ONLY, REFERENCE, THRESHOLDS, RAYS, CHART, QUIET, HELP, VERSION };
+#include <getopt.h>
+#include <omp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#define CLUSTERING_WORD(constant, name, help) " " #name
-#define CLUSTERING_NAMES CLUSTERINGS(CLUSTERING_WORD)
+#include "option_table.h"
+#include "util/report.h"
 
-/* solve, compare, viewfactors, study stability, study visibility, study clustering */
-enum { S = 1, C = 2, V = 4, FAILURES = 8, SIGHT = 16, TREES = 32, ALL = S | C | V };
+enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 }; /* what getopt_long returns: a letter, or one of these */
 
-static const struct option {
-    enum key key;
-    const char *name, *argument;
-    int commands;
-    const char *help;
-} table[] = {
-    { ORACLE, "--oracle", "NAME|FILE.dag", S | C | TREES, "the refinement oracle (default " DEFAULT_ORACLE "; of `compare` " DEFAULT_BY_HAND ", which has a\n"
-      "                             release by hand; see `radiosity oracles`)" },
-    { RELEASE, "--release", "flat|dag|hand", S | TREES, "compiled graph (default), interpreted graph, or written by hand (bf, bf_guarded)" },
-    { SET, "--set", "PARAM=VALUE", ALL | SIGHT | TREES, "set a parameter of the oracle; may be given many times" },
-    { CLUSTERS, "--clusters", "NAME", S, "what groups the faces into clusters (default sah, below 1,000 halves):" CLUSTERING_NAMES },
-    { TOLERANCE, "--tolerance", "X", ALL | TREES, "relative error of radiosity that iteration may leave (default 1e-4); viewfactors: the\n"
-      "                             error of a row's sum to work for (default 3e-4)" },
-    { ITERATIONS, "--iterations", "N", S | C | TREES, "sweeps per solve at the most (default 100000)" },
-    { JACOBI, "--jacobi", NULL, S | C, "Jacobi sweeps instead of block Gauss-Seidel" },
-    { CLOSURE, "--closure", "none|rows|reciprocal", ALL | TREES, "rows: scale what each element sees to 1 in a closed scene, to at most 1 in an\n"
-      "                             open one; power is then no longer exchanged alike both ways (default none);\n"
-      "                             reciprocal, of viewfactors: the same, and A_i F_ij stays A_j F_ji" },
-    { STATISTICS, "--statistics", "FILE", S, "how often each answer of the oracle's graph was given: text, .csv, .json; - is\n"
-      "                             standard output. The graph is interpreted; what it decides is the same" },
-    { THREADS, "--threads", "N", ALL | FAILURES | SIGHT | TREES, "threads to use (default: all processors); the result is the same" },
-    { TWO_SIDED, "--two-sided", NULL, ALL | SIGHT | TREES, "every face has two sides, not only materials named *_2s" },
-    { OUT, "-o", "FILE", S | V | FAILURES | SIGHT | TREES, "solve: the solved mesh, .ply .gltf .glb or .obj; viewfactors: the matrix; study: the table" },
-    { IMAGE, "--image", "FILE.png", S, "a picture of the solution" },
-    { SIZE, "--size", "WxH", S, "its size in pixels (default 1024x768)" },
-    { VIEW, "--view", "X,Y,Z:X,Y,Z[:FOV]", S, "eye, the point looked at, vertical field of view in degrees (70); of the picture,\n"
-      "                             and of an oracle that asks what is important to it" },
-    { MESH, "--mesh", NULL, S, "draw the edges of the elements over the picture" },
-    { FACES, "--faces", "FILE.csv", S, "area means per face of the scene file: E, rho, H, B per band" },
-    { FORMAT, "--format", "csv|coo|mtx", V, "of -o: all numbers row by row (default), `i,j,F` lines from 0, or Matrix Market;\n"
-      "                             the last two leave out zeros" },
-    { NAMES, "--names", "FILE", V, "a name for each row of the matrix, one in a line: material.face" },
-    { JSON, "--json", "FILE", ALL, "counts, power, residual, seconds; - is standard output" },
-    { REPEATS, "--repeats", "N", C, "timed runs of each release (default 3)" },
-    { ONLY, "--only", "CASE", FAILURES | TREES, "one case of `study stability`, or one strategy of `study clustering`" },
-    { REFERENCE, "--reference", "FACES.csv", TREES, "radiosities to measure errors by, a table as `solve --faces` writes it" },
-    { THRESHOLDS, "--thresholds", "A,B,...", SIGHT, "projected areas below which visibility is tested (2,3,5,7.5,10,15)" },
-    { RAYS, "--rays", "N,M,...", SIGHT, "the rays whose answers are held against the reference (4,16,64)" },
-    { CHART, "--chart", "FILE", SIGHT | TREES, "a chart of the study, .svg or .png" },
-    { QUIET, "-q", NULL, ALL | FAILURES | SIGHT | TREES, "no progress, no summary, no warnings" },
-    { HELP, "--help", NULL, ALL | FAILURES | SIGHT | TREES, "this text" },
-    { VERSION, "--version", NULL, ALL | FAILURES | SIGHT | TREES, "the version" },
-};
+/* ---- help */
 
-enum { OPTIONS = sizeof table / sizeof *table };
-
-/* The options that any of `commands` takes. */
-static void print_options(FILE *out, int commands)
+static void print_lines(const char *prefix)
 {
-    int i;
-    for (i = 0; i < OPTIONS; i++) {
-        const struct option *p = &table[i];
-        char left[64];
-        if (!(p->commands & commands))
+    for (int i = 0; i < COMMANDS; i++) {
+        const struct command_row *c = &command_rows[i];
+        char left[32];
+        if (strncmp(c->name, prefix, strlen(prefix)) != 0)
             continue;
-        snprintf(left, sizeof left, "%s%s%s", p->name, p->argument ? " " : "", p->argument ? p->argument : "");
-        fprintf(out, "  %-26s %s\n", left, p->help);
+        snprintf(left, sizeof left, "%s %s", c->name, c->argument);
+        printf("  %-23s %s\n", left, c->help);
     }
 }
 
-void options_print_study_help(FILE *out)
+static int print_help(void)
 {
-    int i;
-    fputs("usage: radiosity study stability [options]         where methods fail, and by how much\n"
-          "       radiosity study visibility SCENE [options]  how often few rays are wrong about visibility\n"
-          "       radiosity study clustering SCENE [options]  what ways of grouping faces cost and give\n"
-          "\n"
-          "stability makes small scenes whose answer is known and on which published methods fail: elements that\n"
-          "share an edge, slivers, a blocker smaller than the gaps between rays, a bright furnace. Rows are the\n"
-          "scenes, columns the methods. A cell is the method's error, or `fails: why` when the error is above the\n"
-          "row's tolerance. The default oracle passes every row; that others fail is the finding, so the exit\n"
-          "status is 1 only when a method that must pass does not.\n"
-          "\n"
-          "    radiosity study stability\n"
-          "    radiosity study stability --only tiny_blocker\n"
-          "    radiosity study stability -o stability.md      # or .csv: every cell with error and tolerance\n"
-          "\n"
-          "visibility classifies the pairs of a scene by few rays, and again by so many that the answer is\n"
-          "trusted, as in section 5 of Turbet and Sillion:\n"
-          "\n"
-          "    radiosity study visibility examples/scenes/td.obj --thresholds 2,3,5,7.5,10,15 --rays 4,16,64\n"
-          "\n"
-          "clustering solves a scene once for each strategy of --clusters and compares time, links, rays, memory and\n"
-          "error, by the power imbalance or, better, by a reference:\n"
-          "\n"
-          "    radiosity study clustering examples/scenes/sejour.obj --reference sejour.csv -o table.md   # or .csv\n"
-          "\n", out);
-    for (i = 0; i < CLUSTERING_COUNT; i++)
-        fprintf(out, "    %-8s %s\n", clustering_names[i], clustering_helps[i]);
-    fputs("\n", out);
-    print_options(out, FAILURES | SIGHT | TREES);
+    printf("usage: radiosity COMMAND [SCENE] [options]\n"
+           "\n"
+           "Light in a closed scene of diffuse surfaces, by hierarchical radiosity.\n"
+           "\n");
+    print_lines("");
+    printf("\n"
+           "    radiosity solve room.obj --image room.png\n"
+           "\n"
+           "SCENE is OBJ+MTL, PLY, glTF, Collada or what else Assimp reads, in metres. The\n"
+           "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
+           "Faces have one side unless the material's name ends in _2s.\n"
+           "\n"
+           "  --help                  this, or of a command: its options\n"
+           "  --version               the version\n"
+           "\n"
+           "Messages go to standard error. Exit status: 0 done; 1 the scene, an oracle or a\n"
+           "file is at fault, and nothing half-written is left; 2 wrong usage.\n");
+    return 0;
 }
 
-void options_print_help(FILE *out)
+static int print_studies_help(void)
 {
-    fputs("usage: radiosity solve SCENE [options]        solve a scene; without options: print a summary\n"
-          "       radiosity compare SCENE [options]      run an oracle's releases side by side, " DEFAULT_BY_HAND "'s\n"
-          "                                              unless --oracle names another\n"
-          "       radiosity viewfactors SCENE [options]  the matrix of face-to-face view factors\n"
-          "       radiosity study WORD [SCENE] [options] stability, visibility, clustering: see `radiosity study --help`\n"
-          "       radiosity oracles                      list the built-in oracles and their parameters\n"
-          "\n"
-          "Light in a closed scene of diffuse surfaces, by hierarchical radiosity. SCENE is OBJ+MTL, PLY,\n"
-          "glTF, Collada or whatever Assimp reads, in metres; a material's diffuse colour is its reflectance,\n"
-          "its emissive colour its exitance in W/m2. Faces have one side unless the material's name ends in\n"
-          "_2s. What a solution costs and how good it is, the oracle's parameters decide:\n"
-          "\n"
-          "    radiosity solve room.obj --image room.png\n"
-          "    radiosity solve room.obj --set relative=0.02 --faces room.csv\n"
-          "    radiosity solve room.obj --oracle bf --set relative=0 --set epsilon=0.02   # the BF of 1991\n"
-          "\n", out);
-    print_options(out, ~0);
-    fputs("\nMessages go to standard error. Exit status: 0 done, 1 the scene, an oracle or a file is at fault\n"
-          "(nothing half-written is left), or compared releases differ; 2 wrong usage.\n", out);
+    printf("usage: radiosity study NAME [SCENE] [options]\n"
+           "\n"
+           "Experiments whose table is the result; `radiosity study NAME --help` tells more.\n"
+           "\n");
+    print_lines("study");
+    return 0;
 }
 
-static int wrong(const char *what, const char *which)
+/* "--name ARGUMENT". Returns its length. */
+static int option_text(const struct option_row *row, char text[64])
 {
-    fprintf(stderr, "radiosity: error: %s%s%s; see radiosity --help\n", what, *which ? " " : "", which);
+    return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name, row->argument ? " " : "",
+                    row->argument ? row->argument : "");
+}
+
+static int print_command_help(enum command command)
+{
+    const struct command_row *c = &command_rows[command];
+    char text[64];
+    int width = 0;
+    printf("usage: radiosity %s%s%s%s\n%s", c->name, *c->argument ? " " : "", c->argument,
+           command == COMMAND_ORACLES ? "" : " [options]", c->lesson);
+    const char *const *names = radGetClusteringNames();
+    for (int i = 0; command == COMMAND_CLUSTERING && names[i]; i++)
+        printf("  %-6s %s\n", names[i], radGetClusteringDoc(names[i]));
+    printf("\n");
+    for (int i = 0; i < option_row_count; i++) {
+        int length = option_rows[i].commands >> command & 1 ? option_text(&option_rows[i], text) : 0;
+        width = length > width ? length : width;
+    }
+    for (int i = 0; i < option_row_count; i++) {
+        const struct option_row *row = &option_rows[i];
+        if (!(row->commands >> command & 1))
+            continue;
+        option_text(row, text);
+        printf("  %-*s  %s", width, text, row->help);
+        printf(row->preset ? " (%s)\n" : "\n", row->preset);
+    }
+    printf("%s    %s\n", width ? "\n" : "", c->example);
+    return 0;
+}
+
+/* ---- what is wrong */
+
+/* Returns the exit status. `command`: whose --help tells more, "" for all. */
+static int wrong(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
+static int wrong(const char *command, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    fprintf(stderr, "radiosity: error: ");
+    vfprintf(stderr, format, list);
+    fprintf(stderr, "; see radiosity %s%s--help\n", command, *command ? " " : "");
+    va_end(list);
     return 2;
 }
 
-static int whole_number(const char *text, int low, int high, int *value)
+/* An option that getopt_long does not know, or knows several of. */
+static int wrong_option(enum command command, const char *argument)
 {
-    char *end;
-    long n;
-    errno = 0;
-    n = strtol(text, &end, 10);
-    if (end == text || *end || errno || n < low || n > high)
-        return -1;
-    *value = (int)n;
-    return 0;
-}
-
-/* Rising numbers from low to high, parted by commas. Returns how many, or -1. */
-static int rising_list(const char *text, double low, double high, double list[STUDY_LIST])
-{
-    int n = 0;
-    for (;;) {
-        char *end;
-        double x = strtod(text, &end);
-        if (end == text || n == STUDY_LIST || !(x >= low && x <= high) || (n && x <= list[n - 1]))
-            return -1;
-        list[n++] = x;
-        if (!*end)
-            return n;
-        if (*end != ',')
-            return -1;
-        text = end + 1;
-    }
-}
-
-/* The numbers of rays that visibility is asked of; the graph's tools round others up. */
-static int power_of_four(double x)
-{
-    while (x > 1)
-        x /= 4;
-    return x == 1;
-}
-
-static int size(const char *text, int *width, int *height)
-{
-    char *end;
-    long w = strtol(text, &end, 10), h = *end == 'x' ? strtol(end + 1, &end, 10) : 0;
-    if (*end || w < 1 || h < 1 || w > 16384 || h > 16384)
-        return -1;
-    *width = (int)w;
-    *height = (int)h;
-    return 0;
-}
-
-static int take(struct options *o, const struct option *p, char *value)
-{
-    double list[STUDY_LIST];
-    char *end;
-    int i;
-    switch (p->key) {
-    case ORACLE:
-        o->oracle = value;
-        return 0;
-    case RELEASE:
-        for (i = 0; i < RELEASES && strcmp(value, release_names[i]) != 0; i++)
-            ;
-        if (i == RELEASES)
-            return wrong("--release knows flat, dag and hand, not", value);
-        o->release = (enum release)i;
-        o->release_given = 1;
-        return 0;
-    case SET:
-        o->settings[o->setting_count++] = value;
-        return 0;
-    case CLUSTERS:
-        o->clusters = 1 + clustering_of(value);
-        return o->clusters < 1 ? wrong("--clusters knows" CLUSTERING_NAMES ", not", value) : 0;
-    case TOLERANCE:
-        o->tolerance = strtod(value, &end);
-        if (end == value || *end || !(o->tolerance > 0) || !(o->tolerance < 1))
-            return wrong("--tolerance takes a number above 0 and below 1, not", value);
-        return 0;
-    case ITERATIONS:
-        return whole_number(value, 1, INT_MAX, &o->iterations) < 0 ? wrong("--iterations takes a whole number from 1, not", value) : 0;
-    case CLOSURE:
-        for (i = 0; i < FACTOR_CLOSURES && strcmp(value, factor_closure_names[i]) != 0; i++)
-            ;
-        if (i == FACTOR_CLOSURES || (i == FACTOR_CLOSURE_RECIPROCAL && o->command != COMMAND_VIEWFACTORS))
-            return wrong(o->command == COMMAND_VIEWFACTORS ? "--closure knows none, rows and reciprocal, not" : "--closure knows none and rows, not", value);
-        o->factor_closure = (enum factor_closure_kind)i;
-        o->closure = i == FACTOR_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE;
-        return 0;
-    case FORMAT:
-        for (i = 0; i < FACTOR_FORMATS && strcmp(value, factor_format_names[i]) != 0; i++)
-            ;
-        if (i == FACTOR_FORMATS)
-            return wrong("--format knows csv, coo and mtx, not", value);
-        o->format = (enum factor_format)i;
-        return 0;
-    case NAMES:
-        o->names = value;
-        return 0;
-    case STATISTICS:
-        o->statistics = value;
-        return 0;
-    case THREADS:
-        return whole_number(value, 1, 1024, &o->threads) < 0 ? wrong("--threads takes a whole number from 1 to 1024, not", value) : 0;
-    case REPEATS:
-        return whole_number(value, 1, 1000, &o->repeats) < 0 ? wrong("--repeats takes a whole number from 1 to 1000, not", value) : 0;
-    case SIZE:
-        return size(value, &o->width, &o->height) < 0
-                   ? wrong("--size takes WxH, each 1 to 16384, not", value) : 0;
-    case VIEW:
-        o->view_given = 1;
-        return view_parse(value, &o->view) < 0
-                   ? wrong("--view takes X,Y,Z:X,Y,Z[:FOV], two different points and 1 to 170 degrees, not", value) : 0;
-    case OUT:
-        o->out = value;
-        return 0;
-    case IMAGE:
-        o->image = value;
-        return 0;
-    case FACES:
-        o->faces = value;
-        return 0;
-    case JSON:
-        o->json = value;
-        return 0;
-    case MESH:
-        o->mesh = 1;
-        return 0;
-    case JACOBI:
-        o->jacobi = 1;
-        return 0;
-    case TWO_SIDED:
-        o->two_sided = 1;
-        return 0;
-    case ONLY:
-        o->only = value;
-        return 0;
-    case REFERENCE:
-        o->reference = value;
-        return 0;
-    case CHART:
-        o->chart = value;
-        return ends_with(value, ".svg") || ends_with(value, ".png") ? 0 : wrong("--chart takes a file named .svg or .png, not", value);
-    case THRESHOLDS:
-        o->threshold_count = rising_list(value, 1e-300, 1e300, o->thresholds);
-        return o->threshold_count < 0 ? wrong("--thresholds takes rising numbers from 1e-300 to 1e300 parted by commas, 32 at the most, not", value) : 0;
-    case RAYS:
-        o->ray_count = rising_list(value, 4, 1024, list);
-        for (i = 0; i < o->ray_count; i++) {
-            o->rays[i] = (int)list[i];
-            if (!power_of_four(list[i]))
-                o->ray_count = -1;
-        }
-        return o->ray_count < 0 ? wrong("--rays takes some of 4,16,64,256,1024, rising, parted by commas, not", value) : 0;
-    case QUIET:
-        o->quiet = 1;
-        return 0;
-    case HELP:
-        o->command = o->command == COMMAND_STUDY ? COMMAND_STUDY_HELP : COMMAND_HELP;
-        return 0;
-    case VERSION:
-        o->command = COMMAND_VERSION;
-        return 0;
-    }
-    return 0;
-}
-
-/* The option that an argument names; `--name=value` gives its value too. */
-static const struct option *find(const char *argument, char **value)
-{
-    int i;
-    *value = NULL;
-    for (i = 0; i < OPTIONS; i++) {
-        size_t n = strlen(table[i].name);
-        if (strncmp(argument, table[i].name, n) != 0)
+    const char *name = command_rows[command].name, *word = argument + strspn(argument, "-");
+    size_t length = strcspn(word, "=");
+    char several[128] = "";
+    int others = -1, is_long = argument[1] == '-';
+    for (int i = 0; i < option_row_count; i++) {
+        const struct option_row *row = &option_rows[i];
+        int whole = strlen(row->name) == length;
+        if (strncmp(row->name, word, length) != 0 || (row->name[1] != 0) != is_long)
             continue;
-        if (!argument[n])
-            return &table[i];
-        if (argument[n] == '=' && table[i].name[1] == '-') {
-            *value = (char *)argument + n + 1;
-            return &table[i];
-        }
+        if (row->commands >> command & 1)
+            snprintf(several + strlen(several), sizeof several - strlen(several), "%s--%s", *several ? ", " : "", row->name);
+        for (int c = 0; c < COMMANDS && whole && others < 0; c++)
+            others = row->commands >> c & 1 ? c : -1;
     }
-    if (strcmp(argument, "-h") == 0)
-        return find("--help", value);
-    return NULL;
+    if (length && *several)
+        return wrong(name, "%.*s could be %s", (int)(strcspn(argument, "=")), argument, several);
+    if (length && others >= 0)
+        return wrong(name, "%s has no option %.*s; %s has", name, (int)(strcspn(argument, "=")), argument,
+                     command_rows[others].name);
+    return wrong(name, "unknown option %s", argument);
 }
 
-static int command_of(const char *word, enum command *command)
+/* ---- parsing */
+
+static int read_value(struct options *o, const struct option_row *row, const char *value)
 {
-    static const char *const names[] = { "solve", "compare", "viewfactors", "oracles", "study" };
-    int i;
-    for (i = 0; i < 5; i++)
-        if (strcmp(word, names[i]) == 0) {
-            *command = (enum command)i;
-            return 0;
-        }
+    char text[64];
+    const char *command = command_rows[o->command].name;
+    option_text(row, text);
+    text[strcspn(text, " ")] = 0;
+    if (row->argument && !*value)
+        return wrong(command, "%s takes %s, not an empty value", text, row->argument);
+    if (row->read(o, row, value) < 0)
+        return wrong(command, "%s takes %s, not %s", text, option_takes(row), value);
     return -1;
 }
 
-/* `radiosity study WORD`: which study. Returns 0 or the exit status. */
-static int study_of(struct options *o, const char *word)
+/* The command that the arguments begin with. Returns how many of them say it, 0 when none does. */
+static int command_of(int count, char **arguments, enum command *command)
 {
-    static const char *const names[] = { "stability", "visibility", "clustering" };
-    static const double thresholds[] = { 2, 3, 5, 7.5, 10, 15 };
-    static const int rays[] = { 4, 16, 64 };
-    int i;
-    if (!word || !*word)
-        return wrong("study what? `radiosity study --help` tells", "");
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
-        o->command = COMMAND_STUDY_HELP;
-        return 0;
+    for (int i = 0; i < COMMANDS; i++) {
+        const char *name = command_rows[i].name, *space = strchr(name, ' ');
+        size_t first = space ? (size_t)(space - name) : strlen(name);
+        if (strlen(arguments[0]) != first || memcmp(arguments[0], name, first) != 0)
+            continue;
+        *command = (enum command)i;
+        if (!space)
+            return 1;
+        if (count > 1 && strcmp(arguments[1], space + 1) == 0)
+            return 2;
     }
-    for (i = 0; i < 3 && strcmp(word, names[i]) != 0; i++)
-        ;
-    if (i == 3)
-        return wrong("study knows stability, visibility and clustering, not", word);
-    o->study = (enum study)i;
-    memcpy(o->thresholds, thresholds, sizeof thresholds);
-    memcpy(o->rays, rays, sizeof rays);
-    o->threshold_count = sizeof thresholds / sizeof *thresholds;
-    o->ray_count = sizeof rays / sizeof *rays;
     return 0;
 }
 
-/* The bits of the table's options that go with the command. */
-static int takes(const struct options *o)
+static int is_help(const char *argument)
 {
-    return o->command < COMMAND_ORACLES ? 1 << o->command
-         : o->command != COMMAND_STUDY  ? ~0
-         : o->study == STUDY_STABILITY  ? FAILURES
-         : o->study == STUDY_CLUSTERING ? TREES : SIGHT;
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+/* The arguments name no command. Returns the exit status. */
+static int without_command(int count, char **arguments)
+{
+    if (count < 2 || !*arguments[1])
+        return wrong("", "no command is given");
+    if (is_help(arguments[1]) || strcmp(arguments[1], "help") == 0)
+        return print_help();
+    if (strcmp(arguments[1], "--version") == 0) {
+        printf("radiosity %s\n", RADIOSITY_VERSION);
+        return 0;
+    }
+    if (*arguments[1] == '-')
+        return wrong("", "a command comes first, not %s", arguments[1]);
+    if (strcmp(arguments[1], "study") != 0)
+        return wrong("", "unknown command %s", arguments[1]);
+    if (count < 3 || !*arguments[2])
+        return wrong("study", "study what?");
+    return is_help(arguments[2]) ? print_studies_help() : wrong("study", "there is no study %s", arguments[2]);
+}
+
+/* The table as getopt_long wants it, for one command. */
+static void options_of(enum command command, struct option longs[OPTIONS_MAX], char shorts[OPTIONS_MAX])
+{
+    int n = 0;
+    strcpy(shorts, "-:h"); /* "-": what is no option comes in its order; ":": tell missing values from unknown options */
+    for (int i = 0; i < option_row_count; i++) {
+        const struct option_row *row = &option_rows[i];
+        if (!(row->commands >> command & 1))
+            continue;
+        if (row->name[1])
+            longs[n++] = (struct option){row->name, row->argument != NULL, NULL, ROWS + i};
+        else
+            snprintf(shorts + strlen(shorts), 3, "%s%s", row->name, row->argument ? ":" : "");
+    }
+    longs[n++] = (struct option){"help", 0, NULL, HELP};
+    longs[n++] = (struct option){"version", 0, NULL, VERSION};
+    longs[n] = (struct option){0};
+}
+
+/* The row that getopt_long's number or letter means for the command, or NULL. */
+static const struct option_row *row_of(enum command command, int number)
+{
+    if (number >= ROWS)
+        return &option_rows[number - ROWS];
+    for (int i = 0; i < option_row_count; i++)
+        if (option_rows[i].commands >> command & 1 && !option_rows[i].name[1] && option_rows[i].name[0] == number)
+            return &option_rows[i];
+    return NULL;
+}
+
+static int set_scene(struct options *o, const char *path)
+{
+    const struct command_row *c = &command_rows[o->command];
+    if (!*c->argument)
+        return wrong(c->name, "%s takes no scene, but got %s", c->name, *path ? path : "an empty name");
+    if (!*path)
+        return wrong(c->name, "the scene's name is empty");
+    if (o->scene)
+        return wrong(c->name, "more than one scene: %s", path);
+    o->scene = path;
+    return -1;
+}
+
+/* What getopt_long found, by its number. Returns -1 to go on, or the exit status. */
+static int read_argument(struct options *o, int number, const char *last)
+{
+    const char *command = command_rows[o->command].name;
+    const struct option_row *row = row_of(o->command, number == '?' || number == ':' ? optopt : number);
+    char letter[3] = {'-', (char)optopt, 0};
+    switch (number) {
+    case 1:
+        return set_scene(o, optarg);
+    case 'h':
+    case HELP:
+        return print_command_help(o->command);
+    case VERSION:
+        printf("radiosity %s\n", RADIOSITY_VERSION);
+        return 0;
+    case ':':
+        return wrong(command, "a value is missing after %s%s", row->name[1] ? "--" : "-", row->name);
+    case '?':
+        if (optopt >= HELP)
+            return wrong(command, "no value goes with --%.*s", (int)strcspn(last + 2, "="), last + 2);
+        return wrong_option(o->command, optopt ? letter : last);
+    default:
+        return read_value(o, row, optarg);
+    }
+}
+
+/* What no option says by itself. Returns -1, or the exit status. */
+static int check_together(struct options *o)
+{
+    const struct command_row *c = &command_rows[o->command];
+    if (*c->argument && !o->scene)
+        return wrong(c->name, "no scene is given");
+    if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)
+        return wrong(c->name, "--statistics counts what the interpreted graph does: it takes no --release but dag");
+    if (o->statistics)
+        o->release = RAD_RELEASE_DAG;
+    if (o->mesh && !o->image)
+        return wrong(c->name, "--mesh is for a picture: add --image FILE.png");
+    return -1;
 }
 
 int options_parse(struct options *o, int count, char **arguments)
 {
-    int i = 2, only_files = 0, status;
+    struct option longs[OPTIONS_MAX];
+    char shorts[OPTIONS_MAX];
+    int words, number, status = -1;
     memset(o, 0, sizeof *o);
-    o->oracle = DEFAULT_ORACLE;
-    o->tolerance = 1e-4;
-    o->iterations = 100000;
     o->threads = omp_get_num_procs();
-    o->repeats = 3;
-    o->width = 1024;
-    o->height = 768;
-    o->settings = calloc((size_t)count + 1, sizeof *o->settings);
-    if (!o->settings)
-        return wrong("out of memory", "");
-    if (count < 2 || !*arguments[1])
-        return wrong("no command is given", "");
-    if (arguments[1][0] == '-') {
-        char *value;
-        const struct option *p = find(arguments[1], &value);
-        if (!p || (p->key != HELP && p->key != VERSION))
-            return wrong("a command comes first, not", arguments[1]);
-        return take(o, p, NULL);
-    }
-    if (strcmp(arguments[1], "help") == 0) {
-        o->command = COMMAND_HELP;
-        return 0;
-    }
-    if (command_of(arguments[1], &o->command) < 0)
-        return wrong("unknown command", arguments[1]);
-    if (o->command == COMMAND_COMPARE)
-        o->oracle = DEFAULT_BY_HAND;
-    if (o->command == COMMAND_VIEWFACTORS)
-        o->tolerance = 3e-4;
-    if (o->command == COMMAND_STUDY) {
-        status = study_of(o, arguments[i]);
-        if (status || o->command == COMMAND_STUDY_HELP)
-            return status;
-        i++;
-    }
-    for (; i < count; i++) {
-        char *value;
-        const struct option *p;
-        if (only_files || arguments[i][0] != '-' || !arguments[i][1]) {
-            if (o->scene)
-                return wrong("more than one scene:", arguments[i]);
-            if (!*arguments[i])
-                return wrong("the scene's name is empty", "");
-            o->scene = arguments[i];
-            continue;
+    words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
+    if (!words)
+        return without_command(count, arguments);
+    for (int i = 0; i < option_row_count && status < 0; i++)
+        if (option_rows[i].commands >> o->command & 1 && option_rows[i].preset)
+            status = read_value(o, &option_rows[i], option_rows[i].preset);
+    options_of(o->command, longs, shorts);
+    count -= words;
+    arguments += words;
+    optind = 1;
+    opterr = 0;
+    while (status < 0 && (number = getopt_long(count, arguments, shorts, longs, NULL)) != -1)
+        status = read_argument(o, number, arguments[optind - 1]);
+    for (; status < 0 && optind < count; optind++)
+        status = set_scene(o, arguments[optind]);
+    return status < 0 ? check_together(o) : status;
+}
+
+int options_outputs(const struct options *o, const char *paths[OUTPUTS_MAX])
+{
+    int n = 0;
+    for (int i = 0; i < option_row_count; i++)
+        if (option_rows[i].output && option_rows[i].commands >> o->command & 1) {
+            paths[n] = *(const char *const *)(const void *)((const char *)o + option_rows[i].field);
+            n += paths[n] != NULL;
         }
-        if (strcmp(arguments[i], "--") == 0) {
-            only_files = 1;
-            continue;
-        }
-        p = find(arguments[i], &value);
-        if (!p)
-            return wrong("unknown option", arguments[i]);
-        if (!(p->commands & takes(o))) {
-            char command[64];
-            snprintf(command, sizeof command, "%s%s%s has no option", arguments[1], o->command == COMMAND_STUDY ? " " : "",
-                     o->command == COMMAND_STUDY ? arguments[2] : "");
-            return wrong(command, p->name);
-        }
-        if (!p->argument && value)
-            return wrong("no value goes with", p->name);
-        if (p->argument && !value) {
-            if (i + 1 >= count)
-                return wrong("a value is missing after", p->name);
-            value = arguments[++i];
-        }
-        if (p->argument && !*value) {
-            char what[96];
-            snprintf(what, sizeof what, "%s takes %s, not an empty value", p->name, p->argument);
-            return wrong(what, "");
-        }
-        status = take(o, p, value);
-        if (status)
-            return status;
-        if (o->command >= COMMAND_HELP)
-            return 0;
-    }
-    if (o->command == COMMAND_ORACLES)
-        return o->scene ? wrong("oracles takes no scene, but got", o->scene) : 0;
-    if (o->command == COMMAND_STUDY && o->study == STUDY_CLUSTERING && o->only && clustering_of(o->only) < 0)
-        return wrong("--only knows" CLUSTERING_NAMES " here, not", o->only);
-    if (o->command == COMMAND_STUDY && o->study != STUDY_VISIBILITY && o->out && !ends_with(o->out, ".csv") && !ends_with(o->out, ".md"))
-        return wrong("-o takes a file named .csv or .md, not", o->out);
-    if (o->command == COMMAND_STUDY && o->study == STUDY_VISIBILITY && o->out && !ends_with(o->out, ".csv"))
-        return wrong("-o takes a file named .csv, not", o->out);
-    if (o->command == COMMAND_STUDY && o->study == STUDY_STABILITY)
-        return o->scene ? wrong("study stability makes its own scenes, but got", o->scene) : 0;
-    if (!o->scene)
-        return wrong("no scene is given", "");
-    if (o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_UNKNOWN)
-        return wrong("-o takes a file named .ply, .gltf, .glb or .obj, not", o->out);
-    if (o->statistics && o->release_given && o->release != RELEASE_DAG)
-        return wrong("--statistics counts what the interpreted graph does: it takes no --release but dag, not", release_names[o->release]);
-    if (o->statistics)
-        o->release = RELEASE_DAG;
-    if (o->statistics && o->json && strcmp(o->statistics, "-") == 0 && strcmp(o->json, "-") == 0)
-        return wrong("--statistics - and --json - would mix on standard output: give one of them a file", "");
-    if (o->mesh && !o->image)
-        return wrong("--mesh is for a picture: add --image FILE.png", "");
-    return 0;
+    return n;
 }
 
 void options_free(struct options *o)

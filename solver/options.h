@@ -1,50 +1,70 @@
-/* options.h - the command line of `radiosity`.
+/* options.h - the command line of `radiosity`: which command, and what it shall do.
  * SPDX-License-Identifier: MIT */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "radiosity.h"
 #include "output/factor_file.h"
-#include "util/oracles.h"
-#include "engine/solve.h"
 #include "output/view.h"
 
-enum command { COMMAND_SOLVE, COMMAND_COMPARE, COMMAND_VIEWFACTORS, COMMAND_ORACLES, COMMAND_STUDY, COMMAND_HELP,
-               COMMAND_STUDY_HELP, COMMAND_VERSION };
-enum study { STUDY_STABILITY, STUDY_VISIBILITY, STUDY_CLUSTERING };
-enum { STUDY_LIST = 32 };
+enum command {
+    COMMAND_SOLVE,
+    COMMAND_COMPARE,
+    COMMAND_VIEWFACTORS,
+    COMMAND_STABILITY,
+    COMMAND_VISIBILITY,
+    COMMAND_CLUSTERING,
+    COMMAND_ORACLES,
+    COMMANDS
+};
 
+enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
+
+/* What a command does not take is zero. Texts are the command line's own; NULL: not given, not wanted. */
 struct options {
     enum command command;
-    const char *scene, *oracle;
-    enum release release;
+    const char *scene;
+
+    /* How to solve. */
+    const char *oracle;
+    enum RadRelease release;
     int release_given;
-    enum closure closure;
-    int clusters; /* 1 + the strategy that builds them; 0: the default */
-    const char *statistics; /* NULL: not wanted */
     char **settings; /* [setting_count] "NAME=VALUE", owned */
     int setting_count;
+    const char *clusters; /* NULL: the default */
+    enum RadClosure closure;
     double tolerance;
-    int iterations, threads, jacobi, two_sided, quiet, mesh, repeats;
-    const char *out, *image, *faces, *json; /* NULL: not wanted */
-    int width, height;
+    int iterations, jacobi, threads, two_sided, quiet;
+
+    /* What to write. */
+    const char *out, *faces, *json, *statistics, *names, *chart, *image;
+    enum factor_format format;
+    int width, height, mesh; /* of the picture */
     struct view view;
     int view_given;
-    enum factor_format format; /* of COMMAND_VIEWFACTORS, and the rest of this block with it */
-    enum factor_closure_kind factor_closure;
-    const char *names; /* NULL: not wanted */
-    enum study study;       /* of COMMAND_STUDY, and the rest of this block with it */
-    const char *only;       /* stability: the case to run; clustering: the strategy; NULL: all */
-    const char *chart;      /* visibility, clustering: where the drawing goes; NULL: not wanted */
-    const char *reference;  /* clustering: the table of faces to measure by; NULL: none */
+
+    /* What to measure. */
+    int repeats;           /* compare */
+    const char *only;      /* stability: the case to run; clustering: the strategy */
+    const char *reference; /* clustering: the table of faces to measure by */
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
 };
 
-/* Returns 0, or the exit status 2 after a message on stderr. */
+/* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on stderr. */
 int options_parse(struct options *o, int count, char **arguments);
-void options_print_help(FILE *out);
-void options_print_study_help(FILE *out);
+
+/* How to solve, as far as the command line says. */
+static inline struct RadSolveOptions solve_options(const struct options *o)
+{
+    return (struct RadSolveOptions){ .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi,
+                                     .closure = o->closure, .clustering = o->clusters };
+}
+
+/* The files that shall be written, "-" for standard output among them. Returns how many. */
+int options_outputs(const struct options *o, const char *paths[OUTPUTS_MAX]);
+
 void options_free(struct options *o);
 
 #endif

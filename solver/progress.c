@@ -1,37 +1,24 @@
 /* progress.c - see progress.h. Ten lines a second at the most, and none in a log file.
  * SPDX-License-Identifier: MIT */
+#include "progress.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <unistd.h>
+
 #include "util/clock.h"
-#include "progress.h"
 
 void progress_start(struct progress *p, int quiet)
 {
-    p->wanted = !quiet && isatty(STDERR_FILENO);
-    p->shown = 0;
-    p->next = seconds() + 0.3;
-}
-
-void progress_show(void *context, const struct solve *s, const char *phase)
-{
-    struct progress *p = context;
-    double now;
-    if (!p->wanted || (now = seconds()) < p->next)
-        return;
-    fprintf(stderr, "\r%-6s pass %d, round %llu: %.3g pairs (%zu waiting), %.3g links, %.3g rays, residual %.1e \033[K",
-            phase, s->passes + 1, (unsigned long long)s->refinement.rounds, (double)s->refinement.pairs,
-            s->refinement.queue_count, (double)s->refinement.link_count, (double)rays_count(s->rays).rays, s->residual);
-    p->shown = 1;
-    p->next = now + 0.1;
+    *p = (struct progress){.wanted = !quiet && isatty(STDERR_FILENO), .next = seconds() + 0.3};
 }
 
 void progress_say(struct progress *p, const char *format, ...)
 {
-    va_list list;
     double now;
     if (!p->wanted || (now = seconds()) < p->next)
         return;
+    va_list list;
     va_start(list, format);
     fputc('\r', stderr);
     vfprintf(stderr, format, list);
@@ -39,6 +26,14 @@ void progress_say(struct progress *p, const char *format, ...)
     va_end(list);
     p->shown = 1;
     p->next = now + 0.1;
+}
+
+int progress_show(void *user, const struct RadProgress *at)
+{
+    progress_say(user, "%-7s pass %d, round %llu: %.3g pairs (%.3g waiting), %.3g links, %.3g rays, residual %.1e",
+                 at->phase, at->pass, (unsigned long long)at->rounds, (double)at->pairs, (double)at->waiting,
+                 (double)at->links, (double)at->rays, at->residual);
+    return 0;
 }
 
 void progress_end(struct progress *p)

@@ -3,8 +3,8 @@
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
+#include "radiosity.h"
 #include "util/report.h"
-#include "engine/solve.h"
 
 struct progress {
     int wanted; /* standard error is a terminal and nobody asked for quiet */
@@ -13,8 +13,8 @@ struct progress {
 };
 
 void progress_start(struct progress *p, int quiet);
-/* For solve_options.progress; the context is a struct progress. */
-void progress_show(void *context, const struct solve *solve, const char *phase);
+/* A RadProgressFunction; the user is a struct progress. Never cancels. */
+int progress_show(void *user, const struct RadProgress *at);
 /* The same line with another text. */
 void progress_say(struct progress *p, const char *format, ...) PRINTF_LIKE(2, 3);
 void progress_end(struct progress *p);

@@ -1,4 +1,4 @@
-/* factor_tree.c - the tree of elements that `viewfactors` refines.
+/* exchange_tree.c - the tree of elements that `viewfactors` refines.
  *
  * A matrix needs every pair of faces, so what a hierarchy can save is not links but questions: whether anything stands
  * between, how near, who turns to whom. These have one answer for all pairs of two walls' patches. Clusters by the surface-area
@@ -33,7 +33,7 @@ struct directed { /* an edge, for cancelling */
 };
 
 struct builder {
-    struct factor_tree *t;
+    struct exchange_tree *t;
     struct hierarchy *h;
     const struct hierarchy *plain; /* measured face elements, and the scene's box */
     double flat, size;             /* m */
@@ -175,7 +175,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, int count)
         h->elements[i].parent = parent;
         h->elements[i].id = hash64(i + HASH_STEP);
         h->elements[i].importance = 1;
-        h->elements[i].allowance = INFINITY;
+        h->elements[i].tolerance = INFINITY;
         h->elements[i].radiosity = 1;
     }
     return first;
@@ -493,9 +493,9 @@ static void make_cluster(struct builder *b, struct along *scratch, uint32_t *lis
 
 /* ---- the host */
 
-static const struct factor_tree *tree_of(const struct host *host)
+static const struct exchange_tree *tree_of(const struct host *host)
 {
-    return (const struct factor_tree *)(const void *)host;
+    return (const struct exchange_tree *)(const void *)host;
 }
 
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
@@ -505,7 +505,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
 }
 
 struct walk {
-    const struct factor_tree *t;
+    const struct exchange_tree *t;
     const struct shaft *shaft;
     int most, found;
     uint32_t *elements;
@@ -562,7 +562,7 @@ static void corners(const struct host *host, uint32_t index, struct polygon *pol
 
 /* ---- */
 
-static int build(struct factor_tree *t, const struct hierarchy *plain, double flat)
+static int build(struct exchange_tree *t, const struct hierarchy *plain, double flat)
 {
     struct hierarchy *h = &t->h;
     uint32_t n = h->face_count, most = 2 * n + 2, i, *list = malloc(n * sizeof *list), *order = malloc(n * sizeof *order);
@@ -596,7 +596,7 @@ static int build(struct factor_tree *t, const struct hierarchy *plain, double fl
     memset(h->elements, 0, sizeof *h->elements);
     h->elements[0].id = hash64(HASH_STEP);
     h->elements[0].importance = 1;
-    h->elements[0].allowance = INFINITY;
+    h->elements[0].tolerance = INFINITY;
     h->elements[0].radiosity = 1;
     make_cluster(&b, scratch, list, order, 0, (struct face_range){ 0, b.planes }, 0);
     h->built = h->count;
@@ -612,7 +612,7 @@ done:
     return result;
 }
 
-int factor_tree_open(struct factor_tree *t, const struct face *faces, uint32_t face_count, int threads, const char **cause)
+int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count, int threads, const char **cause)
 {
     struct hierarchy plain = { 0 };
     double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black);
@@ -641,14 +641,14 @@ int factor_tree_open(struct factor_tree *t, const struct face *faces, uint32_t f
     free(black);
     return 0;
 fail:
-    factor_tree_close(t);
+    exchange_tree_close(t);
     hierarchy_free(&plain);
     free(unit);
     free(black);
     return -1;
 }
 
-void factor_tree_close(struct factor_tree *t)
+void exchange_tree_close(struct exchange_tree *t)
 {
     rays_close(t->rays);
     hierarchy_free(&t->h);
@@ -656,7 +656,7 @@ void factor_tree_close(struct factor_tree *t)
     memset(t, 0, sizeof *t);
 }
 
-struct face_range factor_tree_range(const struct factor_tree *t, uint32_t element)
+struct face_range exchange_tree_range(const struct exchange_tree *t, uint32_t element)
 {
     if (element >= t->h.built)
         element = t->h.face_element[t->h.elements[element].face];

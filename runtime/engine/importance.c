@@ -3,10 +3,10 @@
  * r is what a view asks for: 1 where a surface is in the picture, 0 where not; for a leaf the share of its points that
  * are. So Y of a place says how much of all that is seen changes with the light that leaves there: with areas as weights,
  * <r, B> = <Y, E>, as far as A_i F_ij = A_j F_ji holds. Z = rho Y obeys Z = rho r + rho F V Z, radiosity's own equation
- * with another source; so it is solved by the same sweeps (balance.c), and Y = r + what Z irradiates.
+ * with another source; so it is solved by the same sweeps (transport.c), and Y = r + what Z irradiates.
  *
  * Three bands are one here: rho is the largest. The oracles see Y as a share of its largest value (so scene.importance
- * is 1, with a view or without), at least LEAST, so that nothing divides by 0, and as stale as radiosity (publish.h).
+ * is 1, with a view or without), at least IMPORTANCE_LEAST, and with the hysteresis of radiosity (oracle_inputs.c).
  * At first they see r itself: what the picture does not hold is linked coarsely, and refined once the first
  * solve has said what it means for the picture.
  * Fails: 64 points may all miss the part of a large leaf that is in the picture; r is then 0 until something splits it.
@@ -14,42 +14,38 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-#include "engine/transport.h"
 #include "engine/importance.h"
-#include "engine/oracle_inputs.h"
+#include "kernel/constants.h"
 #include "kernel/surface_point.h"
 
-#define LEAST 1e-4
 enum { SIDE = 8, POINTS = SIDE * SIDE };
 
 /* The share of e's points that are in the picture: in front of the camera, turned to it, and nothing between. */
-static double seen(const struct solve *s, const struct camera *c, const struct element *e)
+static double share_in_picture(const struct host *host, const struct camera *c, const struct element *e)
 {
-    const struct host *host = rays_host(s->rays);
     struct segment segments[POINTS];
     uint64_t blocked;
-    int i, k, count = 0, hits = 0;
+    int count = 0, hits = 0;
     if (!(height3(c->eye, e->centre, e->normal) > 0))
         return 0;
-    for (i = 0; i < POINTS; i++) {
+    for (int i = 0; i < POINTS; i++) {
         struct segment *g = &segments[count];
         double v[3], depth;
         surface_point(g->from, e, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE);
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             g->from[k] += host->ray_offset * e->normal[k];
         sub3(v, g->from, c->eye);
         depth = dot3(v, c->ahead);
         if (!(depth > 0) || fabs(dot3(v, c->right)) > c->wide * depth || fabs(dot3(v, c->up)) > c->high * depth)
             continue;
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             g->to[k] = c->eye[k];
         count++;
     }
     if (count == 0)
         return 0;
     blocked = host->occluded(host, count, segments);
-    for (i = 0; i < count; i++)
+    for (int i = 0; i < count; i++)
         hits += !(blocked >> i & 1);
     return hits / (double)POINTS;
 }
@@ -58,10 +54,10 @@ static double seen(const struct solve *s, const struct camera *c, const struct e
 static int enlarge(struct importance *y, uint32_t count)
 {
     double **const lists[] = { &y->response, &y->source, &y->carried, &y->irradiance, &y->value };
-    size_t room = (size_t)count + count / 4, i;
+    size_t room = (size_t)count + count / 4;
     if (count <= y->room)
         return 0;
-    for (i = 0; i < sizeof lists / sizeof *lists; i++) {
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         double *moved = realloc(*lists[i], room * sizeof *moved);
         if (!moved)
             return -1;
@@ -72,101 +68,96 @@ static int enlarge(struct importance *y, uint32_t count)
 }
 
 /* r of the surfaces made since the last call; what they carry starts as their parents'. */
-static void respond(struct solve *s)
+static void respond(struct importance *y, const struct operator *op)
 {
-    struct importance *y = &s->importance;
-    const struct element *elements = s->hierarchy.elements;
-    uint32_t i;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(s->options.threads)
-    for (i = y->started; i < s->hierarchy.count; i++)
-        y->response[i] = elements[i].vertices ? seen(s, s->options.camera, &elements[i]) : 0;
-    for (i = y->started; i < s->hierarchy.count; i++) {
+    const struct solve_options *o = &op->problem->options;
+    const struct element *elements = op->hierarchy->elements;
+    uint32_t count = op->hierarchy->count;
+#pragma omp parallel for schedule(dynamic, 64) num_threads(o->threads)
+    for (uint32_t i = y->started; i < count; i++)
+        y->response[i] = elements[i].vertices ? share_in_picture(rays_host(op->problem->rays), o->camera, &elements[i]) : 0;
+    for (uint32_t i = y->started; i < count; i++) {
         y->source[i] = elements[i].reflectance * y->response[i];
-        y->carried[i] = elements[i].vertices ? elements[i].depth > 0 ? y->carried[elements[i].parent] : y->source[i] : 0;
+        y->carried[i] = !elements[i].vertices ? 0 : elements[i].depth > 0 ? y->carried[elements[i].parent] : y->source[i];
         y->value[i] = y->response[i];
         y->irradiance[i] = 0;
     }
-    y->started = s->hierarchy.count;
+    y->started = count;
 }
 
-/* Means of what has children, then what the oracles see of everything. */
-static void show(struct solve *s)
+/* Means of what has children, and what the report says of the leaves. */
+static void average(struct importance *y, const struct operator *op)
 {
-    struct importance *y = &s->importance;
-    struct element *elements = s->hierarchy.elements;
+    const struct element *elements = op->hierarchy->elements;
     double whole = 0;
-    uint32_t i;
-    int c;
-    for (i = s->hierarchy.count; i-- > 0;) { /* children follow their parents */
+    for (uint32_t i = op->hierarchy->count; i-- > 0;) { /* children follow their parents */
         if (elements[i].children)
             y->value[i] = 0;
-        for (c = 0; c < elements[i].children; c++)
-            y->value[i] += balance_share(s, elements[i].child + (uint32_t)c, i) * y->value[elements[i].child + (uint32_t)c];
+        for (int c = 0; c < elements[i].children; c++) {
+            uint32_t j = elements[i].child + (uint32_t)c;
+            y->value[i] += operator_share(op, j, i) * y->value[j];
+        }
     }
     y->largest = y->seen = y->mean = 0;
-    for (i = 0; i < s->hierarchy.count; i++) {
+    for (uint32_t i = 0; i < op->hierarchy->count; i++) {
         if (elements[i].children || !elements[i].vertices)
             continue;
         whole += elements[i].area;
-        y->largest = y->value[i] > y->largest ? y->value[i] : y->largest;
+        y->largest = fmax(y->largest, y->value[i]);
         y->mean += elements[i].area * y->value[i];
         y->seen += elements[i].area * y->response[i];
     }
     y->mean /= whole;
-    for (i = 0; i < s->hierarchy.count; i++) {
-        double share = y->largest > 0 ? y->value[i] / y->largest : 1;
-        share = share > LEAST ? share : LEAST;
-        if (share > (1 + STALE) * elements[i].importance)
-            s->changed[i] = 1;
-        else if (share >= (1 - STALE) * elements[i].importance)
+}
+
+/* What the oracles see of it. */
+static void mark_grown(const struct importance *y, struct hierarchy *h, struct oracle_inputs *in)
+{
+    for (uint32_t i = 0; i < h->count; i++) {
+        double share = fmax(y->largest > 0 ? y->value[i] / y->largest : 1, IMPORTANCE_LEAST);
+        if (share > (1 + HYSTERESIS) * h->elements[i].importance)
+            in->changed[i] = 1;
+        else if (share >= (1 - HYSTERESIS) * h->elements[i].importance)
             continue;
-        elements[i].importance = share;
+        h->elements[i].importance = share;
     }
 }
 
-int importance_start(struct solve *s)
+int importance_start(struct importance *y, const struct operator *op, struct hierarchy *h, struct oracle_inputs *in)
 {
-    if (enlarge(&s->importance, s->hierarchy.count) < 0)
+    if (enlarge(y, h->count) < 0)
         return -1;
-    respond(s);
-    show(s);
+    respond(y, op);
+    average(y, op);
+    mark_grown(y, h, in);
     return 0;
 }
 
-int importance_solve(struct solve *s)
+int importance_open(struct importance *y, const struct operator *op, struct transport *carried)
 {
-    struct importance *y = &s->importance;
-    struct balance carried;
-    double residual = s->residual;
-    uint32_t i;
-    if (enlarge(y, s->hierarchy.count) < 0)
+    if (enlarge(y, op->hierarchy->count) < 0)
         return -1;
-    respond(s);
-    memset(&carried, 0, sizeof carried);
-    carried.bands = 1;
-    carried.value = y->carried;
-    carried.irradiance = y->irradiance;
-    carried.source = y->source;
-    carried.by_element = 1;
-    carried.reflectance = s->whitest;
-    carried.tolerance = s->options.tolerance;
-    if (balance_solve(s, &carried) < 0)
-        return -1;
-    s->residual = residual; /* the summary's is that of radiosity */
-    s->converged = s->converged && carried.converged;
-    y->sweeps += carried.sweeps;
-    for (i = 0; i < s->hierarchy.count; i++)
-        if (s->hierarchy.elements[i].vertices && !s->hierarchy.elements[i].children)
-            y->value[i] = y->response[i] + (s->exposed[i] > 0 ? y->irradiance[i] / s->exposed[i] : 0);
-    show(s);
+    respond(y, op);
+    *carried = (struct transport){ .bands = 1, .value = y->carried, .irradiance = y->irradiance, .source = y->source,
+                                   .by_element = 1, .reflectance = op->problem->whitest,
+                                   .tolerance = op->problem->options.tolerance };
     return 0;
 }
 
-void importance_free(struct solve *s)
+void importance_update(struct importance *y, const struct operator *op, struct hierarchy *h, struct oracle_inputs *in)
 {
-    free(s->importance.response);
-    free(s->importance.source);
-    free(s->importance.carried);
-    free(s->importance.irradiance);
-    free(s->importance.value);
+    for (uint32_t i = 0; i < h->count; i++)
+        if (h->elements[i].vertices && !h->elements[i].children)
+            y->value[i] = y->response[i] + (op->uncovered[i] > 0 ? y->irradiance[i] / op->uncovered[i] : 0);
+    average(y, op);
+    mark_grown(y, h, in);
+}
+
+void importance_free(struct importance *y)
+{
+    free(y->response);
+    free(y->source);
+    free(y->carried);
+    free(y->irradiance);
+    free(y->value);
 }

@@ -1,18 +1,20 @@
-/* publish.h - what the oracles see of a solution: radiosity and spread of every element.
+/* oracle_inputs.h - what the oracles see of a solution: radiosity and spread of every element.
  * SPDX-License-Identifier: MIT */
-#ifndef PUBLISH_H
-#define PUBLISH_H
+#ifndef ORACLE_INPUTS_H
+#define ORACLE_INPUTS_H
 
-#include "engine/solve.h"
+#include "engine/operator.h"
 
-/* What an oracle sees lags this far behind the truth, so that passes end. */
-#define STALE 0.02
+struct oracle_inputs {
+    double *least, *most;   /* [element * bands + band]: smallest and largest radiosity of the uncovered leaves below */
+    unsigned char *changed; /* [element]: what the oracles see of it has grown since the links were discussed */
+};
 
-/* Area means of the clusters, and radiosity and spread of every element. changed[e] becomes 1 where an oracle sees
+/* Radiosity and spread of every element, from B [element * bands + band]. changed[e] becomes 1 where an oracle sees
  * one of them grow, else 0. */
-void publish(struct solve *s);
+void oracle_inputs_update(struct oracle_inputs *in, const struct operator *op, const double *radiosity, struct hierarchy *h);
 
-/* Before the first solve the oracles see what the light is likely to be: E + rho H with the mean irradiance. */
-void publish_guess(struct solve *s);
+/* Before the first solve the oracles see what the light is likely to be: E + rho H with the scene's mean irradiance. */
+void oracle_inputs_guess(const struct problem *p, struct hierarchy *h);
 
 #endif

@@ -1,4 +1,4 @@
-/* cluster_ends.c - see cluster_ends.h.
+/* find_pivots.c - see find_pivots.h.
  *
  * Ends are found in three steps. First the flatter side is the mean of its faces that may turn to the other's centre;
  * then the other is the mean of its faces by what passes between them and that first end; then the flatter side is found anew,
@@ -10,32 +10,32 @@
 
 #define LEAST 1e-30f /* what is less is nothing: 1 over it is still a float */
 
-/* Set *end from the sums of weights, of weighted centres, of weighted normals, and of normals . centres. Returns the sum of
+/* Set *pivot from the sums of weights, of weighted centres, of weighted normals, and of normals . centres. Returns the sum of
  * weights, 0 where there is no end. */
-static float mean_end(struct cluster_end *end, const float sum[8])
+static float mean_pivot(struct pivot *pivot, const float sum[8])
 {
     float inverse = sum[0] > LEAST ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
     int k;
-    end->shift = 0;
+    pivot->shift = 0;
     for (k = 0; k < 3; k++) {
-        end->centre[k] = sum[1 + k] * inverse;
-        end->normal[k] = length > 0 ? sum[4 + k] / length : 0;
-        end->shift += end->normal[k] * end->centre[k];
+        pivot->centre[k] = sum[1 + k] * inverse;
+        pivot->normal[k] = length > 0 ? sum[4 + k] / length : 0;
+        pivot->shift += pivot->normal[k] * pivot->centre[k];
     }
-    end->shift -= length > 0 ? sum[7] / length : 0;
+    pivot->shift -= length > 0 ? sum[7] / length : 0;
     return length > 0 && sum[0] > LEAST ? sum[0] : 0;
 }
 
 /* What a face weighs: by what it may show in a direction, by k(x, other), or by that when the other's normal is not to be relied on. */
 enum weighing { SHOWN, PASSING, PASSING_PLAIN };
 
-/* Set *end to the mean of a side. SHOWN: faces and normals weigh weight max(0, n . other->normal + other->shift), a direction and the
+/* Set *pivot to the mean of a side. SHOWN: faces and normals weigh weight max(0, n . other->normal + other->shift), a direction and the
  * sine of an angle about it. Else faces weigh weight k(x, other), and normals that over n . v. `how` is a constant in
  * every call, so each is a loop of its own. Returns the sum of weights, 0 where there is no end. */
-TOOL float find_end(struct cluster_end *end, const struct cluster_side *side, const float *weight, const struct cluster_end *other, enum weighing how)
+TOOL float find_pivot(struct pivot *pivot, const struct separable_side *side, const float *weight, const struct pivot *other, enum weighing how)
 {
-    const struct cluster_faces f = side->faces;
-    const struct cluster_end o = *other;
+    const struct separable_faces f = side->faces;
+    const struct pivot o = *other;
     float all = 0, x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, plane = 0;
     size_t i;
 #pragma omp simd reduction(+ : all, x, y, z, nx, ny, nz, plane)
@@ -43,15 +43,15 @@ TOOL float find_end(struct cluster_end *end, const struct cluster_side *side, co
         float w, n;
         if (how == SHOWN) {
             w = f.normal[0][i] * o.normal[0] + f.normal[1][i] * o.normal[1] + f.normal[2][i] * o.normal[2] + o.shift;
-            w = cluster_positive(w) * weight[i];
+            w = positive_part(w) * weight[i];
             n = w;
         } else {
             float v[3] = { o.centre[0] - f.centre[0][i], o.centre[1] - f.centre[1][i], o.centre[2] - f.centre[2][i] };
             float near = f.normal[0][i] * v[0] + f.normal[1][i] * v[1] + f.normal[2][i] * v[2];
             float far = o.shift - (o.normal[0] * v[0] + o.normal[1] * v[1] + o.normal[2] * v[2]);
-            float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + CLUSTER_TINY);
-            w = weight[i] * (how == PASSING ? cluster_positive(far) : square) * inverse * inverse * cluster_positive(near);
-            n = w / (fabsf(near) + CLUSTER_TINY);
+            float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], inverse = 1 / (square + SEPARABLE_TINY);
+            w = weight[i] * (how == PASSING ? positive_part(far) : square) * inverse * inverse * positive_part(near);
+            n = w / (fabsf(near) + SEPARABLE_TINY);
         }
         all += w;
         x += w * f.centre[0][i];
@@ -62,11 +62,11 @@ TOOL float find_end(struct cluster_end *end, const struct cluster_side *side, co
         nz += n * f.normal[2][i];
         plane += n * (f.normal[0][i] * f.centre[0][i] + f.normal[1][i] * f.centre[1][i] + f.normal[2][i] * f.centre[2][i]);
     }
-    return mean_end(end, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
+    return mean_pivot(pivot, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
 }
 
 /* pi k(r, s) between two ends. */
-static float between(const struct cluster_end *r, const struct cluster_end *s)
+static float between(const struct pivot *r, const struct pivot *s)
 {
     float v[3], square, near, far;
     int k;
@@ -78,16 +78,16 @@ static float between(const struct cluster_end *r, const struct cluster_end *s)
     return near > 0 && far > 0 ? near * far / (square * square) : 0;
 }
 
-float cluster_ends(struct cluster_end *r, struct cluster_end *s, const struct element *receiver, const struct element *emitter,
-                   const struct cluster_side *of_r, const struct cluster_side *of_s)
+float find_pivots(struct pivot *r, struct pivot *s, const struct element *receiver, const struct element *emitter,
+                   const struct separable_side *of_r, const struct separable_side *of_s)
 {
     const int emitter_first = emitter->vertices || (!receiver->vertices && emitter->cone > receiver->cone);
     const struct element *flat = emitter_first ? emitter : receiver, *round = emitter_first ? receiver : emitter;
-    const struct cluster_side *of_flat = emitter_first ? of_s : of_r, *of_round = emitter_first ? of_r : of_s;
+    const struct separable_side *of_flat = emitter_first ? of_s : of_r, *of_round = emitter_first ? of_r : of_s;
     const float *flat_weight = emitter_first ? of_s->faces.bright : of_r->faces.area;
     const float *round_weight = emitter_first ? of_r->faces.area : of_s->faces.bright;
-    struct cluster_end first, *flat_end = emitter_first ? s : r, *round_end = emitter_first ? r : s;
-    struct cluster_end direction = { .centre = { 0 } };
+    struct pivot first, *flat_pivot = emitter_first ? s : r, *round_pivot = emitter_first ? r : s;
+    struct pivot direction = { .centre = { 0 } };
     double v[3], distance;
     float turned = 0, passes;
     int k;
@@ -96,13 +96,13 @@ float cluster_ends(struct cluster_end *r, struct cluster_end *s, const struct el
     for (k = 0; k < 3; k++)
         direction.normal[k] = (float)(v[k] / distance);
     direction.shift = (float)((receiver->radius + emitter->radius) / distance);
-    if (!(find_end(&first, of_flat, flat_weight, &direction, SHOWN) > 0))
+    if (!(find_pivot(&first, of_flat, flat_weight, &direction, SHOWN) > 0))
         return 0;
     for (k = 0; k < 3; k++)
         turned += first.normal[k] * direction.normal[k];
-    if (!((flat->vertices || turned >= 0.3f ? find_end(round_end, of_round, round_weight, &first, PASSING)
-                                            : find_end(round_end, of_round, round_weight, &first, PASSING_PLAIN)) > 0)
-        || !(find_end(flat_end, of_flat, flat_weight, round_end, PASSING) > 0))
+    if (!((flat->vertices || turned >= 0.3f ? find_pivot(round_pivot, of_round, round_weight, &first, PASSING)
+                                            : find_pivot(round_pivot, of_round, round_weight, &first, PASSING_PLAIN)) > 0)
+        || !(find_pivot(flat_pivot, of_flat, flat_weight, round_pivot, PASSING) > 0))
         return 0;
     passes = between(r, s);
     return passes > LEAST ? passes : 0;

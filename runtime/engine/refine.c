@@ -81,13 +81,13 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
 
 /* ---- the pool of lists; only between rounds */
 
-static void hold(struct refinement *r, uint32_t list, uint32_t holders)
+static void retain_list(struct refinement *r, uint32_t list, uint32_t holders)
 {
     if (list)
         r->pool[list].holders += holders;
 }
 
-static void let_go(struct refinement *r, uint32_t list)
+static void release_list(struct refinement *r, uint32_t list)
 {
     if (list && --r->pool[list].holders == 0) {
         r->pool[list].next = r->pool_free;
@@ -96,7 +96,7 @@ static void let_go(struct refinement *r, uint32_t list)
 }
 
 /* A place for the list, held once; 0 when there is none: then the pairs below make theirs anew. */
-static uint32_t keep(struct refinement *r, const struct blockers *list)
+static uint32_t pool_list(struct refinement *r, const struct blockers *list)
 {
     uint32_t at = r->pool_free;
     if (at) {
@@ -118,10 +118,10 @@ static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 {
     const struct outcome *o = &r->outcomes[i];
     if (o->listed && r->found[i].handed)
-        return keep(r, &r->found[i]);
+        return pool_list(r, &r->found[i]);
     if (o->listed)
         return 0;
-    hold(r, list, 1);
+    retain_list(r, list, 1);
     return list;
 }
 
@@ -159,7 +159,7 @@ static void note_list(struct refinement *r, int i, const struct blockers *list, 
 
 /* What the link `there` says of the link back: visibility is the same both ways, and so is the exchange A_r F_rs = A_s F_sr,
  * which is computed once and serves both: reciprocity holds to the rounding of a link's F. */
-static void turn(struct link *back, const struct link *there, const struct element *elements)
+static void reverse_link(struct link *back, const struct link *there, const struct element *elements)
 {
     double areas = elements[there->receiver].area / elements[there->emitter].area;
     back->form_factor = (float)((double)there->form_factor * areas);
@@ -184,7 +184,7 @@ static void discuss_round(struct refinement *r, int count)
         o->decision[0] = discuss(r, &o->link[0], &list);
         if (p->both) {
             if (decision_links((enum decision)o->decision[0]))
-                turn(&back, &o->link[0], r->hierarchy->elements);
+                reverse_link(&back, &o->link[0], r->hierarchy->elements);
             o->link[1] = back;
             o->decision[1] = discuss(r, &o->link[1], &list);
         }
@@ -229,7 +229,7 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
         for (j = from_j; j < i; j++)
             *q++ = (struct pair){ i, j, 1, list & 0x7fffffffu };
     }
-    hold(r, list, (uint32_t)((size_t)(q - r->queue) - r->queue_count));
+    retain_list(r, list, (uint32_t)((size_t)(q - r->queue) - r->queue_count));
     r->queue_count = (size_t)(q - r->queue);
     return 0;
 }
@@ -279,11 +279,11 @@ static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_
     return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
 }
 
-static void end_round(struct refinement *r)
+/* Returns 0, or -1 when whoever watches wants no more. */
+static int end_round(struct refinement *r)
 {
     r->rounds++;
-    if (r->watch)
-        r->watch(r->watch_context, r);
+    return r->watch && r->watch(r->watch_context, r) ? -1 : 0;
 }
 
 /* Rounds until the queue is empty. */
@@ -301,10 +301,11 @@ static int drain(struct refinement *r)
             r->pairs += both ? 2 : 1;
             if ((both ? carry_out_both(r, o, list) : carry_out(r, &o->link[0], (enum decision)o->decision[0], list)) < 0)
                 return -1;
-            let_go(r, list);
-            let_go(r, r->round[i].list);
+            release_list(r, list);
+            release_list(r, r->round[i].list);
         }
-        end_round(r);
+        if (end_round(r) < 0)
+            return -1;
     }
     return 0;
 }
@@ -348,9 +349,10 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
             list = hand_on(r, i, 0);
             if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
                 return -1;
-            let_go(r, list);
+            release_list(r, list);
         }
-        end_round(r);
+        if (end_round(r) < 0)
+            return -1;
     }
     return drain(r) < 0 ? -1 : moved;
 }

@@ -20,6 +20,9 @@ struct link {
 
 enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
 
+/* The mark by which graphs say that a link was too large and could not be split (runtime/tools/mark.h). */
+enum { LINK_GUARDED = 1 };
+
 /* A pair of elements still to be discussed. */
 struct pair {
     uint32_t receiver, emitter;
@@ -43,8 +46,8 @@ struct pooled {
 
 struct refinement;
 
-/* Called after each round, from the calling thread. */
-typedef void refinement_watch(void *context, const struct refinement *refinement);
+/* Called after each round, from the calling thread; nonzero stops. */
+typedef int refinement_watch(void *context, const struct refinement *refinement);
 
 struct refinement {
     struct hierarchy *hierarchy; /* borrowed; grows */

@@ -1,18 +1,18 @@
-/* defect.h - how far the radiosity of a leaf is from what its links would give at single points of it.
+/* residual.h - how far the radiosity of a leaf is from what its links would give at single points of it.
  * SPDX-License-Identifier: MIT */
-#ifndef DEFECT_H
-#define DEFECT_H
+#ifndef RESIDUAL_H
+#define RESIDUAL_H
 
-#include "engine/solve.h"
+#include "engine/operator.h"
 
-/* The discretization defect of a leaf (W/m2), the band where it is largest. */
-struct defect {
+/* The discretization residual of a leaf (W/m2), the band where it is largest. */
+struct leaf_residual {
     double all;     /* of all its links, its ancestors' among them */
     double guarded; /* of those alone that a guard kept from being split (LINK_GUARDED) */
     uint32_t links; /* how many it has */
 };
 
-/* Thread-safe. */
-struct defect defect_leaf(const struct solve *s, uint32_t leaf);
+/* With B = radiosity[element * bands + band], of which the separable links were last sent. Thread-safe. */
+struct leaf_residual residual_of_leaf(const struct operator *op, const double *radiosity, uint32_t leaf);
 
 #endif

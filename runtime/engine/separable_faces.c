@@ -1,15 +1,15 @@
-/* cluster_faces.c - see cluster_faces.h.
+/* separable_faces.c - see separable_faces.h.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/separable_faces.h"
 
-void cluster_faces_arrays(struct cluster_faces *f, float *at, size_t count, int bands)
+void separable_faces_arrays(struct separable_faces *f, float *at, size_t count, int bands)
 {
     int k;
     for (k = 0; k < 3; k++) {
         f->centre[k] = at + (size_t)k * count;
         f->normal[k] = at + (size_t)(3 + k) * count;
-        f->sent[k] = at + (size_t)(CLUSTER_ARRAYS + (k < bands ? k : 0)) * count;
+        f->sent[k] = at + (size_t)(SEPARABLE_ARRAYS + (k < bands ? k : 0)) * count;
     }
     for (k = 0; k < 6; k++)
         f->across[k] = at + (size_t)(6 + k) * count;
@@ -17,7 +17,7 @@ void cluster_faces_arrays(struct cluster_faces *f, float *at, size_t count, int 
     f->bright = at + 13 * count;
 }
 
-void cluster_faces_set(struct cluster_faces *f, size_t i, const struct element *e, const double low[3], double unit)
+void separable_faces_set(struct separable_faces *f, size_t i, const struct element *e, const double low[3], double unit)
 {
     double along[3], other[3], square[3] = { 0, 0, 0 }, inverse = 1 / unit, p, q, r;
     int k, v;
@@ -49,17 +49,17 @@ void cluster_faces_set(struct cluster_faces *f, size_t i, const struct element *
     f->bright[i] = f->area[i] * (float)e->radiosity;
 }
 
-void cluster_side_whole(struct cluster_side *side, const struct cluster_faces *f, size_t from, size_t to)
+void separable_side_whole(struct separable_side *side, const struct separable_faces *f, size_t from, size_t to)
 {
     side->faces = *f;
     side->from = from;
     side->to = to;
 }
 
-void cluster_side_part(struct cluster_side *side, const struct element *e, const double low[3], double unit)
+void separable_side_part(struct separable_side *side, const struct element *e, const double low[3], double unit)
 {
-    cluster_faces_arrays(&side->faces, side->part, 1, 3);
-    cluster_faces_set(&side->faces, 0, e, low, unit);
+    separable_faces_arrays(&side->faces, side->part, 1, 3);
+    separable_faces_set(&side->faces, 0, e, low, unit);
     side->from = 0;
     side->to = 1;
 }

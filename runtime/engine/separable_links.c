@@ -1,4 +1,4 @@
-/* cluster_light.c - see cluster_light.h. Invariant: what a face gathers is summed in the order of its clusters' beams from the
+/* separable_links.c - see separable_links.h. Invariant: what a face gathers is summed in the order of its clusters' links from the
  * root down, then its own; so the result does not depend on threads.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -11,44 +11,44 @@
 
 enum { CHUNK = 64 }; /* faces that one thread takes at a time */
 
-static int is_beam(const struct hierarchy *h, const struct link *l)
+static int is_separable(const struct hierarchy *h, const struct link *l)
 {
     return !h->elements[l->receiver].vertices || !h->elements[l->emitter].vertices;
 }
 
-static void side_open(const struct cluster_light *c, struct cluster_side *side, uint32_t e)
+static void side_open(const struct separable_links *c, struct separable_side *side, uint32_t e)
 {
     const struct hierarchy *h = c->hierarchy;
     if (h->elements[e].depth == 0)
-        cluster_side_whole(side, &c->faces, h->range[e].from, h->range[e].to);
+        separable_side_whole(side, &c->faces, h->range[e].from, h->range[e].to);
     else
-        cluster_side_part(side, &h->elements[e], h->low, c->unit);
+        separable_side_part(side, &h->elements[e], h->low, c->unit);
 }
 
-static void beam(const struct cluster_light *c, struct cluster_beam *b, const struct link *l)
+static void separate_link(const struct separable_links *c, struct separable_link *b, const struct link *l)
 {
     const struct element *elements = c->hierarchy->elements;
-    struct cluster_side of_r, of_s;
+    struct separable_side of_r, of_s;
     float passes;
     memset(b, 0, sizeof *b);
     b->emitter = l->emitter;
     side_open(c, &of_r, l->receiver);
     side_open(c, &of_s, l->emitter);
-    passes = cluster_ends(&b->r, &b->s, &elements[l->receiver], &elements[l->emitter], &of_r, &of_s);
+    passes = find_pivots(&b->r, &b->s, &elements[l->receiver], &elements[l->emitter], &of_r, &of_s);
     if (passes > 0)
         b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (double)passes);
 }
 
-/* What the beam brings in each band: J. */
-static void bring(const struct cluster_light *c, const struct cluster_beam *b, int bands, const double *radiosity, float *to)
+/* What the link brings in each band: J. */
+static void bring(const struct separable_links *c, const struct separable_link *b, int bands, const double *radiosity, float *to)
 {
-    struct cluster_side side;
+    struct separable_side side;
     float sum[3] = { 0, 0, 0 };
     size_t i;
     int k;
     side_open(c, &side, b->emitter);
     if (c->hierarchy->elements[b->emitter].depth > 0) {
-        float value = side.faces.area[0] * cluster_kernel(&side.faces, 0, &b->r);
+        float value = side.faces.area[0] * separable_kernel(&side.faces, 0, &b->r);
         for (k = 0; k < bands; k++)
             sum[k] = (float)(radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1) * value;
     } else if (bands == 1) {
@@ -56,14 +56,14 @@ static void bring(const struct cluster_light *c, const struct cluster_beam *b, i
         float all = 0;
 #pragma omp simd reduction(+ : all)
         for (i = side.from; i < side.to; i++)
-            all += sent[i] * cluster_kernel(&side.faces, i, &b->r);
+            all += sent[i] * separable_kernel(&side.faces, i, &b->r);
         sum[0] = all;
     } else {
         const float *red = side.faces.sent[0], *green = side.faces.sent[1], *blue = side.faces.sent[2];
         float x = 0, y = 0, z = 0;
 #pragma omp simd reduction(+ : x, y, z)
         for (i = side.from; i < side.to; i++) {
-            float value = cluster_kernel(&side.faces, i, &b->r);
+            float value = separable_kernel(&side.faces, i, &b->r);
             x += red[i] * value;
             y += green[i] * value;
             z += blue[i] * value;
@@ -76,8 +76,8 @@ static void bring(const struct cluster_light *c, const struct cluster_beam *b, i
         to[k] = b->scale * sum[k];
 }
 
-/* Add to `received` what the beams of e and of the elements below bring to the faces from .. to - 1. */
-static void receive(const struct cluster_light *c, int bands, uint32_t e, size_t from, size_t to)
+/* Add to `received` what the links of e and of the elements below bring to the faces from .. to - 1. */
+static void receive(const struct separable_links *c, int bands, uint32_t e, size_t from, size_t to)
 {
     const struct hierarchy *h = c->hierarchy;
     const struct element *x = &h->elements[e];
@@ -88,12 +88,12 @@ static void receive(const struct cluster_light *c, int bands, uint32_t e, size_t
     if (from >= to)
         return;
     for (b = c->first[e]; b < c->first[e + 1]; b++) {
-        const struct cluster_beam *beam = &c->beams[b];
+        const struct separable_link *link = &c->links[b];
         const float *arrives = &c->arrives[b * (size_t)bands];
         float value[CHUNK];
 #pragma omp simd
         for (i = from; i < to; i++)
-            value[i - from] = cluster_kernel(&c->faces, i, &beam->s);
+            value[i - from] = separable_kernel(&c->faces, i, &link->s);
         for (k = 0; k < bands; k++) {
             float *received = &c->received[(size_t)k * count];
 #pragma omp simd
@@ -105,7 +105,7 @@ static void receive(const struct cluster_light *c, int bands, uint32_t e, size_t
         receive(c, bands, x->child + (uint32_t)k, from, to);
 }
 
-static void receive_all(const struct cluster_light *c, int bands)
+static void receive_all(const struct separable_links *c, int bands)
 {
     size_t count = c->hierarchy->face_count, i;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(c->threads)
@@ -129,49 +129,49 @@ static double unit_of(const struct hierarchy *h)
     return ldexp(1, exponent);
 }
 
-int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads)
+int separable_links_open(struct separable_links *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads)
 {
     size_t i, n = 0, faces = h->face_count;
     uint32_t e;
     memset(c, 0, sizeof *c);
     c->hierarchy = h;
     for (i = 0; i < r->link_count; i++)
-        n += (size_t)is_beam(h, &r->links[i]);
+        n += (size_t)is_separable(h, &r->links[i]);
     if (n == 0)
         return 0;
     c->bands = bands;
     c->threads = threads;
     c->unit = unit_of(h);
     c->elements = h->count;
-    c->beams = malloc(n * sizeof *c->beams);
+    c->links = malloc(n * sizeof *c->links);
     c->first = malloc(((size_t)h->count + 1) * sizeof *c->first);
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
     c->received = malloc(faces * (size_t)bands * sizeof *c->received);
     c->place = malloc(faces * sizeof *c->place);
-    c->faces.centre[0] = malloc((CLUSTER_ARRAYS + (size_t)bands) * faces * sizeof(float));
-    if (!c->beams || !c->first || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
-        cluster_light_close(c);
+    c->faces.centre[0] = malloc((SEPARABLE_ARRAYS + (size_t)bands) * faces * sizeof(float));
+    if (!c->links || !c->first || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
+        separable_links_close(c);
         return -1;
     }
-    cluster_faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
+    separable_faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
     for (e = 0; e < h->count; e++) {
         c->first[e] = c->count;
         for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-            c->count += (size_t)is_beam(h, &r->links[i]);
+            c->count += (size_t)is_separable(h, &r->links[i]);
     }
     c->first[h->count] = c->count;
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (i = 0; i < faces; i++) {
         c->place[h->order[i]] = (uint32_t)i;
-        cluster_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low, c->unit);
+        separable_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low, c->unit);
     }
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
     for (e = 0; e < h->count; e++) {
         size_t from, at = c->first[e];
         for (from = r->first_link[e]; from < r->first_link[e + 1]; from++)
-            if (is_beam(h, &r->links[from])) {
-                beam(c, &c->beams[at], &r->links[from]);
-                bring(c, &c->beams[at], 1, NULL, &c->arrives[at]);
+            if (is_separable(h, &r->links[from])) {
+                separate_link(c, &c->links[at], &r->links[from]);
+                bring(c, &c->links[at], 1, NULL, &c->arrives[at]);
                 at++;
             }
     }
@@ -179,7 +179,7 @@ int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const
     return 0;
 }
 
-void cluster_light_send(const struct cluster_light *c, int bands, const double *radiosity)
+void separable_links_send(const struct separable_links *c, int bands, const double *radiosity)
 {
     const struct hierarchy *h = c->hierarchy;
     size_t i;
@@ -196,12 +196,12 @@ void cluster_light_send(const struct cluster_light *c, int bands, const double *
         }
 #pragma omp for schedule(dynamic, 256)
         for (i = 0; i < c->count; i++)
-            bring(c, &c->beams[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
+            bring(c, &c->links[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
     }
     receive_all(c, bands);
 }
 
-void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, double *h)
+void separable_links_gather(const struct separable_links *c, int bands, uint32_t e, double *h)
 {
     const struct element *x = &c->hierarchy->elements[e];
     size_t b, k, count = (size_t)bands;
@@ -213,24 +213,24 @@ void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, 
         return;
     }
     if (c->first[e] < c->first[e + 1]) {
-        struct cluster_side side;
+        struct separable_side side;
         side_open(c, &side, e);
         for (b = c->first[e]; b < c->first[e + 1]; b++) {
-            double value = (double)cluster_kernel(&side.faces, 0, &c->beams[b].s);
+            double value = (double)separable_kernel(&side.faces, 0, &c->links[b].s);
             for (k = 0; k < count; k++)
                 h[k] += (double)c->arrives[b * count + k] * value;
         }
     }
 }
 
-double cluster_light_row(const struct cluster_light *c, uint32_t e)
+double separable_links_row(const struct separable_links *c, uint32_t e)
 {
     double row = 0;
-    cluster_light_gather(c, 1, e, &row);
+    separable_links_gather(c, 1, e, &row);
     return row;
 }
 
-double cluster_light_at(const struct cluster_light *c, const struct cluster_beam *b, const double x[3], const double n[3])
+double separable_links_at(const struct separable_links *c, const struct separable_link *b, const double x[3], const double n[3])
 {
     double v[3], near = 0, far = (double)b->s.shift, square;
     int k;
@@ -243,9 +243,9 @@ double cluster_light_at(const struct cluster_light *c, const struct cluster_beam
     return near > 0 && far > 0 ? near * far / (square * square) : 0;
 }
 
-void cluster_light_close(struct cluster_light *c)
+void separable_links_close(struct separable_links *c)
 {
-    free(c->beams);
+    free(c->links);
     free(c->first);
     free(c->arrives);
     free(c->received);

@@ -1,9 +1,9 @@
-/* cluster_light.h - light over links that have a cluster at one end.
+/* separable_links.h - light over links that have a cluster at one end.
  *
  * Between face j of the receiver and face i of the emitter passes k(x_j, y_i) = (n_j . v) (-n_i . v) / (pi |v|^4), v = y_i - x_j. To sum that over all
  * pairs would be the square again; so k is taken as a product, one factor per side:
  *     k(x, y) = k(x, s) k(r, y) / k(r, s),
- * r and s one point with one normal for each side (struct cluster_end): the places where the other sees its light come from,
+ * r and s one point with one normal for each side (struct pivot): the places where the other sees its light come from,
  * or go to. So the emitter's side is one sum per link, what it sends to r,
  *     J = V / k(r, s) sum_i A_i B_i k(r, y_i)                                        (W),
  * and each face of the receiver takes H_j += J k(x_j, s) by its own place and orientation. What is left of the error is of second
@@ -14,8 +14,8 @@
  * [Smits, Arvo, Greenberg 1994: alpha links are the same with k(x, y) = k(r, s) but for the cosines. The product is one step of the
  * adaptive cross approximation, Bebendorf 2000; the choice of r and s: derived here]
  * SPDX-License-Identifier: MIT */
-#ifndef CLUSTER_LIGHT_H
-#define CLUSTER_LIGHT_H
+#ifndef SEPARABLE_LINKS_H
+#define SEPARABLE_LINKS_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -23,42 +23,42 @@
 #include "hierarchy/hierarchy.h"
 #include "engine/refine.h"
 
-struct cluster_beam {
+struct separable_link {
     uint32_t emitter;
     float scale; /* V / (pi k(r, s)), k in 1/unit^2 */
-    struct cluster_end r, s;
+    struct pivot r, s;
 };
 
-struct cluster_light {
+struct separable_links {
     const struct hierarchy *hierarchy;
     int bands, threads; /* bands: the most that `arrives` and `received` have room for */
     double unit;        /* m; a power of two */
-    struct cluster_beam *beams; /* [count], by receiver */
+    struct separable_link *links; /* [count], by receiver */
     size_t count;
-    size_t *first;    /* [elements + 1]: the beams of element e are first[e] .. first[e + 1] - 1 */
+    size_t *first;    /* [elements + 1]: the links of element e are first[e] .. first[e + 1] - 1 */
     uint32_t elements;
-    float *arrives;   /* [count * bands]: J; before the first cluster_light_send [count], for a radiosity of 1 */
-    float *received;  /* [bands][face_count]: what the faces have from their own beams and their clusters', in the tree's order */
+    float *arrives;   /* [count * bands]: J; before the first separable_links_send [count], for a radiosity of 1 */
+    float *received;  /* [bands][face_count]: what the faces have from their own links and their clusters', in the tree's order */
     uint32_t *place;  /* [face_count]: where a face stands in the tree's order */
-    struct cluster_faces faces; /* [face_count], in the tree's order */
+    struct separable_faces faces; /* [face_count], in the tree's order */
 };
 
 /* Take the links that have a cluster at one end from a sorted refinement; radiosities are those that the oracles see, for
  * the ends' centres. Returns 0, or -1 when out of memory. */
-int cluster_light_open(struct cluster_light *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads);
+int separable_links_open(struct separable_links *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads);
 
-/* What each beam brings, with the radiosities [elements * bands] as they are. */
-void cluster_light_send(const struct cluster_light *c, int bands, const double *radiosity);
+/* What each link brings, with the radiosities [elements * bands] as they are. */
+void separable_links_send(const struct separable_links *c, int bands, const double *radiosity);
 
-/* Add to h[bands] what the surface e gathers from beams: its own, and, when it is a whole face, its clusters'. */
-void cluster_light_gather(const struct cluster_light *c, int bands, uint32_t e, double *h);
+/* Add to h[bands] what the surface e gathers from links: its own, and, when it is a whole face, its clusters'. */
+void separable_links_gather(const struct separable_links *c, int bands, uint32_t e, double *h);
 
-/* The sum over the same beams of what they would bring from a radiosity of 1. Only before the first cluster_light_send. */
-double cluster_light_row(const struct cluster_light *c, uint32_t e);
+/* The sum over the same links of what they would bring from a radiosity of 1. Only before the first separable_links_send. */
+double separable_links_row(const struct separable_links *c, uint32_t e);
 
-/* What beam b brings to a point x (m) with normal n, over J: k(x, s). */
-double cluster_light_at(const struct cluster_light *c, const struct cluster_beam *b, const double x[3], const double n[3]);
+/* What link b brings to a point x (m) with normal n, over J: k(x, s). */
+double separable_links_at(const struct separable_links *c, const struct separable_link *b, const double x[3], const double n[3]);
 
-void cluster_light_close(struct cluster_light *c);
+void separable_links_close(struct separable_links *c);
 
 #endif

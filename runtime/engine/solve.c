@@ -1,36 +1,28 @@
 /* solve.c - Hanrahan's multigridding around the radiosity iteration: refine, solve, let the oracle see the new
  * radiosities, refine again, until no link changes.
  *
- * The equation is solved in balance.c; what is done about rows that sum to more or less than 1 stands in
- * rows.c; what the oracles see of a solution in publish.c.
+ * The equation is solved in transport.c; what is done about rows that sum to more or less than 1 stands in row_sums.c;
+ * what the oracles see of a solution in oracle_inputs.c.
  * [Hanrahan et al. 1991, sections 4 and 5]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "engine/error_control.h"
-#include "engine/transport.h"
-#include "util/clock.h"
-#include "engine/enclosure.h"
-#include "engine/importance.h"
-#include "engine/oracle_inputs.h"
-#include "engine/row_sums.h"
 #include "engine/solve.h"
+#include "engine/transport.h"
+#include "kernel/constants.h"
+#include "util/clock.h"
+#include "visibility/contact_fraction.h"
+#include "visibility/enclosure.h"
 
-/* Where groups are linked there are many links. Passes solve to ROUGH only, less than what oracles do not notice (STALE), until
- * so few links change, one in SETTLED, that one more solve, now to the tolerance, ends it. */
-#define ROUGH 0.005
-#define SETTLED 1000
-
-/* Where the solver lowers thresholds a pass may be one step of them. */
-enum { PASSES = 32, PASSES_OF_ALLOWANCE = 200 };
+/* Where the solver lowers error tolerances a pass may be one step of them. */
+enum { PASSES = 32, PASSES_OF_ERROR_CONTROL = 200 };
 
 static double largest(const double *v, uint32_t n)
 {
     double most = v[0];
-    uint32_t i;
-    for (i = 1; i < n; i++)
-        most = v[i] > most ? v[i] : most;
+    for (uint32_t i = 1; i < n; i++)
+        most = fmax(most, v[i]);
     return most;
 }
 
@@ -44,109 +36,123 @@ static int enlarge(double **list, size_t count)
     return 0;
 }
 
-/* Give elements made since the last call their parent's radiosity. Returns 0 or -1. */
+/* Room for all elements, and for elements made since the last call their parent's radiosity. Returns 0 or -1. */
 static int make_room(struct solve *s)
 {
-    uint32_t count = s->hierarchy.count, b = s->bands, i, k;
+    struct state *state = &s->state;
+    struct operator *op = &s->operator;
+    uint32_t count = s->hierarchy.count, b = s->problem.bands;
     if (count > s->room) {
+        double **const by_band[] = { &state->radiosity, &state->irradiance, &s->inputs.least, &s->inputs.most };
+        double **const single[] = { &op->uncovered, &op->row_scale, &op->row_above, &op->row_share };
         size_t room = (size_t)count + count / 4;
-        unsigned char *mark;
-        if (enlarge(&s->radiosity, room * b) < 0 || enlarge(&s->irradiance, room * b) < 0 || enlarge(&s->row_scale, room) < 0
-            || enlarge(&s->row_above, room) < 0 || enlarge(&s->row_gift, room) < 0 || enlarge(&s->exposed, room) < 0
-            || enlarge(&s->least, room * b) < 0 || enlarge(&s->most, room * b) < 0)
+        for (int i = 0; i < 4; i++)
+            if (enlarge(by_band[i], room * b) < 0 || enlarge(single[i], room) < 0)
+                return -1;
+        unsigned char *changed = realloc(s->inputs.changed, room);
+        if (!changed)
             return -1;
-        mark = realloc(s->changed, room);
-        if (!mark)
-            return -1;
-        s->changed = mark;
+        s->inputs.changed = changed;
         s->room = (uint32_t)(room > UINT32_MAX ? UINT32_MAX : room);
     }
-    for (i = s->started; i < count; i++) {
+    for (uint32_t i = s->started; i < count; i++) {
         const struct element *e = &s->hierarchy.elements[i];
-        for (k = 0; k < b; k++) {
-            s->radiosity[(size_t)i * b + k] = e->vertices && e->depth > 0 ? s->radiosity[(size_t)e->parent * b + k] : 0;
-            s->irradiance[(size_t)i * b + k] = 0;
+        for (uint32_t k = 0; k < b; k++) {
+            double *B = &state->radiosity[(size_t)i * b + k];
+            *B = e->vertices && e->depth > 0 ? state->radiosity[(size_t)e->parent * b + k] : 0;
+            state->irradiance[(size_t)i * b + k] = 0;
         }
-        s->exposed[i] = 1;
+        op->uncovered[i] = 1;
     }
     s->started = count;
     return 0;
 }
 
-/* Which part of each new leaf is exposed; from there up, means. `first`: the first new element. */
-static void expose(struct solve *s, uint32_t first)
+/* Which share of each new leaf no solid stands on; from there up, means. `first`: the first new element. */
+static void measure_contact(double *uncovered, const struct hierarchy *h, const struct problem *p, uint32_t first)
 {
-    struct element *elements = s->hierarchy.elements;
-    uint32_t count = s->hierarchy.count, i;
-    int c;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(s->options.threads)
-    for (i = first; i < count; i++)
+    const struct element *elements = h->elements;
+#pragma omp parallel for schedule(dynamic, 64) num_threads(p->options.threads)
+    for (uint32_t i = first; i < h->count; i++)
         if (elements[i].vertices && !elements[i].children)
-            s->exposed[i] = rays_exposed(s->rays, &elements[i]);
-    for (i = count; i-- > 0;) {
+            uncovered[i] = 1 - contact_fraction(p->rays, &elements[i]);
+    for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
         if (!elements[i].children)
             continue;
-        s->exposed[i] = 0;
-        for (c = 0; c < elements[i].children; c++) {
+        uncovered[i] = 0;
+        for (int c = 0; c < elements[i].children; c++) {
             uint32_t j = elements[i].child + (uint32_t)c;
-            s->exposed[i] += s->exposed[j] * elements[j].area / elements[i].area;
+            uncovered[i] += uncovered[j] * elements[j].area / elements[i].area;
         }
     }
 }
 
-static void take_materials(struct solve *s)
+/* Returns 0, or -1 when out of memory. */
+static int read_materials(struct problem *p)
 {
-    const struct scene *scene = s->scene;
-    uint32_t i, k;
-    for (i = 0; i < scene->face_count; i++) {
-        const struct material *m = &scene->materials[scene->faces[i].material];
-        for (k = 0; k < s->bands; k++) {
-            s->exitance[(size_t)i * s->bands + k] = s->options.unit ? 1 : m->exitance[k];
-            s->reflectance[(size_t)i * s->bands + k] = s->options.unit ? 0 : m->reflectance[k];
+    const struct scene *scene = p->scene;
+    size_t values = (size_t)scene->face_count * p->bands;
+    p->exitance = malloc(values * sizeof *p->exitance);
+    p->reflectance = malloc(values * sizeof *p->reflectance);
+    p->whitest = malloc(scene->face_count * sizeof *p->whitest);
+    if (!p->exitance || !p->reflectance || !p->whitest)
+        return -1;
+    for (uint32_t i = 0; i < scene->face_count; i++) {
+        const struct RadMaterial *m = &scene->materials[scene->faces[i].material];
+        for (uint32_t k = 0; k < p->bands; k++) {
+            p->exitance[(size_t)i * p->bands + k] = p->options.unit ? 1 : m->exitance[k];
+            p->reflectance[(size_t)i * p->bands + k] = p->options.unit ? 0 : m->reflectance[k];
         }
+        p->whitest[i] = largest(&p->reflectance[(size_t)i * p->bands], p->bands);
     }
+    return 0;
+}
+
+/* Radiosity, as an equation over the links. */
+static struct transport light(struct solve *s, double tolerance)
+{
+    return (struct transport){ .bands = s->problem.bands, .value = s->state.radiosity, .irradiance = s->state.irradiance,
+                               .source = s->problem.exitance, .reflectance = s->problem.reflectance, .tolerance = tolerance };
 }
 
 int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options, const char **cause)
 {
-    size_t values;
+    struct problem *p = &s->problem;
+    struct hierarchy *h = &s->hierarchy;
     double *brightest = NULL, start = seconds();
-    uint32_t i, k;
     memset(s, 0, sizeof *s);
     *cause = "out of memory";
-    s->scene = scene;
-    s->options = *options;
-    s->bands = options->unit ? 1 : scene->bands;
-    values = (size_t)scene->face_count * s->bands;
-    if (hierarchy_build_by(&s->hierarchy, scene->faces, scene->face_count, options->clusters ? (enum clustering)(options->clusters - 1) : CLUSTERING_DEFAULT,
-                           options->threads) < 0)
+    p->scene = scene;
+    p->options = *options;
+    p->bands = options->unit ? 1 : scene->bands;
+    s->operator = (struct operator){ .problem = p, .hierarchy = h, .refinement = &s->refinement };
+    if (hierarchy_build_by(h, scene->faces, scene->face_count,
+                           options->clusters ? (enum clustering)(options->clusters - 1) : CLUSTERING_DEFAULT, options->threads) < 0)
         return -1;
-    s->exitance = malloc(values * sizeof *s->exitance);
-    s->reflectance = malloc(values * sizeof *s->reflectance);
+    s->report.seconds.clusters = seconds() - start;
     brightest = malloc(scene->face_count * sizeof *brightest);
-    s->whitest = malloc(scene->face_count * sizeof *s->whitest);
-    if (!s->exitance || !s->reflectance || !brightest || !s->whitest || make_room(s) < 0)
+    if (!brightest || read_materials(p) < 0 || make_room(s) < 0)
         goto fail;
-    take_materials(s);
     /* What emits nothing now or later may be left out of a row only while nobody asks what a row sums to. */
-    for (i = 0; (options->unit || options->closure != CLOSURE_NONE) && i < s->hierarchy.count; i++)
-        s->hierarchy.elements[i].black = 0;
-    for (i = 0; i < scene->face_count; i++) {
-        brightest[i] = largest(&s->exitance[(size_t)i * s->bands], s->bands);
-        s->whitest[i] = largest(&s->reflectance[(size_t)i * s->bands], s->bands);
-        s->hierarchy.elements[s->hierarchy.face_element[i]].reflectance = s->whitest[i];
-        for (k = 0; k < s->bands; k++)
-            s->radiosity[(size_t)s->hierarchy.face_element[i] * s->bands + k] = s->exitance[(size_t)i * s->bands + k];
+    for (uint32_t i = 0; (options->unit || options->closure != CLOSURE_NONE) && i < h->count; i++)
+        h->elements[i].black = 0;
+    for (uint32_t i = 0; i < scene->face_count; i++) {
+        const double *exitance = &p->exitance[(size_t)i * p->bands];
+        brightest[i] = largest(exitance, p->bands);
+        h->elements[h->face_element[i]].reflectance = p->whitest[i];
+        memcpy(&s->state.radiosity[(size_t)h->face_element[i] * p->bands], exitance, p->bands * sizeof *exitance);
     }
-    publish(s);
-    s->rays = rays_open(&s->hierarchy, brightest, s->whitest, options->threads, cause);
-    if (!s->rays)
+    struct transport x = light(s, 0);
+    transport_average(&s->operator, &x);
+    oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h);
+    p->rays = rays_open(h, brightest, p->whitest, options->threads, cause);
+    if (!p->rays)
         goto fail;
-    publish_guess(s);
+    oracle_inputs_guess(p, h);
     if (options->closure != CLOSURE_NONE)
-        s->closed = enclosure_decide(s);
+        p->closed = enclosure_decide(p->rays, h, brightest, options->threads, &p->closed_rays);
     free(brightest);
-    s->seconds.build = seconds() - start;
+    s->report.seconds.build = seconds() - start;
     return 0;
 fail:
     free(brightest);
@@ -154,157 +160,197 @@ fail:
     return -1;
 }
 
-/* Solve for the radiosities over the links as they are, to `tolerance`. Returns 0 or -1. */
-static int iterate(struct solve *s, double tolerance, const char **cause)
+/* ---- progress, which may cancel */
+
+static int tell(struct solve *s, const char *phase)
 {
-    struct balance light = { .bands = s->bands, .value = s->radiosity, .irradiance = s->irradiance,
-                             .source = s->exitance, .reflectance = s->reflectance, .tolerance = tolerance };
-    cluster_light_close(&s->cluster_light);
-    if (cluster_light_open(&s->cluster_light, &s->hierarchy, &s->refinement, (int)s->bands, s->options.threads) < 0)
+    const struct solve_options *o = &s->problem.options;
+    s->report.cancelled |= o->progress && o->progress(o->context, s, phase);
+    return s->report.cancelled;
+}
+
+static int watch_refinement(void *context, const struct refinement *r)
+{
+    (void)r;
+    return tell(context, "refine");
+}
+
+static int watch_light(void *context, const struct transport *x)
+{
+    struct solve *s = context;
+    s->report.sweeps++;
+    s->report.residual = x->residual;
+    return tell(s, "solve");
+}
+
+static int watch_importance(void *context, const struct transport *x)
+{
+    struct solve *s = context;
+    (void)x;
+    s->report.sweeps++;
+    return tell(s, "solve");
+}
+
+/* What keeps a step from going on. Returns -1. */
+static int fail(const struct solve *s, const char *memory, const char **cause)
+{
+    *cause = s->report.cancelled ? "cancelled" : memory;
+    return -1;
+}
+
+/* ---- passes */
+
+static const char refining[] = "out of memory while refining; a coarser oracle parameter needs less";
+
+int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause)
+{
+    const struct problem *p = &s->problem;
+    double start = seconds(), error = error_control_target(refiner, rays_host(p->rays));
+    if (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)
+        && importance_start(&s->importance, &s->operator, &s->hierarchy, &s->inputs) < 0)
+        return fail(s, "out of memory", cause);
+    if (error > 0)
+        error_control_start(&s->error, error, &s->hierarchy, &s->inputs);
+    if (refinement_open(&s->refinement, &s->hierarchy, rays_host(p->rays), refiner, p->options.threads) < 0)
+        return fail(s, refining, cause);
+    s->refinement.watch = watch_refinement;
+    s->refinement.watch_context = s;
+    if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0 || make_room(s) < 0)
+        return fail(s, refining, cause);
+    if (!p->options.unit)
+        measure_contact(s->operator.uncovered, &s->hierarchy, p, 0);
+    s->report.seconds.refine += seconds() - start;
+    s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
+    return 0;
+}
+
+/* Solve for the radiosities over the links as they are, to `tolerance`, and for importance where it is asked for;
+ * let the oracles see both. Returns 0 or -1. */
+static int iterate(struct solve *s, double tolerance)
+{
+    struct operator *op = &s->operator;
+    struct transport x = light(s, tolerance), carried;
+    separable_links_close(&op->separable);
+    if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)x.bands, s->problem.options.threads) < 0)
         return -1;
-    rows_scale(s);
-    *cause = "out of memory";
-    if (balance_solve(s, &light) < 0)
+    row_sums_scale(op, &s->report.rows);
+    x.watch = watch_light;
+    x.watch_context = s;
+    if (transport_solve(op, &x) < 0)
         return -1;
-    s->converged = light.converged;
-    s->residual = light.residual;
+    s->report.converged = x.converged;
+    transport_average(op, &x);
+    oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
+    if (s->importance.room == 0)
+        return 0;
+    if (importance_open(&s->importance, op, &carried) < 0)
+        return -1;
+    carried.watch = watch_importance;
+    carried.watch_context = s;
+    if (transport_solve(op, &carried) < 0)
+        return -1;
+    s->importance.sweeps += carried.sweeps;
+    s->report.converged &= carried.converged;
+    importance_update(&s->importance, op, &s->hierarchy, &s->inputs);
     return 0;
 }
 
 /* The account of power. */
-static void account(struct solve *s)
+static void sum_power(struct report *report, const struct operator *op, const double *irradiance)
 {
-    uint32_t i, k, b = s->bands;
-    s->emitted = s->absorbed = 0;
-    for (i = 0; i < s->scene->face_count; i++) {
-        uint32_t e = s->hierarchy.face_element[i];
-        double area = s->hierarchy.elements[e].area;
-        for (k = 0; k < b; k++) {
-            s->emitted += area * s->exposed[e] * s->exitance[(size_t)i * b + k];
-            s->absorbed += area * (1 - s->reflectance[(size_t)i * b + k]) * s->irradiance[(size_t)e * b + k];
+    const struct problem *p = op->problem;
+    report->emitted = report->absorbed = 0;
+    for (uint32_t i = 0; i < op->hierarchy->face_count; i++) {
+        uint32_t e = op->hierarchy->face_element[i];
+        double area = op->hierarchy->elements[e].area;
+        for (uint32_t k = 0; k < p->bands; k++) {
+            size_t at = (size_t)i * p->bands + k;
+            report->emitted += area * op->uncovered[e] * p->exitance[at];
+            report->absorbed += area * (1 - p->reflectance[at]) * irradiance[(size_t)e * p->bands + k];
         }
     }
 }
 
-static void watch(void *context, const struct refinement *refinement)
-{
-    struct solve *s = context;
-    (void)refinement;
-    if (s->options.progress)
-        s->options.progress(s->options.context, s, "refine");
-}
-
-int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause)
-{
-    double start = seconds();
-    *cause = "out of memory while refining; a coarser oracle parameter needs less";
-    if (refinement_open(&s->refinement, &s->hierarchy, rays_host(s->rays), refiner, s->options.threads) < 0)
-        return -1;
-    s->refinement.watch = watch;
-    s->refinement.watch_context = s;
-    if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0 || make_room(s) < 0)
-        return -1;
-    if (!s->options.unit)
-        expose(s, 0);
-    s->seconds.refine += seconds() - start;
-    s->seconds.in_rays = rays_count(s->rays).seconds / s->options.threads;
-    return 0;
-}
-
 /* Discuss the links of changed elements again and make room for what comes of it. Returns how many changed, or -1. */
-static int64_t refine_again(struct solve *s, const char **cause)
+static int64_t refine_again(struct solve *s)
 {
     uint32_t first = s->hierarchy.count;
-    int64_t changed = refinement_again(&s->refinement, s->changed);
-    *cause = "out of memory while refining; a coarser oracle parameter needs less";
+    int64_t changed = refinement_again(&s->refinement, s->inputs.changed);
     if (changed < 0 || (changed > 0 && refinement_sort(&s->refinement) < 0) || make_room(s) < 0)
         return -1;
-    expose(s, first);
+    measure_contact(s->operator.uncovered, &s->hierarchy, &s->problem, first);
     return changed;
 }
 
-/* Under error control: lower allowances until some link changes for it, or nothing is left to be gained. Returns how many
- * links changed, or -1. */
-static int64_t refine_for_error(struct solve *s, const char **cause)
+/* Under error control: lower error tolerances until some link changes for it, or nothing is left to be gained. Returns
+ * how many links changed, or -1. */
+static int64_t refine_for_error(struct solve *s)
 {
-    *cause = "out of memory";
-    if (allowance_estimate(s) < 0)
+    if (error_control_estimate(&s->error, &s->operator, s->state.radiosity) < 0)
         return -1;
     for (;;) {
-        uint32_t lowered = allowance_lower(s);
-        int64_t changed = refine_again(s, cause);
+        uint32_t lowered = error_control_tighten(&s->error, &s->operator, &s->hierarchy, &s->inputs);
+        int64_t changed = refine_again(s);
         if (changed != 0 || lowered == 0)
             return changed;
-        memset(s->changed, 0, s->hierarchy.count);
+        memset(s->inputs.changed, 0, s->hierarchy.count);
     }
 }
 
-static int links_groups(const struct solve *s)
+int solve_step(struct solve *s, const char **cause)
 {
-    return s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
+    const struct problem *p = &s->problem;
+    double start = seconds(), middle, tolerance = p->options.tolerance;
+    int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
+    int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
+    int last = rough && settled;
+    int64_t changed = 0;
+    if (iterate(s, rough && !last ? fmax(ROUGH_TOLERANCE, tolerance) : tolerance) < 0)
+        return fail(s, "out of memory", cause);
+    middle = seconds();
+    if (!last)
+        changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);
+    if (changed < 0)
+        return fail(s, refining, cause);
+    s->report.passes++;
+    s->report.changing = (uint64_t)changed;
+    s->report.converged = s->report.converged && changed == 0;
+    s->report.seconds.iterate += middle - start;
+    s->report.seconds.refine += seconds() - middle;
+    s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
+    sum_power(&s->report, &s->operator, s->state.irradiance);
+    return changed > 0 || (rough && !last);
 }
 
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
 {
-    int64_t changed = 1;
-    int settled = 0, importance = s->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE);
-    double error = allowance_target(refiner, rays_host(s->rays));
-    *cause = "out of memory";
-    if (importance && importance_start(s) < 0)
+    int more = 1;
+    if (!s->refinement.hierarchy && solve_refine(s, refiner, cause) < 0)
         return -1;
-    if (error > 0)
-        allowance_start(s, error);
-    if (solve_refine(s, refiner, cause) < 0)
-        return -1;
-    for (s->passes = 0; changed > 0 && s->passes < (error > 0 ? PASSES_OF_ALLOWANCE : PASSES); s->passes++) {
-        double start = seconds(), middle;
-        int rough = error <= 0 && links_groups(s), last = rough && settled;
-        if (iterate(s, rough && !last && ROUGH > s->options.tolerance ? ROUGH : s->options.tolerance, cause) < 0)
-            return -1;
-        publish(s);
-        if (importance && importance_solve(s) < 0)
-            return -1;
-        middle = seconds();
-        changed = error > 0 ? refine_for_error(s, cause) : last ? 0 : refine_again(s, cause);
-        if (changed < 0)
-            return -1;
-        settled = (uint64_t)changed * SETTLED <= s->refinement.link_count;
-        if (rough && settled && !last)
-            changed = 1; /* solved roughly: once more */
-        s->seconds.iterate += middle - start;
-        s->seconds.refine += seconds() - middle;
-    }
-    s->converged = s->converged && changed == 0;
-    s->seconds.in_rays = rays_count(s->rays).seconds / s->options.threads;
-    account(s);
-    return 0;
+    while (more > 0 && s->report.passes < (s->error.target > 0 ? PASSES_OF_ERROR_CONTROL : PASSES))
+        more = solve_step(s, cause);
+    return more < 0 ? -1 : 0;
 }
 
 struct solution solve_solution(const struct solve *s)
 {
-    struct solution view = { s->scene, &s->hierarchy, s->bands, s->radiosity, s->irradiance };
+    struct solution view = { s->problem.scene, &s->hierarchy, s->problem.bands, s->state.radiosity, s->state.irradiance };
     return view;
 }
 
 void solve_close(struct solve *s)
 {
     refinement_close(&s->refinement);
-    cluster_light_close(&s->cluster_light);
-    rays_close(s->rays);
+    separable_links_close(&s->operator.separable);
+    rays_close(s->problem.rays);
     hierarchy_free(&s->hierarchy);
-    free(s->radiosity);
-    free(s->irradiance);
-    free(s->row_scale);
-    free(s->row_above);
-    free(s->row_gift);
-    free(s->exposed);
-    free(s->whitest);
-    importance_free(s);
-    allowance_free(s);
-    free(s->least);
-    free(s->most);
-    free(s->changed);
-    free(s->exitance);
-    free(s->reflectance);
+    importance_free(&s->importance);
+    error_control_free(&s->error);
+    double *const lists[] = { s->state.radiosity, s->state.irradiance, s->inputs.least, s->inputs.most,
+                              s->operator.uncovered, s->operator.row_scale, s->operator.row_above, s->operator.row_share,
+                              s->problem.exitance, s->problem.reflectance, s->problem.whitest };
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        free(lists[i]);
+    free(s->inputs.changed);
     memset(s, 0, sizeof *s);
 }

@@ -13,7 +13,7 @@ struct face;
 /* Constant, name, what it is. `radiosity study clustering` compares them. */
 #define CLUSTERINGS(X) \
     X(SAH, sah, "boxes cut where the surface-area heuristic says [Wald 2007]") \
-    X(EMBREE, embree, "Embree's builder in high quality, with spatial splits [Stich et al. 2009]") \
+    X(EMBREE, embree, "Embree's high-quality builder, spatial splits [Stich et al. 2009]") \
     X(OCTREE, octree, "uniform octree, faces by middle and size [Ulrich 2000]") \
     X(KD, kd, "overlapping k-d tree, planes by surface area [MacDonald and Booth 1990]") \
     X(HALVES, halves, "as sah where every slice holds a face, else halves of the file's order")

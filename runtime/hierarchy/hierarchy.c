@@ -9,6 +9,7 @@
 #include <string.h>
 #include "hierarchy/hierarchy.h"
 #include "kernel/hash.h"
+#include "kernel/surface.h"
 
 /* What stands for a parent in the identities of faces, wherever the clusters put them. */
 #define FACES 0x2545f4914f6cdd1du
@@ -18,50 +19,11 @@ static uint64_t child_id(uint64_t parent, uint32_t k)
     return hash64(parent * 4 + k + HASH_STEP);
 }
 
-/* Area, centroid, unit normal and radius from the corners. */
-static void measure_surface(struct element *e)
-{
-    double normal[3] = { 0, 0, 0 }, sum[3] = { 0, 0, 0 }, area = 0, size, farthest = 0;
-    int i, k;
-    for (i = 2; i < e->vertices; i++) {
-        double a[3], b[3], c[3];
-        sub3(a, e->vertex[i - 1], e->vertex[0]);
-        sub3(b, e->vertex[i], e->vertex[0]);
-        cross3(c, a, b);
-        for (k = 0; k < 3; k++)
-            normal[k] += c[k];
-    }
-    size = length3(normal);
-    for (k = 0; k < 3; k++)
-        e->normal[k] = size > 0 ? normal[k] / size : 0;
-    for (i = 2; i < e->vertices; i++) {
-        double a[3], b[3], c[3], part;
-        sub3(a, e->vertex[i - 1], e->vertex[0]);
-        sub3(b, e->vertex[i], e->vertex[0]);
-        cross3(c, a, b);
-        part = 0.5 * dot3(c, e->normal);
-        area += part;
-        for (k = 0; k < 3; k++)
-            sum[k] += part * (a[k] + b[k]) * (1 / 3.0);
-    }
-    e->area = area;
-    for (k = 0; k < 3; k++)
-        e->centre[k] = e->vertex[0][k] + (area > 0 ? sum[k] / area : 0);
-    for (i = 0; i < e->vertices; i++) {
-        double a[3], q;
-        sub3(a, e->vertex[i], e->centre);
-        q = dot3(a, a);
-        farthest = q > farthest ? q : farthest;
-    }
-    e->radius = sqrt(farthest);
-    e->cone = 1;
-}
-
 /* What a solver may say of an element later. */
 static void reset_fields(struct element *e)
 {
     e->importance = 1;
-    e->allowance = INFINITY;
+    e->tolerance = INFINITY;
 }
 
 static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
@@ -74,7 +36,7 @@ static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
     e->black = f->black;
     e->id = child_id(FACES, face);
     h->face_element[face] = index;
-    measure_surface(e);
+    surface_measure(e);
     reset_fields(e);
 }
 
@@ -208,54 +170,27 @@ int hierarchy_build(struct hierarchy *h, const struct face *faces, uint32_t face
 
 int hierarchy_split(struct hierarchy *h, uint32_t element)
 {
-    double mid[4][3], middle[3];
     uint32_t first = h->count;
-    int i, k, n;
     if (h->elements[element].children)
         return 0;
     if (reserve(h, 4) < 0)
         return -1;
-    {
-        struct element *e = &h->elements[element];
-        n = e->vertices;
-        for (i = 0; i < n; i++)
-            for (k = 0; k < 3; k++)
-                mid[i][k] = 0.5 * (e->vertex[i][k] + e->vertex[i + 1 < n ? i + 1 : 0][k]);
-        for (k = 0; k < 3; k++)
-            middle[k] = 0.5 * (mid[0][k] + mid[2][k]);
-        for (i = 0; i < 4; i++) {
-            struct element *c = &h->elements[first + (uint32_t)i];
-            memset(c, 0, sizeof *c);
-            for (k = 0; k < 3; k++) {
-                if (n == 3 && i == 3) { /* the triangle between the midpoints */
-                    c->vertex[0][k] = mid[0][k];
-                    c->vertex[1][k] = mid[1][k];
-                    c->vertex[2][k] = mid[2][k];
-                } else { /* child i keeps corner i */
-                    int before = i > 0 ? i - 1 : n - 1;
-                    c->vertex[i][k] = e->vertex[i][k];
-                    c->vertex[i + 1 < n ? i + 1 : 0][k] = mid[i][k];
-                    c->vertex[before][k] = mid[before][k];
-                    if (n == 4)
-                        c->vertex[(i + 2) % 4][k] = middle[k];
-                }
-            }
-            c->vertices = e->vertices;
-            c->face = e->face;
-            c->black = e->black;
-            c->depth = (uint8_t)(e->depth + 1);
-            c->parent = element;
-            c->radiosity = e->radiosity;
-            c->reflectance = e->reflectance;
-            c->importance = e->importance;
-            c->allowance = e->allowance;
-            c->id = child_id(e->id, (uint32_t)i);
-            measure_surface(c);
-            memcpy(c->normal, e->normal, sizeof c->normal);
-        }
-        e->child = first;
-        e->children = 4;
+    struct element *e = &h->elements[element];
+    for (uint32_t i = 0; i < 4; i++) {
+        struct element *c = &h->elements[first + i];
+        surface_quarter(e, (int)i, c);
+        c->face = e->face;
+        c->black = e->black;
+        c->depth = (uint8_t)(e->depth + 1);
+        c->parent = element;
+        c->radiosity = e->radiosity;
+        c->reflectance = e->reflectance;
+        c->importance = e->importance;
+        c->tolerance = e->tolerance;
+        c->id = child_id(e->id, i);
     }
+    e->child = first;
+    e->children = 4;
     h->count += 4;
     return 0;
 }

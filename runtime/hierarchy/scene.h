@@ -1,45 +1,40 @@
-/* scene.h - a scene as the solver wants it: flat faces with reflectance and exitance.
+/* scene.h - what solutions are made over: flat convex faces with the materials of the polygons they come from.
  * SPDX-License-Identifier: MIT */
 #ifndef SCENE_H
 #define SCENE_H
 
 #include <stdint.h>
 #include "hierarchy/hierarchy.h"
-
-struct material {
-    char *name;
-    double reflectance[3]; /* rho per band, 0 <= rho < 1 */
-    double exitance[3];    /* E per band, W/m2, 0 <= E */
-    int two_sided;
-};
-
-/* What the file held for one face, in the file's order; dropped faces stay in this list. */
-struct input_face {
-    uint32_t material;
-    double area; /* m2, one side; 0 when the face was degenerate and dropped */
-};
+#include "radiosity.h"
 
 struct scene {
-    struct face *faces; /* [face_count]: non-planar quads are two faces, cut ones several, two-sided ones two (front, then `back`) */
+    struct face *faces; /* [face_count], by polygon: bent and concave polygons are several, cut ones too, two-sided ones two (front, then `back`) */
     uint32_t face_count;
-    struct material *materials;
+    struct RadMaterial *materials;
     uint32_t material_count;
-    struct input_face *inputs; /* [input_count] */
-    uint32_t input_count;
+    double *areas; /* [input_count]: one side's area of each polygon (m2), 0 of those that were dropped */
+    uint32_t input_count; /* polygons */
+    double precision; /* relative rounding of coordinates: half a unit in the last place of what they have been; 0: exact */
     uint32_t bands;   /* 1 when every material that is used is grey, else 3 */
-    uint32_t dropped; /* degenerate faces */
-    uint32_t cut;     /* faces cut where others stand in them (scene_cut.h), far sides not counted */
-    uint32_t parts;   /* into so many, which share their face's input */
+    uint32_t dropped; /* polygons without area */
+    uint32_t cut;     /* faces cut where others stand in them (cut_faces.h), far sides not counted */
+    uint32_t parts;   /* into so many, which share their face's polygon */
+    /* Of a scene read by scene_read, for the tables; else NULL. */
+    char **names;              /* [material_count] */
+    uint32_t *input_materials; /* [input_count] */
 };
 
-struct scene_options {
-    int two_sided; /* treat every face as two-sided */
-    int quiet;     /* no warnings on stderr */
+/* What keeps a scene from being built. */
+struct scene_error {
+    enum RadError code;
+    char text[256]; /* a sentence that names the polygon or the material, counted from 0 */
 };
 
-/* Read `path` in any format that Assimp reads. On failure writes one line
- * "path[:line]: error: cause; how to mend it" to stderr and returns -1; then *scene is empty. */
-int scene_read(struct scene *scene, const char *path, const struct scene_options *options);
+/* Make a scene of polygons and materials, which are borrowed for the call alone, on so many threads (0: as many as there
+ * are processors). Polygons without area, or with fewer than three corners, are dropped and counted.
+ * Returns 0, or -1; then *scene is empty and *error says why. */
+int scene_build(struct scene *scene, const struct RadPolygons *polygons, const struct RadMaterial *materials,
+                uint32_t material_count, int threads, struct scene_error *error);
 void scene_free(struct scene *scene);
 
 #endif

@@ -12,19 +12,9 @@
 #define KERNEL_OUTLINE_VISIBILITY_H
 
 #include "discussion.h"
+#include "kernel/lambert.h"
 #include "kernel/outline.h"
 #include "kernel/shaft.h"
-
-/* What a piece of the plane, its centroid at y, exchanges with a point per area. `spread`: m2 */
-static inline double outline_kernel(const double x[3], const double n[3], const double y[3], const double m[3], double spread)
-{
-    double w[3], cos_x, cos_y, square;
-    sub3(w, y, x);
-    cos_x = dot3(n, w);
-    cos_y = -dot3(m, w);
-    square = dot3(w, w);
-    return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (3.14159265358979323846 * square + spread)) : 0;
-}
 
 /* How large e looks from the nearest of the faces: seen from another point of e, their shadows move by so much. */
 static inline double outline_sway(const struct element *e, const struct host *host, const struct blockers *list)
@@ -75,7 +65,7 @@ OUTLINE double outline_visibility(const struct element *r, const struct element 
         for (k = 0; k < 2; k++)
             uv[k] = whole.at[k] / whole.area;
         outline_out(&frame, uv, y);
-        q = weight[i] * outline_kernel(x[i], from->normal, y, frame.n, spread);
+        q = weight[i] * lambert_points(x[i], from->normal, y, frame.n, spread);
         all += q * whole.area;
         for (k = 0; k < list->count; k++) {
             host->corners(host, list->face[k], &blocker);
@@ -89,7 +79,7 @@ OUTLINE double outline_visibility(const struct element *r, const struct element 
             for (k = 0; k < 2; k++)
                 uv[k] = seen.at[k] / seen.area;
             outline_out(&frame, uv, y);
-            part += weight[i] * outline_kernel(x[i], from->normal, y, frame.n, spread) * seen.area;
+            part += weight[i] * lambert_points(x[i], from->normal, y, frame.n, spread) * seen.area;
             break;
         default:
             break;

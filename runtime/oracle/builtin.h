@@ -12,5 +12,6 @@ struct builtin {
 };
 
 extern const struct builtin builtins[]; /* ends with a NULL name */
+extern const char *const builtin_names[]; /* the same names; ends with NULL */
 
 #endif

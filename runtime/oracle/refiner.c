@@ -47,6 +47,7 @@ struct refiner *refiner_compiled(const struct oracle *oracle, const char *releas
     r->state = r->block;
     r->oracle = oracle->name;
     r->doc = oracle->doc;
+    r->fingerprint = oracle->fingerprint;
     r->release = release;
     r->parameters = oracle->parameters;
     r->parameter_count = oracle->parameter_count;

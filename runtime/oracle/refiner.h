@@ -12,6 +12,7 @@ struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
     const void *state; /* a parameter structure, or the interpreter's program */
     const char *oracle, *release, *doc;
+    const char *fingerprint; /* of the graph it was compiled from; NULL when interpreted */
     const struct oracle_parameter *parameters; /* [parameter_count] */
     int parameter_count;
     const int *reads; /* [read_count], enum catalog_fact: what its arguments read */

@@ -20,6 +20,7 @@
 
 #include "discussion.h"
 #include "kernel/hash.h"
+#include "kernel/lambert.h"
 
 /* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
  * written out: at -O2 they cost a quarter more otherwise.) */
@@ -117,7 +118,6 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
         uint64_t blocked;
         for (i = 0; i < batch; i++) {
             struct segment *g = &segments[i];
-            double v[3], cos_r, cos_s, square;
             if (first + i > 0) { /* Gray code order: one digit changes from point to point */
                 const uint32_t *toggle = direction[0];
                 int bits;
@@ -130,11 +130,7 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
             }
             sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
             sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
-            sub3(v, g->to, g->from);
-            cos_r = dot3(r->normal, v);
-            cos_s = -dot3(s->normal, v);
-            square = dot3(v, v);
-            weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
+            weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
             g->from[0] += host->ray_offset * r->normal[0];
             g->from[1] += host->ray_offset * r->normal[1];
             g->from[2] += host->ray_offset * r->normal[2];

@@ -3,7 +3,7 @@
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
  * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
- * scene's size, more where faces are bent by the rounding of large coordinates), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
+ * scene's size), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
  * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer; packets filled across
  * pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a scene of 13,000 faces).
  * SPDX-License-Identifier: MIT */
@@ -19,7 +19,8 @@
 
 enum { PACKET = 16 };
 
-/* One thread's counters, alone on their cache lines. */
+/* Counters of a thread, alone on their cache lines. A thread that a program brings itself may have any number, so threads may
+ * share a tally; they add to it one at a time. */
 struct tally {
     uint64_t rays;
     uint64_t nanoseconds;
@@ -47,8 +48,8 @@ static uint64_t now(void)
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct rays *rays = (const struct rays *)(const void *)host;
-    struct tally *tally = &rays->tallies[omp_get_thread_num()];
-    uint64_t hits = 0;
+    struct tally *tally = &rays->tallies[omp_get_thread_num() % rays->threads];
+    uint64_t hits = 0, inside = 0;
     int first, i;
     for (first = 0; first < count; first += PACKET) {
         int n = count - first < PACKET ? count - first : PACKET;
@@ -89,11 +90,14 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
             rtcOccluded16(valid, rays->scene, &context, &packet);
 #endif
         }
-        tally->nanoseconds += now() - start;
+        inside += now() - start;
         for (i = 0; i < n; i++)
             hits |= (uint64_t)(packet.tfar[i] < 0) << (first + i); /* Embree: -inf when occluded */
     }
+#pragma omp atomic
     tally->rays += (uint64_t)count;
+#pragma omp atomic
+    tally->nanoseconds += inside;
     return hits;
 }
 
@@ -125,24 +129,9 @@ static double power_of_two(double x)
     return ldexp(1, e - 1);
 }
 
-/* How far the corners of faces lie off their planes at the most (m). */
-static double most_bent(const struct hierarchy *h)
-{
-    double most = 0;
-    uint32_t i, j;
-    for (i = 0; i < h->face_count; i++) {
-        const struct element *e = &h->elements[h->face_element[i]];
-        for (j = 0; j < e->vertices; j++) {
-            double off = fabs(height3(e->vertex[j], e->centre, e->normal));
-            most = off > most ? off : most;
-        }
-    }
-    return most;
-}
-
 static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
 {
-    double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0, largest = 0, bent;
+    double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0;
     uint32_t i;
     int k;
     for (i = 0; i < h->face_count; i++) {
@@ -157,8 +146,6 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         double side = h->high[k] - h->low[k];
         rays->origin[k] = 0.5 * (h->low[k] + h->high[k]);
         size = side > size ? side : size;
-        largest = fabs(h->low[k]) > largest ? fabs(h->low[k]) : largest;
-        largest = fabs(h->high[k]) > largest ? fabs(h->high[k]) : largest;
     }
     rays->scale = 1 / power_of_two(size);
     rays->host.occluded = occluded;
@@ -174,14 +161,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
-    /* Coordinates that came as floats are off by up to 2^-25 of the largest, which bends quads that lie far from the
-     * origin. Rays keep off their own face by some times that, and by no more: there may be others near it. */
     rays->host.ray_offset = ldexp(size, -18);
-    bent = 4 * most_bent(h);
-    if (bent > ldexp(largest, -21))
-        bent = ldexp(largest, -21);
-    if (rays->host.ray_offset < bent)
-        rays->host.ray_offset = bent;
     rays->host.flat = 0.5 * rays->host.ray_offset;
 }
 
@@ -316,28 +296,6 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
             normal[k] = side[k] / size;
     }
     return fate;
-}
-
-double rays_exposed(const struct rays *rays, const struct element *e)
-{
-    enum { SIDE = 4, DIRECTIONS = 8, MOST = 6 };
-    const struct hemisphere above = hemisphere_over(e->normal);
-    double direction[DIRECTIONS][3];
-    int i, j, k, m, buried = 0;
-    for (m = 0; m < DIRECTIONS; m++)
-        hemisphere_direction(direction[m], &above, m, DIRECTIONS, 0);
-    for (i = 0; i < SIDE; i++)
-        for (j = 0; j < SIDE; j++) {
-            double p[3], side[3], length;
-            int inside = 0;
-            surface_point(p, e, (i + 0.5) / SIDE, (j + 0.5) / SIDE);
-            for (k = 0; k < 3; k++)
-                p[k] = (p[k] + rays->host.ray_offset * e->normal[k] - rays->origin[k]) * rays->scale;
-            for (m = 0; m < DIRECTIONS && inside + DIRECTIONS - m >= MOST; m++)
-                inside += first_hit(rays, p, direction[m], &length, side) == RAY_MEETS_BACK;
-            buried += inside >= MOST;
-        }
-    return 1 - buried / (double)(SIDE * SIDE);
 }
 
 const struct host *rays_host(const struct rays *rays)

@@ -24,10 +24,6 @@ struct rays_count {
 struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
                        int threads, const char **cause);
 
-/* The share of a surface that is not buried: a point is buried when most rays from it (8, cosine-spread) meet
- * first the back of a one-sided face, as from the floor under a table leg. 16 points. Thread-safe. */
-double rays_exposed(const struct rays *rays, const struct element *e);
-
 /* What the ray from a point into a direction (any length) meets first; the sides of a two-sided face are both
  * fronts. The caller keeps the point off the surface it stands on (host.ray_offset). Where it meets something goes to `at`, as well
  * as single precision knows, and the unit normal of the side it meets to `normal`; both may be NULL. Thread-safe. */

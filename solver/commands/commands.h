@@ -1,19 +1,15 @@
-/* commands.h - what the command line can ask for, one file each. All return the exit status.
+/* commands.h - what the command line can ask for, one file each. All return the exit status; `scene` is the one that the
+ * command line names, NULL for commands that take none.
  * SPDX-License-Identifier: MIT */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
 #include "options.h"
-#include "hierarchy/scene.h"
+#include "scene/open_scene.h"
 
-int command_solve(const struct options *options, const struct scene *scene);
-int command_compare(const struct options *options, const struct scene *scene);
-int command_viewfactors(const struct options *options, const struct scene *scene);
-int command_study(const struct options *options); /* reads the scene itself, where the study has one */
-
-/* The studies. `options` holds what was asked: see options.h. */
-int study_stability(const struct options *options);
-int study_clustering(const struct options *options, const struct scene *scene);
-int study_visibility(const struct options *options, const struct scene *scene);
+int command_solve(const struct options *options, const struct open_scene *scene);
+int command_compare(const struct options *options, const struct open_scene *scene);
+int command_viewfactors(const struct options *options, const struct open_scene *scene);
+int command_oracles(const struct options *options, const struct open_scene *scene);
 
 #endif

@@ -1,19 +1,30 @@
-/* command_compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one where there is one.
+/* compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one where there is one.
  *
- * First one solve in which a refiner made of all of them answers: each discusses every pair on a
- * copy, and decisions and stored links are compared bit by bit. Then each release solves alone, in
- * turn, several times, and the medians of the refinement's seconds are compared.
+ * First one solve by an oracle made of all of them: each discusses every pair on a copy, and decisions and what links would
+ * store are compared bit by bit. Then each release solves alone, in turn, several times, and the medians of the refinement's
+ * seconds are compared.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "commands/commands.h"
 #include "output/json_file.h"
 #include "progress.h"
+#include "util/device.h"
+#include "util/open_oracle.h"
 #include "util/report.h"
-#include "engine/solve.h"
+#include "util/solved.h"
+
+enum { RELEASES = 3 };
 
 /* The order of the report: the first that there is is the yardstick. */
-static const enum release order[RELEASES] = { RELEASE_HAND, RELEASE_DAG, RELEASE_FLAT };
+static const enum RadRelease order[RELEASES] = { RAD_RELEASE_HAND, RAD_RELEASE_DAG, RAD_RELEASE_FLAT };
+
+/* What a link keeps of a discussion. */
+struct kept {
+    float form_factor;
+    double visibility;
+    unsigned char levels[2], mark;
+};
 
 struct difference {
     int release;
@@ -21,18 +32,39 @@ struct difference {
     uint32_t face[2];
     int depth[2];
     enum decision decision[2]; /* the yardstick's, the release's */
-    struct link link[2];
+    struct kept link[2];
 };
 
-/* The state of a refiner that asks all releases. */
+/* The state of an oracle that asks all releases. */
 struct panel {
-    struct refiner *releases[RELEASES];
+    RadOracle releases[RELEASES];
     int count;
     uint64_t decisions, differences;
     struct difference first; /* by identities, so the same on any number of threads */
 };
 
-static void record(struct panel *p, int k, const struct discussion *d, const enum decision decision[2], const struct link link[2])
+static int links(enum decision decision)
+{
+    return decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS;
+}
+
+static struct kept keep(enum decision decision, const struct terms *t)
+{
+    if (!links(decision))
+        return (struct kept){ 0 };
+    return (struct kept){ (float)t->form_factor, t->visibility, { t->form_factor_level, t->visibility_level },
+                          (unsigned char)(t->mark_level ? t->mark : 0) };
+}
+
+/* Equal to the bit, for which NAN is like NAN. */
+static int same(const struct kept *a, const struct kept *b)
+{
+    return memcmp(&a->form_factor, &b->form_factor, sizeof a->form_factor) == 0
+        && memcmp(&a->visibility, &b->visibility, sizeof a->visibility) == 0
+        && memcmp(a->levels, b->levels, sizeof a->levels) == 0 && a->mark == b->mark;
+}
+
+static void record(struct panel *p, int k, const struct discussion *d, const enum decision decision[2], const struct kept link[2])
 {
     struct difference *f = &p->first;
     if (p->differences++ && (d->receiver->id > f->receiver || (d->receiver->id == f->receiver && d->emitter->id >= f->emitter)))
@@ -48,25 +80,30 @@ static void record(struct panel *p, int k, const struct discussion *d, const enu
     memcpy(f->link, link, sizeof f->link);
 }
 
-static enum decision ask_all(const void *state, struct discussion *d)
+/* The parameters of the oracle that asks all: where the panel stands. An oracle's defaults have no context, and a process
+ * runs one comparison. */
+static struct panel panel;
+
+static void panel_defaults(void *parameters)
+{
+    struct panel *at = &panel;
+    memcpy(parameters, &at, sizeof at);
+}
+
+static enum decision ask_all(const void *parameters, struct discussion *d)
 {
     struct panel *p;
     struct discussion start = *d;
     enum decision decision[2];
-    struct link link[2];
-    int k;
-    memcpy(&p, state, sizeof p);
-    memset(link, 0, sizeof link);
-    decision[0] = p->releases[0]->refine(p->releases[0]->state, d);
-    if (decision_links(decision[0]))
-        link_store(&link[0], &d->terms);
-    for (k = 1; k < p->count; k++) {
+    struct kept link[2];
+    memcpy(&p, parameters, sizeof p);
+    decision[0] = radAskOracle(p->releases[0], d);
+    link[0] = keep(decision[0], &d->terms);
+    for (int k = 1; k < p->count; k++) {
         struct discussion other = start;
-        decision[1] = p->releases[k]->refine(p->releases[k]->state, &other);
-        memset(&link[1], 0, sizeof link[1]);
-        if (decision_links(decision[1]))
-            link_store(&link[1], &other.terms);
-        if (decision[0] != decision[1] || memcmp(&link[0], &link[1], sizeof *link) != 0) {
+        decision[1] = radAskOracle(p->releases[k], &other);
+        link[1] = keep(decision[1], &other.terms);
+        if (decision[0] != decision[1] || !same(&link[0], &link[1])) {
 #pragma omp critical(difference)
             record(p, k, d, decision, link);
         }
@@ -104,51 +141,40 @@ static const char *decision_name(enum decision d)
 /* What release k of the panel is called. */
 static const char *name_of(const struct panel *p, int k)
 {
-    return release_names[order[RELEASES - p->count + k]];
+    return release_words[order[RELEASES - p->count + k]];
 }
 
 static void print_difference(const struct panel *p)
 {
     const struct difference *f = &p->first;
-    int i;
     printf("different: %llu of %llu discussions; first, receiver ", (unsigned long long)p->differences,
            (unsigned long long)p->decisions);
     print_side(f, 0);
     printf(", emitter ");
     print_side(f, 1);
     printf(":\n");
-    for (i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_name(f->decision[i]));
-        if (decision_links(f->decision[i]))
-            printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d", (double)f->link[i].form_factor, f->link[i].levels & 15,
-                   f->link[i].visibility / (double)LINK_VISIBLE, f->link[i].levels >> 4, f->link[i].mark);
+        if (links(f->decision[i]))
+            printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d", (double)f->link[i].form_factor, f->link[i].levels[0],
+                   f->link[i].visibility, f->link[i].levels[1], f->link[i].mark);
         printf("\n");
     }
 }
 
-/* Solve the scene with one refiner. Returns the refinement's seconds, or -1 after a message. */
-static double solve_once(const struct options *o, const struct scene *scene, const struct refiner *refiner,
-                         struct progress *progress, uint64_t *pairs, size_t *links)
+/* Solve the scene with one oracle. Returns the refinement's seconds, or -1 after a message. */
+static double solve_once(const struct options *o, const struct open_scene *scene, RadOracle oracle, struct progress *progress,
+                         struct RadReport *report)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure,
-                                 .threads = o->threads, .progress = progress_show, .context = progress };
-    struct solve s;
-    const char *cause;
-    double result = -1;
-    if (solve_open(&s, scene, &how, &cause) < 0) {
-        report_error(o->scene, 0, "%s", cause);
-        return -1;
-    }
-    if (solve_run(&s, refiner, &cause) < 0)
-        report_error(o->scene, 0, "%s", cause);
-    else {
-        result = s.seconds.refine;
-        *pairs = s.refinement.pairs;
-        *links = s.refinement.link_count;
-    }
+    const struct RadSolveOptions how = solve_options(o);
+    struct solved s;
+    int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
     progress_end(progress);
-    solve_close(&s);
-    return result;
+    if (status < 0)
+        return -1;
+    *report = s.report;
+    solved_close(&s);
+    return report->seconds.refine;
 }
 
 static int by_size(const void *a, const void *b)
@@ -163,69 +189,88 @@ static double median(double *values, int n)
     return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-static int time_releases(const struct options *o, const struct scene *scene, struct panel *p, struct progress *progress, double seconds[RELEASES])
+static int time_releases(const struct options *o, const struct open_scene *scene, const struct panel *p, struct progress *progress,
+                         double median_seconds[RELEASES])
 {
     double *times[RELEASES] = { 0 };
-    uint64_t pairs;
-    size_t links;
-    int i, k, result = 0;
-    for (k = 0; k < p->count; k++)
+    struct RadReport report;
+    int result = 0;
+    for (int k = 0; k < p->count; k++)
         if (!(times[k] = malloc((size_t)o->repeats * sizeof **times)))
             result = report_error(o->scene, 0, "out of memory");
-    for (i = 0; i < o->repeats && result == 0; i++)
-        for (k = 0; k < p->count && result == 0; k++) {
-            times[k][i] = solve_once(o, scene, p->releases[k], progress, &pairs, &links);
+    for (int i = 0; i < o->repeats && result == 0; i++)
+        for (int k = 0; k < p->count && result == 0; k++) {
+            times[k][i] = solve_once(o, scene, p->releases[k], progress, &report);
             result = times[k][i] < 0 ? -1 : 0;
         }
-    for (k = 0; k < p->count; k++) {
-        seconds[k] = result == 0 ? median(times[k], o->repeats) : 0;
+    for (int k = 0; k < p->count; k++) {
+        median_seconds[k] = result == 0 ? median(times[k], o->repeats) : 0;
         free(times[k]);
     }
     return result;
 }
 
-static json_t *compare_json(const struct panel *p, size_t links, const double seconds[RELEASES])
+static json_t *compare_json(const struct panel *p, uint64_t link_count, const double seconds[RELEASES])
 {
     json_t *releases = json_object();
-    int k;
-    for (k = 0; k < p->count; k++)
+    for (int k = 0; k < p->count; k++)
         json_object_set_new(releases, name_of(p, k),
                             json_pack("{s:f, s:f}", "seconds", seconds[k], "ratio", seconds[k] / seconds[0]));
     return json_pack("{s:b, s:I, s:I, s:I, s:o}", "identical", p->differences == 0, "decisions", (json_int_t)p->decisions,
-                     "links", (json_int_t)links, "differences", (json_int_t)p->differences, "releases", releases);
+                     "links", (json_int_t)link_count, "differences", (json_int_t)p->differences, "releases", releases);
 }
 
-int command_compare(const struct options *o, const struct scene *scene)
+/* Open all releases that there are, and the oracle that asks them. Returns NULL after a message. */
+static RadOracle open_panel(RadDevice device, const struct options *o, struct oracle *all)
+{
+    struct RadOracleReport report;
+    panel = (struct panel){ .count = radHasOracle(device, o->oracle, RAD_RELEASE_HAND) ? RELEASES : RELEASES - 1 };
+    for (int k = 0; k < panel.count; k++) {
+        enum RadRelease release = order[RELEASES - panel.count + k];
+        panel.releases[k] = open_oracle(device, o->oracle, release, o->settings, o->setting_count);
+        if (!panel.releases[k])
+            return NULL;
+    }
+    radGetOracleReport(panel.releases[0], &report);
+    *all = (struct oracle){ .abi = RUNTIME_ABI, .name = o->oracle, .doc = report.doc, .fingerprint = "",
+                            .parameters_size = sizeof(struct panel *), .defaults = panel_defaults, .refine = ask_all };
+    RadOracle oracle = radNewOracleCompiled(device, all, "all");
+    if (!oracle)
+        report_device(device, o->scene);
+    return oracle;
+}
+
+/* Compare and time, and say what came of it. Returns the exit status. */
+static int compare(const struct options *o, const struct open_scene *scene, RadOracle all)
 {
     struct progress progress;
-    struct panel panel = { 0 }, *at = &panel;
-    struct refiner all = { .refine = ask_all, .state = &at, .oracle = o->oracle, .release = "all" };
-    double seconds[RELEASES] = { 0 };
-    size_t links = 0;
-    int k, status = 1;
-    panel.count = oracles_by_hand(o->oracle) ? RELEASES : RELEASES - 1;
-    for (k = 0; k < panel.count; k++) {
-        panel.releases[k] = oracles_open(o->oracle, order[RELEASES - panel.count + k]);
-        if (!panel.releases[k] || oracles_set(panel.releases[k], o->settings, o->setting_count) < 0)
-            goto done;
-    }
+    struct RadReport report;
+    double seconds[RELEASES];
     progress_start(&progress, o->quiet);
-    if (solve_once(o, scene, &all, &progress, &panel.decisions, &links) < 0)
-        goto done;
+    radSetDeviceProgressFunction(scene->device, progress_show, &progress);
+    if (solve_once(o, scene, all, &progress, &report) < 0)
+        return 1;
+    panel.decisions = report.pairs;
     if (panel.differences)
         print_difference(&panel);
     else if (!o->quiet)
-        printf("identical: %llu decisions, %zu links\n", (unsigned long long)panel.decisions, links);
+        printf("identical: %llu decisions, %llu links\n", (unsigned long long)panel.decisions, (unsigned long long)report.links);
     if (time_releases(o, scene, &panel, &progress, seconds) < 0)
-        goto done;
-    if (!o->quiet)
-        for (k = 0; k < panel.count; k++)
-            printf("  %-4s %9.3f s  %.3f\n", name_of(&panel, k), seconds[k], seconds[k] / seconds[0]);
-    status = panel.differences != 0;
-    if (o->json && json_file_write(o->json, compare_json(&panel, links, seconds)) < 0)
-        status = 1;
-done:
-    for (k = 0; k < panel.count; k++)
-        refiner_close(panel.releases[k]);
+        return 1;
+    for (int k = 0; k < panel.count && !o->quiet; k++)
+        printf("  %-4s %9.3f s  %.3f\n", name_of(&panel, k), seconds[k], seconds[k] / seconds[0]);
+    if (o->json && json_file_write(o->json, compare_json(&panel, report.links, seconds)) < 0)
+        return 1;
+    return panel.differences != 0;
+}
+
+int command_compare(const struct options *o, const struct open_scene *scene)
+{
+    struct oracle all;
+    RadOracle oracle = open_panel(scene->device, o, &all);
+    int status = oracle ? compare(o, scene, oracle) : 1;
+    radReleaseOracle(oracle);
+    for (int k = 0; k < panel.count; k++)
+        radReleaseOracle(panel.releases[k]);
     return status;
 }

@@ -1,22 +1,22 @@
-/* command_solve.c - `radiosity solve`: solve, then write whatever was asked for.
+/* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
-#include "util/clock.h"
 #include "commands/commands.h"
+#include "commands/summary.h"
 #include "output/export.h"
 #include "output/faces_csv.h"
 #include "output/image.h"
 #include "output/json_file.h"
-#include "progress.h"
-#include "util/report.h"
-#include "engine/solve.h"
-#include "oracle/statistics.h"
 #include "output/statistics_file.h"
-#include "commands/summary.h"
+#include "progress.h"
+#include "util/clock.h"
+#include "util/device.h"
+#include "util/open_oracle.h"
+#include "util/report.h"
 
-static int write_outputs(const struct options *o, const struct solve *s)
+static int write_solution(const struct options *o, const struct surfaces *surfaces, RadSolution solved)
 {
-    struct solution solution = solve_solution(s);
+    const struct solution solution = solution_of(surfaces, solved);
     struct vertex_values values;
     int failed = 0;
     if (o->out || o->image) {
@@ -33,56 +33,57 @@ static int write_outputs(const struct options *o, const struct solve *s)
     return failed ? -1 : 0;
 }
 
-int command_solve(const struct options *o, const struct scene *scene)
+/* Write all that was asked for. Returns the exit status. */
+static int write_outputs(const struct options *o, const struct open_scene *scene, const struct surfaces *surfaces,
+                         const struct solved *solved, RadOracle oracle)
 {
+    double start = seconds();
+    int status = write_solution(o, surfaces, solved->solution) < 0;
+    if (o->statistics && statistics_write(o->statistics, oracle) < 0)
+        status = 1;
+    const struct summary summary = { o, scene, solved, oracle, seconds() - start };
+    if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
+        status = 1;
+    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+        summary_print(&summary);
+    return status;
+}
+
+/* Solve by the oracle and write the outputs. Returns the exit status. */
+static int solve_by(const struct options *o, const struct open_scene *scene, RadOracle oracle)
+{
+    const struct surfaces surfaces = surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
+    const struct RadCamera camera = view_camera(&o->view, &surfaces, o->width / (double)o->height);
+    struct RadSolveOptions how = solve_options(o);
+    struct RadOracleReport report;
     struct progress progress;
-    const struct camera camera = view_camera(&o->view, scene, o->width / (double)o->height);
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi, .closure = o->closure, .clusters = o->clusters, .camera = o->view_given ? &camera : NULL,
-                                 .threads = o->threads, .progress = progress_show, .context = &progress };
-    struct refiner *refiner = oracles_open(o->oracle, o->release);
-    struct solve s;
-    const char *cause;
-    double start;
-    int status = 1;
-    if (!refiner)
-        return 1;
-    if (oracles_set(refiner, o->settings, o->setting_count) < 0) {
-        refiner_close(refiner);
-        return 1;
-    }
-    if (o->view_given && !o->image && !refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)) {
+    struct solved s;
+    radGetOracleReport(oracle, &report);
+    if (o->view_given && !o->image && !report.reads_importance) {
         report_error("--view", 0, "is for a picture, or for an oracle that reads importance: add --image FILE.png");
-        refiner_close(refiner);
         return 2;
     }
-    if (o->statistics && refiner_count(refiner) < 0) {
-        report_error(o->statistics, 0, "out of memory for the statistics");
-        refiner_close(refiner);
-        return 1;
-    }
+    if (o->statistics && radCountOracle(oracle) < 0)
+        return report_device(scene->device, o->statistics), 1;
+    if (o->view_given)
+        how.camera = &camera;
     progress_start(&progress, o->quiet);
-    if (solve_open(&s, scene, &how, &cause) < 0) {
-        report_error(o->scene, 0, "%s", cause);
-        refiner_close(refiner);
+    radSetDeviceProgressFunction(scene->device, progress_show, &progress);
+    int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
+    progress_end(&progress);
+    if (status < 0)
         return 1;
-    }
-    if (solve_run(&s, refiner, &cause) < 0) {
-        progress_end(&progress);
-        report_error(o->scene, 0, "%s", cause);
-    } else {
-        progress_end(&progress);
-        start = seconds();
-        if (!s.converged && !o->quiet)
-            report_warning(o->scene, 0, "not converged after %d sweeps: residual %.1e", s.sweeps, s.residual);
-        status = write_outputs(o, &s) < 0;
-        if (o->statistics && statistics_write(o->statistics, refiner) < 0)
-            status = 1;
-        if (o->json && json_file_write(o->json, summary_json(o, &s, refiner, seconds() - start)) < 0)
-            status = 1;
-        if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
-            summary_print(o, &s, refiner, seconds() - start);
-    }
-    solve_close(&s);
-    refiner_close(refiner);
+    if (!s.report.converged && !o->quiet)
+        report_warning(o->scene, 0, "not converged after %d sweeps: residual %.1e", s.report.iterations, s.report.residual);
+    status = write_outputs(o, scene, &surfaces, &s, oracle);
+    solved_close(&s);
+    return status;
+}
+
+int command_solve(const struct options *o, const struct open_scene *scene)
+{
+    RadOracle oracle = open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
+    int status = oracle ? solve_by(o, scene, oracle) : 1;
+    radReleaseOracle(oracle);
     return status;
 }

@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 #include "commands/summary.h"
 
+enum { GUARDED = 1 }; /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
+
 static double peak_megabytes(void)
 {
     struct rusage usage;
@@ -13,130 +15,131 @@ static double peak_megabytes(void)
 }
 
 /* Emitted less absorbed, as a share: 0 in a closed scene; in an open one, what left it. */
-static double imbalance(const struct solve *s)
+static double imbalance(const struct RadReport *r)
 {
-    return s->emitted > 0 ? (s->emitted - s->absorbed) / s->emitted : 0;
+    return r->emitted > 0 ? (r->emitted - r->absorbed) / r->emitted : 0;
 }
 
-static json_t *parameters_json(const struct refiner *r)
+static json_t *parameters_json(RadOracle oracle, const struct RadOracleReport *report)
 {
     json_t *all = json_object();
-    int i;
-    for (i = 0; i < r->parameter_count; i++)
-        json_object_set_new(all, r->parameters[i].name, json_real(refiner_get(r, i)));
+    for (int i = 0; i < report->parameter_count; i++) {
+        const char *name = report->parameters[i].name;
+        json_object_set_new(all, name, json_real(radGetOracleParameter(oracle, name)));
+    }
     return all;
 }
 
-static json_t *marks_json(const struct solve *s)
+static json_t *marks_json(const struct RadReport *r)
 {
     json_t *all = json_array();
-    int i;
-    for (i = 0; i < LINK_MARKS; i++)
-        json_array_append_new(all, json_integer((json_int_t)s->refinement.marked[i]));
+    for (int i = 0; i < RAD_LINK_MARKS; i++)
+        json_array_append_new(all, json_integer((json_int_t)r->marked[i]));
     return all;
 }
 
-static json_t *importance_json(const struct solve *s)
+static json_t *importance_json(const struct RadReport *r)
 {
-    const struct importance *y = &s->importance;
-    if (!y->sweeps)
+    if (!r->importance.sweeps)
         return json_null();
-    return json_pack("{s:i, s:f, s:f, s:f}", "sweeps", y->sweeps, "largest", y->largest, "mean", y->mean, "area_seen", y->seen);
+    return json_pack("{s:i, s:f, s:f, s:f}", "sweeps", r->importance.sweeps, "largest", r->importance.largest,
+                     "mean", r->importance.mean, "area_seen", r->importance.seen);
 }
 
-static json_t *error_json(const struct solve *s)
+static json_t *error_json(const struct RadReport *r)
 {
-    const struct allowance *a = &s->allowance;
-    if (!(a->target > 0))
+    if (!(r->tolerance.target > 0))
         return json_null();
-    return json_pack("{s:f, s:f, s:f}", "target", a->target, "largest", a->largest, "area_above", a->area);
+    return json_pack("{s:f, s:f, s:f}", "target", r->tolerance.target, "largest", r->tolerance.largest, "area_above", r->tolerance.area);
 }
 
-static json_t *closure_json(const struct solve *s)
+static json_t *closure_json(const struct options *o, const struct RadReport *r)
 {
-    if (s->options.closure == CLOSURE_NONE)
+    if (o->closure == RAD_CLOSURE_NONE)
         return json_null();
-    return json_pack("{s:b, s:I, s:f, s:f, s:f}", "closed_scene", s->closed > 0, "rays", (json_int_t)s->closed_rays,
-                     "removed_mean", s->closed > 0 ? s->row_defect : s->row_excess,
-                     "removed_largest", s->closed > 0 ? s->row_defect_most : fmax(s->row_high - 1, 0),
-                     "blind_area", s->row_blind);
+    return json_pack("{s:b, s:I, s:f, s:f, s:f}", "closed_scene", r->closed > 0, "rays", (json_int_t)r->closed_rays,
+                     "removed_mean", r->closed > 0 ? r->rows.defect_mean : r->rows.moved,
+                     "removed_largest", r->closed > 0 ? r->rows.defect_most : fmax(r->rows.high - 1, 0), "blind_area", r->rows.blind_area);
 }
 
-json_t *summary_json(const struct options *o, const struct solve *s, const struct refiner *r, double output_seconds)
+json_t *summary_json(const struct summary *s)
 {
-    struct rays_count rays = rays_count(s->rays);
+    const struct RadReport *r = &s->solved->report;
+    const struct RadSceneReport *scene = &s->scene->report;
+    struct RadOracleReport oracle;
+    radGetOracleReport(s->oracle, &oracle);
     return json_pack("{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
                      " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
-                     "scene", o->scene, "oracle", r->oracle, "release", r->release, "parameters", parameters_json(r),
-                     "threads", o->threads, "bands", (int)s->bands, "faces", (int)s->scene->input_count,
-                     "faces_cut", (int)s->scene->cut, "faces_cut_into", (int)s->scene->parts,
-                     "elements", (int)s->hierarchy.count, "leaves", (int)s->leaves,
-                     "links", (json_int_t)s->refinement.link_count, "pairs", (json_int_t)s->refinement.pairs,
-                     "guard_hits", (json_int_t)s->refinement.marked[LINK_GUARDED], "marks", marks_json(s),
-                     "rays", (json_int_t)rays.rays, "rounds", (json_int_t)s->refinement.rounds, "passes", s->passes,
-                     "iterations", s->sweeps, "converged", s->converged, "residual", s->residual,
-                     "power_emitted", s->emitted, "power_absorbed", s->absorbed, "power_imbalance", imbalance(s),
-                     "row_sums", "smallest", s->row_low, "largest", s->row_high, "excess_moved", s->row_excess,
-                     "defect_mean", s->row_defect, "defect_largest", s->row_defect_most, "closure", closure_json(s), "importance", importance_json(s),
-                     "error", error_json(s),
-                     "seconds", "build", s->seconds.build, "refine", s->seconds.refine, "in_rays", s->seconds.in_rays,
-                     "iterate", s->seconds.iterate, "output", output_seconds, "peak_memory_mb", peak_megabytes());
+                     "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release,
+                     "parameters", parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
+                     "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into", (int)scene->parts,
+                     "elements", (int)r->elements, "leaves", (int)r->leaves, "links", (json_int_t)r->links, "pairs", (json_int_t)r->pairs,
+                     "guard_hits", (json_int_t)r->marked[GUARDED], "marks", marks_json(r),
+                     "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds, "passes", r->passes,
+                     "iterations", r->iterations, "converged", r->converged, "residual", r->residual,
+                     "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance", imbalance(r),
+                     "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
+                     "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
+                     "closure", closure_json(s->options, r), "importance", importance_json(r), "error", error_json(r),
+                     "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays", r->seconds.in_rays,
+                     "iterate", r->seconds.iterate, "output", s->output_seconds, "peak_memory_mb", peak_megabytes());
 }
 
 /* Links that a graph has marked. A mark other than the guard's means what the graph's author meant by it. */
-static void print_marks(const struct solve *s)
+static void print_marks(const struct RadReport *r)
 {
-    int i;
-    for (i = 1; i < LINK_MARKS; i++)
-        if (s->refinement.marked[i])
-            printf("marks     %llu links (%.2g %%) with mark %d%s\n", (unsigned long long)s->refinement.marked[i],
-                   100 * (double)s->refinement.marked[i] / (double)s->refinement.link_count, i,
-                   i == LINK_GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
+    for (int i = 1; i < RAD_LINK_MARKS; i++)
+        if (r->marked[i])
+            printf("marks     %llu links (%.2g %%) with mark %d%s\n", (unsigned long long)r->marked[i],
+                   100 * (double)r->marked[i] / (double)r->links, i,
+                   i == GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
 }
 
-static void print_rows(const struct solve *s)
+static void print_rows(const struct options *o, const struct RadReport *r)
 {
-    if (s->options.closure == CLOSURE_NONE) {
+    if (o->closure == RAD_CLOSURE_NONE) {
         printf("rows      sums of F V from %.4f to %.4f before the cap at 1, which moved %.2g of the exchange\n",
-               s->row_low, s->row_high, s->row_excess);
+               r->rows.low, r->rows.high, r->rows.moved);
         return;
     }
-    printf("rows      sums of F V from %.4f to %.4f before closure\n", s->row_low, s->row_high);
-    if (s->closed > 0)
+    printf("rows      sums of F V from %.4f to %.4f before closure\n", r->rows.low, r->rows.high);
+    if (r->closed > 0)
         printf("closure   the scene is closed (light finds no way out of it in %.3g steps): rows scaled to 1, which removed %.2g in the mean, "
-               "%.2g at the most\n", (double)s->closed_rays, s->row_defect, s->row_defect_most);
+               "%.2g at the most\n", (double)r->closed_rays, r->rows.defect_mean, r->rows.defect_most);
     else
         printf("closure   the scene is open (light leaves it or meets a black back, in %.3g steps): rows above 1 scaled to 1, which "
-               "removed %.2g in the mean, %.2g at the most\n", (double)s->closed_rays, s->row_excess, fmax(s->row_high - 1, 0));
-    if (s->row_blind > 0)
-        printf("blind     %.2g m2 of exposed leaves have no link%s\n", s->row_blind,
-               s->closed > 0 ? "; they take the mean of their face" : "");
+               "removed %.2g in the mean, %.2g at the most\n", (double)r->closed_rays, r->rows.moved, fmax(r->rows.high - 1, 0));
+    if (r->rows.blind_area > 0)
+        printf("blind     %.2g m2 of exposed leaves have no link%s\n", r->rows.blind_area,
+               r->closed > 0 ? "; they take the mean of their face" : "");
 }
 
-void summary_print(const struct options *o, const struct solve *s, const struct refiner *r, double output_seconds)
+void summary_print(const struct summary *s)
 {
-    struct rays_count rays = rays_count(s->rays);
-    printf("scene     %s: %u faces, %.4g m2, %s\n", o->scene, s->scene->input_count, rays_host(s->rays)->area,
-           s->bands == 1 ? "grey" : "three bands");
-    if (s->scene->cut)
-        printf("cut       %u faces, into %u, where others stand in them\n", s->scene->cut, s->scene->parts);
-    printf("oracle    %s (%s release)\n", r->oracle, r->release);
-    printf("mesh      %u elements, of which %u leaves\n", s->hierarchy.count, s->leaves);
-    printf("links     %zu from %llu discussions in %llu rounds; %.3g rays\n", s->refinement.link_count,
-           (unsigned long long)s->refinement.pairs, (unsigned long long)s->refinement.rounds, (double)rays.rays);
-    print_marks(s);
-    printf("solution  %d passes, %d sweeps, residual %.1e, %s\n", s->passes, s->sweeps, s->residual,
-           s->converged ? "converged" : "NOT converged: allow more --iterations, or loosen --tolerance");
-    if (s->importance.sweeps)
+    const struct RadReport *r = &s->solved->report;
+    const struct RadSceneReport *scene = &s->scene->report;
+    struct RadOracleReport oracle;
+    radGetOracleReport(s->oracle, &oracle);
+    printf("scene     %s: %u faces, %.4g m2, %s\n", s->options->scene, scene->polygons, scene->area, r->bands == 1 ? "grey" : "three bands");
+    if (scene->cut)
+        printf("cut       %u faces, into %u, where others stand in them\n", scene->cut, scene->parts);
+    printf("oracle    %s (%s release)\n", oracle.name, oracle.release);
+    printf("mesh      %u elements, of which %u leaves\n", r->elements, r->leaves);
+    printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n", (unsigned long long)r->links, (unsigned long long)r->pairs,
+           (unsigned long long)r->rounds, (double)r->rays);
+    print_marks(r);
+    printf("solution  %d passes, %d sweeps, residual %.1e, %s\n", r->passes, r->iterations, r->residual,
+           r->converged ? "converged" : "NOT converged: allow more --iterations, or loosen --tolerance");
+    if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; %d of the sweeps\n",
-               s->importance.seen, s->importance.mean, s->importance.largest, s->importance.sweeps);
-    if (s->allowance.target > 0)
-        printf("error     estimated %.3g W/m2 at the most, %.3g were asked for; above that are %.3g m2%s\n", s->allowance.largest,
-               s->allowance.target, s->allowance.area, s->allowance.area > 0 ? ", which nothing more can split" : "");
-    printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", s->emitted, s->absorbed, 100 * fabs(imbalance(s)),
-           imbalance(s) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
-    print_rows(s);
+               r->importance.seen, r->importance.mean, r->importance.largest, r->importance.sweeps);
+    if (r->tolerance.target > 0)
+        printf("error     estimated %.3g W/m2 at the most, %.3g were asked for; above that are %.3g m2%s\n", r->tolerance.largest,
+               r->tolerance.target, r->tolerance.area, r->tolerance.area > 0 ? ", which nothing more can split" : "");
+    printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", r->emitted, r->absorbed, 100 * fabs(imbalance(r)),
+           imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
+    print_rows(s->options, r);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output %.2f; %.0f MB\n",
-           s->seconds.build + s->seconds.refine + s->seconds.iterate + output_seconds, s->seconds.build,
-           s->seconds.refine, s->seconds.refine > 0 ? 100 * s->seconds.in_rays / s->seconds.refine : 0, s->seconds.iterate, output_seconds, peak_megabytes());
+           r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds, r->seconds.build, r->seconds.refine,
+           r->seconds.refine > 0 ? 100 * r->seconds.in_rays / r->seconds.refine : 0, r->seconds.iterate, s->output_seconds, peak_megabytes());
 }

@@ -5,12 +5,20 @@
 
 #include <jansson.h>
 #include "options.h"
-#include "oracle/refiner.h"
-#include "engine/solve.h"
+#include "scene/open_scene.h"
+#include "util/solved.h"
 
-void summary_print(const struct options *options, const struct solve *s, const struct refiner *refiner, double output_seconds);
+struct summary {
+    const struct options *options;
+    const struct open_scene *scene;
+    const struct solved *solved;
+    RadOracle oracle;
+    double output_seconds;
+};
+
+void summary_print(const struct summary *summary);
 
 /* The caller owns it; NULL when out of memory. */
-json_t *summary_json(const struct options *options, const struct solve *s, const struct refiner *refiner, double output_seconds);
+json_t *summary_json(const struct summary *summary);
 
 #endif

@@ -1,7 +1,7 @@
 /* contact.c - see contact.h.
  *
  * A face stands on the surface along a direction d, square to both normals, when the point a little along d and a little
- * up the face lies in it: by REACH and RISE times what counts as touching, so that a wall that begins or ends at p leads one way,
+ * up the face lies in it: by OUTPUT_REACH and OUTPUT_RISE times what counts as touching, so that a wall that begins or ends at p leads one way,
  * and one that hangs below the surface no way at all. The surface ends along an edge of one of its faces when no
  * other holds the point a little along and a little beyond.
  * SPDX-License-Identifier: MIT */
@@ -9,23 +9,19 @@
 
 #include <string.h>
 
+#include "kernel/constants.h"
 #include "kernel/hemisphere.h"
-
-static const double REACH = 4, RISE = 3;
-static const double SAME_PLANE = 0.99985; /* cosine of one degree, as in vertex_values.c */
-static const double FLAT = 0.01;          /* sine between planes below which there is no line to speak of, as in scene_cut.c */
-static const double SAME = 0.999998;      /* cosine of a tenth of a degree: one direction */
 
 /* The faces whose boxes come near the point. */
 struct near {
-    const struct hierarchy *h;
+    const struct solution *solution;
     const double *p;
     double reach;
     uint32_t face[CONTACT_FACES];
     int count;
 };
 
-static void search(struct near *n, const struct element *e)
+static void find_near(struct near *n, const struct element *e)
 {
     for (int k = 0; k < 3; k++) {
         double low = e->vertex[0][k], high = low;
@@ -37,13 +33,13 @@ static void search(struct near *n, const struct element *e)
             return;
     }
     for (uint32_t i = 0; !e->vertices && i < e->children; i++)
-        search(n, &n->h->elements[e->child + i]);
+        find_near(n, &n->solution->tree.elements[e->child + i]);
     if (e->vertices && n->count < CONTACT_FACES)
         n->face[n->count++] = e->face;
 }
 
 /* Does face f with normal n hold q, or come nearer than touch? */
-static int in_face(const struct face *f, const double n[3], const double q[3], double touch)
+static int in_face(const struct RadFace *f, const double n[3], const double q[3], double touch)
 {
     if (fabs(height3(q, f->vertex[0], n)) > touch)
         return 0;
@@ -59,28 +55,29 @@ static int in_face(const struct face *f, const double n[3], const double q[3], d
     return 1;
 }
 
-static void add(struct contact *c, const double d[3])
+static void add_direction(struct contact *c, const double d[3])
 {
     for (int i = 0; i < c->directions; i++)
-        if (dot3(c->direction[i], d) > SAME)
+        if (dot3(c->direction[i], d) > OUTPUT_SAME_LINE)
             return;
     if (c->directions < CONTACT_DIRECTIONS)
         memcpy(c->direction[c->directions++], d, 3 * sizeof *d);
 }
 
-static const double *normal_of(const struct hierarchy *h, uint32_t face)
+static const double *normal_of(const struct solution *solution, uint32_t face)
 {
-    return h->elements[h->face_element[face]].normal;
+    return element_of_face(solution, face)->normal;
 }
 
 /* Face g stands on the surface with that normal. */
-static void add_standing(struct contact *c, const struct hierarchy *h, uint32_t g, const double normal[3], const double p[3], double touch)
+static void add_standing(struct contact *c, const struct solution *solution, uint32_t g, const double normal[3],
+                         const double p[3], double touch)
 {
-    const double *n = normal_of(h, g);
-    double along[3], up[3], sine, height = height3(p, h->faces[g].vertex[0], n);
+    const double *n = normal_of(solution, g);
+    double along[3], up[3], sine, height = height3(p, solution->surfaces.faces[g].vertex[0], n);
     cross3(along, normal, n);
     sine = length3(along);
-    if (sine < FLAT || fabs(height) > touch)
+    if (sine < OUTPUT_NO_LINE || fabs(height) > touch)
         return;
     for (int k = 0; k < 3; k++) {
         along[k] /= sine;
@@ -90,18 +87,19 @@ static void add_standing(struct contact *c, const struct hierarchy *h, uint32_t 
         double q[3];
         for (int k = 0; k < 3; k++) {
             along[k] = -along[k];
-            q[k] = p[k] - height * n[k] + touch * (REACH * along[k] + RISE * up[k]);
+            q[k] = p[k] - height * n[k] + touch * (OUTPUT_REACH * along[k] + OUTPUT_RISE * up[k]);
         }
-        if (in_face(&h->faces[g], n, q, touch))
-            add(c, along);
+        if (in_face(&solution->surfaces.faces[g], n, q, touch))
+            add_direction(c, along);
     }
 }
 
 /* The edges of face g, of the surface, beyond which the surface ends. */
-static void add_border(struct contact *c, const struct hierarchy *h, uint32_t g, const double p[3], double touch)
+static void add_border(struct contact *c, const struct solution *solution, uint32_t g, const double p[3],
+                       double touch)
 {
-    const struct face *f = &h->faces[g];
-    const double *n = normal_of(h, g);
+    const struct RadFace *f = &solution->surfaces.faces[g];
+    const double *n = normal_of(solution, g);
     for (uint32_t i = 0; i < 2 * f->vertices; i++) {
         const double *a = f->vertex[i / 2], *b = f->vertex[i / 2 + 1 < f->vertices ? i / 2 + 1 : 0];
         double e[3], w[3], d[3], out[3], q[3], size, rest;
@@ -114,17 +112,17 @@ static void add_border(struct contact *c, const struct hierarchy *h, uint32_t g,
         cross3(out, e, n);
         sub3(d, i & 1 ? b : a, p);
         rest = length3(d);
-        if ((i & 1 ? dot3(d, e) : -dot3(d, e)) <= 0 || rest <= REACH * touch)
+        if ((i & 1 ? dot3(d, e) : -dot3(d, e)) <= 0 || rest <= OUTPUT_REACH * touch)
             continue;
         for (int k = 0; k < 3; k++) {
             d[k] /= rest;
-            q[k] = p[k] + touch * (REACH * d[k] + RISE * out[k] / size);
+            q[k] = p[k] + touch * (OUTPUT_REACH * d[k] + OUTPUT_RISE * out[k] / size);
         }
         int more = 0;
         for (int j = 0; j < c->faces && !more; j++)
-            more = in_face(&h->faces[c->face[j]], normal_of(h, c->face[j]), q, touch);
+            more = in_face(&solution->surfaces.faces[c->face[j]], normal_of(solution, c->face[j]), q, touch);
         if (!more)
-            add(c, d);
+            add_direction(c, d);
     }
 }
 
@@ -133,23 +131,23 @@ static double angle(const struct hemisphere *over, const double v[3])
     return atan2(dot3(v, over->v), dot3(v, over->u));
 }
 
-void contact_at(struct contact *c, const struct hierarchy *h, uint32_t f, const double p[3], double touch)
+void contact_at(struct contact *c, const struct solution *solution, uint32_t f, const double p[3], double touch)
 {
-    const double *normal = normal_of(h, f);
+    const double *normal = normal_of(solution, f);
     const struct hemisphere over = hemisphere_over(normal);
-    struct near near = { .h = h, .p = p, .reach = (REACH + RISE + 1) * touch };
-    search(&near, &h->elements[0]);
+    struct near near = { .solution = solution, .p = p, .reach = (OUTPUT_REACH + OUTPUT_RISE + 1) * touch };
+    find_near(&near, &solution->tree.elements[0]);
     c->faces = c->directions = 0;
     for (int i = 0; i < near.count; i++) {
-        const struct face *g = &h->faces[near.face[i]];
-        if (g->material == h->faces[f].material && dot3(normal_of(h, near.face[i]), normal) > SAME_PLANE
+        const struct RadFace *g = &solution->surfaces.faces[near.face[i]];
+        if (g->material == solution->surfaces.faces[f].material && dot3(normal_of(solution, near.face[i]), normal) > OUTPUT_SAME_PLANE
             && fabs(height3(p, g->vertex[0], normal)) <= touch)
             c->face[c->faces++] = near.face[i];
         else if (!g->back)
-            add_standing(c, h, near.face[i], normal, p, touch);
+            add_standing(c, solution, near.face[i], normal, p, touch);
     }
     for (int i = 0; i < c->faces; i++)
-        add_border(c, h, c->face[i], p, touch);
+        add_border(c, solution, c->face[i], p, touch);
     for (int i = 1; i < c->directions; i++)
         for (int j = i; j > 0 && angle(&over, c->direction[j]) < angle(&over, c->direction[j - 1]); j--) {
             double keep[3];

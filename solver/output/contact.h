@@ -3,7 +3,7 @@
 #ifndef CONTACT_H
 #define CONTACT_H
 
-#include "hierarchy/hierarchy.h"
+#include "output/solution.h"
 
 enum { CONTACT_DIRECTIONS = 8, CONTACT_FACES = 64 };
 
@@ -15,7 +15,7 @@ struct contact {
 
 /* What parts the surface that face f is of at the point p. What is nearer than `touch` (m) touches. Directions come
  * in the order of their angles about the normal. Fewer than two part nothing: the surface is connected round the end of a wall. */
-void contact_at(struct contact *c, const struct hierarchy *h, uint32_t f, const double p[3], double touch);
+void contact_at(struct contact *c, const struct solution *solution, uint32_t f, const double p[3], double touch);
 
 /* Which of the parts between `count` such directions the direction v looks into: 0 to count - 1, and 0 when they part nothing. */
 int contact_sector(const double normal[3], int count, const double (*direction)[3], const double v[3]);

@@ -28,22 +28,18 @@ enum export_format export_format(const char *path)
     return EXPORT_UNKNOWN;
 }
 
-/* Meter the leaves as a picture of all of them would. */
+/* Expose for the leaves as a picture of all of them would. */
 static int measure(const struct solution *s, struct exposure *exposure)
 {
-    const struct hierarchy *h = s->hierarchy;
-    struct meter_sample *meter = malloc(((size_t)h->count + 1) * sizeof *meter);
+    struct meter_sample *meter = malloc(((size_t)s->tree.count + 1) * sizeof *meter);
     size_t count = 0;
     if (!meter)
         return -1;
     for (int lamps = 0; lamps < 2 && !count; lamps++)
-        for (uint32_t i = 0; i < h->count; i++) {
-            const struct element *e = &h->elements[i];
-            if (!e->vertices || e->children || e->black)
-                continue;
-            const double *exitance = s->scene->materials[s->scene->faces[e->face].material].exitance;
-            if ((luminance(exitance, 3) > 0) == lamps)
-                meter[count++] = (struct meter_sample){luminance(&s->radiosity[(size_t)i * s->bands], s->bands), e->area};
+        for (uint32_t i = 0; i < s->tree.count; i++) {
+            const struct element *e = &s->tree.elements[i];
+            if (is_leaf(e) && !e->black && is_lamp(&s->surfaces, e->face) == lamps)
+                meter[count++] = (struct meter_sample){luminance(radiosity_of(s, i), s->tree.bands), e->area};
         }
     *exposure = exposure_measure(meter, count);
     free(meter);
@@ -130,7 +126,7 @@ int export_write(const char *path, const struct solution *s, const struct vertex
             for (size_t k = 0; k < 3; k++)
                 colour[3 * (size_t)i + k] = (float)c[k];
         }
-        result = write_format(path, export_format(path), view_up_axis(s->scene) == 2, &mesh, v, colour);
+        result = write_format(path, export_format(path), view_up_axis(&s->surfaces) == 2, &mesh, v, colour);
     }
     leaf_mesh_free(&mesh);
     free(colour);

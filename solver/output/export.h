@@ -11,7 +11,6 @@
 #ifndef EXPORT_H
 #define EXPORT_H
 
-#include "engine/solution.h"
 #include "output/vertex_values.h"
 
 enum export_format { EXPORT_UNKNOWN = -1, EXPORT_PLY, EXPORT_GLTF, EXPORT_GLB, EXPORT_OBJ };

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Where the log-mean goes; 0.18 is a film's middle grey, rooms with bright walls want more. */
-static const double MIDDLE = 0.34;
+#include "kernel/constants.h"
 
 double luminance(const double *radiosity, uint32_t bands)
 {
@@ -28,7 +27,7 @@ struct exposure exposure_measure(struct meter_sample *samples, size_t count)
         lit += samples[i].luminance > 0 ? samples[i].weight : 0;
     if (!(lit > 0))
         return (struct exposure){1, 1};
-    for (size_t i = 0; i < count && below <= 0.98 * lit; i++)
+    for (size_t i = 0; i < count && below <= EXPOSURE_BRIGHT * lit; i++)
         if (samples[i].luminance > 0) {
             below += samples[i].weight;
             bright = samples[i].luminance;
@@ -38,7 +37,7 @@ struct exposure exposure_measure(struct meter_sample *samples, size_t count)
     for (size_t i = 0; i < count; i++)
         if (samples[i].luminance > 0)
             sum += samples[i].weight * log(fmax(samples[i].luminance, least));
-    struct exposure e = {.scale = MIDDLE / exp(sum / lit)};
+    struct exposure e = {.scale = EXPOSURE_MIDDLE / exp(sum / lit)};
     e.white = fmin(fmax(1.2 * bright * e.scale, 1), 12);
     return e;
 }

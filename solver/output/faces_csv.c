@@ -1,7 +1,7 @@
 /* faces_csv.c - see faces_csv.h.
  *
  * Every column is a mean over the whole face, so B = E + rho H holds in each row, to rounding;
- * solution.radiosity is the mean over what is not buried, which may be more.
+ * the tree's radiosity is the mean over what no solid stands on, which may be more.
  * SPDX-License-Identifier: MIT */
 #include "output/faces_csv.h"
 
@@ -12,7 +12,7 @@
 #include "util/atomic_file.h"
 #include "util/report.h"
 
-/* Sums over the faces that one input became. */
+/* Sums over the faces that one polygon became. */
 struct total {
     double area, irradiance[3];
 };
@@ -44,19 +44,19 @@ static void write_header(FILE *out, uint32_t bands)
 
 static void write_row(FILE *out, const struct solution *s, uint32_t i, const struct total *t)
 {
-    const struct input_face *input = &s->scene->inputs[i];
-    const struct material *m = &s->scene->materials[input->material];
+    uint32_t material = s->surfaces.polygon_materials[i], bands = s->tree.bands;
+    const struct RadMaterial *m = &s->surfaces.materials[material];
     int dropped = !(t->area > 0);
     fprintf(out, "%u,", (unsigned)i);
-    write_name(out, m->name);
-    fprintf(out, ",%.12g", input->area);
-    for (uint32_t k = 0; k < s->bands; k++)
+    write_name(out, s->surfaces.material_names[material]);
+    fprintf(out, ",%.12g", s->surfaces.polygon_areas[i]);
+    for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k]);
-    for (uint32_t k = 0; k < s->bands; k++)
+    for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : m->reflectance[k]);
-    for (uint32_t k = 0; k < s->bands; k++)
+    for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : t->irradiance[k] / t->area);
-    for (uint32_t k = 0; k < s->bands; k++)
+    for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
     putc('\n', out);
 }
@@ -64,23 +64,24 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
 int faces_csv_write(const char *path, const struct solution *s)
 {
     struct atomic_file file;
-    struct total *total = calloc((size_t)s->scene->input_count + 1, sizeof *total);
+    uint32_t polygons = s->surfaces.polygon_count, bands = s->tree.bands;
+    struct total *total = calloc((size_t)polygons + 1, sizeof *total);
     if (!total)
         return report_error(path, 0, "out of memory for the table of faces");
     if (atomic_open(&file, path)) {
         free(total);
         return -1;
     }
-    for (uint32_t i = 0; i < s->scene->face_count; i++) {
-        struct total *t = &total[s->scene->faces[i].input];
-        size_t element = s->hierarchy->face_element[i];
-        double area = s->hierarchy->elements[element].area;
+    for (uint32_t i = 0; i < s->surfaces.face_count; i++) {
+        struct total *t = &total[s->surfaces.faces[i].input];
+        size_t element = s->tree.face_element[i];
+        double area = s->tree.elements[element].area;
         t->area += area;
-        for (uint32_t k = 0; k < s->bands; k++)
-            t->irradiance[k] += area * s->irradiance[element * s->bands + k];
+        for (uint32_t k = 0; k < bands; k++)
+            t->irradiance[k] += area * s->tree.irradiance[element * bands + k];
     }
-    write_header(file.stream, s->bands);
-    for (uint32_t i = 0; i < s->scene->input_count; i++)
+    write_header(file.stream, bands);
+    for (uint32_t i = 0; i < polygons; i++)
         write_row(file.stream, s, i, &total[i]);
     free(total);
     return atomic_commit(&file);

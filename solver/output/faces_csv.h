@@ -3,7 +3,7 @@
 #ifndef FACES_CSV_H
 #define FACES_CSV_H
 
-#include "engine/solution.h"
+#include "output/solution.h"
 
 /* Columns: face (from 0, in the file's order), material, area (m2, one side), then exitance E,
  * reflectance rho, irradiance H and radiosity B per band, E_0, E_1, ... as area means over the

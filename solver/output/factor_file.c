@@ -10,50 +10,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "util/atomic_file.h"
 #include "output/number_text.h"
+#include "util/atomic_file.h"
 #include "util/report.h"
-
-const char *const factor_format_names[FACTOR_FORMATS] = { "csv", "coo", "mtx" };
 
 enum { ENTRY = 2 * (NUMBER_TEXT / 2) + NUMBER_TEXT, TEXT_MOST = 1 << 25 };
 
 struct writer {
-    const struct factor_matrix *m;
-    const struct factor_closure *closure;
+    RadExchange exchange;
+    uint32_t count; /* rows and columns */
     enum factor_format format;
     struct label { /* "j," or "j " of each column */
         char text[15];
         unsigned char length;
     } *labels;
     int threads;
-    uint32_t batch;   /* rows at a time */
-    double **row;     /* [threads][inputs], zero between rows */
-    char *text;       /* [batch][room] */
+    uint32_t batch; /* rows at a time */
+    double *rows;   /* [threads][count] */
+    char *text;     /* [batch][room] */
     size_t room, *length; /* [batch] */
 };
-
-static void fill_row(const struct writer *w, uint32_t i, double *row)
-{
-    const struct factor_closure *c = w->closure;
-    double scale, *restrict to = row;
-    uint32_t n = w->m->inputs, j;
-    if (!(w->m->area[i] > 0))
-        return;
-    scale = (c->scale && !c->both ? c->scale[i] : 1) / w->m->area[i];
-    (void)factor_matrix_row(w->m, i, c->both ? c->scale : NULL, row);
-#pragma omp simd
-    for (j = 0; j < n; j++) {
-        double f = to[j] * scale;
-        to[j] = f < 1 ? f : 1;
-    }
-}
 
 static size_t write_dense(const double *row, uint32_t n, char *text)
 {
     char *at = text;
-    uint32_t j;
-    for (j = 0; j < n; j++) {
+    for (uint32_t j = 0; j < n; j++) {
         if (j)
             *at++ = ',';
         at += number_text(at, row[j]);
@@ -66,8 +47,7 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
 {
     const struct label *own = &w->labels[i];
     char *at = text;
-    uint32_t j;
-    for (j = 0; j < w->m->inputs; j++) {
+    for (uint32_t j = 0; j < w->count; j++) {
         if (!(row[j] > 0))
             continue;
         memcpy(at, own->text, sizeof own->text);
@@ -80,42 +60,37 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
     return (size_t)(at - text);
 }
 
+/* Row i of the matrix, in the thread's own place. */
+static const double *row_of(const struct writer *w, uint32_t i)
+{
+    double *row = &w->rows[(size_t)omp_get_thread_num() * w->count];
+    (void)radGetExchangeRow(w->exchange, i, row);
+    return row;
+}
+
 static void write_row(const struct writer *w, uint32_t i, uint32_t slot)
 {
-    double *row = w->row[omp_get_thread_num()];
+    const double *row = row_of(w, i);
     char *text = w->text + slot * w->room;
-    fill_row(w, i, row);
-    w->length[slot] = w->format == FACTOR_CSV ? write_dense(row, w->m->inputs, text) : write_sparse(w, i, row, text);
-    memset(row, 0, w->m->inputs * sizeof *row);
+    w->length[slot] = w->format == FACTOR_CSV ? write_dense(row, w->count, text) : write_sparse(w, i, row, text);
 }
 
 /* Entries that are not 0. */
 static uint64_t count_entries(const struct writer *w)
 {
     uint64_t count = 0;
-    uint32_t i;
-    size_t v;
-    if (w->m->distinct) {
-        for (v = 0; v < w->m->value_count; v++)
-            count += w->m->values[v] > 0;
-        return 2 * count;
-    }
 #pragma omp parallel for schedule(dynamic, 16) num_threads(w->threads) reduction(+ : count)
-    for (i = 0; i < w->m->inputs; i++) {
-        double *row = w->row[omp_get_thread_num()];
-        uint32_t j;
-        fill_row(w, i, row);
-        for (j = 0; j < w->m->inputs; j++)
+    for (uint32_t i = 0; i < w->count; i++) {
+        const double *row = row_of(w, i);
+        for (uint32_t j = 0; j < w->count; j++)
             count += row[j] > 0;
-        memset(row, 0, w->m->inputs * sizeof *row);
     }
     return count;
 }
 
 static int open_writer(struct writer *w)
 {
-    uint32_t n = w->m->inputs, j, base = w->format == FACTOR_MTX;
-    int t;
+    uint32_t n = w->count, base = w->format == FACTOR_MTX;
     w->room = (size_t)n * ENTRY + NUMBER_TEXT;
     w->batch = (uint32_t)(TEXT_MOST / w->room);
     if (w->batch < 2 * (uint32_t)w->threads)
@@ -124,16 +99,11 @@ static int open_writer(struct writer *w)
         w->batch = n ? n : 1;
     w->text = malloc(w->batch * w->room);
     w->length = malloc(w->batch * sizeof *w->length);
-    w->labels = calloc(n + 1, sizeof *w->labels);
-    w->row = calloc((size_t)w->threads, sizeof *w->row);
-    if (!w->text || !w->length || !w->labels || !w->row)
+    w->labels = calloc((size_t)n + 1, sizeof *w->labels);
+    w->rows = malloc(((size_t)w->threads * n + 1) * sizeof *w->rows);
+    if (!w->text || !w->length || !w->labels || !w->rows)
         return -1;
-    for (t = 0; t < w->threads; t++) {
-        w->row[t] = calloc(n + 1, sizeof **w->row);
-        if (!w->row[t])
-            return -1;
-    }
-    for (j = 0; j < n; j++) {
+    for (uint32_t j = 0; j < n; j++) {
         char text[NUMBER_TEXT];
         int length = number_text_whole(text, j + base);
         memcpy(w->labels[j].text, text, (size_t)length);
@@ -145,49 +115,51 @@ static int open_writer(struct writer *w)
 
 static void close_writer(struct writer *w)
 {
-    int t;
-    for (t = 0; w->row && t < w->threads; t++)
-        free(w->row[t]);
-    free(w->row);
+    free(w->rows);
     free(w->text);
     free(w->length);
     free(w->labels);
 }
 
-int factor_file_write(const char *path, enum factor_format format, const struct factor_matrix *m, const struct factor_closure *c, int threads)
+static void write_matrix(const struct writer *w, FILE *out)
 {
-    struct writer w = { .m = m, .closure = c, .format = format, .threads = threads };
-    struct atomic_file file = { 0 };
-    uint32_t first, k, n = m->inputs;
+    if (w->format == FACTOR_MTX)
+        fprintf(out, "%%%%MatrixMarket matrix coordinate real general\n"
+                     "%% view factors F_ij, row i to column j\n%u %u %llu\n",
+                w->count, w->count, (unsigned long long)count_entries(w));
+    for (uint32_t first = 0; first < w->count; first += w->batch) {
+        uint32_t count = w->count - first < w->batch ? w->count - first : w->batch;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(w->threads)
+        for (uint32_t k = 0; k < count; k++)
+            write_row(w, first + k, k);
+        for (uint32_t k = 0; k < count; k++)
+            fwrite(w->text + k * w->room, 1, w->length[k], out);
+    }
+}
+
+int factor_file_write(const char *path, enum factor_format format, RadExchange exchange, uint32_t polygons,
+                      int threads)
+{
+    struct writer w = {.exchange = exchange, .count = polygons, .format = format, .threads = threads};
+    struct atomic_file file = {0};
     int status = -1;
     if (open_writer(&w) < 0) {
-        report_error(path, 0, "out of memory");
+        report_error(path, 0, "out of memory for the matrix; fewer --threads need less");
     } else if (atomic_open(&file, path) == 0) {
-        if (format == FACTOR_MTX)
-            fprintf(file.stream, "%%%%MatrixMarket matrix coordinate real general\n%% view factors F_ij, row i to column j\n%u %u %llu\n",
-                    n, n, (unsigned long long)count_entries(&w));
-        for (first = 0; first < n; first += w.batch) {
-            uint32_t count = n - first < w.batch ? n - first : w.batch;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-            for (k = 0; k < count; k++)
-                write_row(&w, first + k, k);
-            for (k = 0; k < count; k++)
-                fwrite(w.text + k * w.room, 1, w.length[k], file.stream);
-        }
+        write_matrix(&w, file.stream);
         status = atomic_commit(&file); /* which finds what fwrite could not write */
     }
     close_writer(&w);
     return status;
 }
 
-int factor_file_names(const char *path, const struct scene *scene)
+int factor_file_names(const char *path, const struct surfaces *surfaces)
 {
-    struct atomic_file file = { 0 };
-    uint32_t i;
+    struct atomic_file file = {0};
     if (atomic_open(&file, path) < 0)
         return -1;
-    for (i = 0; i < scene->input_count; i++) {
-        const char *name = scene->materials[scene->inputs[i].material].name;
+    for (uint32_t i = 0; i < surfaces->polygon_count; i++) {
+        const char *name = surfaces->material_names[surfaces->polygon_materials[i]];
         for (; *name; name++)
             fputc((unsigned char)*name < ' ' ? ' ' : *name, file.stream);
         fprintf(file.stream, ".%u\n", i);

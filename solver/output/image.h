@@ -3,7 +3,6 @@
 #ifndef IMAGE_H
 #define IMAGE_H
 
-#include "engine/solution.h"
 #include "output/vertex_values.h"
 #include "output/view.h"
 

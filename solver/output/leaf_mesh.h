@@ -7,7 +7,6 @@
 #ifndef LEAF_MESH_H
 #define LEAF_MESH_H
 
-#include "engine/solution.h"
 #include "output/vertex_values.h"
 
 struct leaf_mesh {

@@ -61,7 +61,7 @@ static int bound(const struct raster *r, struct raster_face *f, double (*v)[3], 
     return f->left < f->right && f->top < f->bottom;
 }
 
-static int prepare(const struct raster *r, struct raster_face *f, const struct face *face, const double frame[3][3],
+static int prepare(const struct raster *r, struct raster_face *f, const struct RadFace *face, const double frame[3][3],
                    double least, int backs)
 {
     double v[4][3] = {{0}}, normal[3] = {0, 0, 0}, height;
@@ -95,10 +95,10 @@ static int prepare(const struct raster *r, struct raster_face *f, const struct f
     return 1;
 }
 
-int raster_begin(struct raster *r, const struct scene *scene, const struct view *view, int width, int height, int backs)
+int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct view *view, int width, int height, int backs)
 {
     double frame[3][3], size = 0;
-    view_frame(view, scene, frame[0], frame[1], frame[2]);
+    view_frame(view, surfaces, frame[0], frame[1], frame[2]);
     *r = (struct raster){.width = width, .height = height};
     memcpy(r->eye, view->eye, sizeof r->eye);
     double half = tan(view->fov / 360 * 3.14159265358979323846), step = 2 * half / height;
@@ -107,18 +107,51 @@ int raster_begin(struct raster *r, const struct scene *scene, const struct view 
         r->step_y[k] = -step * frame[1][k];
         r->corner[k] = frame[2][k] - 0.5 * width * r->step_x[k] - 0.5 * height * r->step_y[k];
     }
-    r->faces = malloc(((size_t)scene->face_count + 1) * sizeof *r->faces);
+    r->faces = malloc(((size_t)surfaces->face_count + 1) * sizeof *r->faces);
     if (!r->faces)
         return -1;
-    for (uint32_t i = 0; i < scene->face_count; i++)
-        for (uint32_t j = 0; j < scene->faces[i].vertices; j++)
+    for (uint32_t i = 0; i < surfaces->face_count; i++)
+        for (uint32_t j = 0; j < surfaces->faces[i].vertices; j++)
             for (int k = 0; k < 3; k++)
-                size = fmax(size, fabs(scene->faces[i].vertex[j][k] - view->eye[k]));
-    for (uint32_t i = 0; i < scene->face_count; i++) {
+                size = fmax(size, fabs(surfaces->faces[i].vertex[j][k] - view->eye[k]));
+    for (uint32_t i = 0; i < surfaces->face_count; i++) {
         r->faces[r->count].face = i;
-        r->count += (uint32_t)prepare(r, &r->faces[r->count], &scene->faces[i], (const double (*)[3])frame, 1e-7 * size, backs);
+        r->count += (uint32_t)prepare(r, &r->faces[r->count], &surfaces->faces[i], (const double (*)[3])frame, 1e-7 * size, backs);
     }
     return 0;
+}
+
+/* What of row y every edge of the face leaves, one sample to spare for rounding. */
+static void row_range(const struct raster_face *f, int y, double *low, double *high)
+{
+    *low = f->left;
+    *high = f->right;
+    for (int j = 0; j < f->edges; j++) {
+        double at_zero = value(&f->edge[j], 0.5, y + 0.5), slope = f->edge[j].c[1];
+        if (slope > 0)
+            *low = fmax(*low, -at_zero / slope - 1);
+        else if (slope < 0)
+            *high = fmin(*high, -at_zero / slope + 2);
+        else if (at_zero < 0)
+            *high = *low;
+    }
+}
+
+/* Row y of a face into a row of samples, where nothing is nearer. */
+static void draw_row(const struct raster_face *f, int y, uint32_t *face, double *nearness)
+{
+    double low, high;
+    row_range(f, y, &low, &high);
+    for (int x = (int)low; low < high && x < high; x++) {
+        int inside = 1;
+        for (int j = 0; j < f->edges; j++)
+            inside &= value(&f->edge[j], x + 0.5, y + 0.5) >= 0;
+        double near = value(&f->depth, x + 0.5, y + 0.5);
+        if (inside && near > 0 && (near > nearness[x] || (near == nearness[x] && f->front))) {
+            nearness[x] = near;
+            face[x] = f->face;
+        }
+    }
 }
 
 void raster_rows(const struct raster *r, int from, int to, uint32_t *face, double *nearness)
@@ -131,33 +164,8 @@ void raster_rows(const struct raster *r, int from, int to, uint32_t *face, doubl
     for (uint32_t i = 0; i < r->count; i++) {
         const struct raster_face *f = &r->faces[i];
         int top = f->top > from ? f->top : from, bottom = f->bottom < to ? f->bottom : to;
-        for (int y = top; y < bottom; y++) {
-            /* What of the row every edge leaves, one sample to spare for rounding. */
-            double low = f->left, high = f->right;
-            for (int j = 0; j < f->edges; j++) {
-                double at_zero = value(&f->edge[j], 0.5, y + 0.5), slope = f->edge[j].c[1];
-                if (slope > 0)
-                    low = fmax(low, -at_zero / slope - 1);
-                else if (slope < 0)
-                    high = fmin(high, -at_zero / slope + 2);
-                else if (at_zero < 0)
-                    high = low;
-            }
-            if (!(low < high))
-                continue;
-            size_t row = (size_t)(y - from) * width;
-            for (int x = (int)low; x < high; x++) {
-                int inside = 1;
-                for (int j = 0; j < f->edges; j++)
-                    inside &= value(&f->edge[j], x + 0.5, y + 0.5) >= 0;
-                double near = value(&f->depth, x + 0.5, y + 0.5);
-                size_t at = row + (size_t)x;
-                if (inside && near > 0 && (near > nearness[at] || (near == nearness[at] && f->front))) {
-                    nearness[at] = near;
-                    face[at] = f->face;
-                }
-            }
-        }
+        for (int y = top; y < bottom; y++)
+            draw_row(f, y, &face[(size_t)(y - from) * width], &nearness[(size_t)(y - from) * width]);
     }
 }
 

@@ -36,7 +36,7 @@ struct raster {
 };
 
 /* With `backs`, backs of one-sided faces are seen too. Returns 0, or -1 when out of memory. */
-int raster_begin(struct raster *r, const struct scene *scene, const struct view *view, int width, int height, int backs);
+int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct view *view, int width, int height, int backs);
 
 /* Fill face[(y - from) * width + x] with the face each sample of rows [from, to) sees, or NO_FACE, and
  * `nearness` with 1 / its distance along the axis of view. Allowed on many threads at once. */

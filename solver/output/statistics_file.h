@@ -3,10 +3,10 @@
 #ifndef STATISTICS_FILE_H
 #define STATISTICS_FILE_H
 
-#include "oracle/refiner.h"
+#include "radiosity.h"
 
-/* Write what the refiner has counted to `path`: text, or CSV or JSON by the name's end; "-" is standard output, as text.
+/* Write what the oracle has counted (radCountOracle) to `path`: text, or CSV or JSON by the name's end; "-" is standard output, as text.
  * Returns 0, or -1 after a message. */
-int statistics_write(const char *path, const struct refiner *refiner);
+int statistics_write(const char *path, RadOracle oracle);
 
 #endif

@@ -6,118 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/contact.h"
 #include "geometry.h"
-#include "hierarchy/polygon.h"
+#include "kernel/constants.h"
+#include "output/contact.h"
+#include "output/leaf_at.h"
 
-static const double SAME_PLANE = 0.99985; /* cosine of one degree */
-static const double TOUCH = 1e-4;         /* of a face's size: nearer than that to it stands on it, as in scene_cut.c */
-
-static int is_leaf(const struct element *e)
-{
-    return e->vertices && !e->children;
-}
-
-/* The two axes in which a plane of this normal is widest. */
-static void widest_axes(const double normal[3], int *x, int *y)
-{
-    double a = fabs(normal[0]), b = fabs(normal[1]), c = fabs(normal[2]);
-    *x = a >= b && a >= c ? 1 : 0;
-    *y = c > a && c > b ? 1 : 2;
-}
-
-static double clamp(double t)
-{
-    return t > 0 ? (t < 1 ? t : 1) : 0; /* NaN becomes 0 */
-}
-
-/* Distance of t from [0, 1]. */
-static double outside(double t)
-{
-    return t < 0 ? -t : t > 1 ? t - 1 : 0;
-}
-
-/* Solve p = v0 + s (v1 - v0) + t (v3 - v0) + s t (v0 - v1 + v2 - v3), a quadratic in t. */
-static void quad_parameters(const struct element *e, const double p[3], double *s, double *t)
-{
-    int x, y;
-    widest_axes(e->normal, &x, &y);
-    double ex = e->vertex[1][x] - e->vertex[0][x], ey = e->vertex[1][y] - e->vertex[0][y];
-    double fx = e->vertex[3][x] - e->vertex[0][x], fy = e->vertex[3][y] - e->vertex[0][y];
-    double gx = e->vertex[2][x] - e->vertex[1][x] - fx, gy = e->vertex[2][y] - e->vertex[1][y] - fy;
-    double hx = p[x] - e->vertex[0][x], hy = p[y] - e->vertex[0][y];
-    double a = gx * fy - gy * fx, b = ex * fy - ey * fx + hx * gy - hy * gx, c = hx * ey - hy * ex;
-    double d = sqrt(fmax(b * b - 4 * a * c, 0)), q = -0.5 * (b + copysign(d, b));
-    /* q / a overflows when the sides are parallel; then c / q is the root. */
-    double root = c / q, other = q / a;
-    *t = outside(root) <= 1e-9 || !(outside(other) < outside(root)) ? clamp(root) : clamp(other);
-    double wx = ex + gx * *t, wy = ey + gy * *t;
-    *s = clamp(fabs(wx) > fabs(wy) ? (hx - fx * *t) / wx : (hy - fy * *t) / wy);
-}
-
-static void triangle_parameters(const struct element *e, const double p[3], double weight[3])
-{
-    int x, y;
-    widest_axes(e->normal, &x, &y);
-    double ax = e->vertex[1][x] - e->vertex[0][x], ay = e->vertex[1][y] - e->vertex[0][y];
-    double bx = e->vertex[2][x] - e->vertex[0][x], by = e->vertex[2][y] - e->vertex[0][y];
-    double hx = p[x] - e->vertex[0][x], hy = p[y] - e->vertex[0][y], area = ax * by - ay * bx;
-    weight[1] = clamp((hx * by - hy * bx) / area);
-    weight[2] = clamp((ax * hy - ay * hx) / area);
-    if (weight[1] + weight[2] > 1) {
-        double sum = weight[1] + weight[2];
-        weight[1] /= sum;
-        weight[2] /= sum;
-    }
-    weight[0] = 1 - weight[1] - weight[2];
-}
-
-/* Halving a quad halves its bilinear parameters: the cuts are lines of s = 1/2 and t = 1/2, and a
- * child numbers its corners as its parent does. */
-static uint32_t descend_quad(const struct hierarchy *h, uint32_t i, const double p[3], double weight[4])
-{
-    double s, t;
-    quad_parameters(&h->elements[i], p, &s, &t);
-    while (h->elements[i].children) {
-        int right = s > 0.5, top = t > 0.5;
-        i = h->elements[i].child + (uint32_t)(top ? (right ? 2 : 3) : (right ? 1 : 0));
-        s = 2 * s - right;
-        t = 2 * t - top;
-    }
-    weight[0] = (1 - s) * (1 - t);
-    weight[1] = s * (1 - t);
-    weight[2] = s * t;
-    weight[3] = (1 - s) * t;
-    return i;
-}
-
-/* Child k keeps corner k; child 3 is the middle, its corners those between 0-1, 1-2, 2-0. */
-static uint32_t descend_triangle(const struct hierarchy *h, uint32_t i, const double p[3], double weight[4])
-{
-    triangle_parameters(&h->elements[i], p, weight);
-    while (h->elements[i].children) {
-        uint32_t k = weight[0] > 0.5 ? 0 : weight[1] > 0.5 ? 1 : weight[2] > 0.5 ? 2 : 3;
-        i = h->elements[i].child + k;
-        if (k < 3) {
-            for (uint32_t j = 0; j < 3; j++)
-                weight[j] = 2 * weight[j] - (j == k);
-        } else {
-            double w0 = 1 - 2 * weight[2], w1 = 1 - 2 * weight[0], w2 = 1 - 2 * weight[1];
-            weight[0] = w0;
-            weight[1] = w1;
-            weight[2] = w2;
-        }
-    }
-    return i;
-}
-
-static uint32_t descend(const struct hierarchy *h, uint32_t face, const double p[3], double weight[4])
-{
-    uint32_t root = h->face_element[face];
-    return h->elements[root].vertices == 4 ? descend_quad(h, root, p, weight) : descend_triangle(h, root, p, weight);
-}
-
-static uint32_t place(const struct vertex_values *v, const double p[3], uint32_t material)
+/* Where in the table the vertices at p begin. */
+static uint32_t table_index(const struct vertex_values *v, const double p[3], uint32_t material)
 {
     uint64_t hash = material * 0x9e3779b97f4a7c15u;
     for (int k = 0; k < 3; k++) {
@@ -130,22 +25,29 @@ static uint32_t place(const struct vertex_values *v, const double p[3], uint32_t
     return (uint32_t)hash & (v->table_size - 1);
 }
 
-/* The vertex at p that the leaf in direction `inward` (unless NULL: any) has. */
-static uint32_t find(const struct vertex_values *v, const double p[3], const double normal[3], uint32_t material, const double *inward)
+/* On which side of what stands at the vertex the direction leads. */
+static int sector_of(const struct vertex_values *v, const struct shared_vertex *s, const double direction[3])
 {
-    uint32_t i = v->table[place(v, p, material)];
+    return contact_sector(s->normal, s->contacts, (const double (*)[3])&v->contact[s->contact], direction);
+}
+
+/* The vertex at p that the leaf in direction `inward` (unless NULL: any) has. */
+static uint32_t find_vertex(const struct vertex_values *v, const double p[3], const double normal[3], uint32_t material,
+                            const double *inward)
+{
+    uint32_t i = v->table[table_index(v, p, material)];
     for (; i != NO_VERTEX; i = v->vertices[i].next) {
         const struct shared_vertex *s = &v->vertices[i];
-        if (s->position[0] == p[0] && s->position[1] == p[1] && s->position[2] == p[2] &&
-            s->material == material && dot3(s->normal, normal) > SAME_PLANE
-            && (!inward || contact_sector(s->normal, s->contacts, (const double (*)[3])&v->contact[s->contact], inward) == s->sector))
+        if (s->position[0] == p[0] && s->position[1] == p[1] && s->position[2] == p[2]
+            && s->material == material && dot3(s->normal, normal) > OUTPUT_SAME_PLANE
+            && (!inward || sector_of(v, s, inward) == s->sector))
             break;
     }
     return i;
 }
 
 /* Is p on the border of a face? What stands inside a face, or across it, parts nothing: leaves lie across it, too. */
-static int on_border(const struct face *f, const double p[3], double touch)
+static int on_border(const struct RadFace *f, const double p[3], double touch)
 {
     for (uint32_t i = 0; i < f->vertices; i++) {
         double e[3], w[3], c[3];
@@ -156,6 +58,19 @@ static int on_border(const struct face *f, const double p[3], double touch)
             return 1;
     }
     return 0;
+}
+
+/* The longest distance between two corners. */
+static double face_size(const struct RadFace *f)
+{
+    double size = 0;
+    for (uint32_t i = 1; i < f->vertices; i++)
+        for (uint32_t j = 0; j < i; j++) {
+            double d[3];
+            sub3(d, f->vertex[i], f->vertex[j]);
+            size = fmax(size, length3(d));
+        }
+    return size;
 }
 
 /* The array, with room for `count` more of `size`; NULL when there is none. */
@@ -179,7 +94,8 @@ static int is_corner(const struct element *e, const double p[3])
 }
 
 /* Note the leaves past whose edges the vertex at p lies, one in each of these faces at the most. Returns 0 or -1. */
-static int find_passing(struct vertex_values *v, uint32_t vertex, const struct hierarchy *h, const struct contact *c, double touch)
+static int find_passing(struct vertex_values *v, uint32_t vertex, const struct solution *solution,
+                        const struct contact *c, double touch)
 {
     const double *p = v->vertices[vertex].position;
     struct passing *moved = enlarge(v->passing, v->passing_count, &v->passing_capacity, CONTACT_FACES, sizeof *moved);
@@ -187,37 +103,36 @@ static int find_passing(struct vertex_values *v, uint32_t vertex, const struct h
         return -1;
     v->passing = moved;
     for (int i = 0; i < c->faces; i++) {
-        const struct element *e = &h->elements[h->face_element[c->face[i]]];
+        const struct element *e = element_of_face(solution, c->face[i]);
         double q[3], inward[3], weight[4], size;
         sub3(inward, e->centre, p);
         size = length3(inward);
         for (int k = 0; k < 3; k++)
             q[k] = p[k] + (size > touch ? touch / size : 1) * inward[k];
-        uint32_t leaf = descend(h, c->face[i], q, weight);
-        if (!is_corner(&h->elements[leaf], p))
+        uint32_t leaf = leaf_at(solution, c->face[i], q, weight);
+        if (!is_corner(&solution->tree.elements[leaf], p))
             v->passing[v->passing_count++] = (struct passing){ leaf, vertex }; /* at first the vertex of any side */
     }
     return 0;
 }
 
 /* Note what parts the surface at the vertex, a corner of face f. Returns 0 or -1. */
-static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct hierarchy *h, uint32_t f)
+static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct solution *solution, uint32_t f)
 {
     struct shared_vertex *s = &v->vertices[vertex];
     struct contact c;
-    double corner[4][3], touch;
-    memcpy(corner, h->faces[f].vertex, sizeof corner);
-    touch = TOUCH * polygon_size(corner, h->faces[f].vertices);
+    double touch = OUTPUT_TOUCH * face_size(&solution->surfaces.faces[f]);
     s->contact = v->contact_count;
     s->contacts = 0;
-    if (!on_border(&h->faces[f], s->position, touch))
+    if (!on_border(&solution->surfaces.faces[f], s->position, touch))
         return 0;
-    contact_at(&c, h, f, s->position, touch);
-    if (c.faces > 1 && find_passing(v, vertex, h, &c, touch))
+    contact_at(&c, solution, f, s->position, touch);
+    if (c.faces > 1 && find_passing(v, vertex, solution, &c, touch))
         return -1;
     if (c.directions < 2)
         return 0;
-    double (*moved)[3] = enlarge(v->contact, v->contact_count, &v->contact_capacity, CONTACT_DIRECTIONS, sizeof *moved);
+    double (*moved)[3] =
+        enlarge(v->contact, v->contact_count, &v->contact_capacity, CONTACT_DIRECTIONS, sizeof *moved);
     if (!moved)
         return -1;
     v->contact = moved;
@@ -228,27 +143,29 @@ static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct 
 }
 
 /* The vertex of corner p of leaf e, or NO_VERTEX when out of memory. */
-static uint32_t find_or_add(struct vertex_values *v, const struct hierarchy *h, const struct element *e, const double p[3])
+static uint32_t find_or_add(struct vertex_values *v, const struct solution *solution, const struct element *e,
+                            const double p[3])
 {
-    const struct face *f = &h->faces[e->face];
+    const struct RadFace *f = &solution->surfaces.faces[e->face];
     double inward[3];
     sub3(inward, e->centre, p);
-    uint32_t i = find(v, p, e->normal, f->material, inward);
+    uint32_t i = find_vertex(v, p, e->normal, f->material, inward);
     if (i != NO_VERTEX)
         return i;
-    uint32_t *first = &v->table[place(v, p, f->material)], other = find(v, p, e->normal, f->material, NULL);
+    uint32_t *first = &v->table[table_index(v, p, f->material)];
+    uint32_t other = find_vertex(v, p, e->normal, f->material, NULL);
     struct shared_vertex *s = &v->vertices[v->count];
     memcpy(s->position, p, sizeof s->position);
     memcpy(s->normal, other == NO_VERTEX ? e->normal : v->vertices[other].normal, sizeof s->normal);
     s->material = f->material;
     if (other == NO_VERTEX) {
-        if (find_contacts(v, v->count, h, e->face))
+        if (find_contacts(v, v->count, solution, e->face))
             return NO_VERTEX;
     } else {
         s->contact = v->vertices[other].contact;
         s->contacts = v->vertices[other].contacts;
     }
-    s->sector = (uint8_t)contact_sector(s->normal, s->contacts, (const double (*)[3])&v->contact[s->contact], inward);
+    s->sector = (uint8_t)sector_of(v, s, inward);
     s->next = *first;
     s->end[0] = s->end[1] = NO_VERTEX;
     *first = v->count;
@@ -263,7 +180,7 @@ uint32_t vertex_values_middle(const struct vertex_values *v, uint32_t a, uint32_
         middle[k] = 0.5 * (s->position[k] + t->position[k]);
     sub3(along, t->position, s->position);
     cross3(left, s->normal, along);
-    uint32_t m = find(v, middle, s->normal, s->material, left);
+    uint32_t m = find_vertex(v, middle, s->normal, s->material, left);
     return m == a || m == b ? NO_VERTEX : m;
 }
 
@@ -291,15 +208,15 @@ static void mark_hanging(struct vertex_values *v, uint32_t a, uint32_t b)
 
 /* Give a hanging vertex its value, the ends of its edge first. While a vertex waits for its ends it
  * no longer counts as hanging, so that a ring of edges, which no quadtree makes, would still end. */
-static void settle(struct vertex_values *v, uint32_t i)
+static void interpolate_hanging(struct vertex_values *v, uint32_t i)
 {
     struct shared_vertex *s = &v->vertices[i];
     uint32_t a = s->end[0], b = s->end[1];
     if (a == NO_VERTEX)
         return;
     s->end[0] = s->end[1] = NO_VERTEX;
-    settle(v, a);
-    settle(v, b);
+    interpolate_hanging(v, a);
+    interpolate_hanging(v, b);
     for (uint32_t k = 0; k < v->bands; k++)
         v->value[i * v->bands + k] = 0.5 * (v->value[a * v->bands + k] + v->value[b * v->bands + k]);
 }
@@ -310,85 +227,101 @@ static int by_leaf(const void *a, const void *b)
     return p->leaf != q->leaf ? p->leaf < q->leaf ? -1 : 1 : p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-/* Returns 0 or -1. */
-static int average(struct vertex_values *v, const struct solution *solution, double *weight)
+/* Let a leaf count for the mean at a vertex, by its area. */
+static void add_leaf(struct vertex_values *v, const struct solution *solution, uint32_t leaf, uint32_t vertex)
 {
-    const struct hierarchy *h = solution->hierarchy;
-    for (uint32_t i = 0; i < h->count; i++) {
-        const struct element *e = &h->elements[i];
+    const double *radiosity = radiosity_of(solution, leaf);
+    double area = solution->tree.elements[leaf].area;
+    v->weight[vertex] += area;
+    for (uint32_t k = 0; k < v->bands; k++)
+        v->value[(size_t)vertex * v->bands + k] += area * radiosity[k];
+}
+
+/* Every leaf at its corners, which makes the vertices. Returns 0 or -1. */
+static int add_corners(struct vertex_values *v, const struct solution *solution)
+{
+    for (uint32_t i = 0; i < solution->tree.count; i++) {
+        const struct element *e = &solution->tree.elements[i];
         for (uint32_t j = 0; is_leaf(e) && j < e->vertices; j++) {
-            uint32_t c = find_or_add(v, h, e, e->vertex[j]);
+            uint32_t c = find_or_add(v, solution, e, e->vertex[j]);
             if (c == NO_VERTEX)
                 return -1;
             v->corner[4 * (size_t)i + j] = c;
-            weight[c] += e->area;
-            for (uint32_t k = 0; k < v->bands; k++)
-                v->value[(size_t)c * v->bands + k] += e->area * solution->radiosity[(size_t)i * v->bands + k];
+            add_leaf(v, solution, i, c);
         }
     }
+    return 0;
+}
+
+/* Every leaf at the vertices of other faces past its edges: of each, that on the leaf's side, if there is one. */
+static void add_passing(struct vertex_values *v, const struct solution *solution)
+{
     uint32_t kept = 0;
     for (uint32_t i = 0; i < v->passing_count; i++) {
         uint32_t leaf = v->passing[i].leaf;
-        const struct element *e = &h->elements[leaf];
         const struct shared_vertex *s = &v->vertices[v->passing[i].vertex];
         double inward[3];
-        sub3(inward, e->centre, s->position);
-        uint32_t c = find(v, s->position, s->normal, s->material, inward);
-        if (c == NO_VERTEX) /* nobody on this side of a wall has it */
+        sub3(inward, solution->tree.elements[leaf].centre, s->position);
+        uint32_t c = find_vertex(v, s->position, s->normal, s->material, inward);
+        if (c == NO_VERTEX)
             continue;
-        v->passing[kept++] = (struct passing){ leaf, c };
-        weight[c] += e->area;
-        for (uint32_t k = 0; k < v->bands; k++)
-            v->value[(size_t)c * v->bands + k] += e->area * solution->radiosity[(size_t)leaf * v->bands + k];
+        v->passing[kept++] = (struct passing){leaf, c};
+        add_leaf(v, solution, leaf, c);
     }
     v->passing_count = kept;
     if (kept)
         qsort(v->passing, kept, sizeof *v->passing, by_leaf);
-    for (uint32_t c = 0; c < v->count; c++)
-        for (uint32_t k = 0; k < v->bands && weight[c] > 0; k++)
-            v->value[(size_t)c * v->bands + k] /= weight[c];
-    return 0;
 }
 
-int vertex_values_build(struct vertex_values *v, const struct solution *solution)
+/* Hanging vertices take what the larger neighbour has on its edge. */
+static void close_seams(struct vertex_values *v, const struct solution *solution)
 {
-    const struct hierarchy *h = solution->hierarchy;
-    size_t corners = 0;
-    *v = (struct vertex_values){.bands = solution->bands, .table_size = 16};
-    for (uint32_t i = 0; i < h->count; i++)
-        corners += is_leaf(&h->elements[i]) ? h->elements[i].vertices : 0;
-    if (corners >= NO_VERTEX / 4)
-        return -1;
-    while (v->table_size < corners)
-        v->table_size *= 2;
-    double *weight = calloc(corners + 1, sizeof *weight);
-    v->vertices = malloc((corners + 1) * sizeof *v->vertices);
-    v->value = calloc((corners + 1) * v->bands, sizeof *v->value);
-    v->corner = malloc(4 * (size_t)h->count * sizeof *v->corner);
-    v->table = malloc(v->table_size * sizeof *v->table);
-    v->contact = malloc(CONTACT_DIRECTIONS * sizeof *v->contact);
-    v->contact_capacity = CONTACT_DIRECTIONS;
-    if (!weight || !v->contact || !v->vertices || !v->value || !v->corner || !v->table) {
-        free(weight);
-        vertex_values_free(v);
-        return -1;
-    }
-    memset(v->table, 0xff, v->table_size * sizeof *v->table);
-    memset(v->corner, 0xff, 4 * (size_t)h->count * sizeof *v->corner);
-    int failed = average(v, solution, weight);
-    free(weight);
-    if (failed) {
-        vertex_values_free(v);
-        return -1;
-    }
-    for (uint32_t i = 0; i < h->count; i++) {
-        const struct element *e = &h->elements[i];
+    for (uint32_t i = 0; i < solution->tree.count; i++) {
+        const struct element *e = &solution->tree.elements[i];
         const uint32_t *c = &v->corner[4 * (size_t)i];
         for (uint32_t j = 0; is_leaf(e) && j < e->vertices; j++)
             mark_hanging(v, c[j], c[j + 1 < e->vertices ? j + 1 : 0]);
     }
     for (uint32_t i = 0; i < v->count; i++)
-        settle(v, i);
+        interpolate_hanging(v, i);
+}
+
+/* Room for as many vertices as leaves have corners. Returns 0 or -1. */
+static int allocate(struct vertex_values *v, const struct solution *solution)
+{
+    size_t corners = 0, elements = solution->tree.count;
+    for (size_t i = 0; i < elements; i++)
+        corners += is_leaf(&solution->tree.elements[i]) ? solution->tree.elements[i].vertices : 0;
+    if (corners >= NO_VERTEX / 4)
+        return -1;
+    while (v->table_size < corners)
+        v->table_size *= 2;
+    v->vertices = malloc((corners + 1) * sizeof *v->vertices);
+    v->value = calloc((corners + 1) * v->bands, sizeof *v->value);
+    v->weight = calloc(corners + 1, sizeof *v->weight);
+    v->corner = malloc((4 * elements + 1) * sizeof *v->corner);
+    v->table = malloc(v->table_size * sizeof *v->table);
+    v->contact = malloc(CONTACT_DIRECTIONS * sizeof *v->contact);
+    v->contact_capacity = CONTACT_DIRECTIONS;
+    if (!v->vertices || !v->value || !v->weight || !v->corner || !v->table || !v->contact)
+        return -1;
+    memset(v->table, 0xff, v->table_size * sizeof *v->table);
+    memset(v->corner, 0xff, 4 * elements * sizeof *v->corner);
+    return 0;
+}
+
+int vertex_values_build(struct vertex_values *v, const struct solution *solution)
+{
+    *v = (struct vertex_values){.bands = solution->tree.bands, .table_size = 16};
+    if (allocate(v, solution) || add_corners(v, solution)) {
+        vertex_values_free(v);
+        return -1;
+    }
+    add_passing(v, solution);
+    for (uint32_t c = 0; c < v->count; c++)
+        for (uint32_t k = 0; k < v->bands && v->weight[c] > 0; k++)
+            v->value[(size_t)c * v->bands + k] /= v->weight[c];
+    close_seams(v, solution);
     return 0;
 }
 
@@ -396,6 +329,7 @@ void vertex_values_free(struct vertex_values *v)
 {
     free(v->vertices);
     free(v->value);
+    free(v->weight);
     free(v->corner);
     free(v->table);
     free(v->contact);
@@ -403,11 +337,11 @@ void vertex_values_free(struct vertex_values *v)
     *v = (struct vertex_values){0};
 }
 
-uint32_t vertex_values_at(const struct vertex_values *v, const struct hierarchy *h, uint32_t face,
+uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution, uint32_t face,
                           const double point[3], double *radiosity)
 {
     double weight[4];
-    uint32_t leaf = descend(h, face, point, weight), n = h->elements[leaf].vertices;
+    uint32_t leaf = leaf_at(solution, face, point, weight), n = solution->tree.elements[leaf].vertices;
     for (uint32_t k = 0; k < v->bands; k++) {
         radiosity[k] = 0;
         for (uint32_t j = 0; j < n; j++)

@@ -17,7 +17,7 @@
 #define VERTEX_VALUES_H
 
 #include <stdint.h>
-#include "engine/solution.h"
+#include "output/solution.h"
 
 #define NO_VERTEX UINT32_MAX
 
@@ -37,6 +37,7 @@ struct vertex_values {
     uint32_t count;
     struct shared_vertex *vertices; /* [count] */
     double *value;                  /* B, W/m2: [vertex * bands + band] */
+    double *weight;                 /* [vertex]: area of the leaves whose mean it is, m2 */
     uint32_t *corner;               /* [element * 4 + i]: the vertex of a leaf's corner i */
     double (*contact)[3];           /* [contact_count]: directions in the surface at a vertex */
     uint32_t contact_count, contact_capacity;
@@ -55,7 +56,7 @@ void vertex_values_free(struct vertex_values *v);
 uint32_t vertex_values_middle(const struct vertex_values *v, uint32_t a, uint32_t b);
 
 /* B interpolated at a point of a face: bilinear in quads, linear in triangles. Returns the leaf. */
-uint32_t vertex_values_at(const struct vertex_values *v, const struct hierarchy *h, uint32_t face,
+uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution, uint32_t face,
                           const double point[3], double *radiosity);
 
 #endif

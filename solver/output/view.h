@@ -3,8 +3,7 @@
 #ifndef VIEW_H
 #define VIEW_H
 
-#include "engine/camera.h"
-#include "hierarchy/scene.h"
+#include "output/solution.h"
 
 struct view {
     double eye[3], at[3]; /* m */
@@ -19,17 +18,17 @@ int view_parse(const char *text, struct view *view);
 /* A view that shows much of the scene: inside, near a corner, at two thirds of the height, looking
  * to the opposite side. Never from within a solid. Scenes that enclose no space are seen from
  * outside. Returns 0, or -1 when out of memory. */
-int view_guess(const struct scene *scene, struct view *view);
+int view_guess(const struct surfaces *surfaces, struct view *view);
 
 /* The camera's frame: unit vectors to the right, up, ahead. Guesses `up` when it is not given, and
  * replaces it when the camera looks along it. */
-void view_frame(const struct view *view, const struct scene *scene, double right[3], double up[3], double ahead[3]);
+void view_frame(const struct view *view, const struct surfaces *surfaces, double right[3], double up[3], double ahead[3]);
 
 /* The same for the engine; aspect: the picture's width over its height. */
-struct camera view_camera(const struct view *view, const struct scene *scene, double aspect);
+struct RadCamera view_camera(const struct view *view, const struct surfaces *surfaces, double aspect);
 
 /* The axis that points up, 1 (y) or 2 (z): the one that more area is square to, as floors and
  * ceilings are; z when in doubt. */
-int view_up_axis(const struct scene *scene);
+int view_up_axis(const struct surfaces *surfaces);
 
 #endif

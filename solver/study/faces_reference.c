@@ -62,7 +62,7 @@ static char *next_line(char **text)
     return line;
 }
 
-static int parse(struct faces_reference *r, const char *path, char *text, const struct scene *scene)
+static int parse(struct faces_reference *r, const char *path, char *text, const struct open_scene *scene)
 {
     static const char *const bands[3] = {"B_0", "B_1", "B_2"};
     char *field[COLUMNS], *line = next_line(&text);
@@ -73,17 +73,17 @@ static int parse(struct faces_reference *r, const char *path, char *text, const 
     }
     if (face < 0 || area < 0 || !r->bands)
         return report_error(path, 1, "the columns face, area and B_0 are not all there; give a table as `radiosity solve --faces` writes it");
-    if (r->bands != scene->bands)
-        return report_error(path, 1, "%u bands of B, but the scene has %u; give a table of this scene", (unsigned)r->bands, (unsigned)scene->bands);
+    if (r->bands != scene->report.bands)
+        return report_error(path, 1, "%u bands of B, but the scene has %u; give a table of this scene", (unsigned)r->bands, (unsigned)scene->report.bands);
     for (uint32_t number_of_line = 2; (line = next_line(&text)); number_of_line++) {
         double index, a;
         int n = split(line, field);
         if (n != columns)
             return report_error(path, number_of_line, "%d columns where the first line has %d", n, columns);
-        if (!number(field[face], &index) || !(index >= 0 && index < scene->input_count) || index != (uint32_t)index
+        if (!number(field[face], &index) || !(index >= 0 && index < scene->report.polygons) || index != (uint32_t)index
             || (r->count && (uint32_t)index <= r->face[r->count - 1]))
             return report_error(path, number_of_line, "face '%s' is out of order, or none of the scene's %u; give a table of this scene", field[face],
-                                (unsigned)scene->input_count);
+                                (unsigned)scene->report.polygons);
         r->face[r->count] = (uint32_t)index;
         if (!number(field[area], &a) || !(a >= 0))
             return report_error(path, number_of_line, "'%s' is no area", field[area]);
@@ -96,16 +96,16 @@ static int parse(struct faces_reference *r, const char *path, char *text, const 
     return r->count ? 0 : report_error(path, 0, "no face is in it; give a table of this scene");
 }
 
-int faces_reference_read(struct faces_reference *r, const char *path, const struct scene *scene)
+int faces_reference_read(struct faces_reference *r, const char *path, const struct open_scene *scene)
 {
     size_t size;
     char *text = text_file_read(path, &size);
     *r = (struct faces_reference){0};
     if (!text)
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
-    r->face = malloc(((size_t)scene->input_count + 1) * sizeof *r->face);
-    r->area = malloc(((size_t)scene->input_count + 1) * sizeof *r->area);
-    r->value = malloc(((size_t)scene->input_count + 1) * 3 * sizeof *r->value);
+    r->face = malloc(((size_t)scene->report.polygons + 1) * sizeof *r->face);
+    r->area = malloc(((size_t)scene->report.polygons + 1) * sizeof *r->area);
+    r->value = malloc(((size_t)scene->report.polygons + 1) * 3 * sizeof *r->value);
     int failed = !r->face || !r->area || !r->value ? report_error(path, 0, "out of memory") : parse(r, path, text, scene);
     free(text);
     if (failed)
@@ -113,32 +113,28 @@ int faces_reference_read(struct faces_reference *r, const char *path, const stru
     return failed;
 }
 
-double faces_reference_error(const struct faces_reference *r, const struct solution *s)
+double faces_reference_error(const struct faces_reference *r, const struct open_scene *scene, RadSolution solution)
 {
-    size_t inputs = s->scene->input_count;
-    double *area = calloc(inputs + 1, sizeof *area), *arrives = calloc(inputs * r->bands + 1, sizeof *arrives);
-    double off = 0, all = 0;
-    for (uint32_t i = 0; area && arrives && i < s->scene->face_count; i++) {
-        size_t input = s->scene->faces[i].input, element = s->hierarchy->face_element[i];
-        double a = s->hierarchy->elements[element].area;
-        area[input] += a;
-        for (uint32_t k = 0; k < r->bands; k++)
-            arrives[input * r->bands + k] += a * s->irradiance[element * r->bands + k];
-    }
-    for (uint32_t i = 0; area && arrives && i < r->count; i++) {
-        size_t input = r->face[i];
-        const struct material *m = &s->scene->materials[s->scene->inputs[input].material];
-        for (uint32_t k = 0; k < r->bands; k++) {
-            double b = area[input] > 0 ? m->exitance[k] + m->reflectance[k] * arrives[input * r->bands + k] / area[input] : 0;
+    const struct RadMaterial *materials = radGetSceneMaterials(scene->scene);
+    const double *area = radGetScenePolygonAreas(scene->scene);
+    double *irradiance = malloc(((size_t)scene->report.polygons + 1) * sizeof *irradiance), off = 0, all = 0;
+    for (uint32_t k = 0; irradiance && k < r->bands; k++) {
+        if (radGetPolygonValues(solution, k, NULL, irradiance) < 0) {
+            free(irradiance);
+            return NAN;
+        }
+        for (uint32_t i = 0; i < r->count; i++) {
+            uint32_t face = r->face[i];
+            const struct RadMaterial *m = &materials[scene->file.polygon_materials[face]];
+            double b = area[face] > 0 ? m->exitance[k] + m->reflectance[k] * irradiance[face] : 0;
             double reference = r->value[(size_t)i * r->bands + k];
             off += r->area[i] * fabs(b - reference);
             all += r->area[i] * reference;
         }
     }
-    off = !area || !arrives ? (double)NAN : all > 0 ? off / all : 0;
-    free(area);
-    free(arrives);
-    return off;
+    double error = !irradiance ? (double)NAN : all > 0 ? off / all : 0;
+    free(irradiance);
+    return error;
 }
 
 void faces_reference_free(struct faces_reference *r)

@@ -9,7 +9,8 @@
 #ifndef STABILITY_H
 #define STABILITY_H
 
-#include "engine/solve.h"
+#include "study/made_scene.h"
+#include "util/solved.h"
 
 /* What a method replaces in the computation of light. */
 enum stability_kind {
@@ -96,33 +97,49 @@ int stability_run(const struct stability_case *c, const struct stability_cell *c
 /* The form factor of two surfaces by a BY_FACTOR method, nothing between them. */
 double stability_factor(const struct stability_method *method, const struct element *r, const struct element *s);
 
-/* Solve a scene with a BY_ORACLE method; `unit`: view factors alone (solve.h), refined and not solved.
+/* A made scene solved by an oracle: how. */
+struct stability_how {
+    const char *oracle;
+    const char *const *settings; /* "PARAM=VALUE", NULL-terminated */
+    int threads;
+    struct RadSolveOptions options;
+};
+/* Returns 0, or -1 with nothing to close. */
+int stability_solve_so(struct solved *s, const struct made_scene *made, const struct stability_how *how);
+
+/* Its elements and what answers about rays (radGetHost), without links. Returns 0, or -1 with nothing to close. */
+int stability_unsolved(struct solved *s, const struct made_scene *made);
+
+/* Solve a scene with a BY_ORACLE method; `unit`: view factors alone, refined and not solved.
  * Returns 0, or -1 with nothing to close. */
-int stability_solve(struct solve *s, const struct scene *scene, const struct stability_trial *trial, int unit);
+int stability_solve(struct solved *s, const struct made_scene *made, const struct stability_trial *trial, int unit);
 
 /* A scene, and one number from its solution; `at` is the case's own: a reflectance, a level. */
 struct stability_scene {
-    void (*make)(struct scene *scene, double at); /* into an empty one of make_scene.h */
-    double (*measure)(const struct solve *s, double at);
+    void (*make)(struct made_scene *scene, double at); /* into an empty one */
+    double (*measure)(const struct solved *s, double at);
 };
 
 /* Make it, solve it by a BY_ORACLE method, measure it; trial->count becomes the number of links. Returns 0 or -1. */
 int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value);
 
 /* The sum of F over a unit cube's face by a BY_FACTOR method, from one element per face: to the opposite face in [0], to
- * one of the four beside it in [1]. Returns 0 or -1. */
-int stability_cube_factors(const struct stability_method *method, double f[2]);
+ * one of the four beside it in [1]. */
+void stability_cube_factors(const struct stability_method *method, double f[2]);
+
+/* The element that is the whole of a face. */
+const struct element *stability_face(const struct solved *s, uint32_t face);
 
 /* The view factor from face i to face j that the links make, and the sum over all j. */
-double stability_exchange(const struct solve *s, uint32_t i, uint32_t j);
-double stability_row(const struct solve *s, uint32_t i);
+double stability_exchange(const struct solved *s, uint32_t i, uint32_t j);
+double stability_row(const struct solved *s, uint32_t i);
 
 /* Means over a face: B, and H over all of it (first band). */
-double stability_radiosity(const struct solve *s, uint32_t face);
-double stability_irradiance(const struct solve *s, uint32_t face);
+double stability_radiosity(const struct solved *s, uint32_t face);
+double stability_irradiance(const struct solved *s, uint32_t face);
 
 /* Two solutions have the same elements and links, to the bit. */
-int stability_same_links(const struct solve *a, const struct solve *b);
+int stability_same_links(const struct solved *a, const struct solved *b);
 
 /* A number in [0, 1) from a seed that moves on. */
 double stability_random(unsigned *seed);

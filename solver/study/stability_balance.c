@@ -3,11 +3,10 @@
  * Plates, cube and cube cavity from converged solutions of the integral equation, cross-checked by a second method.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include "scene/make_scene.h"
 #include "study/stability.h"
 
 /* Two unit squares, E = 1, rho = .5: parallel at distance 1, or at right angles with an edge in common. */
-static void make_parallel(struct scene *s, double unused)
+static void make_parallel(struct made_scene *s, double unused)
 {
     (void)unused;
     made_material(s, 0.5, 1);
@@ -15,7 +14,7 @@ static void make_parallel(struct scene *s, double unused)
     made_quad(s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
 }
 
-static void make_corner(struct scene *s, double unused)
+static void make_corner(struct made_scene *s, double unused)
 {
     (void)unused;
     made_material(s, 0.5, 1);
@@ -26,26 +25,25 @@ static void make_corner(struct scene *s, double unused)
 enum { LEAF = 255 };
 
 /* B of the part of a face that is nearest to p (by its centre): of a leaf, or of what `depth` splits make. */
-static double radiosity_at(const struct solve *s, uint32_t face, int depth, double x, double y, double z)
+static double radiosity_at(const struct solved *s, uint32_t face, int depth, double x, double y, double z)
 {
-    uint32_t e = s->hierarchy.face_element[face];
+    const struct element *all = s->elements.elements;
+    uint32_t e = s->elements.face_element[face];
     const double p[3] = { x, y, z };
-    while (s->hierarchy.elements[e].children && s->hierarchy.elements[e].depth < depth) {
-        const struct element *x0 = &s->hierarchy.elements[e];
+    while (all[e].children && all[e].depth < depth) {
         double best = INFINITY;
-        uint32_t c, next = e;
-        for (c = 0; c < x0->children; c++) {
-            double v[3], square;
-            sub3(v, s->hierarchy.elements[x0->child + c].centre, p);
-            square = dot3(v, v);
-            if (square < best) {
-                best = square;
-                next = x0->child + c;
+        uint32_t next = e;
+        for (uint32_t c = all[e].child; c < all[e].child + all[e].children; c++) {
+            double v[3];
+            sub3(v, all[c].centre, p);
+            if (dot3(v, v) < best) {
+                best = dot3(v, v);
+                next = c;
             }
         }
         e = next;
     }
-    return s->radiosity[(size_t)e * s->bands];
+    return s->elements.radiosity[(size_t)e * s->elements.bands];
 }
 
 /* The larger of |value / known - 1| and `error`. */
@@ -54,10 +52,10 @@ static double off(double error, double value, double known)
     return fmax(error, fabs(value / known - 1));
 }
 
-static double plates_error(const struct solve *s, double known)
+static double plates_error(const struct solved *s, double known)
 {
     double error = off(off(0, stability_radiosity(s, 0), known), stability_radiosity(s, 1), known);
-    return fmax(error, s->absorbed / s->emitted - 1);
+    return fmax(error, s->report.absorbed / s->report.emitted - 1);
 }
 
 int stability_open_plates(struct stability_trial *trial)
@@ -70,7 +68,7 @@ int stability_open_plates(struct stability_trial *trial)
     return 0;
 }
 
-static double profile_error(const struct solve *s, double unused)
+static double profile_error(const struct solved *s, double unused)
 {
     double error = off(0, radiosity_at(s, 0, LEAF, 0.5, 0.5, 0), 1.133303564992);
     (void)unused;
@@ -84,7 +82,7 @@ int stability_plates_profile(struct stability_trial *trial)
     return stability_measured(trial, &plates, 0, &trial->error);
 }
 
-static double edge_error(const struct solve *s, double unused)
+static double edge_error(const struct solved *s, double unused)
 {
     (void)unused;
     return off(off(0, stability_radiosity(s, 0), 1.1159537), radiosity_at(s, 0, LEAF, 0.5, 0, 0), 1 / (1 - 0.5 * 0.5));
@@ -97,7 +95,7 @@ int stability_plates_edge(struct stability_trial *trial)
 }
 
 /* A unit cube, rho = .5, its ceiling E = 1. */
-static void make_lit_cube(struct scene *s, double unused)
+static void make_lit_cube(struct made_scene *s, double unused)
 {
     const uint32_t m[6] = { 0, 1, 0, 0, 0, 0 };
     (void)unused;
@@ -111,7 +109,7 @@ static double cube_off(double ceiling, double floor, double wall)
     return off(off(off(0, ceiling, 1.1043616), floor, 0.1712161), wall, 0.1811056);
 }
 
-static double cube_error(const struct solve *s, double unused)
+static double cube_error(const struct solved *s, double unused)
 {
     (void)unused;
     return cube_off(stability_radiosity(s, 1), stability_radiosity(s, 0), stability_radiosity(s, 2));
@@ -121,12 +119,10 @@ int stability_cube(struct stability_trial *trial)
 {
     static const struct stability_scene cube = { make_lit_cube, cube_error };
     double b[3] = { 1, 0, 0 }, f[2];
-    int i;
     if (trial->method->kind == BY_ORACLE)
         return stability_measured(trial, &cube, 0, &trial->error);
-    if (stability_cube_factors(trial->method, f) < 0)
-        return -1;
-    for (i = 0; i < 200; i++) { /* one element per face: ceiling, floor, walls */
+    stability_cube_factors(trial->method, f);
+    for (int i = 0; i < 200; i++) { /* one element per face: ceiling, floor, walls */
         double c = 1 + 0.5 * (f[0] * b[1] + 4 * f[1] * b[2]), g = 0.5 * (f[0] * b[0] + 4 * f[1] * b[2]);
         b[2] = 0.5 * (f[1] * (b[0] + b[1] + 2 * b[2]) + f[0] * b[2]);
         b[0] = c;
@@ -137,7 +133,7 @@ int stability_cube(struct stability_trial *trial)
 }
 
 /* A cube with one face open: a black face in the opening, whose irradiance is the emissivity that the opening seems to have. */
-static void make_cavity(struct scene *s, double emissivity)
+static void make_cavity(struct made_scene *s, double emissivity)
 {
     const uint32_t m[6] = { 0, 1, 0, 0, 0, 0 };
     made_material(s, 1 - emissivity, emissivity);
@@ -145,7 +141,7 @@ static void make_cavity(struct scene *s, double emissivity)
     made_room(s, m, 1, 1, 1);
 }
 
-static double opening(const struct solve *s, double unused)
+static double opening(const struct solved *s, double unused)
 {
     (void)unused;
     return stability_irradiance(s, 1);
@@ -155,16 +151,13 @@ int stability_cavity(struct stability_trial *trial)
 {
     static const struct stability_scene cavity = { make_cavity, opening };
     static const double wall[2] = { 0.1, 0.5 }, known[2] = { 0.3483681, 0.8111445 };
-    int i;
     trial->error = 0;
-    for (i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         double f[2], seen = NAN;
         if (trial->method->kind == BY_FACTOR) { /* floor and walls alike see the opening by f[0], f[1]; E = e, two unknowns */
             double b = wall[i], w = wall[i], rho = 1 - wall[i];
-            int k;
-            if (stability_cube_factors(trial->method, f) < 0)
-                return -1;
-            for (k = 0; k < 2000; k++) {
+            stability_cube_factors(trial->method, f);
+            for (int k = 0; k < 2000; k++) {
                 double next = wall[i] + rho * 4 * f[1] * w;
                 w = wall[i] + rho * (f[1] * b + (f[0] + 2 * f[1]) * w);
                 b = next;

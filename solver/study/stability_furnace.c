@@ -2,18 +2,16 @@
  * whatever the form of the room.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include "scene/make_scene.h"
-#include "util/oracles.h"
 #include "study/stability.h"
 
-static void make_cube(struct scene *s, double rho)
+static void make_cube(struct made_scene *s, double rho)
 {
     const uint32_t white[6] = { 0, 0, 0, 0, 0, 0 };
     made_material(s, rho, 1);
     made_room(s, white, 1, 1, 1);
 }
 
-static void make_box(struct scene *s, double rho)
+static void make_box(struct made_scene *s, double rho)
 {
     const uint32_t white[6] = { 0, 0, 0, 0, 0, 0 };
     made_material(s, rho, 1);
@@ -21,41 +19,38 @@ static void make_box(struct scene *s, double rho)
 }
 
 /* An L of unit width with legs of 2, height 1: its floor and ceiling are three squares each. */
-static void make_L(struct scene *s, double rho)
+static void make_L(struct made_scene *s, double rho)
 {
     static const double at[3][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
     static const double wall[8][4] = { { 0, 0, 1, 0 }, { 1, 0, 1, 0 }, { 2, 0, 0, 1 }, { 2, 1, -1, 0 },
                                        { 1, 1, 0, 1 }, { 1, 2, -1, 0 }, { 0, 2, 0, -1 }, { 0, 1, 0, -1 } };
-    int i;
     made_material(s, rho, 1);
-    for (i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++) {
         made_quad(s, 0, at[i][0], at[i][1], 0, 1, 0, 0, 0, 1, 0);
         made_quad(s, 0, at[i][0], at[i][1], 1, 0, 1, 0, 1, 0, 0);
     }
-    for (i = 0; i < 8; i++) /* counter-clockwise round the room, fronts inward */
+    for (int i = 0; i < 8; i++) /* counter-clockwise round the room, fronts inward */
         made_quad(s, 0, wall[i][0], wall[i][1], 0, 0, 0, 1, wall[i][2], wall[i][3], 0);
 }
 
 /* The largest |B (1 - rho) / E - 1| over the leaves of a furnace with E = 1. */
-static double furnace_error(const struct solve *s, double rho)
+static double furnace_error(const struct solved *s, double rho)
 {
     double worst = 0;
-    uint32_t i;
-    for (i = 0; i < s->hierarchy.count; i++)
-        if (s->hierarchy.elements[i].vertices)
-            worst = fmax(worst, fabs(s->radiosity[i] * (1 - rho) - 1));
+    for (uint32_t i = 0; i < s->elements.count; i++)
+        if (s->elements.elements[i].vertices)
+            worst = fmax(worst, fabs(s->elements.radiosity[i] * (1 - rho) - 1));
     return worst;
 }
 
-static int furnace(struct stability_trial *trial, void (*make)(struct scene *s, double rho), double rho)
+static int furnace(struct stability_trial *trial, void (*make)(struct made_scene *s, double rho), double rho)
 {
     const struct stability_scene room = { make, furnace_error };
     double f[2];
     if (trial->method->kind == BY_ORACLE)
         return stability_measured(trial, &room, rho, &trial->error);
     /* By symmetry all six B of the cube are equal, B = 1 + rho sum B. */
-    if (stability_cube_factors(trial->method, f) < 0)
-        return -1;
+    stability_cube_factors(trial->method, f);
     trial->error = fabs((1 - rho) / (1 - rho * (f[0] + 4 * f[1])) - 1);
     if (rho * (f[0] + 4 * f[1]) >= 1)
         trial->error = INFINITY; /* every reflection adds power: no iteration ends */
@@ -88,37 +83,26 @@ int stability_furnace_L(struct stability_trial *trial)
 }
 
 /* A furnace cube solved with other sweeps than the default. Returns 0 or -1. */
-static int sweep_furnace(struct stability_trial *trial, double rho, struct solve_options how, double *error, int *sweeps)
+static int sweep_furnace(struct stability_trial *trial, double rho, const struct RadSolveOptions *options, double *error, int *sweeps)
 {
-    struct refiner *refiner = oracles_open(DEFAULT_ORACLE, RELEASE_FLAT);
-    struct scene scene;
-    struct solve s;
-    const char *cause;
-    int status = made_open(&scene);
-    if (refiner && status == 0) {
-        make_cube(&scene, rho);
-        (void)refiner_set(refiner, "relative", 1, NULL); /* six elements are as good as many here */
-        how.threads = trial->threads;
-        status = solve_open(&s, &scene, &how, &cause);
-        if (status == 0) {
-            status = solve_run(&s, refiner, &cause);
-            *error = furnace_error(&s, rho);
-            *sweeps = s.sweeps;
-            solve_close(&s);
-        }
-    }
-    if (!refiner)
-        status = -1;
-    refiner_close(refiner);
-    made_close(&scene);
-    return status;
+    static const char *const six_elements[] = { "relative=1", NULL }; /* they are as good as many here */
+    const struct stability_how how = { radGetDefaultOracle(), six_elements, trial->threads, *options };
+    struct made_scene cube = { .count = 0 };
+    struct solved s;
+    make_cube(&cube, rho);
+    if (stability_solve_so(&s, &cube, &how) < 0)
+        return -1;
+    *error = furnace_error(&s, rho);
+    *sweeps = s.report.iterations;
+    solved_close(&s);
+    return 0;
 }
 
 /* What a rule about sweeps makes of rho = .999. */
 int stability_near_white(struct stability_trial *trial)
 {
     const double rho = 0.999, tolerance = 1e-3;
-    struct solve_options how = { .tolerance = tolerance, .iterations = 100000 };
+    struct RadSolveOptions how = { .tolerance = tolerance };
     int sweeps;
     if (trial->method == &stability_methods[JACOBI]) {
         how.jacobi = 1;
@@ -127,7 +111,7 @@ int stability_near_white(struct stability_trial *trial)
         how.jacobi = 1;
         how.tolerance = tolerance * rho / (1 - rho); /* takes back what the solver allows for: stop where dB / B is 1e-3 */
     }
-    if (sweep_furnace(trial, rho, how, &trial->error, &sweeps) < 0)
+    if (sweep_furnace(trial, rho, &how, &trial->error, &sweeps) < 0)
         return -1;
     trial->count = sweeps;
     return 0;
@@ -137,13 +121,12 @@ int stability_near_white(struct stability_trial *trial)
 int stability_sweeps(struct stability_trial *trial)
 {
     static const double rho[] = { 0.5, 0.9, 0.99, 0.999 };
-    struct solve_options how = { .tolerance = 1e-3, .iterations = 100000, .jacobi = trial->method == &stability_methods[SWEEPS_JACOBI] };
-    size_t i;
+    const struct RadSolveOptions how = { .tolerance = 1e-3, .jacobi = trial->method == &stability_methods[SWEEPS_JACOBI] };
     trial->error = 0;
-    for (i = 0; i < sizeof rho / sizeof *rho; i++) {
+    for (size_t i = 0; i < sizeof rho / sizeof *rho; i++) {
         double error;
         int sweeps;
-        if (sweep_furnace(trial, rho[i], how, &error, &sweeps) < 0)
+        if (sweep_furnace(trial, rho[i], &how, &error, &sweeps) < 0)
             return -1;
         trial->error = fmax(trial->error, sweeps / ceil(log(1e-3) / log(rho[i])));
         trial->count = sweeps;

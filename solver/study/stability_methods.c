@@ -1,6 +1,5 @@
 /* stability_methods.c - the columns of the failure table.
  * SPDX-License-Identifier: MIT */
-#include "util/oracles.h"
 #include "study/stability.h"
 
 const struct stability_method stability_methods[METHODS] = {
@@ -31,17 +30,17 @@ const struct stability_method stability_methods[METHODS] = {
     [LONGER] = { "longer", "split the element with the larger diameter", BY_RULE, 0, NULL, { NULL } },
     [LINF_GAP] = { "gap", "refine while F_max - F_min is large [Lischinski 94]", BY_RULE, 0, NULL, { NULL } },
     [AREA_GAP] = { "A gap", "refine while A_r (F_max - F_min) is large", BY_RULE, 0, NULL, { NULL } },
-    [BF_1991] = { "BF of 1991", "bf with an absolute threshold", BY_ORACLE, CLOSURE_NONE, "bf", { "relative=0", "epsilon=2", "min_share=5e-3", NULL } },
-    [BF_NODES] = { "BF, A min", "bf with an absolute smallest area", BY_ORACLE, CLOSURE_NONE, "bf", { "min_share=0", "min_area=0.01", NULL } },
-    [BF] = { "bf", "bf", BY_ORACLE, CLOSURE_NONE, "bf", { NULL } },
-    [FF] = { "ff", "ff: form factors alone", BY_ORACLE, CLOSURE_NONE, "ff", { NULL } },
-    [BFV] = { "bfv", "bfv: BF and visibility", BY_ORACLE, CLOSURE_NONE, "bfv", { NULL } },
-    [RELATIVE] = { "relative", "relative to the brightest lamp", BY_ORACLE, CLOSURE_NONE, "relative", { NULL } },
-    [GAP] = { "gap oracle", "gap [Lischinski 94] with relative = .02", BY_ORACLE, CLOSURE_NONE, "gap", { "relative=0.02", NULL } },
-    [SMOOTH] = { "smooth", "smooth: gradients", BY_ORACLE, CLOSURE_NONE, "smooth", { NULL } },
-    [VIEWFACTORS] = { "viewfactors", "viewfactors, the oracle of `radiosity viewfactors`", BY_ORACLE, CLOSURE_NONE, "viewfactors", { NULL } },
-    [DEFAULT] = { DEFAULT_ORACLE, DEFAULT_ORACLE ", the default", BY_ORACLE, CLOSURE_NONE, DEFAULT_ORACLE, { NULL } },
-    [UNCUT] = { "uncut", "the default, on a scene whose faces are not cut where others stand in them", BY_ORACLE, CLOSURE_NONE, DEFAULT_ORACLE, { NULL } },
-    [FINE] = { DEFAULT_ORACLE " fine", "the default with relative = .01 and min_share = 5e-6", BY_ORACLE, CLOSURE_NONE, DEFAULT_ORACLE, { "relative=0.01", "min_share=5e-6", NULL } },
-    [CLOSED] = { "--closure rows", "the default with rows closed", BY_ORACLE, CLOSURE_ROWS, DEFAULT_ORACLE, { NULL } },
+    [BF_1991] = { "BF of 1991", "bf with an absolute threshold", BY_ORACLE, RAD_CLOSURE_NONE, "bf", { "relative=0", "epsilon=2", "min_share=5e-3", NULL } },
+    [BF_NODES] = { "BF, A min", "bf with an absolute smallest area", BY_ORACLE, RAD_CLOSURE_NONE, "bf", { "min_share=0", "min_area=0.01", NULL } },
+    [BF] = { "bf", "bf", BY_ORACLE, RAD_CLOSURE_NONE, "bf", { NULL } },
+    [FF] = { "ff", "ff: form factors alone", BY_ORACLE, RAD_CLOSURE_NONE, "ff", { NULL } },
+    [BFV] = { "bfv", "bfv: BF and visibility", BY_ORACLE, RAD_CLOSURE_NONE, "bfv", { NULL } },
+    [RELATIVE] = { "relative", "relative to the brightest lamp", BY_ORACLE, RAD_CLOSURE_NONE, "relative", { NULL } },
+    [GAP] = { "gap oracle", "gap [Lischinski 94] with relative = .02", BY_ORACLE, RAD_CLOSURE_NONE, "gap", { "relative=0.02", NULL } },
+    [SMOOTH] = { "smooth", "smooth: gradients", BY_ORACLE, RAD_CLOSURE_NONE, "smooth", { NULL } },
+    [VIEWFACTORS] = { "viewfactors", "viewfactors, the oracle of `radiosity viewfactors`", BY_ORACLE, RAD_CLOSURE_NONE, "viewfactors", { NULL } },
+    [DEFAULT] = { RAD_DEFAULT_ORACLE, RAD_DEFAULT_ORACLE ", the default", BY_ORACLE, RAD_CLOSURE_NONE, RAD_DEFAULT_ORACLE, { NULL } },
+    [UNCUT] = { "uncut", "the default, on a scene whose faces are not cut where others stand in them", BY_ORACLE, RAD_CLOSURE_NONE, RAD_DEFAULT_ORACLE, { NULL } },
+    [FINE] = { RAD_DEFAULT_ORACLE " fine", "the default with relative = .01 and min_share = 5e-6", BY_ORACLE, RAD_CLOSURE_NONE, RAD_DEFAULT_ORACLE, { "relative=0.01", "min_share=5e-6", NULL } },
+    [CLOSED] = { "--closure rows", "the default with rows closed", BY_ORACLE, RAD_CLOSURE_ROWS, RAD_DEFAULT_ORACLE, { NULL } },
 };

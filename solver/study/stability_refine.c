@@ -1,65 +1,45 @@
 /* stability_refine.c - cases about refinement: what must not change it, what it must end on, what it must see.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <string.h>
-#include "scene/make_scene.h"
 #include "study/stability.h"
 #include "study/stability_known.h"
 #include "terms/form_factor_range.h"
 
-static int begin(struct scene *s)
-{
-    if (made_open(s) == 0)
-        return 0;
-    made_close(s);
-    return -1;
-}
-
 /* A floor with a table on it, and a lamp above. */
-static int furnished(struct scene *s, double exitance, double scale)
+static struct made_scene furnished(double exitance, double scale)
 {
-    if (begin(s) < 0)
-        return -1;
-    made_material(s, 0.6, 0);
-    made_material(s, 0.2, exitance);
-    made_quad(s, 0, 0, 0, 0, 4, 0, 0, 0, 5, 0);
-    made_quad(s, 1, 1, 2, 2.5, 0, 1, 0, 1, 0, 0);
-    made_quad(s, 0, 1.3, 1, 1, 1, 0, 0, 0, 1.5, 0);
-    made_quad(s, 0, 1.3, 1, 1, 0, 1.5, 0, 1, 0, 0);
-    made_scale(s, scale);
-    return 0;
+    struct made_scene s = { .count = 0 };
+    made_material(&s, 0.6, 0);
+    made_material(&s, 0.2, exitance);
+    made_quad(&s, 0, 0, 0, 0, 4, 0, 0, 0, 5, 0);
+    made_quad(&s, 1, 1, 2, 2.5, 0, 1, 0, 1, 0, 0);
+    made_quad(&s, 0, 1.3, 1, 1, 1, 0, 0, 0, 1.5, 0);
+    made_quad(&s, 0, 1.3, 1, 1, 0, 1.5, 0, 1, 0, 0);
+    made_scale(&s, scale);
+    return s;
 }
 
 /* Solve the scene, and again with E and all lengths multiplied by powers of two. The error is 0 when the links are the
  * same to the bit and B is multiplied exactly, else what the number of links changes by, and 1 when only bits do. */
 static int changed(struct stability_trial *trial, double brighter, double larger)
 {
-    struct scene scene, other;
-    struct solve a, b;
-    uint32_t i;
-    int status = -1;
-    if (furnished(&scene, 8, 1) < 0)
+    const struct made_scene scene = furnished(8, 1), other = furnished(8 * brighter, larger);
+    struct solved a, b;
+    if (stability_solve(&a, &scene, trial, 0) < 0)
         return -1;
-    if (furnished(&other, 8 * brighter, larger) < 0) {
-        made_close(&scene);
+    if (stability_solve(&b, &other, trial, 0) < 0) {
+        solved_close(&a);
         return -1;
     }
-    if (stability_solve(&a, &scene, trial, 0) == 0) {
-        if (stability_solve(&b, &other, trial, 0) == 0) {
-            double error = fabs((double)b.refinement.link_count / (double)a.refinement.link_count - 1);
-            int same = stability_same_links(&a, &b);
-            for (i = 0; same && i < a.hierarchy.count; i++)
-                same = b.radiosity[i] == brighter * a.radiosity[i];
-            trial->error = fmax(trial->error, same ? 0 : error > 0 ? error : 1);
-            trial->count = (double)b.refinement.link_count;
-            status = 0;
-            solve_close(&b);
-        }
-        solve_close(&a);
-    }
-    made_close(&scene);
-    made_close(&other);
-    return status;
+    double error = fabs((double)b.links.count / (double)a.links.count - 1);
+    int same = stability_same_links(&a, &b);
+    for (uint32_t i = 0; same && i < a.elements.count; i++)
+        same = b.elements.radiosity[i] == brighter * a.elements.radiosity[i];
+    trial->error = fmax(trial->error, same ? 0 : error > 0 ? error : 1);
+    trial->count = (double)b.links.count;
+    solved_close(&a);
+    solved_close(&b);
+    return 0;
 }
 
 int stability_brightness(struct stability_trial *trial)
@@ -85,9 +65,8 @@ static double wide_source(void)
     static const double weight[5] = { 0.23692688505618908751, 0.47862867049936646804, 0.56888888888888888889,
                                       0.47862867049936646804, 0.23692688505618908751 };
     double sum = 0;
-    int i, j;
-    for (i = 0; i < 5; i++)
-        for (j = 0; j < 5; j++) {
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) {
             double x = 0.5 * at[i], y = 0.5 * at[j];
             sum += 0.25 * weight[i] * weight[j] * known_point(-5 - x, 5 - x, -5 - y, 5 - y, 1);
         }
@@ -96,23 +75,18 @@ static double wide_source(void)
 
 int stability_large_source(struct stability_trial *trial)
 {
-    struct scene scene;
-    struct solve s;
-    int status;
-    if (begin(&scene) < 0)
-        return -1;
+    struct made_scene scene = { .count = 0 };
+    struct solved s;
     made_material(&scene, 0.5, 0);
     made_material(&scene, 0, 1);
     made_quad(&scene, 0, -0.5, -0.5, 0, 1, 0, 0, 0, 1, 0);
     made_quad(&scene, 1, -5, -5, 1, 0, 10, 0, 10, 0, 0);
-    status = stability_solve(&s, &scene, trial, 0);
-    if (status == 0) {
-        trial->error = fabs(stability_irradiance(&s, 0) / wide_source() - 1);
-        trial->count = (double)s.refinement.link_count;
-        solve_close(&s);
-    }
-    made_close(&scene);
-    return status;
+    if (stability_solve(&s, &scene, trial, 0) < 0)
+        return -1;
+    trial->error = fabs(stability_irradiance(&s, 0) / wide_source() - 1);
+    trial->count = (double)s.links.count;
+    solved_close(&s);
+    return 0;
 }
 
 /* The range of F over what is left of r, as a share of its largest value. */
@@ -123,70 +97,49 @@ static double range_left(const struct element *r, const struct element *s)
     return range[1] > 0 ? 1 - range[0] / range[1] : 0;
 }
 
-/* Split faces 0 (receiver) and 1 six times by the trial's rule, going on with the child nearest to the other
+/* Split polygons 0 (receiver) and 1 six times by the trial's rule, going on with the quarter nearest to the other
  * element's centre; the error is the range of F over the receiver that is left. */
-static int split_six(struct stability_trial *trial, struct scene *scene)
+static void split_six(struct stability_trial *trial, const struct made_scene *scene)
 {
-    struct hierarchy h;
-    uint32_t pair[2];
-    int i, status = 0;
-    if (hierarchy_build(&h, scene->faces, scene->face_count) < 0)
-        return -1;
-    pair[0] = h.face_element[0];
-    pair[1] = h.face_element[1];
-    for (i = 0; i < 6 && status == 0; i++) {
-        const struct element *r = &h.elements[pair[0]], *s = &h.elements[pair[1]];
+    struct element pair[2] = { made_element(scene, 0), made_element(scene, 1) };
+    for (int i = 0; i < 6; i++) {
+        const struct element *r = &pair[0], *s = &pair[1];
         int which = trial->method == &stability_methods[LARGER] ? s->area > r->area
                   : trial->method == &stability_methods[LONGER] ? s->radius > r->radius : !(range_left(r, s) > 0.1);
+        const struct element whole = pair[which];
         double best = INFINITY;
-        uint32_t c, child, nearest = 0;
-        status = hierarchy_split(&h, pair[which]);
-        child = h.elements[pair[which]].child;
-        for (c = 0; c < h.elements[pair[which]].children; c++) {
-            double v[3], square;
-            sub3(v, h.elements[child + c].centre, h.elements[pair[!which]].centre);
-            square = dot3(v, v);
-            if (square < best) {
-                best = square;
-                nearest = child + c;
+        for (int q = 0; q < 4; q++) {
+            struct element quarter;
+            double v[3];
+            surface_quarter(&whole, q, &quarter);
+            sub3(v, quarter.centre, pair[!which].centre);
+            if (dot3(v, v) < best) {
+                best = dot3(v, v);
+                pair[which] = quarter;
             }
         }
-        if (status == 0)
-            pair[which] = nearest;
     }
-    trial->error = range_left(&h.elements[pair[0]], &h.elements[pair[1]]);
-    hierarchy_free(&h);
-    return status;
+    trial->error = range_left(&pair[0], &pair[1]);
 }
 
 /* A skirting of 4 m by 1 mm, a lamp of .3 by .3 over one end. */
 int stability_long_receiver(struct stability_trial *trial)
 {
-    struct scene scene;
-    int status;
-    if (begin(&scene) < 0)
-        return -1;
-    made_material(&scene, 0.5, 0);
+    struct made_scene scene = { .count = 0 };
     made_quad(&scene, 0, 0, 0, 0, 4, 0, 0, 0, 1e-3, 0);
     made_quad(&scene, 0, 0, -0.15, 0.5, 0, 0.3, 0, 0.3, 0, 0);
-    status = split_six(trial, &scene);
-    made_close(&scene);
-    return status;
+    split_six(trial, &scene);
+    return 0;
 }
 
 /* A unit square under the edge of a square of 10: F varies over the small one. */
 int stability_large_source_split(struct stability_trial *trial)
 {
-    struct scene scene;
-    int status;
-    if (begin(&scene) < 0)
-        return -1;
-    made_material(&scene, 0.5, 0);
+    struct made_scene scene = { .count = 0 };
     made_quad(&scene, 0, 4.5, 4.5, 0, 1, 0, 0, 0, 1, 0);
     made_quad(&scene, 0, 5, 0, 1, 0, 10, 0, 10, 0, 0);
-    status = split_six(trial, &scene);
-    made_close(&scene);
-    return status;
+    split_six(trial, &scene);
+    return 0;
 }
 
 /* The range of F(x) over a floor cell of width h by its edge, to a wall cell of width h on that edge. */
@@ -196,9 +149,8 @@ static double touching_range(double h)
     const struct polygon wall = { 4, { { 0, 0, 0 }, { 0, 0, h }, { h, 0, h }, { h, 0, 0 } } };
     const double up[3] = { 0, 0, 1 };
     double low = INFINITY, high = 0;
-    int i, j;
-    for (i = 0; i < SIDE; i++)
-        for (j = 0; j < SIDE; j++) {
+    for (int i = 0; i < SIDE; i++)
+        for (int j = 0; j < SIDE; j++) {
             const double p[3] = { h * (i + 0.5) / SIDE, h * (j + 0.0625) / SIDE, 0 };
             double f = polygon_factor_point(p, up, &wall);
             low = fmin(low, f);
@@ -214,35 +166,29 @@ int stability_touching_cells(struct stability_trial *trial)
     enum { HALVINGS = 4 };
     const double irradiance = 1 / (1 - 0.5);
     double over = 0, silent = 0;
-    struct scene scene;
-    struct solve s;
-    size_t i;
-    int status;
+    struct made_scene scene = { .count = 0 };
+    struct solved s;
     if (trial->method->kind == BY_RULE) {
         double h = 1 / (double)(1 << HALVINGS), left = touching_range(h) / touching_range(1);
         trial->error = trial->method == &stability_methods[AREA_GAP] ? left * h * h : left;
         return 0;
     }
-    if (begin(&scene) < 0)
-        return -1;
     made_material(&scene, 0.5, 1);
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     made_quad(&scene, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0);
-    status = stability_solve(&s, &scene, trial, 0);
-    if (status == 0) {
-        for (i = 0; i < s.refinement.link_count; i++) {
-            const struct link *l = &s.refinement.links[i];
-            /* The oracle asks for the disc or better, so what is a little over need not have been. */
-            int heavy = (double)l->form_factor * s.hierarchy.elements[l->emitter].radiosity > 1.5 * 0.05 * irradiance;
-            over += heavy;
-            silent += heavy && l->mark != 1;
-        }
-        trial->error = over > 0 ? silent / over : INFINITY;
-        trial->count = over;
-        solve_close(&s);
+    if (stability_solve(&s, &scene, trial, 0) < 0)
+        return -1;
+    for (size_t i = 0; i < s.links.count; i++) {
+        const struct RadLink *l = &s.links.links[i];
+        /* The oracle asks for the disc or better, so what is a little over need not have been. */
+        int heavy = (double)l->form_factor * s.elements.elements[l->emitter].radiosity > 1.5 * 0.05 * irradiance;
+        over += heavy;
+        silent += heavy && l->mark != 1;
     }
-    made_close(&scene);
-    return status;
+    trial->error = over > 0 ? silent / over : INFINITY;
+    trial->count = over;
+    solved_close(&s);
+    return 0;
 }
 
 /* How much of the largest F(x) a range over the unit square misses; the source is .2 wide and .1 above (x, y). */
@@ -250,35 +196,22 @@ static int missed_range(struct stability_trial *trial, double x, double y)
 {
     const double most = known_point(-0.1, 0.1, -0.1, 0.1, 0.1);
     double range[2], high = 0;
-    struct scene scene;
-    struct hierarchy h;
-    const struct element *r, *s;
-    int k;
-    if (begin(&scene) < 0)
-        return -1;
-    made_material(&scene, 0.5, 0);
+    struct made_scene scene = { .count = 0 };
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     made_quad(&scene, 0, x - 0.1, y - 0.1, 0.1, 0, 0.2, 0, 0.2, 0, 0);
-    if (hierarchy_build(&h, scene.faces, scene.face_count) < 0) {
-        made_close(&scene);
-        return -1;
-    }
-    r = &h.elements[h.face_element[0]];
-    s = &h.elements[h.face_element[1]];
+    const struct element r = made_element(&scene, 0), s = made_element(&scene, 1);
     if (trial->method == &stability_methods[CORNERS]) {
-        for (k = 0; k < 4; k++) {
-            double a = s->centre[0] - r->vertex[k][0], b = s->centre[1] - r->vertex[k][1];
+        for (int k = 0; k < 4; k++) {
+            double a = s.centre[0] - r.vertex[k][0], b = s.centre[1] - r.vertex[k][1];
             high = fmax(high, known_point(a - 0.1, a + 0.1, b - 0.1, b + 0.1, 0.1));
         }
     } else {
         if (trial->method == &stability_methods[SAMPLED])
-            form_factor_range_sample(r, s, range);
+            form_factor_range_sample(&r, &s, range);
         else
-            form_factor_range_bound(r, s, range);
+            form_factor_range_bound(&r, &s, range);
         high = range[1];
     }
-    hierarchy_free(&h);
-    made_close(&scene);
     trial->error = high >= most ? 0 : 1 - high / most;
     return 0;
 }
@@ -310,15 +243,14 @@ static double cells_error(const struct stability_method *method, double side)
     enum { CELLS = 8, PARTS = 8 };
     const double h = 2.0 / CELLS / PARTS, clear = known_point(-0.1, 0.1, -0.1, 0.1, 2);
     double square = 0, most = 0, core = 0;
-    int i, j, k;
-    for (i = 0; i < CELLS * CELLS; i++) {
+    for (int i = 0; i < CELLS * CELLS; i++) {
         double value[PARTS * PARTS], mean = 0;
-        for (j = 0; j < PARTS * PARTS; j++) {
+        for (int j = 0; j < PARTS * PARTS; j++) {
             double x = -1 + h * (i % CELLS * PARTS + j % PARTS + 0.5), y = -1 + h * (i / CELLS * PARTS + j / PARTS + 0.5);
             value[j] = shadowed(side, x, y);
             mean += value[j] / (PARTS * PARTS);
         }
-        for (k = 0; k < PARTS * PARTS; k++) {
+        for (int k = 0; k < PARTS * PARTS; k++) {
             square += h * h * (value[k] - mean) * (value[k] - mean);
             most = fmax(most, fabs(value[k] - mean));
         }
@@ -328,39 +260,39 @@ static double cells_error(const struct stability_method *method, double side)
     return method == &stability_methods[L2_NORM] ? sqrt(square) / clear : method == &stability_methods[LINF_NORM] ? most / clear : core / clear;
 }
 
+/* How far the centre of an element is from the shadow's middle, along the axes. */
+static double off_middle(const struct element *e)
+{
+    return fmax(fabs(e->centre[0] - SHADOW_AT), fabs(e->centre[1] - SHADOW_AT));
+}
+
 /* B of the leaf in the middle of the shadow, against what is left of the light there. */
 static int core_error(struct stability_trial *trial, double side, double *error)
 {
-    struct scene scene;
-    struct solve s;
-    uint32_t e;
-    int status;
-    if (begin(&scene) < 0)
-        return -1;
+    struct made_scene scene = { .count = 0 };
+    struct solved s;
     made_material(&scene, 0.5, 0);
     made_material(&scene, 0, 1);
     made_material(&scene, 0, 0);
     made_quad(&scene, 0, -1, -1, 0, 2, 0, 0, 0, 2, 0);
     made_quad(&scene, 1, -0.1, -0.1, 2, 0, 0.2, 0, 0.2, 0, 0);
     made_quad(&scene, 2, 0.5 * (SHADOW_AT - side), 0.5 * (SHADOW_AT - side), 1, side, 0, 0, 0, side, 0);
-    status = stability_solve(&s, &scene, trial, 0);
-    if (status == 0) {
-        for (e = s.hierarchy.face_element[0]; s.hierarchy.elements[e].children;) {
-            const struct element *x = &s.hierarchy.elements[e];
-            uint32_t c, best = 0;
-            for (c = 1; c < x->children; c++)
-                if (fmax(fabs(s.hierarchy.elements[x->child + c].centre[0] - SHADOW_AT), fabs(s.hierarchy.elements[x->child + c].centre[1] - SHADOW_AT))
-                    < fmax(fabs(s.hierarchy.elements[x->child + best].centre[0] - SHADOW_AT), fabs(s.hierarchy.elements[x->child + best].centre[1] - SHADOW_AT)))
-                    best = c;
-            e = x->child + best;
-        }
-        *error = fabs(s.radiosity[e] / 0.5 - shadowed(side, s.hierarchy.elements[e].centre[0], s.hierarchy.elements[e].centre[1]))
-               / known_point(-0.1, 0.1, -0.1, 0.1, 2);
-        trial->count = (double)s.refinement.link_count;
-        solve_close(&s);
+    if (stability_solve(&s, &scene, trial, 0) < 0)
+        return -1;
+    const struct element *all = s.elements.elements;
+    uint32_t e = s.elements.face_element[0];
+    while (all[e].children) {
+        uint32_t best = all[e].child;
+        for (uint32_t c = 1; c < all[e].children; c++)
+            if (off_middle(&all[all[e].child + c]) < off_middle(&all[best]))
+                best = all[e].child + c;
+        e = best;
     }
-    made_close(&scene);
-    return status;
+    *error = fabs(s.elements.radiosity[e] / 0.5 - shadowed(side, all[e].centre[0], all[e].centre[1]))
+           / known_point(-0.1, 0.1, -0.1, 0.1, 2);
+    trial->count = (double)s.links.count;
+    solved_close(&s);
+    return 0;
 }
 
 /* A norm: its value for the shadow it finds best, as a share of that for the worst; one that tells shadows that are
@@ -368,8 +300,7 @@ static int core_error(struct stability_trial *trial, double side, double *error)
 int stability_four_shadows(struct stability_trial *trial)
 {
     double low = INFINITY, high = 0;
-    int i;
-    for (i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++) {
         double error;
         if (trial->method->kind == BY_RULE)
             error = cells_error(trial->method, shadow_side[i]);

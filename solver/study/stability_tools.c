@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
-#include "scene/make_scene.h"
-#include "util/oracles.h"
 #include "study/stability.h"
 #include "terms/form_factor.h"
+#include "util/device.h"
+#include "util/open_oracle.h"
 
 double stability_factor(const struct stability_method *method, const struct element *r, const struct element *s)
 {
@@ -35,111 +35,128 @@ double stability_factor(const struct stability_method *method, const struct elem
     return NAN;
 }
 
-int stability_solve(struct solve *s, const struct scene *scene, const struct stability_trial *trial, int unit)
+/* The scene, committed. Returns NULL after a message. */
+static RadScene commit_scene(RadDevice device, const struct made_scene *made)
+{
+    const struct RadPolygons polygons = { .positions = made->position[0], .position_count = made->corners, .indices = made->index,
+                                          .sizes = made->size, .materials = made->material, .count = made->count, .as_given = made->as_given };
+    RadScene scene = radNewScene(device);
+    if (!scene || radSetSceneMaterials(scene, made->materials, made->material_count) < 0
+        || radSetSceneSharedPolygons(scene, &polygons) < 0
+        || radCommitScene(scene) < 0) {
+        report_device(device, "study stability");
+        radReleaseScene(scene);
+        return NULL;
+    }
+    return scene;
+}
+
+/* Made, committed, given an oracle, and solved when `solve`. */
+static int make_solution(struct solved *s, const struct made_scene *made, const struct stability_how *how, int solve)
+{
+    int count = 0, status = -1;
+    while (how->settings[count])
+        count++;
+    RadDevice device = open_device(NULL, how->threads);
+    RadScene scene = device ? commit_scene(device, made) : NULL;
+    RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT, (char *const *)how->settings, count) : NULL;
+    if (oracle)
+        status = (solve ? solved_open : solved_begin)(s, device, "study stability", scene, oracle, &how->options);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+    return status;
+}
+
+int stability_solve_so(struct solved *s, const struct made_scene *made, const struct stability_how *how)
+{
+    return make_solution(s, made, how, 1);
+}
+
+int stability_unsolved(struct solved *s, const struct made_scene *made)
+{
+    static const char *const none[] = { NULL };
+    const struct stability_how how = { .oracle = radGetDefaultOracle(), .settings = none, .threads = 1 };
+    return make_solution(s, made, &how, 0);
+}
+
+int stability_solve(struct solved *s, const struct made_scene *made, const struct stability_trial *trial, int unit)
 {
     const struct stability_method *m = trial->method;
-    struct solve_options how = { .tolerance = 1e-6, .iterations = 100000, .threads = trial->threads, .unit = unit,
-                                 .closure = (enum closure)m->number };
-    struct refiner *refiner = oracles_open(m->oracle, RELEASE_FLAT);
-    const char *cause;
-    int n = 0, status;
-    while (m->settings[n])
-        n++;
-    if (!refiner)
-        return -1;
-    if (oracles_set(refiner, (char *const *)m->settings, n) < 0 || solve_open(s, scene, &how, &cause) < 0) {
-        refiner_close(refiner);
-        return -1;
-    }
-    status = unit ? solve_refine(s, refiner, &cause) : solve_run(s, refiner, &cause);
-    refiner_close(refiner);
-    if (status < 0)
-        solve_close(s);
-    return status;
+    const struct stability_how how = {
+        m->oracle, m->settings, trial->threads,
+        { .tolerance = 1e-6, .closure = (enum RadClosure)m->number, .unit = unit },
+    };
+    return stability_solve_so(s, made, &how);
 }
 
 int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value)
 {
-    struct scene made;
-    struct solve s;
-    int status = made_open(&made);
-    if (status == 0) {
-        scene->make(&made, at);
-        status = stability_solve(&s, &made, trial, 0);
-    }
-    if (status == 0) {
-        trial->count = (double)s.refinement.link_count;
-        *value = scene->measure(&s, at);
-        solve_close(&s);
-    }
-    made_close(&made);
-    return status;
-}
-
-int stability_cube_factors(const struct stability_method *method, double f[2])
-{
-    const uint32_t grey[6] = { 0, 0, 0, 0, 0, 0 };
-    struct scene scene;
-    struct hierarchy h;
-    int status = made_open(&scene);
-    if (status == 0) {
-        made_material(&scene, 0.5, 0);
-        made_room(&scene, grey, 1, 1, 1);
-        status = hierarchy_build(&h, scene.faces, scene.face_count);
-    }
-    if (status < 0) {
-        made_close(&scene);
+    struct made_scene made = { .count = 0 };
+    struct solved s;
+    scene->make(&made, at);
+    if (stability_solve(&s, &made, trial, 0) < 0)
         return -1;
-    }
-    f[0] = stability_factor(method, &h.elements[h.face_element[0]], &h.elements[h.face_element[1]]);
-    f[1] = stability_factor(method, &h.elements[h.face_element[0]], &h.elements[h.face_element[2]]);
-    hierarchy_free(&h);
-    made_close(&scene);
+    trial->count = (double)s.links.count;
+    *value = scene->measure(&s, at);
+    solved_close(&s);
     return 0;
 }
 
-/* A F V over the links of e and below that come from face j, or any when j is UINT32_MAX (m2). */
-static double add_links(const struct solve *s, uint32_t e, uint32_t j)
+void stability_cube_factors(const struct stability_method *method, double f[2])
 {
-    const struct element *x = &s->hierarchy.elements[e];
+    const uint32_t grey[6] = { 0, 0, 0, 0, 0, 0 };
+    struct made_scene cube = { .count = 0 };
+    made_room(&cube, grey, 1, 1, 1);
+    const struct element floor = made_element(&cube, 0), ceiling = made_element(&cube, 1), wall = made_element(&cube, 2);
+    f[0] = stability_factor(method, &floor, &ceiling);
+    f[1] = stability_factor(method, &floor, &wall);
+}
+
+const struct element *stability_face(const struct solved *s, uint32_t face)
+{
+    return &s->elements.elements[s->elements.face_element[face]];
+}
+
+/* A F V over the links of e and below that come from face j, or any when j is UINT32_MAX (m2). */
+static double add_links(const struct solved *s, uint32_t e, uint32_t j)
+{
+    const struct element *x = &s->elements.elements[e];
     double sum = 0;
-    size_t i;
-    int c;
-    for (i = s->refinement.first_link[e]; i < s->refinement.first_link[e + 1]; i++) {
-        const struct link *l = &s->refinement.links[i];
-        if (j == UINT32_MAX || s->hierarchy.elements[l->emitter].face == j)
-            sum += x->area * (double)l->form_factor * (l->visibility * (1.0 / LINK_VISIBLE));
+    for (size_t i = s->links.first[e]; i < s->links.first[e + 1]; i++) {
+        const struct RadLink *l = &s->links.links[i];
+        if (j == UINT32_MAX || s->elements.elements[l->emitter].face == j)
+            sum += x->area * (double)l->form_factor * (l->visibility * (1.0 / RAD_LINK_VISIBLE));
     }
-    for (c = 0; c < x->children; c++)
-        sum += add_links(s, x->child + (uint32_t)c, j);
+    for (uint32_t c = 0; c < x->children; c++)
+        sum += add_links(s, x->child + c, j);
     return sum;
 }
 
-double stability_exchange(const struct solve *s, uint32_t i, uint32_t j)
+double stability_exchange(const struct solved *s, uint32_t i, uint32_t j)
 {
-    uint32_t e = s->hierarchy.face_element[i];
-    return add_links(s, e, j) / s->hierarchy.elements[e].area;
+    return add_links(s, s->elements.face_element[i], j) / stability_face(s, i)->area;
 }
 
-double stability_row(const struct solve *s, uint32_t i)
+double stability_row(const struct solved *s, uint32_t i)
 {
     return stability_exchange(s, i, UINT32_MAX);
 }
 
-double stability_radiosity(const struct solve *s, uint32_t face)
+double stability_radiosity(const struct solved *s, uint32_t face)
 {
-    return s->radiosity[(size_t)s->hierarchy.face_element[face] * s->bands];
+    return s->elements.radiosity[(size_t)s->elements.face_element[face] * s->elements.bands];
 }
 
-double stability_irradiance(const struct solve *s, uint32_t face)
+double stability_irradiance(const struct solved *s, uint32_t face)
 {
-    return s->irradiance[(size_t)s->hierarchy.face_element[face] * s->bands];
+    return s->elements.irradiance[(size_t)s->elements.face_element[face] * s->elements.bands];
 }
 
-int stability_same_links(const struct solve *a, const struct solve *b)
+int stability_same_links(const struct solved *a, const struct solved *b)
 {
-    return a->refinement.link_count == b->refinement.link_count && a->hierarchy.count == b->hierarchy.count
-        && memcmp(a->refinement.links, b->refinement.links, a->refinement.link_count * sizeof(struct link)) == 0;
+    return a->links.count == b->links.count && a->elements.count == b->elements.count
+        && memcmp(a->links.links, b->links.links, a->links.count * sizeof *a->links.links) == 0;
 }
 
 double stability_random(unsigned *seed)

@@ -1,6 +1,6 @@
 /* study_clustering.c - `radiosity study clustering`: which strategy groups faces best?
  *
- * Each strategy of cluster_tree.h solves the scene once with the same oracle. A row tells of its tree: clusters, depth, and
+ * Each strategy of radGetClusteringNames() solves the scene once with the same oracle. A row tells of its tree: clusters, depth, and
  * crossed, the clusters whose boxes a random line through the scene meets, sum of box areas over the root's [Goldsmith and
  * Salmon 1987], which is what searches pay for boxes that are large or overlap. And of the solve: seconds, links, discussions,
  * rays, peak memory, and error: against a reference, sum A |B - B_ref| / sum A B_ref over faces; in any case the power
@@ -15,11 +15,14 @@
 #include "util/atomic_file.h"
 #include "output/chart.h"
 #include "util/clock.h"
-#include "commands/commands.h"
+#include "study/study.h"
+#include "util/open_oracle.h"
+#include "util/solved.h"
 #include "study/faces_reference.h"
 #include "progress.h"
 #include "util/report.h"
-#include "engine/solve.h"
+
+enum { STRATEGIES_MAX = 16 };
 
 struct row {
     const char *strategy;
@@ -35,7 +38,7 @@ struct row {
 
 struct table {
     const struct options *options;
-    struct row row[CLUSTERING_COUNT];
+    struct row row[STRATEGIES_MAX];
     int rows;
 };
 
@@ -65,90 +68,68 @@ static double peak(void)
     return most > 0 ? most : (double)usage.ru_maxrss / 1024;
 }
 
+/* Half of the surface of a cluster's box (m2). */
 static double box_area(const struct element *e)
 {
-    struct bounds b;
-    memcpy(b.low, e->vertex[0], sizeof b.low);
-    memcpy(b.high, e->vertex[1], sizeof b.high);
-    return bounds_area(&b);
+    double size[3];
+    sub3(size, e->vertex[1], e->vertex[0]);
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
 }
 
-static void describe_tree(struct row *row, const struct hierarchy *h)
+static void describe_tree(struct row *row, const struct RadElements *tree)
 {
-    double all = box_area(&h->elements[0]);
-    uint32_t i, at, deep, next = 0;
-    for (i = 0; i < h->built; i++)
-        if (!h->elements[i].vertices) {
+    const struct element *all = tree->elements;
+    double root = box_area(&all[0]);
+    for (uint32_t i = 0; i < tree->built; i++)
+        if (!all[i].vertices) {
             row->clusters++;
-            row->crossed += all > 0 ? box_area(&h->elements[i]) / all : 1;
+            row->crossed += root > 0 ? box_area(&all[i]) / root : 1;
         }
     /* Elements stand level by level, so the last has the most above it. */
-    for (deep = 1, at = h->built - 1; at != 0; deep++, at = next)
-        next = h->elements[at].parent;
-    row->depth = deep;
+    row->depth = 1;
+    for (uint32_t at = tree->built - 1; at != 0; at = all[at].parent)
+        row->depth++;
 }
 
-static void describe_solution(struct row *row, const struct solve *s, const struct faces_reference *reference)
+static void describe_solution(struct row *row, const struct solved *s)
 {
-    struct solution solution = solve_solution(s);
-    const struct element *e = s->hierarchy.elements;
-    size_t i;
-    row->elements = s->hierarchy.count;
-    row->links = s->refinement.link_count;
-    for (i = 0; i < s->refinement.link_count; i++)
-        row->groups += !e[s->refinement.links[i].receiver].vertices || !e[s->refinement.links[i].emitter].vertices;
-    row->pairs = s->refinement.pairs;
-    row->rays = rays_count(s->rays).rays;
-    row->imbalance = s->emitted > 0 ? (s->emitted - s->absorbed) / s->emitted : 0;
-    row->error = reference->count ? faces_reference_error(reference, &solution) : (double)NAN;
-    row->converged = s->converged;
+    const struct element *e = s->elements.elements;
+    const struct RadReport *r = &s->report;
+    row->build = r->seconds.clusters;
+    row->elements = r->elements;
+    row->links = r->links;
+    for (size_t i = 0; i < s->links.count; i++)
+        row->groups += !e[s->links.links[i].receiver].vertices || !e[s->links.links[i].emitter].vertices;
+    row->pairs = r->pairs;
+    row->rays = r->rays;
+    row->imbalance = r->emitted > 0 ? (r->emitted - r->absorbed) / r->emitted : 0;
+    row->converged = r->converged;
 }
 
-static int run(const struct options *o, const struct scene *scene, const struct faces_reference *reference, struct progress *progress,
-               enum clustering strategy, struct row *row)
+static int run(const struct options *o, const struct open_scene *scene, const struct faces_reference *reference, struct progress *progress,
+               const char *strategy, struct row *row)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .threads = o->threads, .closure = o->closure,
-                                 .clusters = 1 + (int)strategy, .progress = progress_show, .context = progress };
-    struct refiner *r = oracles_open(o->oracle, o->release);
-    struct hierarchy h;
-    struct solve s;
-    const char *cause;
-    double clock, cpu;
-    int result = -1;
-    if (!r || oracles_set(r, o->settings, o->setting_count) < 0) {
-        refiner_close(r);
+    struct RadSolveOptions how = solve_options(o);
+    struct solved s;
+    RadOracle oracle = open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
+    if (!oracle)
         return -1;
-    }
-    row->strategy = clustering_names[strategy];
-    clock = seconds();
-    if (hierarchy_build_by(&h, scene->faces, scene->face_count, strategy, o->threads) < 0) {
-        refiner_close(r);
-        return report_error(o->scene, 0, "out of memory");
-    }
-    row->build = seconds() - clock;
-    describe_tree(row, &h);
-    hierarchy_free(&h);
+    how.clustering = row->strategy = strategy;
     forget_peak();
-    clock = seconds();
-    cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
-    if (solve_open(&s, scene, &how, &cause) < 0) {
-        report_error(o->scene, 0, "%s", cause);
-        refiner_close(r);
-        return -1;
-    }
-    if (solve_run(&s, r, &cause) < 0) {
-        report_error(o->scene, 0, "%s", cause);
-    } else {
-        row->clock = seconds() - clock;
-        row->cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
-        row->memory = peak();
-        describe_solution(row, &s, reference);
-        result = 0;
-    }
+    double clock = seconds(), cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
     progress_end(progress);
-    solve_close(&s);
-    refiner_close(r);
-    return result;
+    radReleaseOracle(oracle);
+    if (status < 0)
+        return -1;
+    row->clock = seconds() - clock;
+    row->cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    row->memory = peak();
+    describe_tree(row, &s.elements);
+    describe_solution(row, &s);
+    row->error = reference->count ? faces_reference_error(reference, scene, s.solution) : (double)NAN;
+    solved_close(&s);
+    return 0;
 }
 
 /* ---- outputs */
@@ -254,24 +235,25 @@ static void print_plot(FILE *out, const void *context)
     fprintf(out, "\nEOD\nplot for [i=2:%d] $measures using i:xtic(1) title columnheader(i)\n", t->rows + 1);
 }
 
-int study_clustering(const struct options *o, const struct scene *scene)
+int study_clustering(const struct options *o, const struct open_scene *scene)
 {
     struct table t = { .options = o };
     struct faces_reference reference = { 0 };
     struct progress progress;
-    int i, status = 1, only = o->only ? clustering_of(o->only) : -1;
+    int status = 1;
     if (o->reference && faces_reference_read(&reference, o->reference, scene) < 0)
         return 1;
     progress_start(&progress, o->quiet);
+    radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     if (!o->quiet) {
         print_heading(stdout, o);
         print_head(stdout);
         fflush(stdout);
     }
-    for (i = 0; i < CLUSTERING_COUNT; i++) {
-        if (only >= 0 && i != only)
+    for (const char *const *name = radGetClusteringNames(); *name && t.rows < STRATEGIES_MAX; name++) {
+        if (o->only && strcmp(o->only, *name) != 0)
             continue;
-        if (run(o, scene, &reference, &progress, (enum clustering)i, &t.row[t.rows]) < 0)
+        if (run(o, scene, &reference, &progress, *name, &t.row[t.rows]) < 0)
             goto done;
         if (!o->quiet) {
             print_row(stdout, &t.row[t.rows]);

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "util/atomic_file.h"
-#include "commands/commands.h"
+#include "study/study.h"
 #include "util/report.h"
 #include "study/stability.h"
 
@@ -267,8 +267,9 @@ static int find(const char *name)
     return -1;
 }
 
-int study_stability(const struct options *o)
+int study_stability(const struct options *o, const struct open_scene *scene)
 {
+    (void)scene; /* it makes its own */
     struct results *results;
     struct atomic_file file;
     int g, cells, failing, wrong, status = 0;

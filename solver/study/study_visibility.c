@@ -16,11 +16,12 @@
 #include <string.h>
 #include "util/atomic_file.h"
 #include "output/chart.h"
-#include "commands/commands.h"
+#include "study/study.h"
+#include "util/device.h"
+#include "util/open_oracle.h"
+#include "util/solved.h"
 #include "progress.h"
 #include "util/report.h"
-#include "engine/solve.h"
-#include "oracle/statistics.h"
 
 enum { TOOLS = 3, CLASSES = 3 }; /* tested by one run of the graph; none, partial, all */
 
@@ -64,72 +65,61 @@ static struct verdict judge(const struct cell *c)
 }
 
 /* Read the confusion matrix of each tool off the arcs. */
-static void read_counts(const struct statistics *s, struct cell *cells, int tools)
+static void read_counts(const struct RadStatistics *s, struct cell *cells, int tools)
 {
     static const char *const nodes[TOOLS] = { "first", "second", "third" };
-    int i, t, k, n;
-    for (t = 0; t < tools; t++)
-        for (i = 0; i < CLASSES; i++) {
+    for (int t = 0; t < tools; t++)
+        for (int i = 0; i < CLASSES; i++) {
             char name[32];
             snprintf(name, sizeof name, "%s__%s", class_names[i], nodes[t]);
-            for (n = 0; n < s->node_count; n++)
-                for (k = 0; k < CLASSES && strcmp(s->nodes[n].name, name) == 0; k++)
+            for (int n = 0; n < s->node_count; n++)
+                for (int k = 0; k < CLASSES && strcmp(s->nodes[n].name, name) == 0; k++)
                     cells[t].matrix[i][k] = s->nodes[n].answers[k].count; /* the tool declares none, partial, all */
         }
 }
 
-static int set(struct refiner *r, const char *name, double value)
+/* Oracle tester at one threshold with one, two or three numbers of rays. Returns NULL after a message. */
+static RadOracle open_tester(RadDevice device, const struct options *o, double threshold, const int *rays, int tools)
 {
-    struct messages messages = { 0 };
-    int status = refiner_set(r, name, value, &messages);
-    if (status < 0)
-        report_error("tester", 0, "%s", messages_text(&messages));
-    messages_free(&messages);
-    return status;
-}
-
-static double get(const struct refiner *r, const char *name)
-{
-    int i = refiner_find(r, name);
-    return i >= 0 ? refiner_get(r, i) : 0;
+    char settings[4][64], *all[4];
+    snprintf(settings[0], sizeof settings[0], "threshold=%.17g", threshold);
+    snprintf(settings[1], sizeof settings[1], "rays_1=%d", rays[0]);
+    snprintf(settings[2], sizeof settings[2], "rays_2=%d", rays[tools > 1 ? 1 : 0]);
+    snprintf(settings[3], sizeof settings[3], "rays_3=%d", rays[tools - 1]);
+    for (int i = 0; i < 4; i++)
+        all[i] = settings[i];
+    RadOracle oracle = open_oracle(device, "tester", RAD_RELEASE_DAG, all, 4);
+    if (!oracle)
+        return NULL;
+    if (set_oracle(device, oracle, o->settings, o->setting_count) == 0) {
+        if (radCountOracle(oracle) == 0)
+            return oracle;
+        report_device(device, o->scene);
+    }
+    radReleaseOracle(oracle);
+    return NULL;
 }
 
 /* One solve with the tester: up to three numbers of rays at one threshold. */
-static int run(const struct options *o, const struct scene *scene, struct progress *progress, double threshold, const int *rays,
+static int run(const struct options *o, const struct open_scene *scene, struct progress *progress, double threshold, const int *rays,
                int tools, struct cell *cells, double *area)
 {
-    struct solve_options how = { .tolerance = o->tolerance, .iterations = o->iterations, .threads = o->threads,
-                                 .progress = progress_show, .context = progress };
-    struct refiner *r = oracles_open("tester", RELEASE_DAG);
-    struct statistics statistics;
-    struct solve s;
-    const char *cause;
-    int result = -1;
-    if (!r || set(r, "threshold", threshold) < 0 || set(r, "rays_1", rays[0]) < 0 || set(r, "rays_2", rays[tools > 1 ? 1 : 0]) < 0
-        || set(r, "rays_3", rays[tools - 1]) < 0 || oracles_set(r, o->settings, o->setting_count) < 0)
-        goto done;
-    if (refiner_count(r) < 0) {
-        report_error(o->scene, 0, "out of memory");
-        goto done;
-    }
-    if (solve_open(&s, scene, &how, &cause) < 0) {
-        report_error(o->scene, 0, "%s", cause);
-        goto done;
-    }
-    *area = threshold * fmax(get(r, "unit"), get(r, "unit_share") * rays_host(s.rays)->area);
-    if (solve_run(&s, r, &cause) < 0) {
-        report_error(o->scene, 0, "%s", cause);
-    } else if (statistics_take(&statistics, r) < 0) {
-        report_error(o->scene, 0, "out of memory");
-    } else {
-        read_counts(&statistics, cells, tools);
-        statistics_free(&statistics);
-        result = 0;
-    }
+    const struct RadSolveOptions how = solve_options(o);
+    struct RadStatistics statistics;
+    struct solved s;
+    RadOracle oracle = open_tester(scene->device, o, threshold, rays, tools);
+    if (!oracle)
+        return -1;
+    *area = threshold * fmax(radGetOracleParameter(oracle, "unit"), radGetOracleParameter(oracle, "unit_share") * scene->report.area);
+    int result = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
     progress_end(progress);
-    solve_close(&s);
-done:
-    refiner_close(r);
+    if (result == 0) {
+        result = radGetOracleStatistics(oracle, &statistics) < 0 ? report_device(scene->device, o->scene) : 0;
+        if (result == 0)
+            read_counts(&statistics, cells, tools);
+        solved_close(&s);
+    }
+    radReleaseOracle(oracle);
     return result;
 }
 
@@ -233,7 +223,7 @@ static int write_chart(const struct options *o, const struct table *t)
     return chart_draw(o->chart, print_plot, &d);
 }
 
-int study_visibility(const struct options *o, const struct scene *scene)
+int study_visibility(const struct options *o, const struct open_scene *scene)
 {
     struct table *t = calloc(1, sizeof *t);
     struct progress progress;
@@ -241,6 +231,7 @@ int study_visibility(const struct options *o, const struct scene *scene)
     if (!t)
         return report_error(o->scene, 0, "out of memory") ? 1 : 0;
     progress_start(&progress, o->quiet);
+    radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     if (!o->quiet)
         print_head(stdout, o);
     for (i = 0; i < o->threshold_count; i++) {

@@ -2,7 +2,7 @@
  * B = E / (1 - rho) in any closed shape; an open scene must not gain.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
-#include "engine/enclosure.h"
+#include "scene/read_scene.h"
 #include "runtime/make_solve.h"
 #include "suite.h"
 
@@ -57,15 +57,15 @@ START_TEST(test_closed_furnace)
         options.closure = closed ? CLOSURE_ROWS : CLOSURE_NONE;
         solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, NULL, options);
         for (i = 0; i < s.hierarchy.count; i++)
-            if (s.hierarchy.elements[i].vertices && s.exposed[i] > 0)
-                worst[closed] = fmax(worst[closed], fabs(s.radiosity[i] * 0.01 - 1));
-        balance[closed] = s.absorbed / s.emitted - 1;
+            if (s.hierarchy.elements[i].vertices && s.operator.uncovered[i] > 0)
+                worst[closed] = fmax(worst[closed], fabs(s.state.radiosity[i] * 0.01 - 1));
+        balance[closed] = s.report.absorbed / s.report.emitted - 1;
         if (closed) {
             printf("furnace %s rho 0.99: worst element off by %.1e closed, %.1e without; power by %.1e, %.1e; |row - 1| %.4f "
                    "in the mean, %.4f at the most; blind %.1e m2\n", name[_i], worst[1], worst[0], balance[1],
-                   balance[0], s.row_defect, s.row_defect_most, s.row_blind);
-            ck_assert_int_eq(s.closed, 1);
-            ck_assert_double_gt(s.row_defect, 1e-3);
+                   balance[0], s.report.rows.defect_mean, s.report.rows.defect_most, s.report.rows.blind_area);
+            ck_assert_int_eq(s.problem.closed, 1);
+            ck_assert_double_gt(s.report.rows.defect_mean, 1e-3);
         }
         solve_close(&s);
     }
@@ -95,14 +95,14 @@ START_TEST(test_open_closure)
     } else /* nothing but a plate and another */
         scene.face_count = scene.input_count = 2;
     solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, settings, options);
-    ck_assert_int_eq(s.closed, 0);
+    ck_assert_int_eq(s.problem.closed, 0);
     for (i = 0; i < s.hierarchy.count; i++) {
         if (!s.hierarchy.elements[i].vertices || s.hierarchy.elements[i].children)
             continue;
-        ck_assert_double_le(s.row_scale[i], 1);
-        ck_assert(s.row_gift[i] == 0);
+        ck_assert_double_le(s.operator.row_scale[i], 1);
+        ck_assert(s.operator.row_share[i] == 0);
     }
-    ck_assert_double_le(s.absorbed, s.emitted);
+    ck_assert_double_le(s.report.absorbed, s.report.emitted);
     solve_close(&s);
     made_close(&scene);
 }
@@ -149,9 +149,10 @@ START_TEST(test_enclosure)
             for (k = 0; k < f->vertices; k++)
                 memcpy(f->vertex[k], keep.vertex[f->vertices - 1 - k], sizeof f->vertex[k]);
         }
+        options.closure = CLOSURE_ROWS; /* asks */
         ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
-        ck_assert_msg(enclosure_decide(&s) == (i != SLIT && i != WINDOW), "case %d", i);
-        ck_assert_uint_gt(s.closed_rays, 1000);
+        ck_assert_msg(s.problem.closed == (i != SLIT && i != WINDOW), "case %d", i);
+        ck_assert_uint_gt(s.problem.closed_rays, 1000);
         solve_close(&s);
         if (i < SHIPPED || i == WINDOW)
             scene_free(&scene);
@@ -183,8 +184,8 @@ START_TEST(test_spread)
                 up = s.hierarchy.elements[up].parent;
             if (up != i)
                 continue;
-            low = fmin(low, s.radiosity[j]);
-            high = fmax(high, s.radiosity[j]);
+            low = fmin(low, s.state.radiosity[j]);
+            high = fmax(high, s.state.radiosity[j]);
         }
         ck_assert_double_le(fabs(e->spread - (high - low)), 0.0201 * (high - low) + 1e-6 * high);
     }

@@ -1,4 +1,4 @@
-/* check_cluster_light.c - what two groups of faces exchange over links between them, against the sum over all pairs of points of their faces.
+/* check_separable_links.c - what two groups of faces exchange over links between them, against the sum over all pairs of points of their faces.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -112,7 +112,7 @@ static void link_all(uint32_t receivers, double *got, double *should, double *di
 {
     struct hierarchy h;
     struct refinement r;
-    struct cluster_light light;
+    struct separable_links light;
     uint32_t r_list[MOST], s_list[MOST], i, j;
     unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: two of them are no beam */
     double sum = 0, truth = 0, off = 0;
@@ -139,10 +139,10 @@ static void link_all(uint32_t receivers, double *got, double *should, double *di
                 r.links[r.link_count++] = (struct link){ .receiver = i, .emitter = s_list[b], .visibility = LINK_VISIBLE };
     }
     r.first_link[h.count] = r.link_count;
-    ck_assert_int_eq(cluster_light_open(&light, &h, &r, 1, 1), 0);
+    ck_assert_int_eq(separable_links_open(&light, &h, &r, 1, 1), 0);
     for (i = 0; i < receivers; i++) {
         const struct element *x = &h.elements[h.face_element[i]];
-        double row = x->area * cluster_light_row(&light, h.face_element[i]), known = 0;
+        double row = x->area * separable_links_row(&light, h.face_element[i]), known = 0;
         for (j = receivers; j < faces_count; j++)
             known += alone[i] && alone[j] ? 0 : pair(x, &h.elements[h.face_element[j]]) / 3.14159265358979323846;
         sum += row;
@@ -152,7 +152,7 @@ static void link_all(uint32_t receivers, double *got, double *should, double *di
     *got = sum;
     *should = truth;
     *differ = off;
-    cluster_light_close(&light);
+    separable_links_close(&light);
     free(r.links);
     free(r.first_link);
     hierarchy_free(&h);

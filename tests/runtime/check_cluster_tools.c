@@ -519,7 +519,7 @@ START_TEST(test_self_pairs)
         struct discussion d;
         memset(&d, 0, sizeof d);
         d.receiver = d.emitter = &s.hierarchy.elements[i];
-        d.host = rays_host(s.rays);
+        d.host = rays_host(s.problem.rays);
         ck_assert_int_eq(r->refine(r->state, &d), d.receiver->vertices ? DECISION_STOP : DECISION_SUBDIVIDE_BOTH);
         clusters += !d.receiver->vertices;
     }

@@ -328,12 +328,12 @@ START_TEST(test_furnace)
             ck_assert_uint_eq(s[0].refinement.link_count, s[1].refinement.link_count);
             ck_assert_int_eq(memcmp(s[0].refinement.links, s[1].refinement.links, s[0].refinement.link_count * sizeof(struct link)), 0);
             for (i = 0; i < scene.face_count; i++)
-                worst = fmax(worst, fabs(t->radiosity[t->hierarchy.face_element[i]] / 2 - 1));
+                worst = fmax(worst, fabs(t->state.radiosity[t->hierarchy.face_element[i]] / 2 - 1));
         }
     }
     for (i = 0; i < scene.face_count; i++) {
         double a = s[0].hierarchy.elements[s[0].hierarchy.face_element[i]].area;
-        gain += a * (s[0].radiosity[s[0].hierarchy.face_element[i]] / 2 - 1);
+        gain += a * (s[0].state.radiosity[s[0].hierarchy.face_element[i]] / 2 - 1);
         area += a;
     }
     for (l = 0; l < s[0].refinement.link_count; l++)

@@ -65,7 +65,7 @@ static size_t beams(const struct solve *s)
 
 static double face_value(const struct solve *s, uint32_t face)
 {
-    return s->radiosity[(size_t)s->hierarchy.face_element[face] * s->bands];
+    return s->state.radiosity[(size_t)s->hierarchy.face_element[face] * s->problem.bands];
 }
 
 /* sum A |B - B'| / sum A B' over faces */
@@ -73,7 +73,7 @@ static double difference(const struct solve *s, const struct solve *t)
 {
     double off = 0, all = 0;
     uint32_t i;
-    for (i = 0; i < s->scene->face_count; i++) {
+    for (i = 0; i < s->problem.scene->face_count; i++) {
         double a = s->hierarchy.elements[s->hierarchy.face_element[i]].area;
         off += a * fabs(face_value(s, i) - face_value(t, i));
         all += a * face_value(t, i);
@@ -107,8 +107,8 @@ START_TEST(test_small)
     ck_assert_uint_eq(a.refinement.link_count, b.refinement.link_count);
     ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links, a.refinement.link_count * sizeof *a.refinement.links), 0);
     ck_assert_uint_eq(a.hierarchy.count, b.hierarchy.count);
-    ck_assert_int_eq(memcmp(a.radiosity, b.radiosity, (size_t)a.hierarchy.count * a.bands * sizeof *a.radiosity), 0);
-    ck_assert_int_eq(memcmp(a.irradiance, b.irradiance, (size_t)a.hierarchy.count * a.bands * sizeof *a.irradiance), 0);
+    ck_assert_int_eq(memcmp(a.state.radiosity, b.state.radiosity, (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.radiosity), 0);
+    ck_assert_int_eq(memcmp(a.state.irradiance, b.state.irradiance, (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.irradiance), 0);
     solve_close(&a);
     solve_close(&b);
     made_close(&scene);
@@ -127,11 +127,11 @@ START_TEST(test_large)
     solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
     printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; power lost %.2g\n", scene.face_count,
            with.refinement.link_count, beams(&with), without.refinement.link_count, difference(&with, &without),
-           1 - with.absorbed / with.emitted);
+           1 - with.report.absorbed / with.report.emitted);
     ck_assert_uint_gt(beams(&with), 1000);
     ck_assert_uint_lt(2 * with.refinement.link_count, without.refinement.link_count);
     ck_assert_double_le(difference(&with, &without), 0.015);
-    ck_assert_double_le(fabs(1 - with.absorbed / with.emitted), 0.03);
+    ck_assert_double_le(fabs(1 - with.report.absorbed / with.report.emitted), 0.03);
     ck_assert_uint_eq(with.refinement.link_count, one.refinement.link_count);
     ck_assert_int_eq(memcmp(with.refinement.links, one.refinement.links, one.refinement.link_count * sizeof *one.refinement.links), 0);
     solve_close(&with);
@@ -151,10 +151,10 @@ START_TEST(test_feature)
     released(&one, &scene, "clusters_feature", RELEASE_DAG, 1, CLOSURE_NONE, "min_share=5e-4");
     solved(&rays, &scene, "clusters", 2, CLOSURE_NONE, "min_share=5e-4");
     printf("room of %u faces through fog: %zu links, %zu of them of clusters; B differs by %.2g; power lost %.2g\n", scene.face_count,
-           fog.refinement.link_count, beams(&fog), difference(&fog, &rays), 1 - fog.absorbed / fog.emitted);
+           fog.refinement.link_count, beams(&fog), difference(&fog, &rays), 1 - fog.report.absorbed / fog.report.emitted);
     ck_assert_uint_gt(beams(&fog), 1000);
     ck_assert_double_le(difference(&fog, &rays), 0.1);
-    ck_assert_double_le(fabs(1 - fog.absorbed / fog.emitted), 0.1);
+    ck_assert_double_le(fabs(1 - fog.report.absorbed / fog.report.emitted), 0.1);
     ck_assert_uint_eq(fog.refinement.link_count, one.refinement.link_count);
     ck_assert_int_eq(memcmp(fog.refinement.links, one.refinement.links, one.refinement.link_count * sizeof *one.refinement.links), 0);
     solve_close(&fog);
@@ -253,7 +253,7 @@ START_TEST(test_self_shadow)
     solved(&s, &scene, "clusters", 2, CLOSURE_NONE, _i == 0 ? "from_faces=1" : NULL);
     for (i = 0; i < scene.face_count; i++)
         if (scene.faces[i].material < 3)
-            got[scene.faces[i].material] += s.irradiance[s.hierarchy.face_element[i]] / (24 * 24);
+            got[scene.faces[i].material] += s.state.irradiance[s.hierarchy.face_element[i]] / (24 * 24);
     printf("plates: %.4f of the lamp's light above, %.2g underneath, %.2g below; %zu links of groups\n", got[0] / expected,
            got[1] / expected, got[2] / expected, beams(&s));
     ck_assert_double_eq_tol(got[0] / expected, 1, 0.02);

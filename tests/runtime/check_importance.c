@@ -1,5 +1,5 @@
 /* check_importance.c - what the solver tells oracles of a view and of errors: importance against a direct solution and by
- * duality, the defect of a leaf against its definition, error control against a known solution.
+ * duality, the residual of a leaf against its definition, error control against a known solution.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,10 +30,10 @@ static void solve_view(struct solve *s, const struct scene *scene, const char *t
     snprintf(text, sizeof text, weighted, threshold);
     r = interpreted("weighted.dag", text, NULL);
     ck_assert_ptr_nonnull(r);
-    ck_assert(refiner_reads(r, FACT_RECEIVER_IMPORTANCE) && !refiner_reads(r, FACT_RECEIVER_ALLOWANCE));
+    ck_assert(refiner_reads(r, FACT_RECEIVER_IMPORTANCE) && !refiner_reads(r, FACT_RECEIVER_TOLERANCE));
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
-    ck_assert_int_eq(s->converged, 1);
+    ck_assert_int_eq(s->report.converged, 1);
     refiner_close(r);
 }
 
@@ -75,7 +75,7 @@ static double part_of(const struct solve *s, uint32_t j, uint32_t e)
     uint32_t up = j;
     while (up > e)
         up = s->hierarchy.elements[up].parent;
-    return up == e ? s->hierarchy.elements[j].area * s->exposed[j] / (s->hierarchy.elements[e].area * s->exposed[e]) : 0;
+    return up == e ? s->hierarchy.elements[j].area * s->operator.uncovered[j] / (s->hierarchy.elements[e].area * s->operator.uncovered[e]) : 0;
 }
 
 static const struct view into_the_corner = { .eye = { 3.9, 4.9, 2.9 }, .at = { 0, 0, 0 }, .fov = 25 };
@@ -105,23 +105,23 @@ START_TEST(test_importance_dense)
     for (i = 0; i < n; i++) {
         a[(size_t)i * n + i] = 1;
         y[i] = s.importance.response[leaf[i]];
-        ck_assert(s.row_gift[leaf[i]] == 0 || !(s.exposed[leaf[i]] > 0));
-        for (up = leaf[i]; s.exposed[leaf[i]] > 0 && s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
+        ck_assert(s.operator.row_share[leaf[i]] == 0 || !(s.operator.uncovered[leaf[i]] > 0));
+        for (up = leaf[i]; s.operator.uncovered[leaf[i]] > 0 && s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
             for (l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++) {
                 const struct link *link = &s.refinement.links[l];
-                double f = (double)link->form_factor * link->visibility / LINK_VISIBLE * s.row_scale[leaf[i]] / s.exposed[leaf[i]];
+                double f = (double)link->form_factor * link->visibility / LINK_VISIBLE * s.operator.row_scale[leaf[i]] / s.operator.uncovered[leaf[i]];
                 for (j = 0; j < n; j++)
                     a[(size_t)i * n + j] -= f * part_of(&s, leaf[j], link->emitter) * s.hierarchy.elements[leaf[j]].reflectance;
             }
     }
     eliminate(a, y, n);
     for (i = 0; i < n; i++)
-        worst = s.exposed[leaf[i]] > 0 ? fmax(worst, fabs(s.importance.value[leaf[i]] - y[i])) : worst;
+        worst = s.operator.uncovered[leaf[i]] > 0 ? fmax(worst, fabs(s.importance.value[leaf[i]] - y[i])) : worst;
     printf("importance of %u leaves: at most %.1e from the direct solution; from %.3g in the mean to %.3g\n", n, worst,
            s.importance.mean, s.importance.largest);
     ck_assert_double_le(worst, 1e-6 * s.importance.largest);
     ck_assert_double_gt(s.importance.seen, 0.5);
-    ck_assert_double_lt(s.importance.seen, 0.5 * rays_host(s.rays)->area);
+    ck_assert_double_lt(s.importance.seen, 0.5 * rays_host(s.problem.rays)->area);
     for (i = 0; i < s.hierarchy.count; i++) {
         double share = fmax(s.importance.value[i] / s.importance.largest, 1e-4);
         ck_assert_double_le(fabs(s.hierarchy.elements[i].importance - share), 0.0201 * share);
@@ -160,8 +160,8 @@ START_TEST(test_importance_dual)
         const struct element *e = &s.hierarchy.elements[i];
         if (e->children || !e->vertices)
             continue;
-        left += e->area * s.exposed[i] * s.importance.response[i] * s.radiosity[i];
-        right += e->area * s.exposed[i] * s.importance.value[i] * s.exitance[e->face];
+        left += e->area * s.operator.uncovered[i] * s.importance.response[i] * s.state.radiosity[i];
+        right += e->area * s.operator.uncovered[i] * s.importance.value[i] * s.problem.exitance[e->face];
     }
     printf("what the picture holds: %.9g W by light, %.9g W by importance\n", left, right);
     ck_assert_double_gt(left, 0.1);
@@ -188,7 +188,7 @@ START_TEST(test_importance_pays)
         solve_view(&s[k], &scene, k ? "0.02 / max(receiver.importance, 0.01)" : "0.02 + 0 * receiver.importance", options);
         for (i = 0; i < s[k].hierarchy.count; i++)
             if (s[k].hierarchy.elements[i].vertices && !s[k].hierarchy.elements[i].children)
-                sum[k] += s[k].hierarchy.elements[i].area * s[k].importance.response[i] * s[k].radiosity[i];
+                sum[k] += s[k].hierarchy.elements[i].area * s[k].importance.response[i] * s[k].state.radiosity[i];
     }
     printf("in the picture %.5g W by %zu links, %.5g W by %zu links of importance\n", sum[0], s[0].refinement.link_count,
            sum[1], s[1].refinement.link_count);
@@ -218,8 +218,8 @@ static double factor_at(const double x[3], const double n[3], const struct eleme
     return sum * s->area / ((double)N * N);
 }
 
-/* A leaf's defect against its definition, links and integrals written out. */
-START_TEST(test_defect)
+/* A leaf's residual against its definition, links and integrals written out. */
+START_TEST(test_residual)
 {
     static char *settings[] = { "relative=0.05", "min_share=1e-3", NULL };
     struct scene scene;
@@ -235,7 +235,7 @@ START_TEST(test_defect)
         const struct element *e = &s.hierarchy.elements[i];
         double worst = 0;
         uint32_t up, links = 0;
-        struct defect d;
+        struct leaf_residual d;
         size_t l;
         int k;
         if (!e->vertices || e->children || e->face != 1)
@@ -247,12 +247,12 @@ START_TEST(test_defect)
             for (up = i; s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
                 for (l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++, links++) {
                     const struct link *link = &s.refinement.links[l];
-                    sum += s.radiosity[link->emitter] * link->visibility / LINK_VISIBLE
+                    sum += s.state.radiosity[link->emitter] * link->visibility / LINK_VISIBLE
                          * (factor_at(x, e->normal, &s.hierarchy.elements[link->emitter], 300) - (double)link->form_factor);
                 }
             worst = fmax(worst, 0.7 * fabs(sum));
         }
-        d = defect_leaf(&s, i);
+        d = residual_of_leaf(&s.operator, s.state.radiosity, i);
         ck_assert_uint_eq(d.links, links);
         ck_assert_double_eq_tol(d.all, worst, 2e-5);
         ck_assert_double_gt(d.all, 1e-3);
@@ -266,8 +266,8 @@ START_TEST(test_defect)
 END_TEST
 
 /* Error control: what was asked for is held by every leaf that is not given up, and by the face means of a cube whose
- * solution is known; allowances start where they should, only fall, and a parent's is the least of its children's. */
-START_TEST(test_allowance)
+ * solution is known; tolerances start where they should, only fall, and a parent's is the least of its children's. */
+START_TEST(test_error_control)
 {
     static char *wanted[3][4] = { { "relative=0", "epsilon=0.1", "min_share=1e-4", NULL }, { "relative=0", "epsilon=0.05", "min_share=1e-4", NULL },
                                   { "relative=0", "epsilon=0.025", "min_share=1e-4", NULL } };
@@ -287,29 +287,30 @@ START_TEST(test_allowance)
         made_room(&scene, m, 1, 1, 1);
         solve_with(&s, &scene, "error_control", RELEASE_FLAT, wanted[k], quick(1));
         links[k] = s.refinement.link_count;
-        ck_assert_double_eq_tol(s.allowance.target, eps[k], 1e-15);
+        ck_assert_double_eq_tol(s.error.target, eps[k], 1e-15);
         for (i = 0; i < s.hierarchy.count; i++) {
             const struct element *e = &s.hierarchy.elements[i];
             double least = INFINITY;
-            ck_assert_double_le(e->allowance, 0.5 * eps[k]);
-            fallen += e->vertices && e->allowance < 0.49 * eps[k];
+            ck_assert_double_le(e->tolerance, 0.5 * eps[k]);
+            fallen += e->vertices && e->tolerance < 0.49 * eps[k];
             for (c = 0; c < e->children; c++)
-                least = fmin(least, s.hierarchy.elements[e->child + (uint32_t)c].allowance);
+                least = fmin(least, s.hierarchy.elements[e->child + (uint32_t)c].tolerance);
             if (e->children)
-                ck_assert(least >= e->allowance && (e->depth > 0 || !e->vertices || least <= 0.5 * eps[k]));
+                ck_assert(least >= e->tolerance && (e->depth > 0 || !e->vertices || least <= 0.5 * eps[k]));
             if (!e->vertices || e->children)
                 continue;
-            if (defect_leaf(&s, i).all > eps[k]) {
+            struct leaf_residual left = residual_of_leaf(&s.operator, s.state.radiosity, i);
+            if (left.all > eps[k]) {
                 given_up++;
-                ck_assert(defect_leaf(&s, i).guarded > eps[k] || e->allowance * defect_leaf(&s, i).links < 0.25 * eps[k]);
+                ck_assert(left.guarded > eps[k] || e->tolerance * left.links < 0.25 * eps[k]);
             }
         }
         off = fmax(fabs(face_radiosity(&s, 1) - 1.1043616), fabs(face_radiosity(&s, 0) - 0.1712161));
         for (f = 2; f < 6; f++)
             off = fmax(off, fabs(face_radiosity(&s, f) - 0.1811056));
         printf("error asked %.3f: %zu links, %d passes, estimate %.3f, %u of %u leaves given up, %u elements lowered, face means off by %.1e\n",
-               eps[k], links[k], s.passes, s.allowance.largest, given_up, s.leaves, fallen, off);
-        ck_assert((s.allowance.area > 0) == (given_up > 0));
+               eps[k], links[k], s.report.passes, s.error.largest, given_up, s.report.rows.leaves, fallen, off);
+        ck_assert((s.error.area > 0) == (given_up > 0));
         ck_assert(k < 2 || fallen > 0);
         ck_assert_double_le(off, eps[k]);
         solve_close(&s);
@@ -320,20 +321,20 @@ START_TEST(test_allowance)
 }
 END_TEST
 
-/* Groups of faces count, too: a lamp of 16 faces over a floor, linked as a group while the floor's allowance bears it. Every
+/* Groups of faces count, too: a lamp of 16 faces over a floor, linked as a group while the floor's tolerance bears it. Every
  * leaf is then within eps at its corners by the faces themselves, but for what taking the group for a point leaves out. */
 static const char grouped[] =
-    "oracle grouped \"links of groups by allowance\" { param epsilon : flux = 0 in [0, inf] role error_tolerance;\n"
+    "oracle grouped \"links of groups by tolerance\" { param epsilon : flux = 0 in [0, inf] role error_tolerance;\n"
     "  start level;\n"
     "  node level = clusters() { surfaces -> form;  apart -> stop;  receiver | emitter -> far; }\n"
-    "  node far   = cluster_gap(absolute = 32 * min(receiver.allowance, epsilon)) { dark -> stop;  near | above -> open;  below -> sight; }\n"
+    "  node far   = cluster_gap(absolute = 32 * min(receiver.tolerance, epsilon)) { dark -> stop;  near | above -> open;  below -> sight; }\n"
     "  node sight = cluster_visibility() { none -> stop;  partial | all -> link_clusters; }\n"
     "  node open  = opens(ratio = 1, min_share = 1e-4) { receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
     "  node form  = form_factor() { done -> see; }\n"
     "  node see   = visibility(rays = 4) { none | partial | all -> link; }\n"
     "}\n";
 
-START_TEST(test_defect_groups)
+START_TEST(test_residual_groups)
 {
     static const double eps = 0.002;
     struct solve_options options = quick(1);
@@ -367,7 +368,7 @@ START_TEST(test_defect_groups)
             uint32_t f;
             for (f = 1; f <= 16; f++)
                 sum += 20 * factor_at(e->vertex[k], e->normal, &s.hierarchy.elements[s.hierarchy.face_element[f]], 2);
-            worst = fmax(worst, 0.5 * fabs(sum - s.irradiance[i]));
+            worst = fmax(worst, 0.5 * fabs(sum - s.state.irradiance[i]));
         }
     }
     printf("groups: %u leaves, %u links of groups, off by %.2g of %.2g at the corners\n", leaves, beams, worst, eps);
@@ -382,15 +383,15 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("importance and allowance");
-    TCase *c = tcase_create("importance and allowance");
+    Suite *suite = suite_create("importance and error control");
+    TCase *c = tcase_create("importance and error control");
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_importance_dense);
     tcase_add_loop_test(c, test_importance_dual, 0, 2);
     tcase_add_test(c, test_importance_pays);
-    tcase_add_test(c, test_defect);
-    tcase_add_test(c, test_defect_groups);
-    tcase_add_test(c, test_allowance);
+    tcase_add_test(c, test_residual);
+    tcase_add_test(c, test_residual_groups);
+    tcase_add_test(c, test_error_control);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -13,6 +13,7 @@
 #include <string.h>
 #include "oracle/builtin.h"
 #include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "util/oracles.h"
 #include "runtime/path_reference.h"
 #include "engine/solve.h"
@@ -48,10 +49,10 @@ static double power_error(const struct solve *s, const double *reference, uint32
     double sum = 0;
     uint32_t i;
     *all = 0;
-    for (i = 0; i < s->scene->face_count; i++) {
-        size_t at = (size_t)i * s->bands + band, element = s->hierarchy.face_element[i];
-        double power = s->reflectance[at] * s->hierarchy.elements[element].area;
-        sum += power * fabs(s->irradiance[element * s->bands + band] - reference[at]);
+    for (i = 0; i < s->problem.scene->face_count; i++) {
+        size_t at = (size_t)i * s->problem.bands + band, element = s->hierarchy.face_element[i];
+        double power = s->problem.reflectance[at] * s->hierarchy.elements[element].area;
+        sum += power * fabs(s->state.irradiance[element * s->problem.bands + band] - reference[at]);
         *all += power * reference[at];
     }
     return sum;
@@ -82,10 +83,10 @@ static int table(const char *path)
         free(given);
         error = power_error(&s, reference, 0, &all);
         for (quiet = 0, i = 0; i < scene.face_count; i++)
-            quiet += s.reflectance[i * s.bands] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[i * s.bands];
+            quiet += s.problem.reflectance[i * s.problem.bands] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[i * s.problem.bands];
         printf("%-15s %9zu links %9.0f rays %7.2f s  error %.3f %% of %.4g W (reference's noise %.3f %%), %llu kept by a guard; %.3g of its tolerance\n", b->name,
-               s.refinement.link_count, (double)rays_count(s.rays).rays, s.seconds.refine + s.seconds.iterate, 100 * error / all,
-               all, 100 * quiet / all, (unsigned long long)s.refinement.marked[1], error / (0.02 * rays_host(s.rays)->irradiance * rays_host(s.rays)->area));
+               s.refinement.link_count, (double)rays_count(s.problem.rays).rays, s.report.seconds.refine + s.report.seconds.iterate, 100 * error / all,
+               all, 100 * quiet / all, (unsigned long long)s.refinement.marked[1], error / (0.02 * rays_host(s.problem.rays)->irradiance * rays_host(s.problem.rays)->area));
         fflush(stdout);
         solve_close(&s);
     }
@@ -129,7 +130,7 @@ START_TEST(test_declared)
         }
         reading += flat->read_count > 0;
         ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_IMPORTANCE), strcmp(b->name, "importance") == 0);
-        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_ALLOWANCE), strcmp(b->name, "error_control") == 0);
+        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_TOLERANCE), strcmp(b->name, "error_control") == 0);
         ck_assert_int_eq(refiner_find_role(flat, ROLE_ERROR_TOLERANCE, -1) >= 0, strcmp(b->name, "error_control") == 0);
         ck_assert_int_eq(refiner_find_role(flat, ROLE_SHADOW_TOLERANCE, -1) >= 0, strcmp(b->name, "viewfactors") == 0);
         refiner_close(flat);
@@ -207,7 +208,7 @@ START_TEST(test_falling)
         solve_with(&s, &scene, f->oracle, settings);
         worst[i] = 0;
         for (k = 0; k < scene.face_count; k++)
-            worst[i] = fmax(worst[i], fabs(s.radiosity[s.hierarchy.face_element[k]] - known[k]));
+            worst[i] = fmax(worst[i], fabs(s.state.radiosity[s.hierarchy.face_element[k]] - known[k]));
         links[i] = s.refinement.link_count;
         solve_close(&s);
         made_close(&scene);
@@ -249,7 +250,7 @@ START_TEST(test_promise)
         double wrong = power_error(&s, reference, k, &all), unsure = 0;
         uint32_t i;
         for (i = 0; i < scene.face_count; i++)
-            unsure += s.reflectance[(size_t)i * s.bands + k] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[(size_t)i * s.bands + k];
+            unsure += s.problem.reflectance[(size_t)i * s.problem.bands + k] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[(size_t)i * s.problem.bands + k];
         printf("thermal %s, band %u: %.3g W wrong (reference +- %.2g W), %g W promised, of %.4g W; %zu links, %llu whole by a guard\n", promise[_i].scene,
                k, wrong, unsure, promise[_i].watts, all, s.refinement.link_count, (unsigned long long)s.refinement.marked[1]);
         ck_assert_double_le(unsure, 0.25 * promise[_i].watts);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "scene/make_scene.h"
+#include "visibility/contact_fraction.h"
 #include "visibility/rays.h"
 #include "engine/refine.h"
 #include "engine/solve.h"
@@ -219,8 +220,8 @@ START_TEST(test_buried)
     ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
     rays = rays_open(&h, zero, zero, 1, &cause);
     ck_assert_ptr_nonnull(rays);
-    ck_assert_double_eq_tol(rays_exposed(rays, &h.elements[h.face_element[0]]), 0.75, 1e-12);
-    ck_assert_double_eq_tol(rays_exposed(rays, &h.elements[h.face_element[1]]), 1, 1e-12);
+    ck_assert_double_eq_tol(contact_fraction(rays, &h.elements[h.face_element[0]]), 0.25, 1e-12);
+    ck_assert_double_eq_tol(contact_fraction(rays, &h.elements[h.face_element[1]]), 0, 1e-12);
     rays_close(rays);
     hierarchy_free(&h);
     made_close(&s);

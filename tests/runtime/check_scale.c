@@ -96,23 +96,23 @@ static void run(struct solve *s, struct scene *scene, struct refiner *r, struct 
     set(r, length);
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
-    ck_assert_int_eq(s->converged, 1);
+    ck_assert_int_eq(s->report.converged, 1);
 }
 
 static void same_solution(const struct solve *a, const struct solve *b, double length)
 {
-    size_t values = (size_t)a->hierarchy.count * a->bands;
+    size_t values = (size_t)a->hierarchy.count * a->problem.bands;
     same_links(a, b);
     ck_assert_uint_eq(a->refinement.pairs, b->refinement.pairs);
     ck_assert(memcmp(a->refinement.decided, b->refinement.decided, sizeof a->refinement.decided) == 0);
     ck_assert(memcmp(a->refinement.marked, b->refinement.marked, sizeof a->refinement.marked) == 0);
-    ck_assert(memcmp(a->radiosity, b->radiosity, values * sizeof(double)) == 0);
-    ck_assert(memcmp(a->irradiance, b->irradiance, values * sizeof(double)) == 0);
-    ck_assert_int_eq(a->passes, b->passes);
-    ck_assert_int_eq(a->sweeps, b->sweeps);
-    ck_assert_int_eq(a->closed, b->closed);
-    ck_assert(a->row_defect == b->row_defect && a->residual == b->residual);
-    ck_assert(a->emitted * length * length == b->emitted && a->absorbed * length * length == b->absorbed);
+    ck_assert(memcmp(a->state.radiosity, b->state.radiosity, values * sizeof(double)) == 0);
+    ck_assert(memcmp(a->state.irradiance, b->state.irradiance, values * sizeof(double)) == 0);
+    ck_assert_int_eq(a->report.passes, b->report.passes);
+    ck_assert_int_eq(a->report.sweeps, b->report.sweeps);
+    ck_assert_int_eq(a->problem.closed, b->problem.closed);
+    ck_assert(a->report.rows.defect_mean == b->report.rows.defect_mean && a->report.residual == b->report.residual);
+    ck_assert(a->report.emitted * length * length == b->report.emitted && a->report.absorbed * length * length == b->report.absorbed);
 }
 
 /* Every node gave each of its answers as often, and the same was recorded. */
@@ -155,7 +155,7 @@ START_TEST(test_oracle)
         for (k = 0; k < said[0].nodes[i].answer_count; k++)
             answers += said[0].nodes[i].answers[k].count > 0;
     printf("%-15s %zu links, %llu discussions, %d answers of %d nodes, %d passes\n", oracle->name ? oracle->name : "rest",
-           s[0].refinement.link_count, (unsigned long long)s[0].refinement.pairs, answers, said[0].node_count, s[0].passes);
+           s[0].refinement.link_count, (unsigned long long)s[0].refinement.pairs, answers, said[0].node_count, s[0].report.passes);
     ck_assert_uint_gt(s[0].refinement.link_count, 100);
     if (oracle->name && strncmp(oracle->name, "clusters", 8) == 0) /* clusters_feature, too */
         ck_assert_uint_gt(s[0].refinement.decided[DECISION_LINK_CLUSTERS], 0);

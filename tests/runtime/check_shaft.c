@@ -12,6 +12,7 @@
 #include <string.h>
 #include "visibility/candidates.h"
 #include "scene/make_scene.h"
+#include "scene/read_scene.h"
 #include "visibility/rays.h"
 #include "engine/refine.h"
 #include "oracles.h"

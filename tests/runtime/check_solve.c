@@ -25,9 +25,9 @@ START_TEST(test_furnace)
     solve_with(&s, &scene, oracle[_i / 9], RELEASE_FLAT, NULL, quick(2));
     for (i = 0; i < s.hierarchy.count; i++)
         if (s.hierarchy.elements[i].vertices)
-            worst = fmax(worst, fabs(s.radiosity[i] * (1 - rho[_i / 3 % 3]) - 1));
+            worst = fmax(worst, fabs(s.state.radiosity[i] * (1 - rho[_i / 3 % 3]) - 1));
     printf("furnace %s rho %.2f %s: worst element off by %.1e; rows %.4f to %.4f before the cap\n", name[_i % 3],
-           rho[_i / 3 % 3], oracle[_i / 9], worst, s.row_low, s.row_high);
+           rho[_i / 3 % 3], oracle[_i / 9], worst, s.report.rows.low, s.report.rows.high);
     ck_assert_double_le(worst, 1e-3);
     solve_close(&s);
     made_close(&scene);
@@ -99,7 +99,7 @@ START_TEST(test_same_links)
     for (k = 0; k < 4; k++) {
         solve_with(&other, &scene, oracle[_i], k == 1 ? RELEASE_DAG : k == 2 ? RELEASE_HAND : RELEASE_FLAT, NULL, quick(k == 3 ? 5 : 2));
         same_links(&one, &other);
-        ck_assert(memcmp(one.radiosity, other.radiosity, one.hierarchy.count * sizeof(double)) == 0);
+        ck_assert(memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double)) == 0);
         solve_close(&other);
     }
     solve_close(&one);
@@ -137,7 +137,7 @@ START_TEST(test_scale)
     solve_with(&one, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick(2));
     solve_with(&other, &scaled, "bf_guarded", RELEASE_FLAT, NULL, quick(2));
     same_links(&one, &other);
-    ck_assert(memcmp(one.radiosity, other.radiosity, one.hierarchy.count * sizeof(double)) == 0);
+    ck_assert(memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double)) == 0);
     solve_close(&one);
     solve_close(&other);
     made_close(&scene);
@@ -158,8 +158,8 @@ START_TEST(test_methods)
     solve_with(&other, &scene, "bf_guarded", RELEASE_FLAT, NULL, jacobi);
     for (i = 0; i < scene.face_count; i++)
         ck_assert_double_eq_tol(face_radiosity(&one, i) / face_radiosity(&other, i), 1, 1e-3);
-    ck_assert_int_lt(one.sweeps, other.sweeps);
-    ck_assert_double_eq_tol(one.absorbed / one.emitted, 1, 0.03);
+    ck_assert_int_lt(one.report.sweeps, other.report.sweeps);
+    ck_assert_double_eq_tol(one.report.absorbed / one.report.emitted, 1, 0.03);
     solve_close(&one);
     solve_close(&other);
     made_close(&scene);

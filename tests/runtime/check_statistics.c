@@ -81,7 +81,7 @@ START_TEST(test_statistics)
     noted -= counted.records[3].zero;
     for (i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
         noted -= counted.records[3].bins[i];
-        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.rays)->irradiance) /* no B is above 20 W/m2, and F <= 1 */
+        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.problem.rays)->irradiance) /* no B is above 20 W/m2, and F <= 1 */
             ck_assert_uint_eq(counted.records[3].bins[i], 0);
     }
     ck_assert_uint_eq(noted, 0);

@@ -531,7 +531,7 @@ START_TEST(test_coplanar)
         ck_assert_int_eq(solve_open(&s, &t.scene, &options, &cause), 0);
         ck_assert_int_eq(solve_refine(&s, oracle, &cause), 0);
         ck_assert_uint_eq(s.refinement.link_count, 0);
-        ck_assert_uint_eq(rays_count(s.rays).rays, 0);
+        ck_assert_uint_eq(rays_count(s.problem.rays).rays, 0);
         refiner_close(oracle);
         solve_close(&s);
         two_close(&t);

@@ -29,13 +29,13 @@ static inline void solve_with(struct solve *s, const struct scene *scene, const 
     ck_assert_int_eq(oracles_set(r, settings, n), 0);
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
-    ck_assert_int_eq(s->converged, 1);
+    ck_assert_int_eq(s->report.converged, 1);
     refiner_close(r);
 }
 
 static inline double face_radiosity(const struct solve *s, uint32_t face)
 {
-    return s->radiosity[(size_t)s->hierarchy.face_element[face] * s->bands];
+    return s->state.radiosity[(size_t)s->hierarchy.face_element[face] * s->problem.bands];
 }
 
 static inline void same_links(const struct solve *a, const struct solve *b)

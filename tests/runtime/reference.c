@@ -18,7 +18,7 @@
 #include <omp.h>
 #include "util/embree.h"
 #include "geometry.h"
-#include "hierarchy/scene.h"
+#include "scene/read_scene.h"
 #include "kernel/hash.h"
 
 #define INVERSE_PI 0.31830988618379067154
@@ -46,7 +46,7 @@ static double largest(const double v[3])
     return m > v[2] ? m : v[2];
 }
 
-static const struct material *material(uint32_t face)
+static const struct RadMaterial *material(uint32_t face)
 {
     return &scene.materials[scene.faces[face].material];
 }
@@ -200,7 +200,7 @@ static void trace(double p[3], const double at[3], double h[3], uint64_t *state)
     for (;;) {
         double u = uniform(state), angle = 6.28318530717958647693 * uniform(state), r = sqrt(u), z = sqrt(1 - u);
         double x[3] = { fabs(n[0]) < 0.5, fabs(n[0]) >= 0.5, 0 }, y[3], v[3], size, square, cosine, goes_on, share;
-        const struct material *m;
+        const struct RadMaterial *m;
         int64_t face;
         sample_light(p, n, through, h, state);
         cross3(y, n, x);
@@ -345,7 +345,7 @@ int main(int count, char **arguments)
         printf(",se_%u", k);
     for (i = 0; i < scene.input_count; i++) {
         const struct estimate *e = &estimates[i];
-        const struct material *m = &scene.materials[scene.inputs[i].material];
+        const struct RadMaterial *m = &scene.materials[scene.input_materials[i]];
         if (!chosen(i, share))
             continue;
         printf("\n%u,%.9g", i, e->area);

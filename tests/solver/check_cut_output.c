@@ -15,13 +15,14 @@
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 
+#include "geometry.h"
+#include "hierarchy/hierarchy.h"
+#include "load_scene.h"
 #include "output/contact.h"
 #include "output/export.h"
 #include "output/faces_csv.h"
-#include "geometry.h"
 #include "output/image.h"
 #include "output/leaf_mesh.h"
-#include "hierarchy/scene.h"
 #include "suite.h"
 
 static char folder[64];
@@ -46,8 +47,8 @@ enum { FACES = 7 };
 static const double areas[FACES] = { 2, 0.06, 0.36, 0.06, 0.06, 0.06, 0.06 };
 
 struct stage {
-    struct scene scene;
-    struct hierarchy h;
+    struct loaded loaded;
+    struct hierarchy h; /* of the engine, for quadtrees as uneven as they come */
     struct solution solution;
     struct vertex_values values;
     double *b;
@@ -74,34 +75,33 @@ static double made_up(const double p[3])
 /* An uneven quadtree on every part, then the radiosities. */
 static void stage_open(struct stage *s)
 {
-    uint32_t i;
-    int round;
+    *s = (struct stage){.b = NULL};
     put("cut.mtl", materials);
     put("cut.obj", room);
-    ck_assert_int_eq(scene_read(&s->scene, in_folder("cut.obj"), NULL), 0);
-    ck_assert_uint_eq(s->scene.input_count, FACES);
-    ck_assert_uint_eq(s->scene.cut, 1);
-    ck_assert_uint_gt(s->scene.parts, 5);
-    ck_assert_int_eq(hierarchy_build(&s->h, s->scene.faces, s->scene.face_count), 0);
-    for (round = 0; round < 4; round++) {
+    load_scene(&s->loaded, in_folder("cut.obj"));
+    const struct surfaces *surfaces = &s->loaded.surfaces;
+    ck_assert_uint_eq(s->loaded.report.polygons, FACES);
+    ck_assert_uint_eq(s->loaded.report.cut, 1);
+    ck_assert_uint_gt(s->loaded.report.parts, 5);
+    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)surfaces->faces, surfaces->face_count), 0);
+    for (int round = 0; round < 4; round++) {
         uint32_t count = s->h.count;
-        for (i = 0; i < count; i++)
-            if (s->h.elements[i].vertices && !s->h.elements[i].children && (round < 2 || (s->h.elements[i].id >> 20) % 3 == 0))
+        for (uint32_t i = 0; i < count; i++)
+            if (is_leaf(&s->h.elements[i]) && (round < 2 || (s->h.elements[i].id >> 20) % 3 == 0))
                 ck_assert_int_eq(hierarchy_split(&s->h, i), 0);
     }
     s->b = malloc(s->h.count * sizeof *s->b);
     ck_assert_ptr_nonnull(s->b);
-    for (i = 0; i < s->h.count; i++)
-        s->b[i] = s->h.elements[i].vertices && s->h.elements[i].face < s->scene.face_count
-                && s->scene.faces[s->h.elements[i].face].input == 0 ? made_up(s->h.elements[i].centre) : 2;
-    for (i = s->h.count; i-- > 0;) /* a face has its parts' mean */
-        if (s->h.elements[i].vertices && s->h.elements[i].children) {
-            int c;
+    const struct element *e = s->h.elements;
+    for (uint32_t i = 0; i < s->h.count; i++)
+        s->b[i] = e[i].vertices && surfaces->faces[e[i].face].input == 0 ? made_up(e[i].centre) : 2;
+    for (uint32_t i = s->h.count; i-- > 0;) /* a face has its parts' mean */
+        if (e[i].vertices && e[i].children) {
             s->b[i] = 0;
-            for (c = 0; c < 4; c++)
-                s->b[i] += s->b[s->h.elements[i].child + (uint32_t)c] * s->h.elements[s->h.elements[i].child + (uint32_t)c].area / s->h.elements[i].area;
+            for (uint32_t c = e[i].child; c < e[i].child + 4; c++)
+                s->b[i] += s->b[c] * e[c].area / e[i].area;
         }
-    s->solution = (struct solution){ &s->scene, &s->h, 1, s->b, s->b };
+    s->solution = (struct solution){*surfaces, {e, s->h.count, s->h.built, s->h.face_element, 1, s->b, s->b, NULL}};
     ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
 }
 
@@ -109,7 +109,7 @@ static void stage_close(struct stage *s)
 {
     vertex_values_free(&s->values);
     hierarchy_free(&s->h);
-    scene_free(&s->scene);
+    unload_scene(&s->loaded);
     free(s->b);
 }
 
@@ -118,8 +118,8 @@ static double shown(const struct stage *s, double x, double y)
 {
     const double p[3] = { x, y, 0 };
     uint32_t f, i, k;
-    for (f = 0; f < s->scene.face_count; f++) {
-        const struct face *face = &s->scene.faces[f];
+    for (f = 0; f < s->solution.surfaces.face_count; f++) {
+        const struct RadFace *face = &s->solution.surfaces.faces[f];
         int inside = face->input == 0;
         for (i = 0; inside && i < face->vertices; i++) {
             const double *a = face->vertex[i], *b = face->vertex[i + 1 < face->vertices ? i + 1 : 0];
@@ -127,7 +127,7 @@ static double shown(const struct stage *s, double x, double y)
         }
         if (inside) {
             double value[3];
-            k = vertex_values_at(&s->values, &s->h, f, p, value);
+            k = vertex_values_at(&s->values, &s->solution, f, p, value);
             (void)k;
             return value[0];
         }

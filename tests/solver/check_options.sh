@@ -58,6 +58,69 @@ done
 for value in 1e308 inf nan 0 -1 5,5 5,3 5, ,5 x 1,,2; do says 2 "--thresholds takes rising numbers from 1e-300 to 1e300" study visibility "$scene" --thresholds $value; done
 for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64,256,1024" study visibility "$scene" --rays $value; done
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
+says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
+says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
+says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --closure x
+says 2 "--clusters takes sah, embree, octree, kd or halves, not x" solve "$scene" --clusters x
+says 2 "--only takes sah, embree" study clustering "$scene" --only x
+says 2 "--format takes csv, coo or mtx, not x" viewfactors "$scene" --format x
+says 2 "-o takes a file named .csv or .md, not x" study stability -o x
+says 2 "--chart takes a file named .svg or .png, not x.svgz" study visibility "$scene" --chart x.svgz
+
+# ---- which option, and whose
+says 2 "solve has no option --repeats; compare has; see radiosity solve --help" solve "$scene" --repeats 3
+says 2 "compare has no option -o; solve has" compare "$scene" -o x.ply
+says 2 "study stability has no option --set; solve has" study stability --set relative=1
+says 2 "oracles has no option -q" oracles -q
+says 2 "unknown option --nix" solve "$scene" --nix
+says 2 "unknown option -x" solve "$scene" -x
+says 2 "unknown option --=1" solve "$scene" --=1
+says 2 "no value goes with --mesh" solve "$scene" --mesh=1
+says 2 "more than one scene: b.obj" solve a.obj b.obj
+says 2 "more than one scene: -b.obj" solve a.obj -- -b.obj
+says 2 "no scene is given; see radiosity compare --help" compare -q
+says 2 "study stability takes no scene, but got x.obj" study stability x.obj
+says 2 "oracles takes no scene, but got x.obj" oracles x.obj
+says 2 "unknown command nix; see radiosity --help" nix
+says 2 "there is no study nix; see radiosity study --help" study nix
+says 2 "a command comes first, not --image" --image x solve "$scene"
+says 2 "--mesh is for a picture: add --image FILE.png" solve "$scene" --mesh
+says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
+# An abbreviation is good as long as it is clear, with --name=value as well; one that is not names what it could be.
+says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol 7
+says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol=7
+says 2 "--s could be --set, --size, --statistics" solve "$scene" --s 7
+says 2 "--t could be --tolerance, --two-sided, --threads" solve "$scene" --t=7
+# Options may stand before and behind the scene, whatever POSIX says of others.
+count=$((count + 1))
+POSIXLY_CORRECT=1 "$radiosity" solve none.obj --tolerance 7 2>&1 | grep -q "tolerance takes" || { bad=$((bad + 1)); echo "failed: POSIXLY_CORRECT"; }
+says 1 "none.obj: error" solve -q none.obj
+says 1 "none.obj: error" solve -qo x.ply none.obj
+
+# ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
+for command in "" solve compare viewfactors study "study stability" "study visibility" "study clustering" oracles; do
+    for help in --help -h; do
+        count=$((count + 1))
+        # shellcheck disable=SC2086
+        if ! "$radiosity" $command $help >out 2>err || [ -s err ] || [ "$(wc -l <out)" -gt 24 ] ||
+            [ "$(wc -L <out)" -gt 80 ] || ! grep -q "^usage: radiosity $command" out; then
+            bad=$((bad + 1))
+            echo "failed: radiosity $command $help: $(wc -l <out) lines of $(wc -L <out) columns"
+        fi
+    done
+    count=$((count + 1))
+    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/')
+    # shellcheck disable=SC2086
+    case $command in
+    study | "study stability" | oracles) ;;
+    *) "$radiosity" $example >out 2>err; grep -q "^none.obj: error" err || { bad=$((bad + 1)); echo "failed: $example"; cat err; } ;;
+    esac
+    rm -f out err
+done
+for command in solve compare viewfactors "study stability" "study visibility" "study clustering"; do
+    # shellcheck disable=SC2086
+    "$radiosity" $command --help | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
+done
 
 # ---- parameters and oracles: exit 1
 says 1 "relative has no value" solve "$scene" --set relative=
@@ -83,10 +146,13 @@ done
 says 1 "make the folder first" compare none.obj --json nowhere/x
 says 1 "make the folder first" viewfactors none.obj -o nowhere/x.csv
 says 1 "make the folder first" viewfactors none.obj --json nowhere/x
+says 1 "make the folder first" viewfactors none.obj --names nowhere/x
 says 1 "make the folder first" study stability -o nowhere/x.csv
 says 1 "make the folder first" study visibility none.obj -o nowhere/x.csv
 says 1 "make the folder first" study visibility none.obj --chart nowhere/x.svg
 says 2 "two outputs would go there" solve none.obj --faces x --json x
+says 2 "two outputs would go there" viewfactors none.obj -o x --names x
+says 2 "standard output: error: two outputs would go there" solve none.obj --statistics - --json -
 if [ "$(id -u)" != 0 ]; then
     mkdir "$tmp-closed" && chmod 555 "$tmp-closed"
     says 1 "choose a place where you may write" solve none.obj --faces "$tmp-closed/x"
@@ -105,7 +171,10 @@ mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
 [ $? = 1 ] && grep -q none.obj err || { bad=$((bad + 1)); echo "failed: a pipe as output"; cat err; }
 
 # ---- a chart of a single threshold draws without a word
-if command -v gnuplot >/dev/null; then
+if ! command -v gnuplot >/dev/null; then
+    bad=$((bad + 1))
+    echo "failed: no chart can be looked at without gnuplot; install it (gnuplot-nox)"
+else
     count=$((count + 1))
     "$radiosity" study visibility "$scenes/cornell.obj" --thresholds 5 --rays 4 --set unit_share=1e-3 --set reference=64 --set min_share=1e-3 --chart one.svg -q >out 2>err &&
         [ -s one.svg ] && [ ! -s err ] && [ ! -s out ] || { bad=$((bad + 1)); echo "failed: a chart of one threshold"; cat err; }

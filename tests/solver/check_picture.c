@@ -15,9 +15,11 @@
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 
+#include "geometry.h"
+#include "hierarchy/hierarchy.h"
+#include "load_scene.h"
 #include "output/export.h"
 #include "output/exposure.h"
-#include "geometry.h"
 #include "output/image.h"
 #include "output/leaf_mesh.h"
 #include "output/raster.h"
@@ -39,11 +41,10 @@ static const char *in_folder(const char *name)
 enum { FACES_MAX = 8, ELEMENTS_MAX = 60000 };
 
 struct stage {
-    struct face faces[FACES_MAX];
-    struct material materials[FACES_MAX];
-    struct input_face inputs[FACES_MAX];
-    struct scene scene;
-    struct hierarchy h;
+    struct RadFace faces[FACES_MAX];
+    struct RadMaterial materials[FACES_MAX];
+    uint32_t bands;
+    struct hierarchy h; /* of the engine, for quadtrees as uneven as they come */
     struct solution solution;
     struct vertex_values values;
     double *b;
@@ -52,35 +53,31 @@ struct stage {
 static struct stage *stage_new(uint32_t bands)
 {
     struct stage *s = calloc(1, sizeof *s);
-    s->scene.faces = s->faces;
-    s->scene.materials = s->materials;
-    s->scene.inputs = s->inputs;
-    s->scene.bands = bands;
+    s->solution.surfaces.faces = s->faces;
+    s->solution.surfaces.materials = s->materials;
+    s->bands = bands;
     s->b = calloc(3 * ELEMENTS_MAX, sizeof *s->b);
     return s;
 }
 
 static void stage_face(struct stage *s, uint32_t material, uint32_t vertices, const double v[4][3])
 {
-    uint32_t i = s->scene.face_count++;
+    uint32_t i = s->solution.surfaces.face_count++;
     memcpy(s->faces[i].vertex, v, vertices * sizeof v[0]);
     s->faces[i].vertices = vertices;
     s->faces[i].material = material;
     s->faces[i].input = i;
-    s->inputs[i] = (struct input_face){material, 1};
-    s->scene.input_count = i + 1;
-    if (s->scene.material_count <= material)
-        s->scene.material_count = material + 1;
 }
 
 static void stage_build(struct stage *s)
 {
-    ck_assert_int_eq(hierarchy_build(&s->h, s->faces, s->scene.face_count), 0);
+    /* A RadFace is a struct face. */
+    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)s->faces, s->solution.surfaces.face_count), 0);
 }
 
-static int is_leaf(const struct stage *s, uint32_t i)
+static int leaf(const struct stage *s, uint32_t i)
 {
-    return s->h.elements[i].vertices && !s->h.elements[i].children;
+    return is_leaf(&s->h.elements[i]);
 }
 
 /* Split some leaves, others not, `rounds` times: a quadtree as uneven as they come. */
@@ -89,7 +86,7 @@ static void stage_split(struct stage *s, int rounds)
     for (int r = 0; r < rounds; r++) {
         uint32_t count = s->h.count;
         for (uint32_t i = 0; i < count; i++)
-            if (is_leaf(s, i) && (s->h.elements[i].depth == 0 || (s->h.elements[i].id >> 20) % 3 == 0))
+            if (leaf(s, i) && (s->h.elements[i].depth == 0 || (s->h.elements[i].id >> 20) % 3 == 0))
                 ck_assert_int_eq(hierarchy_split(&s->h, i), 0);
     }
     ck_assert_uint_lt(s->h.count, ELEMENTS_MAX);
@@ -97,7 +94,7 @@ static void stage_split(struct stage *s, int rounds)
 
 static void stage_solve(struct stage *s)
 {
-    s->solution = (struct solution){&s->scene, &s->h, s->scene.bands, s->b, s->b};
+    s->solution.tree = (struct RadElements){s->h.elements, s->h.count, s->h.built, s->h.face_element, s->bands, s->b, s->b, NULL};
     ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
 }
 
@@ -122,7 +119,7 @@ static void check_seams(const struct stage *s)
     int seams = 0;
     for (uint32_t i = 0; i < s->h.count; i++) {
         const struct element *e = &s->h.elements[i];
-        for (int j = 0; is_leaf(s, i) && j < e->vertices; j++)
+        for (int j = 0; leaf(s, i) && j < e->vertices; j++)
             for (double t = 0.03; t < 1; t += 0.11) {
                 double in[3], out[3], value[2][3];
                 const double *a = e->vertex[j], *b = e->vertex[(j + 1) % e->vertices];
@@ -131,8 +128,8 @@ static void check_seams(const struct stage *s)
                     in[k] = on + 1e-9 * (e->centre[k] - on);
                     out[k] = on - 1e-9 * (e->centre[k] - on);
                 }
-                uint32_t p = vertex_values_at(&s->values, &s->h, e->face, in, value[0]);
-                uint32_t q = vertex_values_at(&s->values, &s->h, e->face, out, value[1]);
+                uint32_t p = vertex_values_at(&s->values, &s->solution, e->face, in, value[0]);
+                uint32_t q = vertex_values_at(&s->values, &s->solution, e->face, out, value[1]);
                 ck_assert_uint_eq(p, i);
                 seams += p != q;
                 ck_assert_double_eq_tol(value[0][0], value[1][0], 1e-6);
@@ -171,12 +168,12 @@ START_TEST(test_across_faces)
             s->b[i] = s->h.elements[i].face == 0 ? 1 : 9;
         stage_solve(s);
         double above[3] = {0.3, 1e-9, 0}, below[3] = {0.3, -1e-9, 0}, corner[3] = {0, 0, 0}, value;
-        vertex_values_at(&s->values, &s->h, 0, above, &value);
+        vertex_values_at(&s->values, &s->solution, 0, above, &value);
         /* Shared: at (0, 0) leaves of 1/4 m2 with 1 and of 1 m2 with 9 meet; (1/4 + 9) / (5/4). */
         ck_assert_double_eq_tol(value, material ? 1 : 7.4, 1e-6);
-        vertex_values_at(&s->values, &s->h, 1, below, &value);
+        vertex_values_at(&s->values, &s->solution, 1, below, &value);
         ck_assert_double_eq_tol(value, material ? 9 : 7.4, 1e-6);
-        vertex_values_at(&s->values, &s->h, 1, corner, &value);
+        vertex_values_at(&s->values, &s->solution, 1, corner, &value);
         ck_assert_double_eq_tol(value, material ? 9 : 7.4, 1e-12);
         stage_free(s);
     }
@@ -211,7 +208,7 @@ START_TEST(test_shape_functions)
                 }
                 for (uint32_t j = 0; j < n; j++)
                     wanted += w[j] * (1 + j * j);
-                vertex_values_at(&s->values, &s->h, f, p, &value);
+                vertex_values_at(&s->values, &s->solution, f, p, &value);
                 ck_assert_double_eq_tol(value, wanted, 1e-9);
             }
     }
@@ -245,7 +242,7 @@ START_TEST(test_frame_straight_down)
     stage_face(s, 0, 4, SQUARE); /* z is up */
     for (int i = 0; i < 2; i++) {
         view_parse(i ? "0,0,5:0,0,0" : "0,0,0:1,1,9", &v);
-        view_frame(&v, &s->scene, right, up, ahead);
+        view_frame(&v, &s->solution.surfaces, right, up, ahead);
         ck_assert_double_eq_tol(length3(right), 1, 1e-12);
         ck_assert_double_eq_tol(length3(up), 1, 1e-12);
         ck_assert_double_eq_tol(fabs(dot3(up, ahead)) + fabs(dot3(up, right)) + fabs(dot3(right, ahead)), 0, 1e-12);
@@ -390,19 +387,19 @@ static const struct { const char *name, *view; } shipped[] = {
 START_TEST(test_watertight)
 {
     char path[128];
-    struct scene s;
+    struct loaded l = {0};
     struct view v;
     struct raster r;
     snprintf(path, sizeof path, "examples/scenes/%s.obj", shipped[_i].name);
-    ck_assert_int_eq(scene_read(&s, path, NULL), 0);
+    load_scene(&l, path);
     if (shipped[_i].view)
         ck_assert_int_eq(view_parse(shipped[_i].view, &v), 0);
     else
-        ck_assert_int_eq(view_guess(&s, &v), 0);
+        ck_assert_int_eq(view_guess(&l.surfaces, &v), 0);
     enum { W = 320, H = 240 };
     uint32_t *face = malloc(W * H * sizeof *face), misses = 0, backs = 0;
     double *nearness = malloc(W * H * sizeof *nearness);
-    ck_assert_int_eq(raster_begin(&r, &s, &v, W, H, 1), 0);
+    ck_assert_int_eq(raster_begin(&r, &l.surfaces, &v, W, H, 1), 0);
     raster_rows(&r, 0, H, face, nearness);
     for (int i = 0; i < W * H; i++) {
         misses += face[i] == NO_FACE;
@@ -414,11 +411,11 @@ START_TEST(test_watertight)
     }
     ck_assert_uint_eq(misses, 0);
     ck_assert_uint_eq(backs, 0);
-    ck_assert_int_eq(view_up_axis(&s), strcmp(shipped[_i].name, "cornell") == 0 ? 1 : 2);
+    ck_assert_int_eq(view_up_axis(&l.surfaces), strcmp(shipped[_i].name, "cornell") == 0 ? 1 : 2);
     raster_end(&r);
     free(face);
     free(nearness);
-    scene_free(&s);
+    unload_scene(&l);
 }
 END_TEST
 
@@ -433,7 +430,7 @@ START_TEST(test_raster_depth)
     const double floor[4][3] = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}; /* reaches behind the eye */
     stage_face(s, 0, 4, floor);
     ck_assert_int_eq(view_parse("0,0,2:1,0,1:90", &v), 0);
-    ck_assert_int_eq(raster_begin(&r, &s->scene, &v, 64, 48, 0), 0);
+    ck_assert_int_eq(raster_begin(&r, &s->solution.surfaces, &v, 64, 48, 0), 0);
     raster_rows(&r, 0, 48, face, nearness);
     for (int y = 0; y < 48; y++)
         for (int x = 0; x < 64; x++) {

@@ -16,7 +16,7 @@
 #include "util/atomic_file.h"
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
-#include "hierarchy/scene.h"
+#include "scene/read_scene.h"
 #include "suite.h"
 
 static const char SCENES[] = "examples/scenes/";
@@ -98,7 +98,7 @@ static double total_area(const struct scene *s)
 {
     double area = 0;
     for (uint32_t i = 0; i < s->input_count; i++)
-        area += s->inputs[i].area;
+        area += s->areas[i];
     return area;
 }
 
@@ -142,7 +142,7 @@ START_TEST(test_shipped)
     double area = 0;
     double watts[3] = {0, 0, 0};
     for (uint32_t i = 0; i < s.face_count; i++) {
-        const struct material *m = &s.materials[s.faces[i].material];
+        const struct RadMaterial *m = &s.materials[s.faces[i].material];
         int first = i == 0 || s.faces[i].input != s.faces[i - 1].input;
         int last = i + 1 == s.face_count || s.faces[i].input != s.faces[i + 1].input;
         triangles += first && last && s.faces[i].vertices == 3;
@@ -153,7 +153,7 @@ START_TEST(test_shipped)
         ck_assert_uint_eq(s.faces[i].back, 0);
         area = face_area(&s.faces[i]) + (first ? 0 : area);
         if (last)
-            ck_assert_double_eq_tol(area, s.inputs[s.faces[i].input].area, 1e-12);
+            ck_assert_double_eq_tol(area, s.areas[s.faces[i].input], 1e-12);
     }
     ck_assert_uint_le(triangles, f->triangles);
     ck_assert_uint_ge(triangles + s.cut, f->triangles);
@@ -236,9 +236,9 @@ START_TEST(test_two_sided)
     ck_assert_uint_eq(s.faces[2].input, 1);
     for (int i = 0; i < 4; i++)
         ck_assert_mem_eq(s.faces[0].vertex[i], s.faces[1].vertex[3 - i], sizeof s.faces[0].vertex[0]);
-    ck_assert_double_eq_tol(s.inputs[0].area, 1, 1e-12); /* one side */
-    const struct material *m = &s.materials[s.faces[0].material];
-    ck_assert_str_eq(m->name, "b_2s");
+    ck_assert_double_eq_tol(s.areas[0], 1, 1e-12); /* one side */
+    const struct RadMaterial *m = &s.materials[s.faces[0].material];
+    ck_assert_str_eq(s.names[s.faces[0].material], "b_2s");
     ck_assert_int_eq(m->two_sided, 1);
     for (int k = 0; k < 3; k++) {
         ck_assert_double_eq(m->reflectance[k], 0.25 * (k + 1));
@@ -328,8 +328,8 @@ START_TEST(test_dropped)
     ck_assert_uint_eq(s.input_count, 5);
     ck_assert_uint_eq(s.face_count, 1);
     ck_assert_uint_eq(s.faces[0].input, 4);
-    ck_assert_double_eq(s.inputs[0].area, 0);
-    ck_assert_double_eq_tol(s.inputs[4].area, 1, 1e-12);
+    ck_assert_double_eq(s.areas[0], 0);
+    ck_assert_double_eq_tol(s.areas[4], 1, 1e-12);
     ck_assert_ptr_nonnull(strstr(last_error, "warning: 4 degenerate faces"));
     ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
     ck_assert_ptr_eq(strchr(last_error, '\n'), last_error + strlen(last_error) - 1);
@@ -354,6 +354,99 @@ START_TEST(test_black_and_grey)
 }
 END_TEST
 
+/* ---- OBJ in full ---- */
+
+/* Coordinates 1e-4 apart at 1e6, where floats are 1/16 apart: no digit is lost. */
+START_TEST(test_double)
+{
+    const double at[4][2] = {{1000000.0001, -2000000.0001}, {1000000.0003, -2000000.0001}, {1000000.0003, -1999999.9997}, {1000000.0001, -1999999.9997}};
+    struct scene s;
+    char body[512];
+    int size = 0;
+    for (int i = 0; i < 4; i++)
+        size += snprintf(body + size, sizeof body - (size_t)size, "v %.4f %.4f 0.1234567890123456\n", at[i][0], at[i][1]);
+    snprintf(body + size, sizeof body - (size_t)size, "usemtl a\nf 1 2 3 4\n");
+    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_uint_eq(s.face_count, 1);
+    ck_assert_uint_eq(s.faces[0].vertices, 4);
+    for (int i = 0; i < 4; i++) {
+        ck_assert_double_eq(s.faces[0].vertex[i][0], at[i][0]);
+        ck_assert_double_eq(s.faces[0].vertex[i][1], at[i][1]);
+        ck_assert_double_eq(s.faces[0].vertex[i][2], 0.1234567890123456);
+    }
+    ck_assert_double_eq_tol(s.areas[0], 8e-8, 1e-12);
+    scene_free(&s);
+}
+END_TEST
+
+/* What may stand in a file, and what is passed over. */
+START_TEST(test_obj)
+{
+    static const double corner[4][3] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
+    static const struct { const char *name, *material; double rho, exitance; } expected[] = {
+        {"before usemtl", "DefaultMaterial", 0.6, 0}, {"defined later", "late", 0.25, 0}, {"blanks", "two words", 0.125, 1e6},
+        {"no Kd", "plain", 0.6, 3},
+    };
+    struct scene s;
+    write_text("one.mtl", "# Kd 9 9 9\nnewmtl  two words\t\nKd 0.125\nd 0.5\nTr 0.5\nKe 1e6 1000000 1.0e+06\nillum 2\nmap_Kd a.png\nNs x\n"
+                          "newmtl late\nKd 0.75 0.75 0.75\nnewmtl plain\n\tKe 3 3 3 # W/m2\n");
+    write_text("an other.mtl", "newmtl late\r\nKd .25 .25 .25\r\n");
+    const char *obj = write_text("full.obj",
+        "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\nvp 1\n"
+        "f -1 -2 -3\n" /* three vertices before this line are none: replaced below */);
+    ck_assert_int_eq(read_scene(&s, obj, NULL), -1);
+    ck_assert_msg(strstr(last_error, "full.obj:6: error: vertex index -1 is out of range: 0 vertices come before this line"), "%s", last_error);
+    obj = write_text("full.obj",
+        "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\n"
+        "v 9 9 9 # never used\nv 0 0 1\nv 4 0 2 2\nv\t2\t2\t1\t0.5\t0.5\t0.5\r\nv 0 2 \\\n1\n"
+        "f 2/1/1 3//1 4/1 5\n"        /* faces before any material */
+        "mtllib one.mtl\ng a b c\ns off\nusemtl late\n"
+        "f -4/9/9 7 -2 -1 # vertex 7 comes later\n"
+        "v 2 0 1\nv 2 0 1\n"        /* 7 is 3 once more */
+        "usemtl two words \n\tf 2 3 \\\r\n 4 5\ng d\nl 1 2\np 1\ncall x\n"
+        "usemtl plain\nf +2 3 4 5\nmtllib an other.mtl");
+    ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
+    ck_assert_uint_eq(s.face_count, 4);
+    ck_assert_uint_eq(s.dropped, 0);
+    ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
+    for (int i = 0; i < 4; i++) {
+        const struct face *f = &s.faces[i];
+        ck_assert_uint_eq(f->vertices, 4);
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 3; k++)
+                ck_assert_msg(fabs(f->vertex[j][k] - corner[j][k]) <= 0, "%s: %g at %d", expected[i].name, f->vertex[j][k], j);
+        ck_assert_str_eq(s.names[f->material], expected[i].material);
+        for (int k = 0; k < 3; k++) {
+            ck_assert_double_eq(s.materials[f->material].reflectance[k], expected[i].rho);
+            ck_assert_double_eq(s.materials[f->material].exitance[k], expected[i].exitance);
+        }
+    }
+    ck_assert_uint_eq(s.bands, 1);
+    scene_free(&s);
+}
+END_TEST
+
+/* Every polygon knows its line, also behind lines that are continued. */
+START_TEST(test_lines)
+{
+    struct scene_file file;
+    write_text("m.mtl", MTL);
+    const char *obj = write_text("l.obj", "mtllib m.mtl\nv 0 0 0\nv 1 \\\n 0 0\nv 1 1 0\nf 1 2 \\\n3\n\nusemtl a\nf 1 2\n#\nf 3 2 1");
+    ck_assert_int_eq(scene_file_read(&file, obj, NULL), 0);
+    ck_assert_uint_eq(file.polygon_count, 3);
+    ck_assert_uint_eq(file.position_count, 3);
+    ck_assert_int_eq(file.single_precision, 0);
+    static const uint32_t lines[] = {6, 10, 12}, sizes[] = {3, 2, 3};
+    for (int i = 0; i < 3; i++) {
+        ck_assert_uint_eq(file.lines[i], lines[i]);
+        ck_assert_uint_eq(file.sizes[i], sizes[i]);
+    }
+    ck_assert_str_eq(file.names[file.polygon_materials[0]], "DefaultMaterial");
+    ck_assert_str_eq(file.names[file.polygon_materials[1]], "a");
+    scene_file_free(&file);
+}
+END_TEST
+
 /* ---- errors: file, line, cause ---- */
 
 START_TEST(test_errors)
@@ -367,6 +460,10 @@ START_TEST(test_errors)
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "s.obj:5: error: vertex index 4 is out of range: 3 vertices");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -4\n", "s.obj:5: error: vertex index -4 is out of range");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n", "s.obj:5: error: vertex index 0 is out of range");
+    expect_error("f 1 2 \\\n3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "s.obj:2: error: vertex index 4 is out of range: 3 vertices are in the file");
+    expect_error("v 0 0 0\nv 1 \\\n0 0\nv 1 1 0\nf 1 2 x\n", "s.obj:6: error: 'x' is not a corner");
+    expect_error("v 0 0 0\nv 1 0 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite when divided by its w, 0");
+    expect_error("usemtl b\nusemtl aa\nusemtl aa\n", "s.obj:2: error: material 'b' is in no material library");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 99999999999999999999\n", "out of range");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf a b c\n", "s.obj:5: error: 'a' is not a corner");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf\n", "s.obj:5: error: a face without corners");
@@ -406,7 +503,7 @@ START_TEST(test_bad_materials)
     }
     write_text("x.mtl", "newmtl unused\nKd 2 2 2\nnewmtl x\nKd 0.1 0.9 0.99\nKe 12345.5 0 1e-9\n");
     ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
-    const struct material *m = &s.materials[s.faces[0].material];
+    const struct RadMaterial *m = &s.materials[s.faces[0].material];
     ck_assert_double_eq(m->reflectance[0], 0.1);
     ck_assert_double_eq(m->reflectance[2], 0.99);
     ck_assert_double_eq(m->exitance[0], 12345.5);
@@ -435,12 +532,12 @@ START_TEST(test_gltf)
     snprintf(text, sizeof text, GLTF, "false");
     ck_assert_int_eq(read_scene(&s, write_text("t.gltf", text), NULL), 0);
     ck_assert_uint_eq(s.face_count, 2);
-    const struct material *m = &s.materials[s.faces[0].material];
+    const struct RadMaterial *m = &s.materials[s.faces[0].material];
     ck_assert_double_eq(m->reflectance[0], 0.25);
     ck_assert_double_eq(m->reflectance[2], 0.75);
     ck_assert_double_eq(m->exitance[1], 0.5);
     ck_assert_int_eq(m->two_sided, 0);
-    ck_assert_double_eq_tol(s.inputs[0].area, 2, 1e-6); /* twice as large */
+    ck_assert_double_eq_tol(s.areas[0], 2, 1e-6); /* twice as large */
     ck_assert_double_eq_tol(s.faces[0].vertex[0][2], 5, 1e-6);
     /* The mirrored copy keeps its front. */
     double v[4][3], normal[3];
@@ -579,6 +676,9 @@ int main(void)
     tcase_add_test(t, test_star);
     tcase_add_test(t, test_dropped);
     tcase_add_test(t, test_black_and_grey);
+    tcase_add_test(t, test_double);
+    tcase_add_test(t, test_obj);
+    tcase_add_test(t, test_lines);
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);

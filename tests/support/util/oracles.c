@@ -1,4 +1,4 @@
-/* oracles.c - see oracles.h.
+/* open_oracle.c - see open_oracle.h.
  * SPDX-License-Identifier: MIT */
 #include "util/oracles.h"
 

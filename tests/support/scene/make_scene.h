@@ -15,21 +15,21 @@ static inline int made_open(struct scene *s)
     memset(s, 0, sizeof *s);
     s->faces = calloc(MADE_FACES, sizeof *s->faces);
     s->materials = calloc(MADE_MATERIALS, sizeof *s->materials);
-    s->inputs = calloc(MADE_FACES, sizeof *s->inputs);
+    s->areas = calloc(MADE_FACES, sizeof *s->areas);
+    s->input_materials = calloc(MADE_FACES, sizeof *s->input_materials);
     s->bands = 1;
-    return s->faces && s->materials && s->inputs ? 0 : -1;
+    return s->faces && s->materials && s->areas && s->input_materials ? 0 : -1;
 }
 
 /* A grey material. Returns its index. */
 static inline uint32_t made_material(struct scene *s, double rho, double exitance)
 {
-    struct material *m = &s->materials[s->material_count];
+    struct RadMaterial *m = &s->materials[s->material_count];
     int k;
     for (k = 0; k < 3; k++) {
         m->reflectance[k] = rho;
         m->exitance[k] = exitance;
     }
-    m->name = (char *)"made";
     return s->material_count++;
 }
 
@@ -42,7 +42,7 @@ static inline void made_face(struct scene *s, uint32_t material, int n, const do
     f->material = material;
     f->input = s->face_count;
     f->black = s->materials[material].reflectance[0] <= 0 && s->materials[material].exitance[0] <= 0;
-    s->inputs[s->face_count].material = material;
+    s->input_materials[s->face_count] = material;
     s->face_count++;
     s->input_count++;
 }
@@ -81,7 +81,8 @@ static inline void made_close(struct scene *s)
 {
     free(s->faces);
     free(s->materials);
-    free(s->inputs);
+    free(s->areas);
+    free(s->input_materials);
 }
 
 #endif

@@ -1,0 +1,168 @@
+/* api_device.c - devices: the first error since it was asked for, messages and progress.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <omp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "engine/api.h"
+
+enum { THREADS_MAX = 1024 };
+
+/* Why the last radNewDevice of this thread made none. */
+static _Thread_local enum RadError no_device;
+static _Thread_local char no_device_message[MESSAGE_SIZE];
+
+static RadDevice refuse_device(enum RadError code, const char *message)
+{
+    no_device = code;
+    snprintf(no_device_message, sizeof no_device_message, "%s", message);
+    return NULL;
+}
+
+RadDevice radNewDevice(const struct RadDeviceOptions *options)
+{
+    int threads = options ? options->threads : 0;
+    if (threads < 0 || threads > THREADS_MAX)
+        return refuse_device(RAD_ERROR_INVALID_ARGUMENT, "RadDeviceOptions.threads takes 1 to 1024, or 0 for all processors");
+    RadDevice device = calloc(1, sizeof *device);
+    if (!device)
+        return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device");
+    if (pthread_mutex_init(&device->lock, NULL) != 0) {
+        free(device);
+        return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device's lock");
+    }
+    atomic_init(&device->holders, 1);
+    device->compiler = options && options->compiler ? strdup(options->compiler) : NULL;
+    device->temporary = options && options->temporary ? strdup(options->temporary) : NULL;
+    if (options && ((options->compiler && !device->compiler) || (options->temporary && !device->temporary))) {
+        radReleaseDevice(device);
+        return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device");
+    }
+    device->sources.compiler = device->compiler;
+    device->sources.temporary = device->temporary;
+    device->threads = threads ? threads : omp_get_num_procs() < THREADS_MAX ? omp_get_num_procs() : THREADS_MAX;
+    return device;
+}
+
+void radRetainDevice(RadDevice device)
+{
+    if (device)
+        atomic_fetch_add(&device->holders, 1);
+}
+
+void radReleaseDevice(RadDevice device)
+{
+    if (!device || atomic_fetch_sub(&device->holders, 1) != 1)
+        return;
+    pthread_mutex_destroy(&device->lock);
+    oracle_sources_free(&device->sources);
+    free(device->compiler);
+    free(device->temporary);
+    free(device);
+}
+
+void radSetDeviceMessageFunction(RadDevice device, RadMessageFunction function, void *user)
+{
+    if (!device)
+        return;
+    pthread_mutex_lock(&device->lock);
+    device->tell = function;
+    device->tell_user = user;
+    pthread_mutex_unlock(&device->lock);
+}
+
+void radSetDeviceProgressFunction(RadDevice device, RadProgressFunction function, void *user)
+{
+    if (!device)
+        return;
+    pthread_mutex_lock(&device->lock);
+    device->progress = function;
+    device->progress_user = user;
+    pthread_mutex_unlock(&device->lock);
+}
+
+enum RadError radGetDeviceError(RadDevice device)
+{
+    enum RadError code;
+    if (!device) {
+        code = no_device;
+        no_device = RAD_ERROR_NONE;
+        no_device_message[0] = 0;
+        return code;
+    }
+    pthread_mutex_lock(&device->lock);
+    code = device->error;
+    device->error = RAD_ERROR_NONE;
+    device->message[0] = 0;
+    pthread_mutex_unlock(&device->lock);
+    return code;
+}
+
+const char *radGetDeviceErrorMessage(RadDevice device)
+{
+    return device ? device->message : no_device_message;
+}
+
+/* The message function is called without the lock, so that it may call the device. */
+static void tell(RadDevice device, enum RadError code, const char *message)
+{
+    RadMessageFunction function;
+    void *user;
+    pthread_mutex_lock(&device->lock);
+    if (code != RAD_ERROR_NONE && device->error == RAD_ERROR_NONE) {
+        device->error = code;
+        snprintf(device->message, sizeof device->message, "%s", message);
+    }
+    function = device->tell;
+    user = device->tell_user;
+    pthread_mutex_unlock(&device->lock);
+    if (function)
+        function(user, code, message);
+}
+
+int api_fail(RadDevice device, enum RadError code, const char *format, ...)
+{
+    char message[MESSAGE_SIZE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(message, sizeof message, format, list);
+    va_end(list);
+    tell(device, code, message);
+    return -1;
+}
+
+void api_warn(RadDevice device, const char *format, ...)
+{
+    char message[MESSAGE_SIZE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(message, sizeof message, format, list);
+    va_end(list);
+    tell(device, RAD_ERROR_NONE, message);
+}
+
+int api_progress(RadDevice device, const struct RadProgress *progress)
+{
+    RadProgressFunction function;
+    void *user;
+    pthread_mutex_lock(&device->lock);
+    function = device->progress;
+    user = device->progress_user;
+    pthread_mutex_unlock(&device->lock);
+    return function ? function(user, progress) : 0;
+}
+
+enum RadError api_cause(const char *cause)
+{
+    return strncmp(cause, "Embree finds", 12) == 0 ? RAD_ERROR_UNSUPPORTED : RAD_ERROR_OUT_OF_MEMORY;
+}
+
+int api_finite(const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return 0;
+    return 1;
+}

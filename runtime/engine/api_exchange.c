@@ -1,0 +1,127 @@
+/* api_exchange.c - exchange areas: the rows of view factors, and what they sum to.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "engine/api.h"
+#include "engine/exchange.h"
+#include "kernel/constants.h"
+
+struct RadExchangeObject {
+    atomic_int holders;
+    RadScene scene;
+    struct exchange exchange;
+};
+
+static int watch(void *context, const struct exchange *x, const char *phase)
+{
+    const struct refinement *r = &x->refinement;
+    const struct RadProgress progress = { phase, 1, r->rounds, r->pairs, r->queue_count, r->link_count, rays_count(x->tree.rays).rays, 0 };
+    return api_progress(context, &progress);
+}
+
+static int check_options(RadDevice device, const struct RadExchangeOptions *o)
+{
+    if (!(o->tolerance >= 0 && o->tolerance < 1))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadExchangeOptions.tolerance is %g; it takes a number above 0 and below 1, or 0 for the default",
+                        o->tolerance);
+    if (o->closure != RAD_CLOSURE_NONE && o->closure != RAD_CLOSURE_ROWS && o->closure != RAD_CLOSURE_RECIPROCAL)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadExchangeOptions.closure takes one of enum RadClosure");
+    return 0;
+}
+
+/* The built-in viewfactors. NULL when out of memory. */
+static struct refiner *default_oracle(double tolerance)
+{
+    struct refiner *refiner = oracle_open(NULL, "viewfactors", RELEASE_FLAT, NULL);
+    if (refiner)
+        exchange_set_tolerance(refiner, tolerance);
+    return refiner;
+}
+
+RadOracle radNewExchangeOracle(RadDevice device, double tolerance)
+{
+    if (!device)
+        return NULL;
+    if (check_options(device, &(struct RadExchangeOptions){ .tolerance = tolerance }) < 0)
+        return NULL;
+    return api_oracle(device, default_oracle(tolerance > 0 ? tolerance : EXCHANGE_TOLERANCE));
+}
+
+RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExchangeOptions *given)
+{
+    static const struct RadExchangeOptions defaults;
+    static const enum closure closures[] = { CLOSURE_NONE, CLOSURE_ROWS, CLOSURE_RECIPROCAL };
+    const struct RadExchangeOptions *o = given ? given : &defaults;
+    const char *cause = "out of memory for exchange areas";
+    if (!scene)
+        return NULL;
+    RadDevice device = scene->device;
+    if (!scene->committed) {
+        api_fail(device, RAD_ERROR_INVALID_OPERATION, "radCommitScene comes before radNewExchange");
+        return NULL;
+    }
+    if (check_options(device, o) < 0)
+        return NULL;
+    struct exchange_options options = { .tolerance = o->tolerance > 0 ? o->tolerance : EXCHANGE_TOLERANCE, .closure = closures[o->closure],
+                                        .threads = device->threads, .progress = watch, .context = device };
+    struct refiner *own = oracle ? NULL : default_oracle(options.tolerance);
+    const struct refiner *refiner = oracle ? oracle->refiner : own;
+    RadExchange x = refiner ? calloc(1, sizeof *x) : NULL;
+    if (!x || exchange_open(&x->exchange, &scene->scene, refiner, &options, &cause) < 0) {
+        if (cause)
+            api_fail(device, api_cause(cause), "%s", cause);
+        else
+            api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
+        free(x);
+        x = NULL;
+    } else {
+        atomic_init(&x->holders, 1);
+        x->scene = scene;
+        radRetainScene(scene);
+    }
+    refiner_close(own);
+    return x;
+}
+
+void radRetainExchange(RadExchange exchange)
+{
+    if (exchange)
+        atomic_fetch_add(&exchange->holders, 1);
+}
+
+void radReleaseExchange(RadExchange x)
+{
+    if (!x || atomic_fetch_sub(&x->holders, 1) != 1)
+        return;
+    exchange_close(&x->exchange);
+    radReleaseScene(x->scene);
+    free(x);
+}
+
+double radGetExchangeRow(RadExchange x, uint32_t i, double *row)
+{
+    if (!x)
+        return -1;
+    uint32_t count = x->exchange.areas.inputs;
+    if (i >= count)
+        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT, "there is no row %u; there are %u, from 0", (unsigned)i, (unsigned)count);
+    if (!row)
+        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT, "row %u needs a place for %u values", (unsigned)i, (unsigned)count);
+    return exchange_row(&x->exchange, i, row);
+}
+
+void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report)
+{
+    if (!report)
+        return;
+    memset(report, 0, sizeof *report);
+    if (!exchange)
+        return;
+    const struct exchange_report *r = &exchange->exchange.report;
+    *report = (struct RadExchangeReport){
+        .links = r->links, .pairs = r->pairs, .rays = r->rays, .low = r->low, .high = r->high,
+        .rows_closed = r->rows_closed, .rows_open = r->rows_open, .rows_covered = r->rows_covered,
+        .defect_most = r->defect_most, .defect_mean = r->defect_mean,
+        .environment_most = r->environment_most, .environment_mean = r->environment_mean,
+        .closure_change = r->closure_change, .closure_left = r->closure_left, .seconds = { r->seconds.refine, r->seconds.fill } };
+}

@@ -1,0 +1,280 @@
+/* api_oracle.c - oracles: built in, from a file or a text, compiled into the program, or registered by hand.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "engine/api.h"
+#include "oracle/builtin.h"
+#include "oracle/oracles.h"
+
+const char *const *radGetOracleNames(void)
+{
+    return builtin_names;
+}
+
+const char *radGetDefaultOracle(void)
+{
+    return RAD_DEFAULT_ORACLE;
+}
+
+static int is_builtin(const char *name)
+{
+    for (const char *const *b = builtin_names; *b; b++)
+        if (strcmp(*b, name) == 0)
+            return 1;
+    return 0;
+}
+
+static const struct oracle *find_registered(RadDevice device, const char *name)
+{
+    const struct oracle *found = NULL;
+    pthread_mutex_lock(&device->lock);
+    for (int i = 0; i < device->sources.hand_count && !found; i++)
+        if (strcmp(device->sources.hand[i]->name, name) == 0)
+            found = device->sources.hand[i];
+    pthread_mutex_unlock(&device->lock);
+    return found;
+}
+
+/* Can this program call it? Returns 0, or -1 after an error. */
+static int check_compiled(RadDevice device, const struct oracle *oracle)
+{
+    if (!oracle || !oracle->name || !oracle->refine || !oracle->defaults)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a compiled oracle needs a name, defaults and a refine function");
+    if (oracle->abi != RUNTIME_ABI)
+        return api_fail(device, RAD_ERROR_INVALID_ORACLE, "oracle %s was compiled against ABI %d, not %d; compile it anew with this version's headers",
+                        oracle->name, oracle->abi, RUNTIME_ABI);
+    return 0;
+}
+
+int radRegisterOracle(RadDevice device, const struct oracle *oracle)
+{
+    if (!device || check_compiled(device, oracle) < 0)
+        return -1;
+    pthread_mutex_lock(&device->lock);
+    int status = oracle_register(&device->sources, oracle);
+    pthread_mutex_unlock(&device->lock);
+    return status < 0 ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for oracle %s", oracle->name) : 0;
+}
+
+int radHasOracle(RadDevice device, const char *name, enum RadRelease release)
+{
+    if (!device || !name)
+        return 0;
+    return release == RAD_RELEASE_HAND ? find_registered(device, name) != NULL
+                                       : (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG) && is_builtin(name);
+}
+
+RadOracle api_oracle(RadDevice device, struct refiner *refiner)
+{
+    RadOracle oracle = refiner ? calloc(1, sizeof *oracle) : NULL;
+    if (!oracle) {
+        refiner_close(refiner);
+        api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for an oracle");
+        return NULL;
+    }
+    atomic_init(&oracle->holders, 1);
+    oracle->device = device;
+    oracle->refiner = refiner;
+    radRetainDevice(device);
+    return oracle;
+}
+
+/* Of two that files and texts have. */
+static int check_release(RadDevice device, enum RadRelease release)
+{
+    if (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG)
+        return 0;
+    return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "release %d: RAD_RELEASE_FLAT and RAD_RELEASE_DAG are there, and no other", (int)release);
+}
+
+/* The graph `text`, or of the file `path` when it is NULL. */
+static RadOracle load(RadDevice device, const char *path, const char *text, const char *name, enum RadRelease release)
+{
+    static const enum RadError codes[] = { [MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY, [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
+                                           [MESSAGE_GRAPH] = RAD_ERROR_INVALID_ORACLE, [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
+                                           [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY };
+    const struct oracle_sources how = { .compiler = device->sources.compiler, .temporary = device->sources.temporary };
+    struct messages messages = { 0 };
+    if (check_release(device, release) < 0)
+        return NULL;
+    struct refiner *refiner = oracle_load(&how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    RadOracle oracle = refiner ? api_oracle(device, refiner) : NULL;
+    if (!refiner)
+        api_fail(device, codes[messages.cause], "%s", messages.cause == MESSAGE_NONE ? "out of memory for an oracle" : messages_text(&messages));
+    messages_free(&messages);
+    return oracle;
+}
+
+RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release)
+{
+    struct messages messages = { 0 };
+    if (!device)
+        return NULL;
+    if (!name || (release != RAD_RELEASE_HAND && !is_builtin(name))) {
+        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "there is no built-in oracle '%s'; radGetOracleNames tells those that there are", name ? name : "");
+        return NULL;
+    }
+    if (release == RAD_RELEASE_HAND) {
+        const struct oracle *hand = find_registered(device, name);
+        if (hand)
+            return api_oracle(device, refiner_compiled(hand, "hand"));
+        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "no hand-written release of oracle '%s' has been registered", name);
+        return NULL;
+    }
+    if (check_release(device, release) < 0)
+        return NULL;
+    struct refiner *refiner = oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    messages_free(&messages); /* a built-in graph is right: there can have been no memory, and api_oracle says so */
+    return api_oracle(device, refiner);
+}
+
+RadOracle radLoadOracle(RadDevice device, const char *path, const char *name, enum RadRelease release)
+{
+    if (!device)
+        return NULL;
+    if (path)
+        return load(device, path, NULL, name, release);
+    api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle's file needs a name");
+    return NULL;
+}
+
+RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *name, enum RadRelease release)
+{
+    if (!device)
+        return NULL;
+    if (path && text)
+        return load(device, path, text, name, release);
+    api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a graph needs a text, and a name for messages");
+    return NULL;
+}
+
+RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *compiled, const char *release)
+{
+    if (!device || check_compiled(device, compiled) < 0)
+        return NULL;
+    return api_oracle(device, refiner_compiled(compiled, release ? release : "flat"));
+}
+
+void radRetainOracle(RadOracle oracle)
+{
+    if (oracle)
+        atomic_fetch_add(&oracle->holders, 1);
+}
+
+static void forget_statistics(RadOracle oracle)
+{
+    statistics_free(&oracle->counted);
+    free(oracle->nodes);
+    free(oracle->answers);
+    free(oracle->bins);
+    oracle->nodes = NULL;
+    oracle->answers = NULL;
+    oracle->bins = NULL;
+}
+
+void radReleaseOracle(RadOracle oracle)
+{
+    if (!oracle || atomic_fetch_sub(&oracle->holders, 1) != 1)
+        return;
+    forget_statistics(oracle);
+    refiner_close(oracle->refiner);
+    radReleaseDevice(oracle->device);
+    free(oracle);
+}
+
+void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
+{
+    if (!report)
+        return;
+    *report = (struct RadOracleReport){ .name = "", .release = "", .doc = "", .fingerprint = "" };
+    if (!oracle)
+        return;
+    const struct refiner *r = oracle->refiner;
+    report->name = r->oracle;
+    report->release = r->release;
+    report->doc = r->doc;
+    report->fingerprint = r->fingerprint ? r->fingerprint : "";
+    report->parameters = r->parameters;
+    report->parameter_count = r->parameter_count;
+    report->reads_importance = refiner_reads(r, FACT_RECEIVER_IMPORTANCE);
+    report->reads_tolerance = refiner_reads(r, FACT_RECEIVER_TOLERANCE);
+}
+
+int radSetOracleParameter(RadOracle oracle, const char *name, double value)
+{
+    struct messages messages = { 0 };
+    if (!oracle)
+        return -1;
+    int status = refiner_set(oracle->refiner, name ? name : "", value, &messages);
+    if (status < 0)
+        api_fail(oracle->device, RAD_ERROR_INVALID_ARGUMENT, "%s", messages_text(&messages));
+    messages_free(&messages);
+    return status;
+}
+
+double radGetOracleParameter(RadOracle oracle, const char *name)
+{
+    int i = oracle && name ? refiner_find(oracle->refiner, name) : -1;
+    return i < 0 ? (double)NAN : refiner_get(oracle->refiner, i);
+}
+
+enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)
+{
+    return oracle && discussion ? oracle->refiner->refine(oracle->refiner->state, discussion) : DECISION_STOP;
+}
+
+int radCountOracle(RadOracle oracle)
+{
+    if (!oracle)
+        return -1;
+    if (refiner_count(oracle->refiner) < 0)
+        return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION, "only interpreted graphs count; make oracle %s with RAD_RELEASE_DAG", oracle->refiner->oracle);
+    oracle->counting = 1;
+    return 0;
+}
+
+_Static_assert((int)RAD_COUNTS == (int)STATISTICS_COUNTS && (int)RAD_RECORDS == (int)STATISTICS_SLOTS && (int)RAD_BINS == STATISTICS_HIGH - STATISTICS_LOW,
+               "statistics have one size");
+
+/* The engine's statistics in the caller's form. Returns 0, or -1 when out of memory. */
+static int show_statistics(RadOracle oracle)
+{
+    const struct statistics *s = &oracle->counted;
+    size_t answers = 0;
+    for (int i = 0; i < s->node_count; i++)
+        answers += (size_t)s->nodes[i].answer_count;
+    oracle->nodes = malloc(((size_t)s->node_count + 1) * sizeof *oracle->nodes);
+    oracle->answers = malloc((answers + 1) * sizeof *oracle->answers);
+    oracle->bins = malloc(RAD_RECORDS * sizeof *oracle->bins);
+    if (!oracle->nodes || !oracle->answers || !oracle->bins)
+        return -1;
+    struct RadAnswerCount *to = oracle->answers;
+    for (int i = 0; i < s->node_count; i++) {
+        const struct node_statistics *n = &s->nodes[i];
+        oracle->nodes[i] = (struct RadNodeCount){ n->name, n->tool, n->calls, to, n->answer_count };
+        for (int k = 0; k < n->answer_count; k++)
+            *to++ = (struct RadAnswerCount){ n->answers[k].name, n->answers[k].kind, n->answers[k].target, n->answers[k].count };
+    }
+    for (int i = 0; i < RAD_RECORDS; i++) {
+        oracle->zero[i] = s->records[i].zero;
+        memcpy(oracle->bins[i], s->records[i].bins, sizeof oracle->bins[i]);
+    }
+    return 0;
+}
+
+int radGetOracleStatistics(RadOracle oracle, struct RadStatistics *statistics)
+{
+    if (!oracle || !statistics)
+        return -1;
+    forget_statistics(oracle);
+    if (!oracle->counting)
+        return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION, "nothing is counted; radCountOracle comes first");
+    if (statistics_take(&oracle->counted, oracle->refiner) < 0 || show_statistics(oracle) < 0) {
+        forget_statistics(oracle);
+        return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for the statistics");
+    }
+    *statistics = (struct RadStatistics){ oracle->nodes, oracle->counted.node_count, oracle->counted.counts,
+                                          (const uint64_t (*)[RAD_BINS])oracle->bins, oracle->zero };
+    return 0;
+}

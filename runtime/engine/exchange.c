@@ -1,0 +1,193 @@
+/* exchange.c - the view factors of a scene.
+ *
+ * A tree of flat groups (exchange_tree.c) is refined by an oracle with B = 1 on every face; its links become exchange areas of
+ * faces (exchange_areas.c). Faces count as in the input: one with two sides, or cut into parts, is one row, a mean over its
+ * parts. A row lacks something where light leaves the scene, or by error; which of the two, rays say (visibility/environment.h).
+ * Rows that sum to 1 within the tolerance need none, unless closure must know: what they lack is less than what they may be
+ * wrong by.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "engine/exchange.h"
+#include "kernel/constants.h"
+#include "util/clock.h"
+#include "visibility/environment.h"
+
+/* Where a row's light goes that meets no front: shares of its area. */
+struct way_out {
+    float leaves, backs, covered;
+};
+
+/* The error of half shadow falls with what is left to it. */
+void exchange_set_tolerance(struct refiner *refiner, double tolerance)
+{
+    for (int i = -1; (i = refiner_find_role(refiner, ROLE_SHADOW_TOLERANCE, i)) >= 0;)
+        (void)refiner_set(refiner, refiner->parameters[i].name, refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
+}
+
+struct watcher {
+    struct exchange *exchange;
+    const struct exchange_options *options;
+};
+
+static int tell(struct watcher *w, const char *phase)
+{
+    const struct exchange_options *o = w->options;
+    if (o->progress && o->progress(o->context, w->exchange, phase) != 0)
+        w->exchange->cancelled = 1;
+    return w->exchange->cancelled;
+}
+
+static int watch_round(void *context, const struct refinement *refinement)
+{
+    (void)refinement;
+    return tell(context, "refine");
+}
+
+static int refine(struct exchange *x, const struct refiner *refiner, struct watcher *watcher)
+{
+    if (refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner, watcher->options->threads) < 0)
+        return -1;
+    x->refinement.watch = watch_round;
+    x->refinement.watch_context = watcher;
+    return refinement_start(&x->refinement);
+}
+
+static struct way_out ask_row(const struct exchange *x, uint32_t i)
+{
+    const struct exchange_areas *m = &x->areas;
+    double leaves = 0, backs = 0, covered = 0;
+    for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p]) {
+        const struct element *e = exchange_tree_face(&x->tree, p);
+        struct environment f = environment_of(x->tree.rays, e);
+        double ray = e->area / (f.fronts + f.leaves + f.backs + f.covered);
+        leaves += ray * f.leaves;
+        backs += ray * f.backs;
+        covered += ray * f.covered;
+    }
+    return (struct way_out){ (float)(leaves / m->area[i]), (float)(backs / m->area[i]), (float)(covered / m->area[i]) };
+}
+
+/* The account of rows: what they sum to, and what becomes of the light that they lack. closed[i]: row i ought to sum to 1. */
+static void account(struct exchange *x, const double *share, const struct way_out *ways, unsigned char *closed)
+{
+    struct exchange_report *r = &x->report;
+    const struct exchange_areas *m = &x->areas;
+    double all = 0;
+    r->low = INFINITY;
+    for (uint32_t i = 0; i < m->inputs; i++) {
+        const struct way_out *way = &ways[i];
+        double defect = fabs(1 - share[i]);
+        closed[i] = !(way->leaves > 0) && !(way->backs > 0) && !(way->covered > 0);
+        if (!(m->area[i] > 0))
+            continue;
+        all += m->area[i];
+        r->low = fmin(r->low, share[i]);
+        r->high = fmax(r->high, share[i]);
+        if (closed[i]) {
+            r->rows_closed++;
+            r->defect_mean += defect;
+            r->defect_most = fmax(r->defect_most, defect);
+        } else if (way->leaves > 0 || way->backs > 0) {
+            double lacks = fmax(1 - share[i] - (double)way->covered, 0);
+            r->rows_open++;
+            r->environment_mean += m->area[i] * lacks;
+            r->environment_most = fmax(r->environment_most, lacks);
+        } else {
+            r->rows_covered++;
+        }
+    }
+    r->defect_mean /= r->rows_closed ? r->rows_closed : 1;
+    r->environment_mean /= all > 0 ? all : 1;
+}
+
+/* Row sums, their account, and closure. */
+static int close_rows(struct exchange *x, const struct exchange_options *o)
+{
+    const struct exchange_areas *m = &x->areas;
+    double *share = malloc((m->inputs + 1) * sizeof *share), *sums = malloc((m->inputs + 1) * sizeof *sums);
+    struct way_out *ways = calloc(m->inputs + 1, sizeof *ways);
+    unsigned char *closed = malloc(m->inputs + 1);
+    int status = -1;
+    if (share && sums && ways && closed) {
+        exchange_areas_sums(m, NULL, sums);
+        for (uint32_t i = 0; i < m->inputs; i++)
+            share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
+#pragma omp parallel for schedule(dynamic, 16) num_threads(o->threads)
+        for (uint32_t i = 0; i < m->inputs; i++)
+            if (m->area[i] > 0 && (o->closure != CLOSURE_NONE || !(fabs(1 - share[i]) <= o->tolerance)))
+                ways[i] = ask_row(x, i);
+        account(x, share, ways, closed);
+        status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
+    }
+    free(share);
+    free(sums);
+    free(ways);
+    free(closed);
+    return status;
+}
+
+static int compute(struct exchange *x, const struct scene *scene, const struct refiner *refiner, const struct exchange_options *o)
+{
+    struct watcher watcher = { x, o };
+    double near = fmax(EXCHANGE_NEAR * pow(EXCHANGE_TOLERANCE / o->tolerance, EXCHANGE_NEAR_FALL), EXCHANGE_NEAR_LEAST);
+    double start = seconds(), middle;
+    if (refine(x, refiner, &watcher) < 0)
+        return -1;
+    middle = seconds();
+    x->report.seconds.refine = middle - start;
+    if (tell(&watcher, "factors") != 0 || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
+        return -1;
+    refinement_close(&x->refinement);
+    if (close_rows(x, o) < 0)
+        return -1;
+    x->report.seconds.fill = seconds() - middle;
+    x->report.links = x->areas.link_count;
+    x->report.pairs = x->areas.value_count;
+    x->report.rays = rays_count(x->tree.rays).rays;
+    x->report.closure_change = x->closure.change;
+    x->report.closure_left = x->closure.left;
+    return 0;
+}
+
+int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner, const struct exchange_options *options,
+                  const char **cause)
+{
+    memset(x, 0, sizeof *x);
+    if (exchange_tree_open(&x->tree, scene->faces, scene->face_count, options->threads, cause) < 0)
+        return -1;
+    if (compute(x, scene, refiner, options) == 0)
+        return 0;
+    *cause = x->cancelled ? NULL : "out of memory for exchange areas; a larger tolerance needs less";
+    exchange_close(x);
+    return -1;
+}
+
+void exchange_close(struct exchange *x)
+{
+    exchange_closure_free(&x->closure);
+    exchange_areas_close(&x->areas);
+    refinement_close(&x->refinement);
+    exchange_tree_close(&x->tree);
+    memset(x, 0, sizeof *x);
+}
+
+double exchange_row(const struct exchange *x, uint32_t i, double *restrict row)
+{
+    const struct exchange_closure *c = &x->closure;
+    const struct exchange_areas *m = &x->areas;
+    uint32_t n = m->inputs;
+    double sum = 0;
+    memset(row, 0, n * sizeof *row);
+    if (!(m->area[i] > 0))
+        return 0;
+    double scale = (c->scale && !c->both ? c->scale[i] : 1) / m->area[i];
+    (void)exchange_areas_row(m, i, c->both ? c->scale : NULL, row);
+    for (uint32_t j = 0; j < n; j++) {
+        double f = row[j] * scale;
+        row[j] = f < 1 ? f : 1;
+        sum += row[j];
+    }
+    return sum;
+}

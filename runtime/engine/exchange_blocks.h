@@ -1,0 +1,34 @@
+/* exchange_blocks.h - the exchange areas of a block of pairs of faces, from the link that stands for them.
+ * SPDX-License-Identifier: MIT */
+#ifndef EXCHANGE_BLOCKS_H
+#define EXCHANGE_BLOCKS_H
+
+#include "engine/exchange_shadow.h"
+#include "engine/refine.h"
+
+enum { MOMENTS = 6 }; /* xx yy zz xy xz yz */
+
+/* The faces, as the kernel wants them: [faces] each, in the tree's order. */
+struct exchange_faces {
+    double *c[3], *area, *radius; /* centroid, m2, m */
+    double *moment[MOMENTS];      /* mean of d d over the face, d from the centroid (m2) */
+    double *all;                  /* where they stand */
+};
+
+/* One thread's room: [most faces of a side]. */
+struct exchange_scratch {
+    double *shift[3]; /* M_j n for the faces j of a row */
+    struct shadow_scratch shadow;
+};
+
+/* Returns 0, or -1 when out of memory; close is fine then too. */
+int exchange_faces_open(struct exchange_faces *faces, const struct exchange_tree *tree);
+void exchange_faces_close(struct exchange_faces *faces);
+int exchange_scratch_open(struct exchange_scratch *scratch, uint32_t most);
+void exchange_scratch_close(struct exchange_scratch *scratch);
+
+/* out[rows][columns]: A_i F_ij (m2), none above the smaller area. */
+void exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair, const struct link *link,
+                         struct exchange_scratch *scratch, double *out);
+
+#endif

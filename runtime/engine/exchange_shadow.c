@@ -1,0 +1,207 @@
+/* exchange_shadow.c - what pairs of faces of two flat groups see of each other past some blockers.
+ *
+ * Each pair is seen from four points of its one face: from there the blockers cast shadows on the plane of the other group, once for
+ * all its faces, and what is left of each face is cut out exactly (kernel/outline.h). The points are on the side where a face's
+ * size matters less.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "engine/exchange_shadow.h"
+#include "kernel/lambert.h"
+#include "kernel/outline_visibility.h"
+
+/* A face of the group that shadows fall on, in its plane's coordinates. */
+struct shadow_cell {
+    struct outline_sum whole;
+    double middle[2], half[2]; /* its box */
+    double p[4][2];
+    int n;
+};
+
+/* From how many of the points a face was wholly hidden and wholly seen, and what each point sees of it. */
+struct shadow_sight {
+    int hidden, clear;
+    double part[OUTLINE_FEW], at[OUTLINE_FEW][2]; /* of its area (m2); the centroid */
+};
+
+/* The group that shadows fall on. */
+struct screen {
+    struct outline_frame frame;
+    struct shadow_cell *cells; /* [count] */
+    uint32_t count;
+    double middle[2], half[2]; /* the box of them all */
+};
+
+/* The points of a face. */
+struct points {
+    double x[OUTLINE_FEW][3], weight[OUTLINE_FEW];
+};
+
+int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most)
+{
+    scratch->cells = malloc(most * sizeof *scratch->cells);
+    scratch->sights = malloc(most * sizeof *scratch->sights);
+    return scratch->cells && scratch->sights ? 0 : -1;
+}
+
+void shadow_scratch_close(struct shadow_scratch *scratch)
+{
+    free(scratch->cells);
+    free(scratch->sights);
+}
+
+static void make_cell(struct shadow_cell *c, const struct element *e, const struct outline_frame *frame)
+{
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    struct outline_cell cell;
+    cell.n = c->n = e->vertices;
+    for (int v = 0; v < c->n; v++) {
+        outline_in(frame, e->vertex[v], c->p[v]);
+        for (int k = 0; k < 2; k++) {
+            cell.p[v][k] = c->p[v][k];
+            low[k] = c->p[v][k] < low[k] ? c->p[v][k] : low[k];
+            high[k] = c->p[v][k] > high[k] ? c->p[v][k] : high[k];
+        }
+    }
+    memset(&c->whole, 0, sizeof c->whole);
+    outline_add(&c->whole, &cell);
+    for (int k = 0; k < 2; k++) {
+        c->middle[k] = 0.5 * (low[k] + high[k]);
+        c->half[k] = 0.5 * (high[k] - low[k]);
+    }
+}
+
+static void make_screen(struct screen *screen, const struct exchange_tree *t, const struct element *group, struct face_range faces)
+{
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    outline_frame_of(&screen->frame, group, t->host.ray_offset);
+    screen->count = faces.to - faces.from;
+    for (uint32_t j = 0; j < screen->count; j++) {
+        struct shadow_cell *c = &screen->cells[j];
+        make_cell(c, exchange_tree_face(t, faces.from + j), &screen->frame);
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], c->middle[k] - c->half[k]);
+            high[k] = fmax(high[k], c->middle[k] + c->half[k]);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        screen->middle[k] = 0.5 * (low[k] + high[k]);
+        screen->half[k] = 0.5 * (high[k] - low[k]);
+    }
+}
+
+/* What point k sees of a cell past the shadows, none of which covers all of the screen. */
+static void see_cell(const struct outline *shadows, int count, int k, const struct shadow_cell *c, struct shadow_sight *sight)
+{
+    int touched = 0, side = -1;
+    for (int s = 0; s < count && side < 1; s++) {
+        side = outline_box(&shadows[s], c->middle, c->half);
+        touched |= side == 0;
+    }
+    sight->part[k] = side == 1 ? 0 : c->whole.area;
+    side = side == 1 ? 0 : touched ? 1 : 2;
+    if (side == 1) {
+        struct outline_cell cell;
+        struct outline_sum seen;
+        cell.n = c->n;
+        for (int v = 0; v < c->n; v++) {
+            cell.p[v][0] = c->p[v][0];
+            cell.p[v][1] = c->p[v][1];
+        }
+        side = outline_seen(shadows, count, &cell, &c->whole, &seen);
+        sight->part[k] = seen.area;
+        if (side == 1) {
+            sight->at[k][0] = seen.at[0] / seen.area;
+            sight->at[k][1] = seen.at[1] / seen.area;
+            return;
+        }
+    }
+    sight->hidden += side == 0;
+    sight->clear += side == 2;
+    sight->at[k][0] = c->whole.at[0] / c->whole.area;
+    sight->at[k][1] = c->whole.at[1] / c->whole.area;
+}
+
+/* What the points see of the screen's cells. Returns 1 when all see all of it; then sights are not set. */
+static int see_screen(const struct screen *screen, const struct points *points, const struct polygon *blockers, int blocker_count,
+                      struct shadow_sight *sights)
+{
+    int clear = 0;
+    for (uint32_t j = 0; j < screen->count; j++)
+        sights[j].hidden = sights[j].clear = 0;
+    for (int k = 0; k < OUTLINE_FEW; k++) {
+        struct outline shadows[BLOCKERS_MAX];
+        double height = height3(points->x[k], screen->frame.origin, screen->frame.n);
+        int count = 0, covered = 0;
+        for (int b = 0; b < blocker_count && !covered; b++)
+            if (outline_cast(&shadows[count], &screen->frame, points->x[k], height, (const double (*)[3])blockers[b].v, blockers[b].n)) {
+                int side = outline_box(&shadows[count], screen->middle, screen->half);
+                covered = side == 1;
+                count += side == 0;
+            }
+        clear += !covered && count == 0;
+        for (uint32_t j = 0; j < screen->count; j++) {
+            if (covered) {
+                sights[j].hidden++;
+                sights[j].part[k] = sights[j].at[k][0] = sights[j].at[k][1] = 0;
+            } else {
+                see_cell(shadows, count, k, &screen->cells[j], &sights[j]);
+            }
+        }
+    }
+    return clear == OUTLINE_FEW;
+}
+
+/* The seen share of what the points, normal n, exchange with a cell. */
+static double seen_share(const struct shadow_sight *sight, const struct shadow_cell *c, const struct points *points, const double n[3],
+                         const struct outline_frame *frame)
+{
+    double seen = 0, all = 0;
+    if (sight->hidden == OUTLINE_FEW)
+        return 0;
+    if (sight->clear == OUTLINE_FEW)
+        return 1;
+    for (int k = 0; k < OUTLINE_FEW; k++) {
+        const double uv[2] = { c->whole.at[0] / c->whole.area, c->whole.at[1] / c->whole.area };
+        double y[3];
+        outline_out(frame, uv, y);
+        all += points->weight[k] * c->whole.area * lambert_points(points->x[k], n, y, frame->n, 0);
+        outline_out(frame, sight->at[k], y);
+        seen += points->weight[k] * sight->part[k] * lambert_points(points->x[k], n, y, frame->n, 0);
+    }
+    return !(seen > 0) ? 0 : seen < all ? seen / all : 1;
+}
+
+/* How large a face of the group looks from the nearest blocker: seen from another point of it, shadows move by so much. */
+static double seen_from(const struct element *e, struct face_range range, const struct exchange_tree *t, const struct blockers *list)
+{
+    double least = INFINITY;
+    for (int b = 0; b < list->count; b++) {
+        const struct element *blocker = &t->h.elements[list->face[b]];
+        least = fmin(least, polygon_distance(e->centre, (const double (*)[3])blocker->vertex, blocker->vertices, blocker->normal));
+    }
+    return sqrt(e->area / (range.to - range.from)) / (least + e->radius);
+}
+
+void shadow_block(const struct exchange_pair *pair, const struct blockers *list, struct shadow_scratch *scratch, double *values)
+{
+    const struct exchange_tree *t = pair->tree;
+    const struct element *r = pair->receiver, *s = pair->emitter;
+    uint32_t across = pair->columns.to - pair->columns.from;
+    int swap = seen_from(s, pair->columns, t, list) < seen_from(r, pair->rows, t, list);
+    struct face_range from = swap ? pair->columns : pair->rows;
+    size_t step_i = swap ? 1 : across, step_j = swap ? across : 1;
+    struct screen screen = { .cells = scratch->cells };
+    struct polygon blockers[BLOCKERS_MAX];
+    make_screen(&screen, t, swap ? r : s, swap ? pair->rows : pair->columns);
+    for (int b = 0; b < list->count; b++)
+        t->host.corners(&t->host, list->face[b], &blockers[b]);
+    for (uint32_t i = from.from; i < from.to; i++) {
+        struct points points;
+        outline_points(exchange_tree_face(t, i), t->host.ray_offset, OUTLINE_FEW, points.x, points.weight);
+        if (see_screen(&screen, &points, blockers, list->count, scratch->sights))
+            continue;
+        for (uint32_t j = 0; j < screen.count; j++)
+            values[(i - from.from) * step_i + j * step_j] *= seen_share(&scratch->sights[j], &screen.cells[j], &points, (swap ? s : r)->normal, &screen.frame);
+    }
+}

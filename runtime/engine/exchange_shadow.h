@@ -1,0 +1,29 @@
+/* exchange_shadow.h - two flat groups of faces in each other's half shadow: what each pair sees.
+ * SPDX-License-Identifier: MIT */
+#ifndef EXCHANGE_SHADOW_H
+#define EXCHANGE_SHADOW_H
+
+#include "engine/exchange_tree.h"
+
+/* Two linked elements of the tree, and which of the receiver's faces (rows) and of the emitter's (columns) a block holds, by
+ * place in the tree's order. */
+struct exchange_pair {
+    const struct exchange_tree *tree;
+    const struct element *receiver, *emitter;
+    struct face_range rows, columns;
+    double near; /* sums of two faces' radii: nearer pairs have the contour integral */
+};
+
+/* One thread's room. */
+struct shadow_scratch {
+    struct shadow_cell *cells;
+    struct shadow_sight *sights;
+};
+int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most);
+void shadow_scratch_close(struct shadow_scratch *scratch);
+
+/* values[rows][columns] are what pairs would exchange if nothing stood between; on return each is times what its pair sees
+ * past the faces of the list. */
+void shadow_block(const struct exchange_pair *pair, const struct blockers *list, struct shadow_scratch *scratch, double *values);
+
+#endif

@@ -1,0 +1,40 @@
+/* problem.h - what is solved, and how: the scene's light and the caller's options.
+ *
+ * Invariant: nothing in it changes once solve_open has returned.
+ * SPDX-License-Identifier: MIT */
+#ifndef PROBLEM_H
+#define PROBLEM_H
+
+#include <stdint.h>
+#include "engine/camera.h"
+#include "engine/closure.h"
+#include "hierarchy/scene.h"
+#include "visibility/rays.h"
+
+struct solve;
+
+struct solve_options {
+    double tolerance; /* relative L1 error of B that iteration may leave, > 0 */
+    int iterations;   /* sweeps per solve at the most */
+    int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
+    int threads;
+    enum closure closure; /* none: rows above 1 are capped, each face keeping its power (row_sums.c); or rows */
+    int clusters; /* 1 + the strategy that groups faces; 0: the default */
+    const struct camera *camera; /* whose picture counts, for oracles that read importance; NULL: all places alike */
+    int unit;     /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    int (*progress)(void *context, const struct solve *solve, const char *phase); /* NULL: none; nonzero cancels */
+    void *context; /* of progress */
+};
+
+struct problem {
+    const struct scene *scene; /* borrowed */
+    struct solve_options options;
+    uint32_t bands;                 /* 1 or 3 */
+    double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
+    double *whitest;                /* [face]: rho of the band where it is largest */
+    struct rays *rays;
+    int closed;           /* with closure: 1 when no light leaves the scene (enclosure.c), else 0 */
+    uint64_t closed_rays; /* the rays that say so */
+};
+
+#endif

@@ -1,0 +1,34 @@
+/* contact_fraction.c - which part of a surface lies inside a solid that stands on it, by rays.
+ *
+ * A point is covered when most rays from it, cosine-spread over its side, meet first the back of a one-sided face: it is
+ * inside something. The share is that of a 4 x 4 grid of points, so it is off by up to about half a cell along the
+ * edge of what stands there. Not all rays need meet backs: solids may reach into each other, and a ray along an edge may
+ * slip past. Fails where faces are two-sided: they have no inside.
+ * [derived here]
+ * SPDX-License-Identifier: MIT */
+#include "kernel/constants.h"
+#include "kernel/hemisphere.h"
+#include "kernel/surface_point.h"
+#include "visibility/contact_fraction.h"
+
+enum { SIDE = 4 };
+
+double contact_fraction(const struct rays *rays, const struct element *e)
+{
+    const struct hemisphere above = hemisphere_over(e->normal);
+    double direction[CONTACT_RAYS][3];
+    int covered = 0;
+    for (int m = 0; m < CONTACT_RAYS; m++)
+        hemisphere_direction(direction[m], &above, m, CONTACT_RAYS, 0);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double p[3];
+        int inside = 0;
+        surface_point(p, e, (i / SIDE + 0.5) / SIDE, (i % SIDE + 0.5) / SIDE);
+        for (int k = 0; k < 3; k++)
+            p[k] += rays_host(rays)->ray_offset * e->normal[k];
+        for (int m = 0; m < CONTACT_RAYS && inside + CONTACT_RAYS - m >= CONTACT_BACKS; m++)
+            inside += rays_first(rays, p, direction[m], NULL, NULL) == RAY_MEETS_BACK;
+        covered += inside >= CONTACT_BACKS;
+    }
+    return covered / (double)(SIDE * SIDE);
+}

@@ -1,0 +1,35 @@
+/* open_scene.c - see open_scene.h.
+ * SPDX-License-Identifier: MIT */
+#include "scene/open_scene.h"
+
+#include "util/device.h"
+
+int open_scene(struct open_scene *s, const char *path, const struct scene_options *options, int threads)
+{
+    *s = (struct open_scene){.path = path};
+    if (scene_file_read(&s->file, path, options) < 0)
+        return -1;
+    const struct RadPolygons polygons = scene_file_polygons(&s->file);
+    s->device = open_device(options->quiet ? NULL : path, threads);
+    if (s->device) {
+        s->scene = radNewScene(s->device);
+        if (s->scene && radSetSceneMaterials(s->scene, s->file.materials, s->file.material_count) == 0 &&
+            radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0 &&
+            radGetSceneReport(s->scene, &s->report) == 0) {
+            if (!options->quiet)
+                scene_file_warn(&s->file, path, s->report.dropped);
+            return 0;
+        }
+        report_device(s->device, path);
+    }
+    close_scene(s);
+    return -1;
+}
+
+void close_scene(struct open_scene *s)
+{
+    radReleaseScene(s->scene);
+    radReleaseDevice(s->device);
+    scene_file_free(&s->file);
+    *s = (struct open_scene){0};
+}

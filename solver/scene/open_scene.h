@@ -1,0 +1,20 @@
+/* open_scene.h - a scene file read and committed, for commands to solve.
+ * SPDX-License-Identifier: MIT */
+#ifndef OPEN_SCENE_H
+#define OPEN_SCENE_H
+
+#include "scene/scene_file.h"
+
+struct open_scene {
+    const char *path; /* borrowed */
+    struct scene_file file;
+    RadDevice device;
+    RadScene scene;
+    struct RadSceneReport report;
+};
+
+/* Returns 0, or -1 after a message, with nothing to close. */
+int open_scene(struct open_scene *s, const char *path, const struct scene_options *options, int threads);
+void close_scene(struct open_scene *s);
+
+#endif

@@ -1,0 +1,184 @@
+/* scene_file.c - see scene_file.h.
+ * SPDX-License-Identifier: MIT */
+#include "scene/scene_file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "scene/read_assimp.h"
+#include "scene/read_obj.h"
+#include "util/ends_with.h"
+#include "util/report.h"
+
+/* Make *array hold one more than `count`. Returns 0, or -1 when out of memory. */
+static int grow(void **array, size_t count, size_t capacity, size_t size)
+{
+    if (count < capacity)
+        return 0;
+    size_t more = capacity < 1024 ? 1024 : 2 * capacity;
+    void *larger = more <= SIZE_MAX / size ? realloc(*array, more * size) : NULL;
+    if (!larger)
+        return -1;
+    *array = larger;
+    return 0;
+}
+
+static size_t grown(size_t count, size_t capacity)
+{
+    return count < capacity ? capacity : capacity < 1024 ? 1024 : 2 * capacity;
+}
+
+int scene_file_add_position(struct scene_file *f, const double position[3])
+{
+    if (f->position_count == UINT32_MAX || grow((void **)&f->positions, f->position_count, f->position_capacity, 3 * sizeof *f->positions))
+        return -1;
+    f->position_capacity = grown(f->position_count, f->position_capacity);
+    memcpy(&f->positions[3 * f->position_count++], position, 3 * sizeof *position);
+    return 0;
+}
+
+int scene_file_add_corner(struct scene_file *f, uint32_t position)
+{
+    if (grow((void **)&f->indices, f->index_count, f->index_capacity, sizeof *f->indices))
+        return -1;
+    f->index_capacity = grown(f->index_count, f->index_capacity);
+    f->indices[f->index_count++] = position;
+    return 0;
+}
+
+int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t material, uint32_t line)
+{
+    uint32_t n = f->polygon_count, room = f->polygon_capacity;
+    if (n == UINT32_MAX / 2 || grow((void **)&f->sizes, n, room, sizeof *f->sizes)
+        || grow((void **)&f->polygon_materials, n, room, sizeof *f->polygon_materials) || grow((void **)&f->lines, n, room, sizeof *f->lines))
+        return -1;
+    f->polygon_capacity = (uint32_t)grown(n, room);
+    f->sizes[n] = size;
+    f->polygon_materials[n] = material;
+    f->lines[n] = line;
+    f->polygon_count++;
+    return 0;
+}
+
+int scene_file_add_material(struct scene_file *f, const char *name, const struct RadMaterial *material)
+{
+    uint32_t n = f->material_count, room = f->material_capacity;
+    if (n == UINT32_MAX / 2 || grow((void **)&f->materials, n, room, sizeof *f->materials)
+        || grow((void **)&f->names, n, room, sizeof *f->names) || grow((void **)&f->places, n, room, sizeof *f->places))
+        return -1;
+    f->material_capacity = (uint32_t)grown(n, room);
+    f->names[n] = strdup(name);
+    if (!f->names[n])
+        return -1;
+    f->materials[n] = *material;
+    f->places[n] = (struct material_place){0};
+    f->material_count++;
+    return 0;
+}
+
+static int has_extension(const char *path, const char *const *extensions)
+{
+    const char *dot = strrchr(path, '.');
+    for (; dot && *extensions; extensions++)
+        if (strcasecmp(dot, *extensions) == 0)
+            return 1;
+    return 0;
+}
+
+/* Formats of shape alone: Assimp's stand-in is white, which no radiosity can stand, and two-sided. */
+static void replace_stand_in(struct scene_file *f, const char *path, const struct scene_options *options)
+{
+    static const char *const shapes[] = {".ply", ".stl", ".off", NULL};
+    if (!has_extension(path, shapes))
+        return;
+    for (uint32_t i = 0; i < f->material_count; i++)
+        f->materials[i] = (struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}};
+    if (!options->quiet)
+        report_warning(path, 0, "this format holds no materials: every face reflects 0.5 and none emits");
+}
+
+/* Materials that no polygon has may be anything. */
+static int check_materials(const struct scene_file *f, const char *path)
+{
+    uint8_t *used = calloc((size_t)f->material_count + 1, 1);
+    int result = used ? 0 : report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
+    for (uint32_t i = 0; i < f->polygon_count && used; i++)
+        used[f->polygon_materials[i]] = 1;
+    for (uint32_t i = 0; i < f->material_count && !result; i++) {
+        const struct RadMaterial *m = &f->materials[i];
+        const struct material_place *where = &f->places[i];
+        const char *file = where->file ? where->file : path;
+        for (int k = 0; k < 3 && used[i] && !result; k++) {
+            if (!(m->reflectance[k] >= 0 && m->reflectance[k] < 1))
+                result = report_error(file, where->diffuse_line,
+                                      "material '%s' has reflectance %g; the diffuse colour must be 0 or more and below 1",
+                                      f->names[i], m->reflectance[k]);
+            else if (!(m->exitance[k] >= 0 && isfinite(m->exitance[k])))
+                result = report_error(file, where->emissive_line,
+                                      "material '%s' has exitance %g W/m2; the emissive colour must be 0 or more and finite",
+                                      f->names[i], m->exitance[k]);
+        }
+    }
+    free(used);
+    return result;
+}
+
+int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)
+{
+    static const char *const obj[] = {".obj", NULL};
+    const struct scene_options none = {0};
+    struct stat status;
+    options = options ? options : &none;
+    *f = (struct scene_file){0};
+    if (stat(path, &status))
+        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+    if (S_ISDIR(status.st_mode))
+        return report_error(path, 0, "this is a folder; name a scene file in it");
+    int result = has_extension(path, obj) ? read_obj(f, path) : read_assimp(f, path);
+    if (!result) {
+        replace_stand_in(f, path, options);
+        for (uint32_t i = 0; i < f->material_count; i++)
+            f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
+        result = check_materials(f, path);
+    }
+    if (result)
+        scene_file_free(f);
+    return result;
+}
+
+void scene_file_free(struct scene_file *f)
+{
+    for (uint32_t i = 0; i < f->material_count; i++) {
+        free(f->names[i]);
+        free(f->places[i].file);
+    }
+    free(f->positions);
+    free(f->indices);
+    free(f->sizes);
+    free(f->polygon_materials);
+    free(f->lines);
+    free(f->materials);
+    free(f->names);
+    free(f->places);
+    *f = (struct scene_file){0};
+}
+
+struct RadPolygons scene_file_polygons(const struct scene_file *f)
+{
+    return (struct RadPolygons){
+        .positions = f->positions, .position_count = f->position_count, .indices = f->indices,
+        .sizes = f->sizes, .materials = f->polygon_materials, .count = f->polygon_count,
+        .single_precision = f->single_precision,
+    };
+}
+
+void scene_file_warn(const struct scene_file *f, const char *path, uint32_t dropped)
+{
+    if (dropped || f->other)
+        report_warning(path, 0, "%u degenerate faces dropped (no area, or fewer than three corners), %u points and lines ignored",
+                       (unsigned)dropped, (unsigned)f->other);
+}

@@ -1,0 +1,61 @@
+/* scene_file.h - a scene file as arrays: the polygons and materials that radSetSceneSharedPolygons and
+ * radSetSceneMaterials take, and what messages and tables want to know besides.
+ *
+ * Material: reflectance = diffuse colour (glTF: base colour), exitance in W/m2 = emissive colour times its strength
+ * where the format has one. A face reflects and emits on both sides when its material's name ends in "_2s", when the
+ * format says so (glTF: doubleSided), or when the caller asks for it. Textures are not looked at.
+ * SPDX-License-Identifier: MIT */
+#ifndef SCENE_FILE_H
+#define SCENE_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include "radiosity.h"
+
+/* Where a material file speaks of a material; line 0: it does not, or the format has no lines. */
+struct material_place {
+    char *file; /* NULL: the scene file itself */
+    uint32_t diffuse_line, emissive_line;
+};
+
+struct scene_file {
+    double *positions; /* [position_count * 3], m */
+    size_t position_count, position_capacity;
+    uint32_t *indices; /* [sum of sizes] */
+    size_t index_count, index_capacity;
+    uint32_t *sizes;             /* [polygon_count], in the file's order; some may have fewer than three corners */
+    uint32_t *polygon_materials; /* [polygon_count] */
+    uint32_t *lines;             /* [polygon_count]: where each stands in the file; 0 where the format has no lines */
+    uint32_t polygon_count, polygon_capacity;
+    struct RadMaterial *materials; /* [material_count] */
+    char **names;                  /* [material_count] */
+    struct material_place *places; /* [material_count] */
+    uint32_t material_count, material_capacity;
+    int single_precision; /* 1: positions have been floats, as Assimp keeps them */
+    uint32_t other; /* points and lines of the file, which are no faces */
+};
+
+struct scene_options {
+    int two_sided; /* treat every face as two-sided */
+    int quiet;     /* no warnings on stderr */
+};
+
+/* Read `path`: OBJ by our scanner, any other format by Assimp. On failure writes one line
+ * "path[:line]: error: cause; how to mend it" to stderr and returns -1; then *file is empty. */
+int scene_file_read(struct scene_file *file, const char *path, const struct scene_options *options);
+void scene_file_free(struct scene_file *file);
+
+/* The polygons, for radSetSceneSharedPolygons; good until the file is freed. */
+struct RadPolygons scene_file_polygons(const struct scene_file *file);
+
+/* Say on stderr how many faces were dropped (RadSceneReport.dropped), and points and lines ignored; nothing when there are none. */
+void scene_file_warn(const struct scene_file *file, const char *path, uint32_t dropped);
+
+/* For the readers of formats. Each returns 0, or -1 when out of memory. A polygon has the corners added since the last
+ * one; a material's name is copied. */
+int scene_file_add_position(struct scene_file *file, const double position[3]);
+int scene_file_add_corner(struct scene_file *file, uint32_t position);
+int scene_file_add_polygon(struct scene_file *file, uint32_t size, uint32_t material, uint32_t line);
+int scene_file_add_material(struct scene_file *file, const char *name, const struct RadMaterial *material);
+
+#endif

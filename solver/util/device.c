@@ -1,0 +1,53 @@
+/* device.c - see device.h.
+ * SPDX-License-Identifier: MIT */
+#include "util/device.h"
+
+#include <stdlib.h>
+
+#include "util/report.h"
+
+static const struct oracle *const *hand_releases;
+
+void register_hand_releases(const struct oracle *const *table)
+{
+    hand_releases = table;
+}
+
+/* Errors are told by whoever made the call, who knows what it was about. */
+static void say_warning(void *where, enum RadError code, const char *message)
+{
+    if (code == RAD_ERROR_NONE)
+        report_warning(where, 0, "%s", message);
+}
+
+static const char *from_environment(const char *name)
+{
+    const char *value = getenv(name);
+    return value && *value ? value : NULL;
+}
+
+RadDevice open_device(const char *where, int threads)
+{
+    const struct RadDeviceOptions options = { threads, from_environment("CC"), from_environment("TMPDIR") };
+    RadDevice device = radNewDevice(&options);
+    if (!device) {
+        report_device(NULL, where ? where : "radiosity");
+        return NULL;
+    }
+    if (where)
+        radSetDeviceMessageFunction(device, say_warning, (void *)(uintptr_t)where);
+    for (int i = 0; hand_releases && hand_releases[i]; i++)
+        if (radRegisterOracle(device, hand_releases[i]) < 0) {
+            report_device(device, hand_releases[i]->name);
+            radReleaseDevice(device);
+            return NULL;
+        }
+    return device;
+}
+
+int report_device(RadDevice device, const char *where)
+{
+    report_error(where, 0, "%s", radGetDeviceErrorMessage(device));
+    (void)radGetDeviceError(device);
+    return -1;
+}

@@ -1,0 +1,18 @@
+/* device.h - the library's device as the command uses it: what it says goes to standard error.
+ * SPDX-License-Identifier: MIT */
+#ifndef DEVICE_H
+#define DEVICE_H
+
+#include "radiosity.h"
+
+/* The hand-written releases that devices opened from now on know: a table that ends with NULL and is borrowed. */
+void register_hand_releases(const struct oracle *const *table);
+
+/* `where` names in warnings what they are about, the scene's file as a rule, and is borrowed; NULL: no warnings.
+ * Returns NULL after a message. */
+RadDevice open_device(const char *where, int threads);
+
+/* Say what the device's last call could not do, as "where: error: sentence". Returns -1. */
+int report_device(RadDevice device, const char *where);
+
+#endif

@@ -1,0 +1,27 @@
+/* solved.h - a solution and the views of it that commands and studies read.
+ * SPDX-License-Identifier: MIT */
+#ifndef SOLVED_H
+#define SOLVED_H
+
+#include "radiosity.h"
+
+struct solved {
+    RadScene scene; /* kept alive by the solution */
+    RadSolution solution;
+    struct RadElements elements;
+    struct RadLinks links;
+    struct RadReport report;
+};
+
+/* Make a solution over a committed scene: elements and what answers about rays, without links.
+ * Returns 0, or -1 after a message that names `where`, with nothing to close. */
+int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene, RadOracle oracle,
+                 const struct RadSolveOptions *how);
+
+/* Make a solution over a committed scene and solve it; with how->unit, refine it alone.
+ * Returns 0, or -1 after a message that names `where`, with nothing to close. */
+int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene, RadOracle oracle,
+                const struct RadSolveOptions *how);
+void solved_close(struct solved *s);
+
+#endif

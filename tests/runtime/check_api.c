@@ -1,0 +1,779 @@
+/* check_api.c - libradiosity as a program sees it: linked with the archive alone, by radiosity.h alone.
+ *
+ * Furnaces have the exact solution B = E / (1 - rho); the cube's view factors are Howell's C-11 and C-14.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include "radiosity.h"
+#include "suite.h"
+
+/* The unit cube seen from inside: ceiling, floor, walls. */
+static const double corners[24] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1 };
+static const uint32_t sides[24] = { 4, 7, 6, 5, 0, 1, 2, 3, 0, 4, 5, 1, 1, 5, 6, 2, 2, 6, 7, 3, 3, 7, 4, 0 };
+static const uint32_t lamp_above[6] = { 0, 1, 1, 1, 1, 1 };
+
+static struct RadPolygons cube(const uint32_t *materials)
+{
+    return (struct RadPolygons){ .positions = corners, .position_count = 8, .indices = sides, .size = 4, .materials = materials, .count = 6 };
+}
+
+static struct RadMaterial grey(double rho, double exitance)
+{
+    return (struct RadMaterial){ { rho, rho, rho }, { exitance, exitance, exitance }, 0 };
+}
+
+static RadScene make_scene(RadDevice device, const struct RadPolygons *polygons, const struct RadMaterial *materials, uint32_t count)
+{
+    RadScene scene = radNewScene(device);
+    ck_assert_ptr_nonnull(scene);
+    ck_assert_int_eq(radSetSceneMaterials(scene, materials, count), 0);
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, polygons), 0);
+    ck_assert_msg(radCommitScene(scene) == 0, "%s", radGetDeviceErrorMessage(device));
+    return scene;
+}
+
+/* The cube with a lamp for its ceiling. */
+static RadScene lamp_scene(RadDevice device, double rho)
+{
+    const struct RadMaterial materials[2] = { grey(rho, 1), grey(rho, 0) };
+    const struct RadPolygons p = cube(lamp_above);
+    return make_scene(device, &p, materials, 2);
+}
+
+static RadOracle default_oracle(RadDevice device)
+{
+    RadOracle oracle = radNewOracle(device, radGetDefaultOracle(), RAD_RELEASE_FLAT);
+    ck_assert_ptr_nonnull(oracle);
+    return oracle;
+}
+
+/* The device's error is this one, its sentence holds `part`, and then it is forgotten. */
+static void expect_error(RadDevice device, enum RadError code, const char *part)
+{
+    const char *said = radGetDeviceErrorMessage(device);
+    ck_assert_msg(strstr(said, part) != NULL, "'%s' does not say '%s'", said, part);
+    ck_assert_int_eq(radGetDeviceError(device), code);
+    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_NONE);
+    ck_assert_str_eq(radGetDeviceErrorMessage(device), "");
+}
+
+/* ---- light */
+
+START_TEST(test_furnace)
+{
+    const struct RadMaterial m = { { 0.5, 0.2, 0.8 }, { 1, 2, 0.25 }, 0 };
+    const struct RadPolygons p = cube(NULL);
+    const struct RadSolveOptions closed = { .closure = RAD_CLOSURE_ROWS, .tolerance = 1e-6 };
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = make_scene(device, &p, &m, 1);
+    RadOracle oracle = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, &closed);
+    struct RadSceneReport s;
+    struct RadReport r;
+    ck_assert_int_eq(radGetSceneReport(scene, &s), 0);
+    ck_assert_uint_eq(s.bands, RAD_COLOUR);
+    ck_assert_uint_eq(s.polygons, 6);
+    ck_assert_uint_eq(s.faces, 6);
+    ck_assert_double_eq_tol(s.area, 6, 1e-12);
+    ck_assert_double_eq(s.high[2], 1);
+    ck_assert_double_eq(radGetScenePolygonAreas(scene)[3], 1);
+    ck_assert_int_eq(radSolve(solution), 0);
+    radGetReport(solution, &r);
+    ck_assert_int_eq(r.converged, 1);
+    ck_assert_int_eq(r.closed, 1);
+    ck_assert_uint_eq(r.bands, 3);
+    for (uint32_t k = 0; k < 3; k++) {
+        double b[6], h[6], exact = m.exitance[k] / (1 - m.reflectance[k]);
+        ck_assert_int_eq(radGetPolygonValues(solution, k, b, h), 0);
+        for (int i = 0; i < 6; i++) {
+            ck_assert_double_eq_tol(b[i], exact, 5e-6 * exact);
+            ck_assert_double_eq_tol(h[i], exact, 5e-6 * exact);
+        }
+    }
+    ck_assert_double_eq_tol(r.absorbed, r.emitted, 1e-5 * r.emitted);
+    ck_assert_int_eq(radGetDeviceError(device), RAD_ERROR_NONE);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* Steps are the solve. */
+START_TEST(test_steps)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    RadSolution at_once = radNewSolution(scene, oracle, NULL), by_steps = radNewSolution(scene, oracle, NULL);
+    double a[6], b[6];
+    int more;
+    ck_assert_int_eq(radSolve(at_once), 0);
+    ck_assert_int_eq(radRefine(by_steps), 0);
+    ck_assert_int_eq(radRefine(by_steps), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "radRefine");
+    do {
+        more = radStep(by_steps);
+    } while (more == 1);
+    ck_assert_int_eq(more, 0);
+    ck_assert_int_eq(radGetPolygonValues(at_once, 0, a, NULL), 0);
+    ck_assert_int_eq(radGetPolygonValues(by_steps, 0, b, NULL), 0);
+    ck_assert_int_eq(memcmp(a, b, sizeof a), 0);
+    radReleaseSolution(at_once);
+    radReleaseSolution(by_steps);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* What a leaf receives, over its own links and those of what it is part of. */
+static double row_of(const struct RadElements *x, const struct RadLinks *links, uint32_t e)
+{
+    double sum = 0;
+    for (;; e = x->elements[e].parent) {
+        for (size_t l = links->first[e]; l < links->first[e + 1]; l++)
+            sum += (double)links->links[l].form_factor * links->links[l].visibility / RAD_LINK_VISIBLE;
+        if (x->elements[e].parent == e)
+            return sum;
+    }
+}
+
+START_TEST(test_views)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    struct RadElements x;
+    struct RadLinks links;
+    struct RadReport r;
+    radGetLinks(solution, &links);
+    ck_assert_uint_eq(links.count, 0);
+    radGetElements(solution, &x);
+    ck_assert_double_eq(x.radiosity[x.face_element[0]], 1);
+    ck_assert_int_eq(radSolve(solution), 0);
+    radGetElements(solution, &x);
+    radGetLinks(solution, &links);
+    radGetReport(solution, &r);
+    ck_assert_uint_eq(x.count, r.elements);
+    ck_assert_uint_eq(links.count, r.links);
+    ck_assert_uint_eq(links.first[x.count], links.count);
+    for (uint32_t e = 0; e < x.count; e++)
+        for (size_t l = links.first[e]; l < links.first[e + 1]; l++) {
+            ck_assert_uint_eq(links.links[l].receiver, e);
+            ck_assert_uint_lt(links.links[l].emitter, x.count);
+        }
+    uint32_t leaves = 0;
+    double low = 2, high = 0;
+    for (uint32_t e = 0; e < x.count; e++) {
+        if (x.elements[e].children)
+            continue;
+        double row = row_of(&x, &links, e);
+        low = fmin(low, row);
+        high = fmax(high, row);
+        leaves++;
+    }
+    ck_assert_uint_eq(leaves, r.leaves);
+    ck_assert_double_eq_tol(low, r.rows.low, 1e-6);
+    ck_assert_double_eq_tol(high, r.rows.high, 1e-6);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* Bent, concave, two-sided and empty polygons; the arrays may go after the commit. */
+START_TEST(test_polygons)
+{
+    static const uint32_t sizes[5] = { 4, 5, 3, 2, 4 };
+    double *p = malloc(sizeof(double) * 3 * 12);
+    uint32_t indices[18] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 1, 0, 1, 9, 10, 11, 2 }, materials[5] = { 0, 1, 0, 0, 2 };
+    const double at[36] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,               /* a square */
+                            5, 0, 0, 7, 0, 0, 7, 2, 0, 6, 1, 0, 5, 2, 0,      /* concave, 3 m2, two-sided */
+                            1, 0, 3, 0, 0, 3, 0, 1, 3.5 };                    /* bent, with (1 1 0) */
+    const struct RadMaterial m[3] = { grey(0.5, 1), { { 0.5, 0.5, 0.5 }, { 0, 0, 0 }, 1 }, grey(0, 0) };
+    RadDevice device = radNewDevice(NULL);
+    struct RadSceneReport r;
+    memcpy(p, at, sizeof at);
+    const struct RadPolygons polygons = { .positions = p, .position_count = 12, .indices = indices, .sizes = sizes, .materials = materials, .count = 5 };
+    RadScene scene = make_scene(device, &polygons, m, 3);
+    free(p);
+    memset(indices, 0xff, sizeof indices);
+    ck_assert_int_eq(radGetSceneReport(scene, &r), 0);
+    ck_assert_uint_eq(r.polygons, 5);
+    ck_assert_uint_eq(r.dropped, 2);
+    const double *areas = radGetScenePolygonAreas(scene);
+    ck_assert_double_eq_tol(areas[0], 1, 1e-12);
+    ck_assert_double_eq_tol(areas[1], 3, 1e-12);
+    ck_assert_double_eq(areas[2], 0);
+    ck_assert_double_eq(areas[3], 0);
+    ck_assert_double_eq_tol(r.area, areas[0] + 2 * areas[1] + areas[4], 1e-12);
+    const struct RadFace *faces = radGetSceneFaces(scene);
+    uint32_t backs = 0, black = 0;
+    for (uint32_t i = 0; i < r.faces; i++) {
+        ck_assert_uint_lt(faces[i].input, 5);
+        ck_assert_uint_eq(faces[i].material, materials[faces[i].input]);
+        ck_assert_uint_eq(faces[i].black, faces[i].input == 4);
+        backs += faces[i].back;
+        black += faces[i].black;
+    }
+    ck_assert_uint_eq(backs, 3); /* three triangles */
+    ck_assert_uint_eq(black, 2);
+    ck_assert_double_eq(radGetSceneMaterials(scene)[2].reflectance[0], 0);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* ---- exchange areas */
+
+START_TEST(test_exchange)
+{
+    static const double opposite = 0.1998248957, beside = 0.2000437761;
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    for (int closure = RAD_CLOSURE_NONE; closure <= RAD_CLOSURE_RECIPROCAL; closure++) {
+        const struct RadExchangeOptions o = { .closure = (enum RadClosure)closure };
+        RadExchange x = radNewExchange(scene, NULL, &o);
+        struct RadExchangeReport r;
+        double f[6][6];
+        ck_assert_ptr_nonnull(x);
+        for (uint32_t i = 0; i < 6; i++) {
+            double sum = radGetExchangeRow(x, i, f[i]), added = 0;
+            for (int j = 0; j < 6; j++)
+                added += f[i][j];
+            ck_assert_double_eq_tol(sum, added, 1e-15);
+            ck_assert_double_eq_tol(sum, 1, closure == RAD_CLOSURE_NONE ? 3e-4 : 1e-9);
+        }
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < 6; j++) {
+                int across = i != j && (i < 2 ? j < 2 : j >= 2 && (i - j == 2 || j - i == 2));
+                ck_assert_double_eq_tol(f[i][j], i == j ? 0 : across ? opposite : beside, 1e-4);
+                ck_assert_double_eq_tol(f[i][j], f[j][i], 1e-12);
+            }
+        radGetExchangeReport(x, &r);
+        ck_assert_uint_eq(r.rows_closed, 6);
+        ck_assert_uint_eq(r.rows_open, 0);
+        ck_assert_double_eq(radGetExchangeRow(x, 6, f[0]), -1);
+        expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no row 6");
+        radReleaseExchange(x);
+    }
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* ---- oracles */
+
+START_TEST(test_oracles)
+{
+    RadDevice device = radNewDevice(NULL);
+    struct RadOracleReport r;
+    int found = 0;
+    for (const char *const *name = radGetOracleNames(); *name; name++) {
+        RadOracle oracle = radNewOracle(device, *name, RAD_RELEASE_DAG);
+        ck_assert_ptr_nonnull(oracle);
+        radGetOracleReport(oracle, &r);
+        ck_assert_str_eq(r.name, *name);
+        ck_assert_int_eq(radHasOracle(device, *name, RAD_RELEASE_FLAT), 1);
+        ck_assert_int_eq(r.reads_importance, strcmp(*name, "importance") == 0);
+        found += strcmp(*name, radGetDefaultOracle()) == 0;
+        radReleaseOracle(oracle);
+    }
+    ck_assert_int_eq(found, 1);
+    ck_assert_ptr_null(radNewOracle(device, "nobody", RAD_RELEASE_FLAT));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no built-in oracle 'nobody'");
+    ck_assert_ptr_null(radNewOracle(device, "bf", RAD_RELEASE_HAND));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "registered");
+    ck_assert_ptr_null(radNewOracle(device, "bf", (enum RadRelease)7));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "release");
+    ck_assert_ptr_null(radLoadOracle(device, "nowhere.dag", NULL, RAD_RELEASE_DAG));
+    expect_error(device, RAD_ERROR_INVALID_ORACLE, "nowhere.dag");
+    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start b; }", NULL, RAD_RELEASE_DAG));
+    expect_error(device, RAD_ERROR_INVALID_ORACLE, "mine:1:");
+    RadOracle own = radParseOracle(device, "mine", "oracle a \"one\" { param x : ratio = 0.25 in [0, 1]; start t;"
+                                   " node t = transfer(relative = x) { otherwise -> stop; } }", NULL, RAD_RELEASE_DAG);
+    ck_assert_msg(own != NULL, "%s", radGetDeviceErrorMessage(device));
+    radGetOracleReport(own, &r);
+    ck_assert_str_eq(r.doc, "one");
+    ck_assert_int_eq(r.parameter_count, 1);
+    ck_assert_double_eq(radGetOracleParameter(own, "x"), 0.25);
+    ck_assert_int_eq(radSetOracleParameter(own, "x", 0.5), 0);
+    ck_assert_double_eq(radGetOracleParameter(own, "x"), 0.5);
+    ck_assert_int_eq(radSetOracleParameter(own, "x", 2), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "x takes 0 to 1");
+    ck_assert_int_eq(radSetOracleParameter(own, "x", (double)NAN), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "x takes 0 to 1");
+    ck_assert_int_eq(radSetOracleParameter(own, "y", 1), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no parameter 'y'; it has x");
+    ck_assert_double_nan(radGetOracleParameter(own, "y"));
+    radReleaseOracle(own);
+    RadOracle flat = radParseOracle(device, "mine", "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL, RAD_RELEASE_FLAT);
+    ck_assert_msg(flat != NULL, "%s", radGetDeviceErrorMessage(device));
+    radGetOracleReport(flat, &r);
+    ck_assert_str_eq(r.release, "flat");
+    ck_assert_int_gt((int)strlen(r.fingerprint), 0);
+    radReleaseOracle(flat);
+    radReleaseDevice(device);
+    device = radNewDevice(&(struct RadDeviceOptions){ .compiler = "no-such-compiler" });
+    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL, RAD_RELEASE_FLAT));
+    expect_error(device, RAD_ERROR_UNSUPPORTED, "no-such-compiler");
+    radReleaseDevice(device);
+}
+END_TEST
+
+static void nothing(void *parameters)
+{
+    (void)parameters;
+}
+
+static enum decision link_all(const void *parameters, struct discussion *d)
+{
+    (void)parameters;
+    return d->receiver == d->emitter && !d->receiver->vertices ? DECISION_SUBDIVIDE_BOTH : DECISION_STOP;
+}
+
+START_TEST(test_registered)
+{
+    struct oracle hand = { .abi = RUNTIME_ABI, .name = "mine", .doc = "", .fingerprint = "", .parameters_size = 1, .defaults = nothing, .refine = link_all };
+    RadDevice device = radNewDevice(NULL);
+    ck_assert_int_eq(radHasOracle(device, "mine", RAD_RELEASE_HAND), 0);
+    ck_assert_int_eq(radRegisterOracle(device, &hand), 0);
+    ck_assert_int_eq(radHasOracle(device, "mine", RAD_RELEASE_HAND), 1);
+    ck_assert_int_eq(radHasOracle(device, "mine", RAD_RELEASE_FLAT), 0);
+    RadOracle oracle = radNewOracle(device, "mine", RAD_RELEASE_HAND);
+    ck_assert_ptr_nonnull(oracle);
+    struct RadOracleReport r;
+    radGetOracleReport(oracle, &r);
+    ck_assert_str_eq(r.release, "hand");
+    RadScene scene = lamp_scene(device, 0.5);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    ck_assert_int_eq(radSolve(solution), 0); /* no links, B = E */
+    double b[6];
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, b, NULL), 0);
+    ck_assert_double_eq(b[0], 1);
+    ck_assert_double_eq(b[1], 0);
+    radReleaseSolution(solution);
+    radReleaseScene(scene);
+    radReleaseOracle(oracle);
+    hand.abi = RUNTIME_ABI + 1;
+    ck_assert_ptr_null(radNewOracleCompiled(device, &hand, "flat"));
+    expect_error(device, RAD_ERROR_INVALID_ORACLE, "ABI");
+    ck_assert_int_eq(radRegisterOracle(device, &hand), -1);
+    expect_error(device, RAD_ERROR_INVALID_ORACLE, "ABI");
+    radReleaseDevice(device);
+}
+END_TEST
+
+START_TEST(test_statistics)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = radNewOracle(device, radGetDefaultOracle(), RAD_RELEASE_DAG), flat = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL), same = radNewSolution(scene, flat, NULL);
+    struct RadStatistics s;
+    struct RadReport r;
+    double a[6], b[6];
+    ck_assert_int_eq(radGetOracleStatistics(oracle, &s), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "radCountOracle");
+    ck_assert_int_eq(radCountOracle(flat), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "RAD_RELEASE_DAG");
+    ck_assert_int_eq(radCountOracle(oracle), 0);
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(radSolve(same), 0);
+    ck_assert_int_eq(radGetOracleStatistics(oracle, &s), 0);
+    radGetReport(solution, &r);
+    ck_assert_int_gt(s.node_count, 1);
+    ck_assert_uint_eq(s.nodes[0].calls, r.pairs);
+    for (int i = 0; i < s.node_count; i++) {
+        uint64_t sum = 0;
+        for (int k = 0; k < s.nodes[i].answer_count; k++)
+            sum += s.nodes[i].answers[k].count;
+        ck_assert_uint_eq(sum, s.nodes[i].calls);
+    }
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, a, NULL), 0);
+    ck_assert_int_eq(radGetPolygonValues(same, 0, b, NULL), 0);
+    ck_assert_int_eq(memcmp(a, b, sizeof a), 0); /* the two releases decide alike, and counting changes nothing */
+    radReleaseSolution(solution);
+    radReleaseSolution(same);
+    radReleaseOracle(oracle);
+    radReleaseOracle(flat);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* ---- errors */
+
+START_TEST(test_no_handle)
+{
+    struct RadReport report;
+    struct RadLinks links;
+    struct RadElements elements;
+    struct RadOracleReport oracle;
+    struct RadExchangeReport exchange;
+    struct RadStatistics statistics;
+    struct RadSceneReport scene;
+    double row[6];
+    ck_assert_ptr_null(radNewDevice(&(struct RadDeviceOptions){ .threads = -1 }));
+    expect_error(NULL, RAD_ERROR_INVALID_ARGUMENT, "threads");
+    radRetainDevice(NULL);
+    radReleaseDevice(NULL);
+    radSetDeviceMessageFunction(NULL, NULL, NULL);
+    radSetDeviceProgressFunction(NULL, NULL, NULL);
+    ck_assert_ptr_null(radNewScene(NULL));
+    radRetainScene(NULL);
+    radReleaseScene(NULL);
+    ck_assert_int_eq(radSetSceneMaterials(NULL, NULL, 0), -1);
+    ck_assert_int_eq(radSetSceneSharedPolygons(NULL, NULL), -1);
+    ck_assert_int_eq(radCommitScene(NULL), -1);
+    ck_assert_int_eq(radGetSceneReport(NULL, &scene), -1);
+    ck_assert_ptr_null(radGetSceneFaces(NULL));
+    ck_assert_ptr_null(radGetScenePolygonAreas(NULL));
+    ck_assert_ptr_null(radGetSceneMaterials(NULL));
+    ck_assert_ptr_null(radNewOracle(NULL, "bf", RAD_RELEASE_FLAT));
+    ck_assert_ptr_null(radLoadOracle(NULL, "bf", NULL, RAD_RELEASE_FLAT));
+    ck_assert_ptr_null(radParseOracle(NULL, "bf", "", NULL, RAD_RELEASE_DAG));
+    ck_assert_ptr_null(radNewOracleCompiled(NULL, NULL, NULL));
+    ck_assert_int_eq(radRegisterOracle(NULL, NULL), -1);
+    ck_assert_int_eq(radHasOracle(NULL, NULL, RAD_RELEASE_FLAT), 0);
+    radRetainOracle(NULL);
+    radReleaseOracle(NULL);
+    radGetOracleReport(NULL, &oracle);
+    ck_assert_int_eq(oracle.parameter_count, 0);
+    ck_assert_int_eq(radSetOracleParameter(NULL, "x", 1), -1);
+    ck_assert_double_nan(radGetOracleParameter(NULL, "x"));
+    ck_assert_int_eq(radAskOracle(NULL, NULL), DECISION_STOP);
+    ck_assert_int_eq(radCountOracle(NULL), -1);
+    ck_assert_int_eq(radGetOracleStatistics(NULL, &statistics), -1);
+    ck_assert_ptr_null(radNewSolution(NULL, NULL, NULL));
+    radRetainSolution(NULL);
+    radReleaseSolution(NULL);
+    ck_assert_int_eq(radRefine(NULL), -1);
+    ck_assert_int_eq(radStep(NULL), -1);
+    ck_assert_int_eq(radSolve(NULL), -1);
+    ck_assert_int_eq(radGetPolygonValues(NULL, 0, row, row), -1);
+    radGetElements(NULL, &elements);
+    radGetLinks(NULL, &links);
+    radGetReport(NULL, &report);
+    ck_assert_uint_eq(elements.count + links.count + report.elements, 0);
+    ck_assert_ptr_null(radNewExchange(NULL, NULL, NULL));
+    radRetainExchange(NULL);
+    radReleaseExchange(NULL);
+    ck_assert_double_eq(radGetExchangeRow(NULL, 0, row), -1);
+    radGetExchangeReport(NULL, &exchange);
+    ck_assert_uint_eq(exchange.links, 0);
+    ck_assert_ptr_null(radGetClusteringDoc("nobody"));
+    ck_assert_ptr_null(radGetClusteringDoc(NULL));
+    for (const char *const *name = radGetClusteringNames(); *name; name++)
+        ck_assert_ptr_nonnull(radGetClusteringDoc(*name));
+}
+END_TEST
+
+static void expect_bad_scene(RadDevice device, const struct RadPolygons *polygons, const struct RadMaterial *material, const char *part)
+{
+    RadScene scene = radNewScene(device);
+    ck_assert_int_eq(radSetSceneMaterials(scene, material, 1), 0);
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, polygons), 0);
+    ck_assert_int_eq(radCommitScene(scene), -1);
+    expect_error(device, RAD_ERROR_INVALID_SCENE, part);
+    ck_assert_ptr_null(radNewSolution(scene, NULL, NULL));
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "radCommitScene");
+    radReleaseScene(scene);
+}
+
+START_TEST(test_bad_scenes)
+{
+    RadDevice device = radNewDevice(NULL);
+    const struct RadMaterial good = grey(0.5, 1);
+    struct RadMaterial m = grey(1, 0);
+    struct RadPolygons p = cube(NULL);
+    double positions[24];
+    uint32_t indices[24];
+    expect_bad_scene(device, &p, &m, "material 0 has reflectance 1");
+    m = grey(-0.5, 0);
+    expect_bad_scene(device, &p, &m, "material 0 has reflectance -0.5");
+    m = grey((double)NAN, 0);
+    expect_bad_scene(device, &p, &m, "reflectance");
+    m = grey(0.5, -1);
+    expect_bad_scene(device, &p, &m, "exitance -1");
+    m = grey(0.5, (double)INFINITY);
+    expect_bad_scene(device, &p, &m, "exitance inf");
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = corners, .position_count = 8, .indices = sides, .size = 4, .materials = lamp_above, .count = 6 }, &good, "material 1");
+    memcpy(positions, corners, sizeof positions);
+    positions[7] = (double)NAN;
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = positions, .position_count = 8, .indices = sides, .size = 4, .materials = NULL, .count = 6 }, &good, "not finite");
+    memcpy(indices, sides, sizeof indices);
+    indices[9] = 8;
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = corners, .position_count = 8, .indices = indices, .size = 4, .materials = NULL, .count = 6 }, &good, "8");
+    memset(positions, 0, sizeof positions);
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = positions, .position_count = 8, .indices = sides, .size = 4, .materials = NULL, .count = 6 }, &good, "degenerate");
+
+    RadScene scene = radNewScene(device);
+    ck_assert_int_eq(radCommitScene(scene), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "materials");
+    ck_assert_int_eq(radSetSceneMaterials(scene, NULL, 1), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "material");
+    ck_assert_int_eq(radSetSceneMaterials(scene, &good, 1), 0);
+    ck_assert_int_eq(radCommitScene(scene), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "polygons");
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &(struct RadPolygons){ 0 }), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "one polygon");
+    p.size = 2;
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &p), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "3 or more");
+    p.size = 4;
+    p.positions = NULL;
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &p), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "positions");
+    p.positions = corners;
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &p), 0);
+    ck_assert_int_eq(radCommitScene(scene), 0);
+    ck_assert_int_eq(radCommitScene(scene), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "committed");
+    ck_assert_int_eq(radSetSceneMaterials(scene, &good, 1), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "committed");
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+START_TEST(test_bad_options)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    struct RadCamera camera = { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, { 0, 0, 1 }, { 0, 2, 0 }, 0.5, 0.5 };
+    const struct { struct RadSolveOptions o; const char *part; } bad[] = {
+        { { .tolerance = -1 }, "tolerance is -1" }, { { .tolerance = (double)NAN }, "tolerance is" }, { { .tolerance = 1 }, "tolerance is 1" },
+        { { .iterations = -1 }, "iterations is -1" }, { { .closure = RAD_CLOSURE_RECIPROCAL }, "closure" },
+        { { .clustering = "heap" }, "no clustering 'heap'" }, { { .camera = &camera }, "length 1" },
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        ck_assert_ptr_null(radNewSolution(scene, oracle, &bad[i].o));
+        expect_error(device, RAD_ERROR_INVALID_ARGUMENT, bad[i].part);
+    }
+    camera.ahead[1] = 1;
+    camera.wide = 0;
+    ck_assert_ptr_null(radNewSolution(scene, oracle, &(struct RadSolveOptions){ .camera = &camera }));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "above 0");
+    ck_assert_ptr_null(radNewSolution(scene, NULL, NULL));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "oracle");
+    ck_assert_ptr_null(radNewExchange(scene, NULL, &(struct RadExchangeOptions){ .tolerance = 2 }));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "tolerance is 2");
+    ck_assert_ptr_null(radNewExchange(scene, NULL, &(struct RadExchangeOptions){ .closure = (enum RadClosure)9 }));
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "closure");
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    double b[6];
+    ck_assert_int_eq(radGetPolygonValues(solution, 1, b, NULL), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no band 1; there are 1");
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* The first error stays until it is asked for; the message function hears of all. */
+static void count_messages(void *user, enum RadError code, const char *message)
+{
+    int *heard = user;
+    ck_assert_int_eq(code, RAD_ERROR_INVALID_ARGUMENT);
+    ck_assert_int_gt((int)strlen(message), 20);
+    ++*heard;
+}
+
+START_TEST(test_first_error)
+{
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = 1 });
+    int heard = 0;
+    radSetDeviceMessageFunction(device, count_messages, &heard);
+    ck_assert_ptr_null(radNewOracle(device, "first", RAD_RELEASE_FLAT));
+    ck_assert_ptr_null(radNewOracle(device, "second", RAD_RELEASE_FLAT));
+    ck_assert_int_eq(heard, 2);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "'first'");
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* ---- cancelling */
+
+struct patience {
+    int calls, most;
+    const char *phase; /* only calls of this phase count; NULL: all */
+};
+
+static int lose_patience(void *user, const struct RadProgress *p)
+{
+    struct patience *patience = user;
+    ck_assert_int_ge(p->pass, 1);
+    if (patience->phase && strcmp(p->phase, patience->phase) != 0)
+        return 0;
+    return ++patience->calls >= patience->most;
+}
+
+START_TEST(test_cancel)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.8);
+    RadOracle oracle = default_oracle(device);
+    struct patience patience = { 0, 1 << 30, NULL };
+    struct RadLinks links;
+    double b[6];
+    radSetDeviceProgressFunction(device, lose_patience, &patience);
+    RadSolution whole = radNewSolution(scene, oracle, NULL);
+    ck_assert_int_eq(radSolve(whole), 0);
+    ck_assert_int_gt(patience.calls, 10);
+    radReleaseSolution(whole);
+    for (int last = patience.calls, most = 1; most <= last; most += 1 + most / 4) {
+        RadSolution solution = radNewSolution(scene, oracle, NULL);
+        patience = (struct patience){ 0, most, NULL };
+        ck_assert_int_eq(radSolve(solution), -1);
+        ck_assert_int_eq(patience.calls, most); /* not asked again */
+        expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
+        ck_assert_int_eq(radStep(solution), -1);
+        expect_error(device, RAD_ERROR_INVALID_OPERATION, "release it");
+        ck_assert_int_eq(radGetPolygonValues(solution, 0, b, NULL), -1);
+        radGetLinks(solution, &links);
+        ck_assert_uint_eq(links.count, 0);
+        radReleaseSolution(solution);
+        expect_error(device, RAD_ERROR_INVALID_OPERATION, "release it");
+    }
+    static const char *const phases[] = { "refine", "factors" };
+    for (int i = 0; i < 2; i++) {
+        patience = (struct patience){ 0, 1, phases[i] };
+        ck_assert_ptr_null(radNewExchange(scene, NULL, NULL));
+        ck_assert_int_eq(patience.calls, 1);
+        expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
+    }
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* ---- threads and lifetimes */
+
+struct job {
+    RadDevice device;
+    double rho, b[6];
+};
+
+static void *solve_job(void *argument)
+{
+    struct job *job = argument;
+    RadScene scene = lamp_scene(job->device, job->rho);
+    RadOracle oracle = radNewOracle(job->device, radGetDefaultOracle(), RAD_RELEASE_FLAT);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, job->b, NULL), 0);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    return NULL;
+}
+
+START_TEST(test_side_by_side)
+{
+    enum { JOBS = 4 };
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = 2 });
+    struct job alone[JOBS], together[JOBS], inside[JOBS];
+    pthread_t thread[JOBS];
+    for (int i = 0; i < JOBS; i++) {
+        alone[i] = together[i] = inside[i] = (struct job){ .device = device, .rho = 0.3 + 0.2 * (i % 2) };
+        solve_job(&alone[i]);
+    }
+    for (int i = 0; i < JOBS; i++)
+        ck_assert_int_eq(pthread_create(&thread[i], NULL, solve_job, &together[i]), 0);
+    for (int i = 0; i < JOBS; i++)
+        pthread_join(thread[i], NULL);
+#pragma omp parallel for num_threads(JOBS) schedule(static, 1)
+    for (int i = 0; i < JOBS; i++)
+        solve_job(&inside[i]);
+    for (int i = 0; i < JOBS; i++) {
+        ck_assert_int_eq(memcmp(alone[i].b, together[i].b, sizeof alone[i].b), 0);
+        ck_assert_int_eq(memcmp(alone[i].b, inside[i].b, sizeof alone[i].b), 0);
+    }
+    ck_assert_int_ne(memcmp(alone[0].b, alone[1].b, sizeof alone[0].b), 0);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* Two threads, two counting oracles, from threads of a caller's team that is larger than the device's. */
+START_TEST(test_count_side_by_side)
+{
+    enum { JOBS = 4 };
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = 1 });
+    uint64_t calls[JOBS];
+#pragma omp parallel for num_threads(JOBS) schedule(static, 1)
+    for (int i = 0; i < JOBS; i++) {
+        RadScene scene = lamp_scene(device, 0.5);
+        RadOracle oracle = radNewOracle(device, "bf_guarded", RAD_RELEASE_DAG);
+        ck_assert_int_eq(radCountOracle(oracle), 0);
+        RadSolution solution = radNewSolution(scene, oracle, NULL);
+        ck_assert_int_eq(radSolve(solution), 0);
+        struct RadStatistics s;
+        ck_assert_int_eq(radGetOracleStatistics(oracle, &s), 0);
+        calls[i] = s.nodes[0].calls;
+        radReleaseSolution(solution);
+        radReleaseOracle(oracle);
+        radReleaseScene(scene);
+    }
+    for (int i = 1; i < JOBS; i++)
+        ck_assert_uint_eq(calls[i], calls[0]);
+    radReleaseDevice(device);
+}
+END_TEST
+
+/* Handles keep alive what they were made from, in whatever order they are given up. */
+START_TEST(test_lifetimes)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    RadExchange exchange = radNewExchange(scene, NULL, NULL);
+    radReleaseDevice(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    radReleaseOracle(oracle);
+    radRetainSolution(solution);
+    radReleaseSolution(solution);
+    radReleaseScene(scene);
+    double b[6], row[6];
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, b, NULL), 0);
+    ck_assert_double_gt(b[0], 1);
+    radReleaseSolution(solution);
+    ck_assert_double_eq_tol(radGetExchangeRow(exchange, 0, row), 1, 3e-4);
+    radReleaseExchange(exchange);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("api");
+    TCase *t = tcase_create("api");
+    tcase_set_timeout(t, 120);
+    tcase_add_test(t, test_furnace);
+    tcase_add_test(t, test_steps);
+    tcase_add_test(t, test_views);
+    tcase_add_test(t, test_polygons);
+    tcase_add_test(t, test_exchange);
+    tcase_add_test(t, test_oracles);
+    tcase_add_test(t, test_registered);
+    tcase_add_test(t, test_statistics);
+    tcase_add_test(t, test_no_handle);
+    tcase_add_test(t, test_bad_scenes);
+    tcase_add_test(t, test_bad_options);
+    tcase_add_test(t, test_first_error);
+    tcase_add_test(t, test_cancel);
+    tcase_add_test(t, test_side_by_side);
+    tcase_add_test(t, test_count_side_by_side);
+    tcase_add_test(t, test_lifetimes);
+    suite_add_tcase(suite, t);
+    return suite_failures(suite) != 0;
+}

@@ -1,0 +1,103 @@
+/* check_exchange.c - exchange areas where the graphs shipped do not lead: whatever an oracle links, the matrix holds what the
+ * pairs of its faces exchange.
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+#include "engine/exchange_areas.h"
+#include "kernel/plane_side.h"
+#include "scene/make_scene.h"
+#include "suite.h"
+#include "tools/group_level.h"
+
+/* Two unit squares at distance 1, cells x cells faces each, and 12 plates that hide a quarter of the plane between them, each a little
+ * above the one before: no two are in one plane. Seen from one point, no more than a hundredth of them overlaps or parts. */
+static void plates(struct scene *s, int cells)
+{
+    made_open(s);
+    made_material(s, 0.5, 0);
+    double side = 1.0 / cells;
+    for (int i = 0; i < cells * cells; i++)
+        made_quad(s, 0, i % cells * side, i / cells * side, 0, side, 0, 0, 0, side, 0);
+    for (int i = 0; i < cells * cells; i++)
+        made_quad(s, 0, i % cells * side, i / cells * side, 1, 0, side, 0, side, 0, 0);
+    for (int i = 0; i < 12; i++)
+        made_quad(s, 0, i % 3 / 6.0, i / 3 / 8.0, 0.5 + (i - 6) * 2e-4, 1 / 6.0, 0, 0, 0, 1 / 8.0, 0);
+}
+
+/* Links groups as soon as they turn to each other. `deep`: cuts one face of such a pair in four first. */
+static enum decision link_groups(const void *state, struct discussion *d)
+{
+    const int *deep = state;
+    const struct element *r = d->receiver, *s = d->emitter;
+    if (r == s)
+        return r->children ? DECISION_SUBDIVIDE_BOTH : DECISION_STOP;
+    if (!r->vertices)
+        return DECISION_SUBDIVIDE_RECEIVER;
+    if (!s->vertices)
+        return DECISION_SUBDIVIDE_EMITTER;
+    if (!(height3(s->centre, r->centre, r->normal) > 0) || !(height3(r->centre, s->centre, s->normal) > 0))
+        return DECISION_STOP;
+    if (*deep && group_level_group(r) && (s->depth || group_level_group(s)))
+        return s->depth ? DECISION_LINK : DECISION_SUBDIVIDE_EMITTER;
+    if (*deep && group_level_group(s) && r->depth)
+        return DECISION_LINK;
+    if (*deep && (group_level_group(r) || group_level_group(s)))
+        return group_level_group(r) ? DECISION_SUBDIVIDE_EMITTER : DECISION_SUBDIVIDE_RECEIVER;
+    return DECISION_LINK;
+}
+
+/* What the one wall exchanges with the other (m2). */
+static double wall_to_wall(int cells, int deep)
+{
+    struct scene scene;
+    plates(&scene, cells);
+    struct exchange_tree tree;
+    struct exchange_areas matrix;
+    struct refinement refinement;
+    const char *cause;
+    ck_assert_int_eq(exchange_tree_open(&tree, scene.faces, scene.face_count, 2, &cause), 0);
+    const struct refiner refiner = { .refine = link_groups, .state = &deep };
+    ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
+    ck_assert_int_eq(refinement_start(&refinement), 0);
+    ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, 2.5, 2), 0);
+    uint32_t wall = (uint32_t)(cells * cells);
+    double *row = calloc(scene.input_count, sizeof *row), sum = 0;
+    for (uint32_t i = 0; i < wall; i++) {
+        memset(row, 0, scene.input_count * sizeof *row);
+        (void)exchange_areas_row(&matrix, i, NULL, row);
+        for (uint32_t j = wall; j < 2 * wall; j++)
+            sum += row[j];
+    }
+    free(row);
+    exchange_areas_close(&matrix);
+    refinement_close(&refinement);
+    exchange_tree_close(&tree);
+    made_close(&scene);
+    return sum;
+}
+
+/* F = 3/4 of the clear value, as in check_viewfactors.c, though twelve blockers stand in the shaft of the two groups and a list
+ * holds eight. */
+START_TEST(test_many_blockers)
+{
+    ck_assert_double_eq_tol(wall_to_wall(4, 0) / 0.1498686718, 1, 5e-3);
+    ck_assert_double_eq_tol(wall_to_wall(8, 0) / 0.1498686718, 1, 5e-3);
+}
+END_TEST
+
+/* The same when parts of faces are linked to groups. */
+START_TEST(test_parts_and_groups)
+{
+    ck_assert_double_eq_tol(wall_to_wall(4, 1) / 0.1498686718, 1, 5e-3);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("exchange areas");
+    TCase *c = tcase_create("exchange areas");
+    tcase_set_timeout(c, 60);
+    tcase_add_test(c, test_many_blockers);
+    tcase_add_test(c, test_parts_and_groups);
+    suite_add_tcase(suite, c);
+    return suite_failures(suite) != 0;
+}

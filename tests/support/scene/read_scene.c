@@ -1,0 +1,33 @@
+/* read_scene.c - see read_scene.h.
+ * SPDX-License-Identifier: MIT */
+#include "scene/read_scene.h"
+
+#include <stdlib.h>
+
+#include "util/report.h"
+
+int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
+{
+    struct scene_file file;
+    struct scene_error error;
+    *scene = (struct scene){0};
+    if (scene_file_read(&file, path, options))
+        return -1;
+    const struct RadPolygons polygons = scene_file_polygons(&file);
+    int result = scene_build(scene, &polygons, file.materials, file.material_count, 0, &error);
+    if (result) {
+        report_error(path, 0, "%s", error.text);
+    } else {
+        if (!options || !options->quiet)
+            scene_file_warn(&file, path, scene->dropped);
+        scene->names = file.names;
+        scene->input_materials = file.polygon_materials;
+        for (uint32_t i = 0; i < file.material_count; i++)
+            free(file.places[i].file);
+        file.material_count = 0;
+        file.names = NULL;
+        file.polygon_materials = NULL;
+    }
+    scene_file_free(&file);
+    return result;
+}
