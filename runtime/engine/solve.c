@@ -206,7 +206,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
 {
     const struct problem *p = &s->problem;
     double start = seconds(), error = error_control_target(refiner, rays_host(p->rays));
-    if (p->options.camera && refiner->reads & REFINER_READS_IMPORTANCE
+    if (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)
         && importance_start(&s->importance, &s->operator, &s->hierarchy, &s->inputs) < 0)
         return fail(s, "out of memory", cause);
     if (error > 0)
@@ -330,12 +330,6 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     while (more > 0 && s->report.passes < (s->error.target > 0 ? PASSES_OF_ERROR_CONTROL : PASSES))
         more = solve_step(s, cause);
     return more < 0 ? -1 : 0;
-}
-
-struct solution solve_solution(const struct solve *s)
-{
-    struct solution view = { s->problem.scene, &s->hierarchy, s->problem.bands, s->state.radiosity, s->state.irradiance };
-    return view;
 }
 
 void solve_close(struct solve *s)

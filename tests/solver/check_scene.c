@@ -16,6 +16,7 @@
 #include "util/atomic_file.h"
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
+#include "load_scene.h"
 #include "scene/read_scene.h"
 #include "suite.h"
 
@@ -625,27 +626,22 @@ END_TEST
 
 START_TEST(test_faces_csv)
 {
-    struct scene s;
-    struct hierarchy h;
+    enum { FRONT = 1, BACK };
+    const uint32_t face_element[2] = {FRONT, BACK};
+    const struct element elements[3] = {[FRONT] = {.area = 1, .vertices = 4}, [BACK] = {.area = 1, .vertices = 4}};
+    const double b[3] = {[FRONT] = 3, [BACK] = 1}, irradiance[3] = {[FRONT] = 4};
+    struct loaded l;
     write_text("n.mtl", "newmtl a, \"b\"_2s\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
-    const char *obj = write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n");
-    ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
-    ck_assert_uint_eq(s.face_count, 2);
-    ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    double b[8] = {0}, irradiance[8] = {0};
-    ck_assert_uint_le(h.count, 8);
-    b[h.face_element[0]] = 3; /* front */
-    b[h.face_element[1]] = 1; /* back */
-    irradiance[h.face_element[0]] = 4;
-    struct solution solution = {&s, &h, s.bands, b, irradiance};
+    load_scene(&l, write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n"));
+    ck_assert_uint_eq(l.report.faces, 2);
+    const struct solution solution = {l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL}};
     ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution), 0);
     char *text = read_text(in_folder("f.csv"));
     ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0\n"
                            "0,\"a, \"\"b\"\"_2s\",0,0,0,0,0\n"
                            "1,\"a, \"\"b\"\"_2s\",1,1,0.5,2,2\n");
     free(text);
-    hierarchy_free(&h);
-    scene_free(&s);
+    unload_scene(&l);
 }
 END_TEST
 
