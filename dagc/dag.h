@@ -107,6 +107,16 @@ struct fact {
     const char *doc;
 };
 
+/* role NAME : TYPE "doc"; what a parameter of an oracle may be for a program, which finds it by this and not by its name. */
+struct role {
+    const char *name;
+    struct where where;
+    struct where type_where;
+    const char *type_name;
+    int type;
+    const char *doc;
+};
+
 /* extern NAME(needs) : TYPE [in [a, b]] "doc"; a C function of the user's that gives a number:
  * double NAME(const struct discussion *d). */
 struct callback {
@@ -133,8 +143,10 @@ struct need {
 struct parameter {
     const char *name;
     struct where where;
-    struct where type_where, value_where, range_where;
+    struct where type_where, value_where, range_where, role_where;
     const char *type_name;
+    const char *role_name; /* as written; NULL: none */
+    int role;            /* in roles; -1: none */
     int type;            /* in types; always a scalar */
     const char *doc;     /* "" when none */
     double value;        /* the default, NAN when there is none (tools only) */
@@ -155,7 +167,14 @@ struct answer {
 
 enum tool_kind { TOOL_QUESTION, TOOL_COMMAND };
 
-/* tool NAME(parameters) question|command answers (...) [reads] [writes] [guards] [header] "doc"; */
+/* What a walk that counts keeps of a tool's arguments. */
+enum keeps {
+    KEEPS_NOTHING,
+    KEEPS_COUNT, /* counts: how often its only argument, a whole number, had each value */
+    KEEPS_RECORD /* records: a histogram of its first argument, under the number that is the second */
+};
+
+/* tool NAME(parameters) question|command answers (...) [reads] [writes] [guards] [counts|records] [header] "doc"; */
 struct tool {
     const char *name;
     struct where where;
@@ -165,6 +184,8 @@ struct tool {
     struct span reads;       /* in needs */
     struct span writes;      /* in needs */
     unsigned char guards;    /* says that a subdivision may go on: every way to one passes a guard */
+    enum keeps keeps;
+    struct where keeps_where; /* of the word that says so */
     const char *header;      /* C header with `tool_NAME`, "tools/NAME.h" when not written */
     const char *doc;
 };
@@ -346,6 +367,7 @@ struct dag {
     struct tool *tools;         int tool_count;
     struct decision_tool *decisions; int decision_count; /* their numbers are the C enum's values */
     struct fact *facts;         int fact_count;
+    struct role *roles;         int role_count; /* their numbers, from 1, are the C enum's values */
     struct callback *callbacks; int callback_count;
 
     /* The graphs. */
@@ -364,8 +386,8 @@ struct dag {
 
     /* Names, filled by resolve. */
     struct table type_names, term_names, tool_names, decision_names, oracle_names;
-    struct table fact_names, callback_names, branch_names;
-    struct { int types, terms, tools, decisions, facts, callbacks; } resolved; /* how many are */
+    struct table fact_names, callback_names, branch_names, role_names;
+    struct { int types, terms, tools, decisions, facts, roles, callbacks; } resolved; /* how many are */
     unsigned char recursive; /* some branch uses itself: none is expanded */
     int use; /* in uses: of the branch that a pass looks at, for messages; -1 */
 
@@ -433,6 +455,9 @@ int dag_oracle(const struct dag *dag, const char *name);
 
 /* Is it made of numbers and parameters alone? Then it is the same in every discussion of a run. */
 int dag_is_fixed(const struct dag *dag, int expression);
+
+/* Does an argument of some node that the oracle reaches read this fact? */
+int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact);
 
 /* The fingerprint as 16 hexadecimal digits and a NUL. */
 void dag_fingerprint_text(const struct oracle_graph *oracle, char text[17]);

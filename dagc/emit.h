@@ -51,5 +51,6 @@ void dag_emit_externs(struct dag *dag, struct text *out);   /* prototypes */
 void dag_emit_accessors(struct dag *dag, struct text *out); /* headers of terms, small functions */
 void dag_emit_fact(const struct dag *dag, struct text *out, int fact);
 void dag_emit_fact_name(struct text *out, const struct fact *fact);
+void dag_emit_fact_number(const struct dag *dag, struct text *out, int fact); /* FACT_NAME */
 
 #endif

@@ -219,10 +219,28 @@ static void print_parameter_table(const struct dag *dag, struct text *out,
         dag_print_number(out, parameter->low);
         dag_print(out, ", ");
         dag_print_number(out, parameter->high);
-        dag_print(out, ", %d, offsetof(struct %s_parameters, %s)},\n", is_integer(dag, parameter),
+        dag_print(out, ", %d, offsetof(struct %s_parameters, %s), ROLE_", is_integer(dag, parameter),
                   oracle->name, parameter->name);
+        dag_print_upper(out, parameter->role < 0 ? "none" : dag->roles[parameter->role].name);
+        dag_print(out, "},\n");
     }
     dag_print(out, "};\n");
+}
+
+static int print_reads(const struct dag *dag, struct text *out, const struct oracle_graph *oracle)
+{
+    int count = 0;
+    for (int i = 0; i < dag->fact_count; i++)
+        if (dag_reads_fact(dag, oracle, i)) {
+            if (count++ == 0)
+                dag_print(out, "\nstatic const int %s_reads[] = {\n", oracle->name);
+            dag_print(out, "    ");
+            dag_emit_fact_number(dag, out, i);
+            dag_print(out, ",\n");
+        }
+    if (count > 0)
+        dag_print(out, "};\n");
+    return count;
 }
 
 /* const struct oracle NAME_oracle; the wrappers give the typed functions their general types. */
@@ -232,6 +250,7 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
     char fingerprint[17];
     dag_fingerprint_text(oracle, fingerprint);
     print_parameter_table(dag, out, oracle);
+    int reads = print_reads(dag, out, oracle);
     dag_print(out, "\nstatic void %s_defaults_any(void *parameters)\n{\n"
                    "    %s_defaults((struct %s_parameters *)parameters);\n}\n", name, name, name);
     dag_print(out, "\nstatic enum decision %s_refine_any(const void *parameters,\n"
@@ -246,8 +265,12 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
         dag_print(out, "%s_parameter_table,\n    %d,\n", name, oracle->parameters.count);
     else
         dag_print(out, "NULL,\n    0,\n");
-    dag_print(out, "    sizeof(struct %s_parameters),\n    %s_defaults_any,\n    %s_refine_any\n};\n",
+    dag_print(out, "    sizeof(struct %s_parameters),\n    %s_defaults_any,\n    %s_refine_any,\n",
               name, name, name);
+    if (reads > 0)
+        dag_print(out, "    %s_reads,\n    %d\n};\n", name, reads);
+    else
+        dag_print(out, "    NULL,\n    0\n};\n");
 }
 
 /* What analyse_terms.c proved and a compiler may not see. */

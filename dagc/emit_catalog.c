@@ -85,6 +85,29 @@ static void print_levels(const struct dag *dag, struct text *out, const struct t
     dag_print(out, " };\n");
 }
 
+/* The numbers of facts and roles, by which `struct oracle` says what it reads and what its parameters are. */
+static void print_numbers(const struct dag *dag, struct text *out)
+{
+    if (dag->fact_count > 0) {
+        dag_print(out, "\n/* What an oracle may read without asking a tool. */\nenum catalog_fact {\n");
+        for (int i = 0; i < dag->fact_count; i++) {
+            dag_print(out, "    ");
+            dag_emit_fact_number(dag, out, i);
+            dag_print(out, "%s\n", i + 1 < dag->fact_count ? "," : "");
+        }
+        dag_print(out, "};\n");
+    }
+    dag_print(out, "\n/* What a parameter of an oracle is to a program. */\nenum catalog_role {\n    ROLE_NONE%s\n",
+              dag->role_count > 0 ? "," : "");
+    for (int i = 0; i < dag->role_count; i++) {
+        dag_print(out, "    ");
+        print_constant(out, "role", dag->roles[i].name);
+        dag_print(out, "%s", i + 1 < dag->role_count ? "," : "");
+        print_doc(out, " ", dag->roles[i].doc);
+    }
+    dag_print(out, "};\n");
+}
+
 static void print_terms(const struct dag *dag, struct text *out, const unsigned char *terms)
 {
     int any = 0;
@@ -120,6 +143,8 @@ void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned 
         print_answers(dag, out, &dag->tools[i]);
     for (int i = 0; i < dag->term_count; i++)
         print_levels(dag, out, &dag->terms[i]);
+    if (terms == NULL)
+        print_numbers(dag, out);
     print_terms(dag, out, terms);
     dag_print(out, "\n#endif\n");
 }

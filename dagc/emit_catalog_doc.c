@@ -107,6 +107,9 @@ static void print_tools(struct dag *dag, struct text *out)
         print_doc(out, tool->doc);
         dag_print(out, "%s%s, in `%s`.\n\n", tool->kind == TOOL_COMMAND ? "A command" : "A question",
                   tool->guards ? " and a guard" : "", tool->header);
+        if (tool->keeps != KEEPS_NOTHING)
+            dag_print(out, "Statistics keep %s.\n\n", tool->keeps == KEEPS_COUNT ? "how often its argument has each value"
+                                                       : "a histogram of its first argument, by the second");
         print_comment(dag, out, tool->header);
         print_parameters(dag, out, tool->parameters);
         dag_print(out, "| answer | kind |\n|---|---|\n");
@@ -159,6 +162,19 @@ static void print_facts(const struct dag *dag, struct text *out)
     }
 }
 
+static void print_roles(const struct dag *dag, struct text *out)
+{
+    if (dag->role_count > 0)
+        dag_print(out, "## Roles\n\nWhat a parameter of an oracle may be to the program that asks it.\n\n");
+    for (int i = 0; i < dag->role_count; i++) {
+        const struct role *role = &dag->roles[i];
+        dag_print(out, "### %s\n\n", role->name);
+        print_doc(out, role->doc);
+        print_value(dag, out, role->type, -INFINITY, INFINITY);
+        dag_print(out, "\n\n");
+    }
+}
+
 static void print_callbacks(struct dag *dag, struct text *out)
 {
     if (dag->callback_count > 0)
@@ -195,6 +211,7 @@ void dag_emit_catalog_doc(struct dag *dag, struct text *out)
     print_tools(dag, out);
     print_terms(dag, out);
     print_facts(dag, out);
+    print_roles(dag, out);
     print_callbacks(dag, out);
     print_types(dag, out);
 }

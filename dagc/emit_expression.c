@@ -88,6 +88,15 @@ void dag_emit_fact_name(struct text *out, const struct fact *fact)
         dag_print(out, "%c", *c == '.' ? '_' : *c);
 }
 
+void dag_emit_fact_number(const struct dag *dag, struct text *out, int fact)
+{
+    dag_print(out, "FACT_");
+    for (const char *c = dag->facts[fact].name; *c != '\0'; c++) {
+        char letter[2] = {*c == '.' ? '_' : *c, '\0'};
+        dag_print_upper(out, letter);
+    }
+}
+
 void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
                          const char *at, int *value)
 {

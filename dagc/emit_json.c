@@ -143,6 +143,8 @@ static void print_parameter(const struct dag *dag, struct text *out, const struc
         print_number_field(out, "default", parameter->value);
     print_number_field(out, "low", parameter->low);
     print_number_field(out, "high", parameter->high);
+    if (parameter->role >= 0)
+        print_field(out, ", ", "role", dag->roles[parameter->role].name);
     print_field(out, ", ", "doc", parameter->doc);
     dag_print(out, "}");
 }
@@ -193,6 +195,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     print_needs(dag, out, "reads", tool->reads);
     print_needs(dag, out, "writes", tool->writes);
     print_flag(out, "guards", tool->guards);
+    if (tool->keeps != KEEPS_NOTHING)
+        print_field(out, ", ", "keeps", tool->keeps == KEEPS_COUNT ? "count" : "record");
     print_field(out, ",\n       ", "header", tool->header);
     print_field(out, ", ", "doc", tool->doc);
     dag_print(out, "}");

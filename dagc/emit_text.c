@@ -102,6 +102,8 @@ static void print_declared(const struct listing *listing, const struct parameter
     if ((parameter->given & PARAMETER_RANGE) != 0)
         dag_print(listing->out, " in [%s, %s]", dag_number(parameter->low, low),
                   dag_number(parameter->high, high));
+    if (parameter->role_name != NULL)
+        dag_print(listing->out, " role %s", parameter->role_name);
 }
 
 static void print_parameter(const struct listing *listing, const struct parameter *parameter)

@@ -21,6 +21,25 @@ int dag_reads_parameters(const struct dag *dag, int expression)
            (e->right >= 0 && dag_reads_parameters(dag, e->right));
 }
 
+static int reads_fact(const struct dag *dag, int expression, int fact)
+{
+    const struct expression *e = &dag->expressions[expression];
+    return (e->kind == EXPRESSION_FACT && e->index == fact) ||
+           (e->left >= 0 && reads_fact(dag, e->left, fact)) ||
+           (e->right >= 0 && reads_fact(dag, e->right, fact));
+}
+
+int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact)
+{
+    for (int i = oracle->order.first; i < oracle->order.first + oracle->order.count; i++) {
+        const struct span arguments = dag->nodes[dag->order[i]].arguments;
+        for (int k = arguments.first; k < arguments.first + arguments.count; k++)
+            if (reads_fact(dag, dag->arguments[k].expression, fact))
+                return 1;
+    }
+    return 0;
+}
+
 int dag_add_expression(struct dag *dag, const struct expression *expression)
 {
     int index = ADD(dag, expressions, expression_count);

@@ -147,7 +147,7 @@ struct lexer {
 
 struct token dag_lex(struct lexer *lexer);
 
-/* ---- passes, in their order */
+/* ---- passes.c */
 
 /* What --dump can show, and --emit=text after the last of them. */
 enum pass {
@@ -156,6 +156,12 @@ enum pass {
 #undef PASS
     PASSES
 };
+
+/* Runs them over a catalog and then, unless it is NULL, over a file of oracles, up to the pass that --dump is to show (PASSES:
+ * all) or to errors, which dag->error_count tells. */
+void dag_run_passes(struct dag *dag, const struct input *catalog, const struct input *file, enum pass stop);
+
+/* ---- passes, in their order */
 
 enum content { CONTENT_CATALOG, CONTENT_ORACLES };
 void dag_parse(struct dag *dag, int source, enum content content); /* and what it imports */

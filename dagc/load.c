@@ -11,36 +11,13 @@ struct request {
     struct warnings warnings;
 };
 
-/* The passes up to a checked graph, as in main.c. */
 static void load(struct dag *dag, void *context)
 {
     const struct request *request = context;
     dag->warnings = &request->warnings;
     dag->folders = request->folders;
     dag->folder_count = request->folder_count;
-    int catalog = dag_read(dag, &request->catalog);
-    if (catalog >= 0) {
-        dag_parse(dag, catalog, CONTENT_CATALOG);
-        dag_resolve_catalog(dag);
-        dag_check_names(dag);
-        dag_check_values(dag);
-    }
-    if (dag->error_count > 0)
-        return;
-    int file = dag_read(dag, &request->file);
-    if (file >= 0) {
-        dag_parse(dag, file, CONTENT_ORACLES);
-        dag_resolve_catalog(dag); /* what the file declares itself */
-        dag_check_names(dag);
-        dag_resolve(dag);
-        dag_check_values(dag);
-        dag_expand(dag);
-        dag_check_graph(dag);
-    }
-    if (dag->error_count == 0)
-        dag_analyse(dag);
-    if (dag->error_count == 0)
-        dag_fingerprint(dag);
+    dag_run_passes(dag, &request->catalog, &request->file, PASSES);
 }
 
 /* Obeys words such as "no-unused-parameter error"; 0: there is one that is no switch. */

@@ -1,4 +1,4 @@
-/* main.c - the command dagc: the list of passes.
+/* main.c - the command dagc: the passes, then what was asked for.
  *
  * Exit status: 0 done; 1 the sources have errors, or a file cannot be read or written; 2 the
  * command line is wrong. With a status other than 0 no output file has been touched.
@@ -11,17 +11,6 @@
 #include "emit_svg.h"
 #include "options.h"
 #include "prove.h"
-
-/* After a pass: is this as far as the run goes? Its listing is then the output. */
-static int stops(struct dag *dag, struct job *job, enum pass pass)
-{
-    if (dag->error_count > 0)
-        return pass >= PASS_CHECK; /* the passes before it find all their errors together */
-    if (job->stop != pass)
-        return 0;
-    dag_emit_text(dag, &job->outputs[OUTPUT_TEXT].text, pass);
-    return 1;
-}
 
 static void emit(struct dag *dag, struct job *job)
 {
@@ -73,46 +62,20 @@ static void passes(struct dag *dag, void *context)
 {
     struct job *job = context;
     int is_catalog = dag_job_is_catalog(job);
+    struct text *text = &job->outputs[OUTPUT_TEXT].text;
     dag->warnings = &job->warnings;
     dag->folders = job->folders;
     dag->folder_count = job->folder_count;
 
-    int catalog = dag_read(dag, is_catalog ? &job->input : &job->catalog);
-    if (catalog >= 0) {
-        dag_parse(dag, catalog, CONTENT_CATALOG);
-        dag_resolve_catalog(dag);
-        dag_check_names(dag);
-        dag_check_values(dag);
-    }
+    dag_run_passes(dag, is_catalog ? &job->input : &job->catalog,
+                   is_catalog || job->emit == EMIT_STUB ? NULL : &job->input, job->stop);
     if (dag->error_count > 0)
         return;
-    if (job->emit == EMIT_STUB) {
-        dag_emit_stub(dag, &job->outputs[OUTPUT_TEXT].text, job->input_path);
-        return;
-    }
-    if (!is_catalog) {
-        int file = dag_read(dag, &job->input);
-        if (file < 0)
-            return;
-        dag_parse(dag, file, CONTENT_ORACLES);
-        if (stops(dag, job, PASS_PARSE))
-            return;
-        dag_resolve_catalog(dag); /* what the file declares itself */
-        dag_check_names(dag);
-        dag_resolve(dag);
-        dag_check_values(dag);
-        dag_expand(dag);
-        if (stops(dag, job, PASS_RESOLVE))
-            return;
-        dag_check_graph(dag);
-        if (stops(dag, job, PASS_CHECK))
-            return;
-        dag_analyse(dag);
-        if (stops(dag, job, PASS_ANALYSE) || stops(dag, job, PASS_AVAILABILITY))
-            return;
-    }
-    dag_fingerprint(dag);
-    if (job->prove) {
+    if (job->emit == EMIT_STUB)
+        dag_emit_stub(dag, text, job->input_path);
+    else if (job->stop != PASSES)
+        dag_emit_text(dag, text, job->stop);
+    else if (job->prove) {
         struct dag_compiler compiler = {from_environment("CC"), from_environment("TMPDIR")};
         job->proved = dag_prove(dag, &job->c, &compiler, stdout);
     } else

@@ -120,6 +120,8 @@ void dag_check_names(struct dag *dag)
         const struct fact *fact = &dag->facts[i];
         claim(dag, &claims, fact->where, "fact", dag_c_name(dag, fact->name));
     }
+    for (int i = 0; i < dag->role_count; i++)
+        claim(dag, &claims, dag->roles[i].where, "role", dag->roles[i].name);
     for (int i = 0; i < dag->callback_count; i++) {
         const struct callback *callback = &dag->callbacks[i];
         if (dag_is_c_word(callback->name))

@@ -153,7 +153,7 @@ int dag_parse_parameter(struct parser *parser)
 {
     struct dag *dag = parser->dag;
     struct parameter parameter = {0};
-    parameter.type = -1;
+    parameter.type = parameter.role = -1;
     parameter.value = NAN;
     parameter.low = -INFINITY;
     parameter.high = INFINITY;
@@ -180,6 +180,9 @@ int dag_parse_parameter(struct parser *parser)
         p->range_where = range;
         p->given |= PARAMETER_RANGE;
     }
+    if (dag_take_word(parser, "role") &&
+        !dag_expect_name(parser, "the name of a role", &p->role_name, &p->role_where))
+        return 0;
     if (parser->token.kind == TOKEN_STRING) {
         p->doc = parser->token.text;
         dag_advance(parser);
@@ -189,8 +192,8 @@ int dag_parse_parameter(struct parser *parser)
 }
 
 static const char *const item_words[] = {"import", "graph", "oracle", "runtime", "type", "term",
-                                         "fact", "extern", "tool", "decision"};
-enum { ITEM_WORDS = 10, CATALOG_WORD = 3 /* the first of the catalog's */ };
+                                         "fact", "role", "extern", "tool", "decision"};
+enum { ITEM_WORDS = 11, CATALOG_WORD = 3 /* the first of the catalog's */ };
 
 static int at_catalog_word(const struct parser *parser)
 {

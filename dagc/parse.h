@@ -41,7 +41,7 @@ int dag_at_number(const struct parser *parser);
 
 /* range = "in" "[" number "," number "]"; 1: taken, 0: none is there, -1: an error */
 int dag_parse_range(struct parser *parser, double *low, double *high, struct where *where);
-/* parameter = NAME ":" NAME [ "=" number ] [ range ] [ STRING ] */
+/* parameter = NAME ":" NAME [ "=" number ] [ range ] [ "role" NAME ] [ STRING ] */
 int dag_parse_parameter(struct parser *parser);
 /* answers = "(" NAME [ kind ] { "," NAME [ kind ] } ")" */
 int dag_parse_answers(struct parser *parser, struct span *span);

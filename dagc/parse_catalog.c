@@ -186,6 +186,28 @@ static int parse_fact(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
+/* role = "role" NAME ":" NAME [ STRING ] ";" */
+static int parse_role(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct role role = {0};
+    role.doc = "";
+    role.type = -1;
+    if (!dag_expect_name(parser, "the name of a role", &role.name, &role.where)) {
+        dag->lost = 1;
+        return 0;
+    }
+    int index = ADD(dag, roles, role_count);
+    struct role *r = &dag->roles[index];
+    *r = role;
+    if (!dag_expect(parser, ':', "and a type after the role's name") ||
+        !dag_expect_name(parser, "the name of a type", &r->type_name, &r->type_where))
+        return 0;
+    if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &r->doc))
+        return 0;
+    return dag_expect(parser, ';', "after a declaration");
+}
+
 /* needs = "(" NAME [ ">=" NAME ] { "," NAME [ ">=" NAME ] } ")" */
 static int parse_needs(struct parser *parser, struct span *span)
 {
@@ -243,7 +265,7 @@ int dag_parse_answers(struct parser *parser, struct span *span)
 
 /* tool = "tool" NAME "(" [ parameter { "," parameter } ] ")" ( "question" | "command" )
  *        "answers" answers
- *        { "reads" needs | "writes" needs | "guards" | "header" STRING } [ STRING ] ";" */
+ *        { "reads" needs | "writes" needs | "guards" | "counts" | "records" | "header" STRING } [ STRING ] ";" */
 static int parse_tool(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -287,6 +309,12 @@ static int parse_tool(struct parser *parser)
                 return 0;
         } else if (dag_take_word(parser, "guards")) {
             t->guards = 1;
+        } else if (dag_take_word(parser, "counts")) {
+            t->keeps = KEEPS_COUNT;
+            t->keeps_where = parser->last;
+        } else if (dag_take_word(parser, "records")) {
+            t->keeps = KEEPS_RECORD;
+            t->keeps_where = parser->last;
         } else if (dag_take_word(parser, "header")) {
             if (!dag_expect_string(parser, "the name of a C header, a string", &t->header))
                 return 0;
@@ -349,15 +377,15 @@ static int parse_extern(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
-/* catalog_item = runtime | type | term | fact | extern | tool | decision */
+/* catalog_item = runtime | type | term | fact | role | extern | tool | decision */
 int dag_parse_catalog_item(struct parser *parser)
 {
     static const struct {
         const char *word;
         int (*parse)(struct parser *parser);
     } items[] = {{"runtime", parse_runtime}, {"type", parse_type}, {"term", parse_term},
-                 {"fact", parse_fact}, {"extern", parse_extern}, {"tool", parse_tool},
-                 {"decision", parse_decision}};
+                 {"fact", parse_fact}, {"role", parse_role}, {"extern", parse_extern},
+                 {"tool", parse_tool}, {"decision", parse_decision}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++)
         if (dag_take_word(parser, items[i].word))
             return items[i].parse(parser);

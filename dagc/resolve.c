@@ -53,7 +53,7 @@ static void declare_exits(struct dag *dag, struct scope *scope)
 static void declare_parameters(struct dag *dag, struct scope *scope)
 {
     struct span span = scope->graph->parameters;
-    dag_resolve_parameters(dag, span);
+    dag_resolve_parameters(dag, span, !scope->graph->branch);
     for (int i = span.first; i < span.first + span.count; i++) {
         struct parameter *parameter = &dag->parameters[i];
         dag_put(&dag->arena, &scope->parameters, parameter->name, i);

@@ -38,7 +38,30 @@ int dag_resolve_type(struct dag *dag, const char *name, struct where where)
     return type;
 }
 
-void dag_resolve_parameters(struct dag *dag, struct span span)
+static void resolve_role(struct dag *dag, struct parameter *parameter)
+{
+    parameter->role = dag_find(&dag->role_names, parameter->role_name);
+    if (parameter->role < 0) {
+        struct suggestion suggestion = {parameter->role_name, NULL, 0};
+        if (dag->lost)
+            return;
+        dag_error(dag, parameter->role_where, "unknown role '%s'", parameter->role_name);
+        for (int i = 0; i < dag->role_count && !dag_errors_full(dag); i++)
+            dag_suggest(&suggestion, dag->roles[i].name);
+        dag_note_suggestion(dag, &suggestion);
+        return;
+    }
+    const struct role *role = &dag->roles[parameter->role];
+    if (parameter->bad || role->type < 0)
+        return;
+    const struct type *type = &dag->types[parameter->type], *wanted = &dag->types[role->type];
+    if (type->base == wanted->base && dag_same_unit(&type->unit, &wanted->unit))
+        return;
+    dag_error(dag, parameter->role_where, "the role '%s' is for a parameter of type '%s'", role->name, role->type_name);
+    dag_note(dag, parameter->type_where, "this one is of type '%s'", parameter->type_name);
+}
+
+void dag_resolve_parameters(struct dag *dag, struct span span, int roles)
 {
     struct table names = {NULL, NULL, 0, 0};
     for (int i = span.first; i < span.first + span.count; i++) {
@@ -57,6 +80,10 @@ void dag_resolve_parameters(struct dag *dag, struct span span)
                       parameter->type_name);
             parameter->bad = 1;
         }
+        if (parameter->role_name != NULL && roles)
+            resolve_role(dag, parameter);
+        else if (parameter->role_name != NULL)
+            dag_error(dag, parameter->role_where, "only a parameter of an oracle has a role");
     }
 }
 
@@ -150,9 +177,30 @@ static void resolve_fact(struct dag *dag, struct fact *fact)
     }
 }
 
+static int is_kept_like(const struct dag *dag, const struct tool *tool, int count, enum base first)
+{
+    const struct parameter *p = &dag->parameters[tool->parameters.first];
+    if (tool->parameters.count != count)
+        return 0;
+    for (int i = 0; i < count; i++)
+        if (p[i].type >= 0 && dag->types[p[i].type].base != (i == 0 ? first : BASE_INTEGER))
+            return 0;
+    return 1;
+}
+
+static void check_kept(struct dag *dag, const struct tool *tool)
+{
+    if (tool->keeps == KEEPS_COUNT && !is_kept_like(dag, tool, 1, BASE_INTEGER))
+        dag_error(dag, tool->keeps_where, "a tool that counts has one parameter, a whole number");
+    if (tool->keeps == KEEPS_RECORD && !is_kept_like(dag, tool, 2, BASE_REAL))
+        dag_error(dag, tool->keeps_where, "a tool that records has two parameters, a real number and the whole number"
+                                          " of its histogram");
+}
+
 static void resolve_tool(struct dag *dag, const struct tool *tool)
 {
-    dag_resolve_parameters(dag, tool->parameters);
+    dag_resolve_parameters(dag, tool->parameters, 0);
+    check_kept(dag, tool);
     resolve_needs(dag, tool->reads, 0);
     resolve_needs(dag, tool->writes, 0);
     if (tool->answers.count > ANSWERS_MAX) {
@@ -169,11 +217,18 @@ void dag_resolve_catalog(struct dag *dag)
     DECLARE(dag, tool_names, tools, tool_count, "tool")
     DECLARE(dag, decision_names, decisions, decision_count, "decision")
     DECLARE(dag, fact_names, facts, fact_count, "fact")
+    DECLARE(dag, role_names, roles, role_count, "role")
     DECLARE(dag, callback_names, callbacks, callback_count, "extern")
     for (int i = dag->resolved.terms; i < dag->term_count; i++)
         resolve_term(dag, &dag->terms[i]);
     for (int i = dag->resolved.facts; i < dag->fact_count; i++)
         resolve_fact(dag, &dag->facts[i]);
+    for (int i = dag->resolved.roles; i < dag->role_count; i++) {
+        struct role *role = &dag->roles[i];
+        role->type = scalar_type(dag, role->type_name, role->type_where);
+        if (strcmp(role->name, "none") == 0) /* ROLE_NONE in C */
+            dag_error(dag, role->where, "'none' is what a parameter without a role has, and names none");
+    }
     for (int i = dag->resolved.callbacks; i < dag->callback_count; i++) {
         struct callback *callback = &dag->callbacks[i];
         callback->type = scalar_type(dag, callback->type_name, callback->type_where);
@@ -188,6 +243,7 @@ void dag_resolve_catalog(struct dag *dag)
     dag->resolved.tools = dag->tool_count;
     dag->resolved.decisions = dag->decision_count;
     dag->resolved.facts = dag->fact_count;
+    dag->resolved.roles = dag->role_count;
     dag->resolved.callbacks = dag->callback_count;
     if (dag->runtime_header == NULL && dag->error_count == 0) {
         struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */

@@ -18,6 +18,7 @@ struct oracle_parameter {
     double value, low, high; /* default and closed range */
     int integer;             /* the field is an int, not a double */
     size_t offset;           /* of the field in the parameter structure */
+    int role;                /* enum catalog_role: what it is to a program, whatever its name */
 };
 
 struct oracle {
@@ -29,6 +30,8 @@ struct oracle {
     size_t parameters_size;            /* sizeof the parameter structure */
     void (*defaults)(void *parameters); /* fills a parameter structure */
     enum decision (*refine)(const void *parameters, struct discussion *discussion);
+    const int *reads; /* [read_count], enum catalog_fact: the facts that its arguments read, ascending */
+    int read_count;
 };
 
 #endif

@@ -157,7 +157,7 @@ enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
-enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
+enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_PRESUMED, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
 
 /* what the graph marked the pair with, kept by its link; 0: nothing */
 enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
@@ -802,14 +802,38 @@ static inline uint64_t refiner_hash64(uint64_t x)
     return x ^ x >> 31;
 }
 
+/* lambert.h - Lambert's kernel: what two pieces of surface exchange.
+ *
+ * Of points x, y with unit normals n, m, r = y - x, s = r.r, the kernel is (n.r)(-m.r) / (pi s^2), in 1/m2. Of faces, to second
+ * order in their size over their distance, it is taken at the centroids and weighted with both faces' second moments M (m2):
+ *     pi k = a b / s^2 + a b (12 r.Qr / s^4 - 2 tr Q / s^3) - 4 (a m.M_i r + b n.M_j r) / s^3,   Q = M_i + M_j,
+ * a = n.r, b = m.r, m here the normal of j turned round; n M_i = 0 and m M_j = 0 because faces are flat. What that leaves out is of
+ * fourth order.
+ * [Taylor's formula for Lambert's kernel, derived here] */
+
+#define REFINER_LAMBERT_PI 3.14159265358979323846
+
+/* The kernel of points on front sides, else 0 (1/m2). `spread` (m2), a piece's area, bounds it where pieces touch: no more than
+ * about 1 / spread is exchanged. */
+static inline double refiner_lambert_points(const double x[3], const double n[3], const double y[3], const double m[3], double spread)
+{
+    double w[3], cos_x, cos_y, square;
+    refiner_sub3(w, y, x);
+    cos_x = refiner_dot3(n, w);
+    cos_y = -refiner_dot3(m, w);
+    square = refiner_dot3(w, w);
+    return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread)) : 0;
+}
+
 /* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In [0, 1].
  *
  * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see each other
  * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
  * smaller area over the number of segments, bounds the weight of parts that touch.
  *
+ * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
- *             for it here gets four rays.
+ *             for one of these two here gets four rays.
  * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
  *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
  *             scrambled by a hash of both path identities: no shared random state, so the answer depends on
@@ -912,7 +936,6 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
         uint64_t blocked;
         for (i = 0; i < batch; i++) {
             struct refiner_segment *g = &segments[i];
-            double v[3], cos_r, cos_s, square;
             if (first + i > 0) { /* Gray code order: one digit changes from point to point */
                 const uint32_t *toggle = direction[0];
                 int bits;
@@ -925,11 +948,7 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
             }
             refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
             refiner_sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
-            refiner_sub3(v, g->to, g->from);
-            cos_r = refiner_dot3(r->normal, v);
-            cos_s = -refiner_dot3(s->normal, v);
-            square = refiner_dot3(v, v);
-            weight[i] = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (square * (3.14159265358979323846 * square + spread)) : 0;
+            weight[i] = refiner_lambert_points(g->from, r->normal, g->to, s->normal, spread);
             g->from[0] += host->ray_offset * r->normal[0];
             g->from[1] += host->ray_offset * r->normal[1];
             g->from[2] += host->ray_offset * r->normal[2];

@@ -197,8 +197,8 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
     report->fingerprint = r->fingerprint ? r->fingerprint : "";
     report->parameters = r->parameters;
     report->parameter_count = r->parameter_count;
-    report->reads_importance = (r->reads & REFINER_READS_IMPORTANCE) != 0;
-    report->reads_tolerance = (r->reads & REFINER_READS_TOLERANCE) != 0;
+    report->reads_importance = refiner_reads(r, FACT_RECEIVER_IMPORTANCE);
+    report->reads_tolerance = refiner_reads(r, FACT_RECEIVER_TOLERANCE);
 }
 
 int radSetOracleParameter(RadOracle oracle, const char *name, double value)
@@ -228,10 +228,8 @@ int radCountOracle(RadOracle oracle)
 {
     if (!oracle)
         return -1;
-    if (strcmp(oracle->refiner->release, "dag") != 0)
+    if (refiner_count(oracle->refiner) < 0)
         return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION, "only interpreted graphs count; make oracle %s with RAD_RELEASE_DAG", oracle->refiner->oracle);
-    if (refiner_count(oracle->refiner, oracle->device->threads) < 0)
-        return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for the statistics");
     oracle->counting = 1;
     return 0;
 }

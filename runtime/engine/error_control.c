@@ -18,18 +18,17 @@
 #include "engine/error_control.h"
 #include "kernel/constants.h"
 
-static double parameter(const struct refiner *r, const char *name)
+static double parameter(const struct refiner *r, enum catalog_role role)
 {
-    for (int i = 0; i < r->parameter_count; i++)
-        if (strcmp(r->parameters[i].name, name) == 0)
-            return refiner_get(r, i);
-    return 0;
+    int i = refiner_find_role(r, role, -1);
+    return i < 0 ? 0 : refiner_get(r, i);
 }
 
 double error_control_target(const struct refiner *r, const struct host *host)
 {
-    double absolute = parameter(r, "epsilon"), relative = parameter(r, "relative") * host->radiosity;
-    return r->reads & REFINER_READS_TOLERANCE ? fmax(absolute, relative) : 0;
+    double absolute = parameter(r, ROLE_ERROR_TOLERANCE);
+    double relative = parameter(r, ROLE_RELATIVE_ERROR_TOLERANCE) * host->radiosity;
+    return refiner_reads(r, FACT_RECEIVER_TOLERANCE) ? fmax(absolute, relative) : 0;
 }
 
 /* The least of the children's, bottom up, where that is less than what is there. */

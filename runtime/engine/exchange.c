@@ -19,15 +19,11 @@ struct way_out {
     float leaves, backs, covered;
 };
 
-/* Will be a fact of the catalog; until then the parameters are known by their names. The error of half shadow falls with what
- * is left to it. */
+/* The error of half shadow falls with what is left to it. */
 void exchange_set_tolerance(struct refiner *refiner, double tolerance)
 {
-    for (int i = 0; i < refiner->parameter_count; i++) {
-        const char *name = refiner->parameters[i].name;
-        if (strcmp(name, "shadow") == 0 || strcmp(name, "group_shadow") == 0)
-            (void)refiner_set(refiner, name, refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
-    }
+    for (int i = -1; (i = refiner_find_role(refiner, ROLE_SHADOW_TOLERANCE, i)) >= 0;)
+        (void)refiner_set(refiner, refiner->parameters[i].name, refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
 }
 
 struct watcher {

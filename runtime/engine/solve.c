@@ -206,7 +206,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
 {
     const struct problem *p = &s->problem;
     double start = seconds(), error = error_control_target(refiner, rays_host(p->rays));
-    if (p->options.camera && refiner->reads & REFINER_READS_IMPORTANCE
+    if (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)
         && importance_start(&s->importance, &s->operator, &s->hierarchy, &s->inputs) < 0)
         return fail(s, "out of memory", cause);
     if (error > 0)

@@ -247,29 +247,3 @@ memory:
     free(first);
     return messages_say(messages, MESSAGE_MEMORY, "out of memory");
 }
-
-/* The same for one tree. */
-static unsigned expression_reads(const struct dag *dag, int expression)
-{
-    const struct expression *e = &dag->expressions[expression];
-    unsigned reads = 0;
-    if (e->kind == EXPRESSION_FACT)
-        reads = strcmp(dag->facts[e->index].name, "receiver.importance") == 0 ? REFINER_READS_IMPORTANCE
-                : strcmp(dag->facts[e->index].name, "receiver.tolerance") == 0 ? REFINER_READS_TOLERANCE : 0;
-    if (e->left >= 0)
-        reads |= expression_reads(dag, e->left);
-    return e->right >= 0 ? reads | expression_reads(dag, e->right) : reads;
-}
-
-unsigned oracle_reads(const struct dag *dag, int oracle)
-{
-    const struct oracle_graph *g = &dag->oracles[oracle];
-    unsigned reads = 0;
-    int i, k;
-    for (i = 0; i < g->order.count; i++) {
-        const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
-        for (k = 0; k < n->arguments.count; k++)
-            reads |= expression_reads(dag, dag->arguments[n->arguments.first + k].expression);
-    }
-    return reads;
-}

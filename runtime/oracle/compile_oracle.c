@@ -65,8 +65,6 @@ struct refiner *compile_oracle(const char *path, const char *text, const char *n
         else
             r = open_library(library, dag->oracles[index].name, messages);
     }
-    if (r)
-        r->reads = oracle_reads(dag, index);
     dag_free(dag);
     return r;
 }

@@ -12,7 +12,7 @@
 #include "oracle/program.h"
 #include "oracle/tool_table.h"
 
-static enum decision walk(const void *state, struct discussion *d)
+enum decision program_walk(const void *state, struct discussion *d)
 {
     const struct step *steps = state, *step = steps;
     for (;;) {
@@ -37,6 +37,7 @@ static void release_program(struct refiner *r)
     free(p->computed);
     free(p->code);
     free(p->externs);
+    free(p->reads);
     program_free_tallies(p);
     free(p);
 }
@@ -69,8 +70,9 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
     p->expressions = calloc((size_t)arguments + 1, sizeof *p->expressions);
     p->next = calloc((size_t)answers + 1, sizeof *p->next);
     p->parameters = calloc((size_t)g->parameters.count + 1, sizeof *p->parameters);
+    p->reads = calloc((size_t)dag->fact_count + 1, sizeof *p->reads);
     r->block = calloc((size_t)g->parameters.count + 1, sizeof(double));
-    if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !r->block) {
+    if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !p->reads || !r->block) {
         return messages_say(messages, MESSAGE_MEMORY, "out of memory");
     }
     for (i = 0; i < g->parameters.count; i++) {
@@ -84,9 +86,13 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
         o->high = q->high;
         o->integer = dag->types[q->type].base == BASE_INTEGER;
         o->offset = (size_t)i * sizeof(double);
+        o->role = q->role + 1; /* none: 0 */
     }
     r->parameters = p->parameters;
     r->parameter_count = g->parameters.count;
+    for (i = 0; i < dag->fact_count; i++)
+        if (dag_reads_fact(dag, g, i))
+            p->reads[p->read_count++] = i;
     arguments = answers = 0;
     for (i = 0; i < g->order.count; i++) {
         const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
@@ -96,8 +102,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
                                 "use the flat release", g->name, dag->tools[n->tool].name);
         }
         p->steps[i].call = tool->call;
-        p->steps[i].keeps = strcmp(tool->name, "count") == 0 && tool->argument_count == 1 ? KEEPS_COUNT
-                            : strcmp(tool->name, "record") == 0 && tool->argument_count == 2 ? KEEPS_RECORD : KEEPS_NOTHING;
+        p->steps[i].keeps = dag->tools[n->tool].keeps;
         p->steps[i].arguments = &p->arguments[arguments];
         p->steps[i].next = &p->next[answers];
         for (k = 0; k < n->arguments.count; k++)
@@ -161,12 +166,13 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     }
     if (build(r, p, &p->dag->oracles[index], messages) < 0)
         goto fail;
-    r->refine = walk;
+    r->refine = program_walk;
     r->state = p->steps;
     r->oracle = p->dag->oracles[index].name;
     r->doc = p->dag->oracles[index].doc;
     r->release = "dag";
-    r->reads = oracle_reads(p->dag, index);
+    r->reads = p->reads;
+    r->read_count = p->read_count;
     r->prepare = program_prepare;
     for (i = 0; i < r->parameter_count; i++)
         if (r->parameters[i].integer) {

@@ -6,7 +6,6 @@
 #include "oracle/builtin.h"
 #include "oracle/compile_oracle.h"
 #include "oracle/oracles.h"
-#include "dag.h"
 
 const char *const release_names[RELEASES] = { "flat", "dag", "hand" };
 
@@ -84,21 +83,10 @@ static struct refiner *open_hand(const struct oracle_sources *sources, const cha
     return NULL;
 }
 
-/* What a built-in oracle reads, its graph being the text. */
-static void know_reads(struct refiner *r, const char *text, const char *name)
-{
-    struct dag *dag = dag_load_text(name, text, strlen(text), NULL, NULL, NULL);
-    int index = dag ? dag_oracle(dag, name) : -1;
-    if (r && index >= 0)
-        r->reads = oracle_reads(dag, index);
-    dag_free(dag);
-}
-
 struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle, enum release release,
                              struct messages *messages)
 {
     const struct builtin *b = find_builtin(oracle);
-    struct refiner *r;
     if (!sources)
         sources = &nothing;
     if (!b && !is_file(oracle) && (release != RELEASE_HAND || !find_hand(sources, oracle))) {
@@ -111,9 +99,7 @@ struct refiner *oracle_open(const struct oracle_sources *sources, const char *or
         return oracle_load(sources, oracle, NULL, NULL, release, messages);
     if (release == RELEASE_DAG)
         return refiner_interpreted(oracle, b->text, b->name, messages);
-    r = open_compiled(b->flat, RELEASE_FLAT, messages);
-    know_reads(r, b->text, b->name);
-    return r;
+    return open_compiled(b->flat, RELEASE_FLAT, messages);
 }
 
 struct refiner *oracle_load(const struct oracle_sources *sources, const char *path, const char *text, const char *name,

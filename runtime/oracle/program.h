@@ -4,6 +4,7 @@
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
+#include <stdatomic.h>
 #include "dag.h"
 #include "oracle/refiner.h"
 #include "util/messages.h"
@@ -28,13 +29,11 @@ struct computed {
     int argument, argument_count; /* in program.expressions */
 };
 
-enum { KEEPS_NOTHING, KEEPS_COUNT, KEEPS_RECORD }; /* of the tools count and record, and of no other */
-
 struct step {
     int (*call)(struct discussion *d, const double *arguments);
     const double *arguments;
     const int *next; /* [answers]: a step, or ~decision */
-    int keeps;       /* what a counting walk keeps of the arguments: KEEPS_... */
+    enum keeps keeps; /* what a counting walk keeps of the arguments */
 };
 
 struct program {
@@ -51,9 +50,13 @@ struct program {
     struct dag *dag;
     int first_parameter; /* of the oracle, in dag->parameters */
     const struct oracle_graph *graph;
+    int *reads;          /* [read_count], enum catalog_fact */
+    int read_count;
     int answer_count;    /* of all steps */
-    struct tally **tallies; /* [tally_count]: one per thread, NULL: nothing is counted */
-    int tally_count;
+    uint64_t counting;   /* which of all countings this is; 0: nothing is counted */
+    struct program *self; /* so that a walk, which has a const one, can add its thread's counters */
+    _Atomic(struct tally *) tallies; /* one per thread that has asked */
+    atomic_int lost;     /* there was no memory for one */
 };
 
 /* arguments.c. The call of a step with computed arguments, and those arguments alone, on a stack of STACK_MAX. */
@@ -65,6 +68,9 @@ int program_link(struct program *p, const struct oracle_graph *g, struct message
 
 /* Evaluate what is fixed, once, and not in the walk. */
 void program_prepare(struct refiner *r);
+
+/* interpreter.c. `state` is the steps. */
+enum decision program_walk(const void *state, struct discussion *d);
 
 /* statistics.c. The walk that counts, and the end of its counters. `state` is the program. */
 enum decision program_walk_counted(const void *state, struct discussion *d);

@@ -51,6 +51,8 @@ struct refiner *refiner_compiled(const struct oracle *oracle, const char *releas
     r->release = release;
     r->parameters = oracle->parameters;
     r->parameter_count = oracle->parameter_count;
+    r->reads = oracle->reads;
+    r->read_count = oracle->read_count;
     return r;
 }
 
@@ -61,6 +63,24 @@ int refiner_find(const struct refiner *r, const char *name)
         if (strcmp(r->parameters[i].name, name) == 0)
             return i;
     return -1;
+}
+
+int refiner_find_role(const struct refiner *r, int role, int after)
+{
+    int i;
+    for (i = after + 1; i < r->parameter_count; i++)
+        if (r->parameters[i].role == role)
+            return i;
+    return -1;
+}
+
+int refiner_reads(const struct refiner *r, int fact)
+{
+    int i;
+    for (i = 0; i < r->read_count; i++)
+        if (r->reads[i] == fact)
+            return 1;
+    return 0;
 }
 
 static int say_none_such(const struct refiner *r, const char *name, struct messages *messages)

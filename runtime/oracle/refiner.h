@@ -8,9 +8,6 @@
 
 /* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long as
  * no parameter is set meanwhile. */
-/* What an oracle reads that a solver need not provide to others. */
-enum { REFINER_READS_IMPORTANCE = 1, REFINER_READS_TOLERANCE = 2 };
-
 struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
     const void *state; /* a parameter structure, or the interpreter's program */
@@ -18,7 +15,8 @@ struct refiner {
     const char *fingerprint; /* of the graph it was compiled from; NULL when interpreted */
     const struct oracle_parameter *parameters; /* [parameter_count] */
     int parameter_count;
-    unsigned reads;                           /* REFINER_READS_..., as far as the graph is known: see oracle_reads */
+    const int *reads; /* [read_count], enum catalog_fact: what its arguments read */
+    int read_count;
     void *block;                              /* owned: where parameters[i].offset points into */
     void (*prepare)(struct refiner *refiner); /* after a parameter has changed; may be NULL */
     void (*release_state)(struct refiner *refiner);
@@ -56,15 +54,16 @@ struct interpretation {
  * tool, term or fact that the program was built without. */
 struct refiner *refiner_interpret(const struct interpretation *how, struct messages *messages);
 
-/* Which of the facts receiver.importance and receiver.tolerance the graph's expressions read, for refiner.reads. The
- * interpreter sets it; a compiled oracle does not know its graph, so whoever has that sets it. */
-struct dag;
-unsigned oracle_reads(const struct dag *dag, int oracle);
-
 /* Set a parameter. Returns 0, or -1 after a message that names the parameter and its range, or those there are. */
 int refiner_set(struct refiner *refiner, const char *name, double value, struct messages *messages);
 int refiner_find(const struct refiner *refiner, const char *name); /* a parameter's index; -1: there is none */
 double refiner_get(const struct refiner *refiner, int parameter);
+
+/* The first parameter of that role (enum catalog_role), after the index `after`; -1: there is none. Begin with -1. */
+int refiner_find_role(const struct refiner *refiner, int role, int after);
+
+/* Does some argument of it read that fact (enum catalog_fact), so that whoever asks must provide it? */
+int refiner_reads(const struct refiner *refiner, int fact);
 
 void refiner_close(struct refiner *refiner); /* NULL is fine */
 

@@ -1,28 +1,56 @@
 /* statistics.c - the walk that counts.
  *
  * It takes the place of the walk in interpreter.c only when counts are wanted, so that they cost nothing
- * otherwise. Every thread has counters of its own; sums are made when asked for. What is counted never reaches a tool,
- * so decisions are the same.
+ * otherwise. Every thread that asks has counters of its own, whoever made the thread; sums are made when asked for. What
+ * is counted never reaches a tool, so decisions are the same.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#ifdef _OPENMP
-#include <omp.h>
-#else
-#define omp_get_thread_num() 0
-#endif
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "oracle/program.h"
 #include "oracle/statistics.h"
 
-/* One thread's counters. */
+/* One thread's counters of one program. */
 struct tally {
+    const void *owner;  /* address of the thread's `mine`: no two living threads have the same */
+    struct tally *next; /* of the program */
     uint64_t counts[STATISTICS_COUNTS];
     struct record_statistics records[STATISTICS_SLOTS];
     uint64_t taken[]; /* [program.answer_count], as program.next */
 };
 
-static void keep(struct tally *t, int what, const double *values)
+/* The tally that the thread used last, and of which counting: a number that is never given twice. */
+static _Thread_local struct {
+    uint64_t counting;
+    struct tally *tally;
+} mine;
+
+static atomic_uint_fast64_t countings;
+
+/* The thread's tally of the program, made when it asks for the first time. NULL: out of memory, which statistics_take tells. */
+static struct tally *find_tally(struct program *p)
+{
+    struct tally *first = atomic_load(&p->tallies), *t = first;
+    while (t && t->owner != &mine)
+        t = t->next;
+    if (!t) {
+        t = calloc(1, sizeof *t + (size_t)p->answer_count * sizeof(uint64_t) + 64); /* no line shared */
+        if (!t) {
+            atomic_store(&p->lost, 1);
+            return NULL;
+        }
+        t->owner = &mine;
+        do
+            t->next = first;
+        while (!atomic_compare_exchange_weak(&p->tallies, &first, t));
+    }
+    mine.counting = p->counting;
+    mine.tally = t;
+    return t;
+}
+
+static void keep(struct tally *t, enum keeps what, const double *values)
 {
     if (what == KEEPS_COUNT) {
         t->counts[values[0] > 0 ? values[0] < STATISTICS_COUNTS ? (int)values[0] : STATISTICS_COUNTS - 1 : 0]++;
@@ -42,8 +70,10 @@ static void keep(struct tally *t, int what, const double *values)
 enum decision program_walk_counted(const void *state, struct discussion *d)
 {
     const struct program *p = state;
-    struct tally *t = p->tallies[omp_get_thread_num()];
+    struct tally *t = mine.counting == p->counting ? mine.tally : find_tally(p->self);
     const struct step *step = p->steps;
+    if (!t)
+        return program_walk(p->steps, d);
     for (;;) {
         int answer = step->call(d, step->arguments), next = step->next[answer];
         t->taken[&step->next[answer] - p->next]++;
@@ -64,32 +94,22 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
 
 void program_free_tallies(struct program *p)
 {
-    int i;
-    for (i = 0; i < p->tally_count; i++)
-        free(p->tallies[i]);
-    free(p->tallies);
-    p->tallies = NULL;
-    p->tally_count = 0;
+    struct tally *t = atomic_exchange(&p->tallies, NULL), *next;
+    for (; t; t = next) {
+        next = t->next;
+        free(t);
+    }
 }
 
-int refiner_count(struct refiner *r, int threads)
+int refiner_count(struct refiner *r)
 {
     struct program *p = r->own;
-    int i;
     if (strcmp(r->release, "dag") != 0)
         return -1;
     program_free_tallies(p);
-    p->tallies = calloc((size_t)threads, sizeof *p->tallies);
-    if (!p->tallies)
-        return -1;
-    p->tally_count = threads;
-    for (i = 0; i < threads; i++) {
-        p->tallies[i] = calloc(1, sizeof **p->tallies + (size_t)p->answer_count * sizeof(uint64_t) + 64); /* no line shared */
-        if (!p->tallies[i]) {
-            program_free_tallies(p);
-            return -1;
-        }
-    }
+    p->self = p;
+    p->counting = atomic_fetch_add(&countings, 1) + 1;
+    atomic_store(&p->lost, 0);
     r->refine = program_walk_counted;
     r->state = p;
     return 0;
@@ -98,13 +118,12 @@ int refiner_count(struct refiner *r, int threads)
 static uint64_t sum_taken(const struct program *p, int answer)
 {
     uint64_t sum = 0;
-    int i;
-    for (i = 0; i < p->tally_count; i++)
-        sum += p->tallies[i]->taken[answer];
+    for (const struct tally *t = p->tallies; t; t = t->next)
+        sum += t->taken[answer];
     return sum;
 }
 
-static void take_nodes(struct statistics *s, const struct program *p)
+static void sum_nodes(struct statistics *s, const struct program *p)
 {
     static const char *const kinds[] = { "precise", "approximate", "other" };
     const struct dag *dag = p->dag;
@@ -130,9 +149,9 @@ static void take_nodes(struct statistics *s, const struct program *p)
 int statistics_take(struct statistics *s, const struct refiner *r)
 {
     const struct program *p = r->own;
-    int i, k, m;
+    int k, m;
     memset(s, 0, sizeof *s);
-    if (strcmp(r->release, "dag") != 0 || !p->tallies)
+    if (strcmp(r->release, "dag") != 0 || !p->counting || p->lost)
         return -1;
     s->node_count = p->graph->order.count;
     s->nodes = calloc((size_t)s->node_count, sizeof *s->nodes);
@@ -141,9 +160,8 @@ int statistics_take(struct statistics *s, const struct refiner *r)
         statistics_free(s);
         return -1;
     }
-    take_nodes(s, p);
-    for (i = 0; i < p->tally_count; i++) {
-        const struct tally *t = p->tallies[i];
+    sum_nodes(s, p);
+    for (const struct tally *t = p->tallies; t; t = t->next) {
         for (k = 0; k < STATISTICS_COUNTS; k++)
             s->counts[k] += t->counts[k];
         for (k = 0; k < STATISTICS_SLOTS; k++) {

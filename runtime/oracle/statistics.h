@@ -37,9 +37,9 @@ struct statistics {
     struct record_statistics records[STATISTICS_SLOTS];
 };
 
-/* From now on count what the refiner does, on up to `threads` threads of one OpenMP team. Decisions stay
- * the same. Returns 0, or -1 when out of memory or when it is no interpreted graph. */
-int refiner_count(struct refiner *refiner, int threads);
+/* From now on count what the refiner does, on whatever threads it is asked; begins at 0 again. Decisions stay the
+ * same. Returns 0, or -1 when it is no interpreted graph. Not while it is being asked. */
+int refiner_count(struct refiner *refiner);
 
 /* What was counted since, all threads together. Not while it is being asked. Names are the refiner's. Returns 0, or -1
  * when out of memory or when nothing is counted. */

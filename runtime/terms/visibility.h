@@ -4,8 +4,9 @@
  * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
  * smaller area over the number of segments, bounds the weight of parts that touch.
  *
+ * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
- *             for it here gets four rays.
+ *             for one of these two here gets four rays.
  * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
  *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
  *             scrambled by a hash of both path identities: no shared random state, so the answer depends on

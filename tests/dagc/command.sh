@@ -145,17 +145,19 @@ done
 
 # ---- what else it emits
 check "--emit=json" sh -c "$run --emit=json good.dag >good.json && grep -q '\"schema\": \"dagc/1\"' good.json"
-if command -v python3 >/dev/null; then
-    check "--emit=json is JSON" python3 -m json.tool good.json
-    cat >odd.dag <<'END'
+cat >odd.dag <<'END'
 oracle t "a \\ and \" and é & <b>" {
   param p : flux = 1e300 in [0, inf] "\\";
   start a; node a = weigh(most = inf, share = 0.5) { light -> b; heavy -> drop; }
   node b = weigh(most = p, share = 1e-9) { otherwise -> drop; }
 }
 END
+if command -v python3 >/dev/null; then
+    check "--emit=json is JSON" python3 -m json.tool good.json
     check "odd characters in JSON" sh -c "$run --emit=json odd.dag | python3 -m json.tool"
     check "the catalog's tools in JSON" sh -c "python3 -c 'import json; g = json.load(open(\"good.json\")); assert [t[\"name\"] for t in g[\"catalog\"][\"tools\"]] == [\"look\", \"weigh\", \"tally\", \"measure\"]; assert len(g[\"oracles\"][0][\"nodes\"]) == 5'"
+else
+    echo "skipped: python3 is not installed, which reads JSON"
 fi
 check "--lines" sh -c "$run --lines '$here/emit_branch.dag' | grep -qF '/* emit_branch.dag:5, used at emit_branch.dag:10, used at emit_branch.dag:17 */'"
 check "no --lines" sh -c "! $run '$here/emit_branch.dag' | grep -qF 'emit_branch.dag:5'"
@@ -170,13 +172,12 @@ check "--dump=parse is read again" sh -c "$run --dump=parse good.dag >again.dag 
 check "--dump=parse of branches is read again" sh -c "$run --dump=parse '$here/dump_parse_branch.dag' >again.dag && $run --dump=parse again.dag | cmp - again.dag && $run again.dag | grep -q \"\$($run '$here/dump_parse_branch.dag' | grep -o 'graph .*')\""
 check "--dump=resolve compiles to the same graph" sh -c "$run --dump=resolve -o again.dag good.dag && $run again.dag | grep -q \"\$($run good.dag | grep -o 'graph .*')\""
 check "--emit=catalog" sh -c "$dagc --emit=catalog catalog.dag | grep -q '^### weigh(most, share)'"
-if command -v dot >/dev/null; then
-    check "--emit=dot" sh -c "$run --emit=dot good.dag | dot -Tplain | grep -q ^edge"
-    check "--emit=dot, two oracles" sh -c "$run --emit=dot '$here/emit_header_name.dag' | dot -Tplain | grep -q ^edge"
-    check "--emit=dot, odd characters" sh -c "$run --emit=dot odd.dag | dot -Tplain | grep -q ^edge"
-    check "--emit=svg" sh -c "$run --emit=svg -o good.svg good.dag && grep -q '</svg>' good.svg"
-    check "--emit=svg to standard output" sh -c "$run --emit=svg good.dag | cmp - good.svg"
-fi
+check "Graphviz is there (apt-get install graphviz)" command -v dot
+check "--emit=dot" sh -c "$run --emit=dot good.dag | dot -Tplain | grep -q ^edge"
+check "--emit=dot, two oracles" sh -c "$run --emit=dot '$here/emit_header_name.dag' | dot -Tplain | grep -q ^edge"
+check "--emit=dot, odd characters" sh -c "$run --emit=dot odd.dag | dot -Tplain | grep -q ^edge"
+check "--emit=svg" sh -c "$run --emit=svg -o good.svg good.dag && grep -q '</svg>' good.svg"
+check "--emit=svg to standard output" sh -c "$run --emit=svg good.dag | cmp - good.svg"
 old
 check "--emit=svg without Graphviz" fails_with 1 "cannot run 'dot'" env PATH=/nowhere $run --emit=svg -o old.c good.dag
 check "--emit=svg without Graphviz leaves files" untouched
@@ -331,7 +332,10 @@ check "without a header" status 0 $run -o gen/without.c good.dag
 check "two oracles" status 0 $run -o gen/two.c --header gen/two.h "$here/emit_header_name.dag"
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Igen -c -o object.o"
 for compiler in "gcc -std=c11 -O2" "gcc -std=c11 -O0" "gcc -std=c99 -O1" "clang -std=c11 -O2" "g++ -x c++ -std=c++17 -O2" "clang++ -x c++ -std=c++17 -O1"; do
-    command -v "${compiler%% *}" >/dev/null || continue
+    if ! command -v "${compiler%% *}" >/dev/null; then
+        echo "skipped: ${compiler%% *} is not installed"
+        continue
+    fi
     for text in gen/*.c; do
                 check "$compiler $text" $compiler $warnings $text
     done

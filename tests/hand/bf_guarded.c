@@ -127,15 +127,15 @@ static void defaults(void *at)
 }
 
 static const struct oracle_parameter table[] = {
-    { "epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon) },
-    { "relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative) },
-    { "shadow", "", "", 0.005, 0, INFINITY, 0, offsetof(struct parameters, shadow) },
-    { "faint", "", "", 2e-4, 0, INFINITY, 0, offsetof(struct parameters, faint) },
-    { "min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area) },
-    { "min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share) },
-    { "rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays) },
+    { "epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon), ROLE_NONE },
+    { "relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative), ROLE_NONE },
+    { "shadow", "", "", 0.005, 0, INFINITY, 0, offsetof(struct parameters, shadow), ROLE_NONE },
+    { "faint", "", "", 2e-4, 0, INFINITY, 0, offsetof(struct parameters, faint), ROLE_NONE },
+    { "min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area), ROLE_NONE },
+    { "min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share), ROLE_NONE },
+    { "rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays), ROLE_NONE },
 };
 
 const struct oracle hand_bf_guarded = {
-    RUNTIME_ABI, "bf_guarded", "written by hand", "", table, 7, sizeof(struct parameters), defaults, refine
+    RUNTIME_ABI, "bf_guarded", "written by hand", "", table, 7, sizeof(struct parameters), defaults, refine, NULL, 0
 };

@@ -30,7 +30,7 @@ static void solve_view(struct solve *s, const struct scene *scene, const char *t
     snprintf(text, sizeof text, weighted, threshold);
     r = interpreted("weighted.dag", text, NULL);
     ck_assert_ptr_nonnull(r);
-    ck_assert_uint_eq(r->reads, REFINER_READS_IMPORTANCE);
+    ck_assert(refiner_reads(r, FACT_RECEIVER_IMPORTANCE) && !refiner_reads(r, FACT_RECEIVER_TOLERANCE));
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
     ck_assert_int_eq(s->report.converged, 1);
@@ -333,7 +333,7 @@ END_TEST
 /* Groups of faces count, too: a lamp of 16 faces over a floor, linked as a group while the floor's tolerance bears it. Every
  * leaf is then within eps at its corners by the faces themselves, but for what taking the group for a point leaves out. */
 static const char grouped[] =
-    "oracle grouped \"links of groups by tolerance\" { param epsilon : flux = 0 in [0, inf];\n"
+    "oracle grouped \"links of groups by tolerance\" { param epsilon : flux = 0 in [0, inf] role error_tolerance;\n"
     "  start level;\n"
     "  node level = clusters() { surfaces -> form;  apart -> stop;  receiver | emitter -> far; }\n"
     "  node far   = cluster_gap(absolute = 32 * min(receiver.tolerance, epsilon)) { dark -> stop;  near | above -> open;  below -> sight; }\n"

@@ -113,6 +113,34 @@ START_TEST(test_releases)
 }
 END_TEST
 
+/* What compiled oracles say of themselves is what their graphs say: facts that are read, roles of parameters. */
+START_TEST(test_declared)
+{
+    int reading = 0, roles = 0;
+    for (const struct builtin *b = builtins; b->name; b++) {
+        struct refiner *flat = oracles_open(b->name, RELEASE_FLAT), *dag = oracles_open(b->name, RELEASE_DAG);
+        ck_assert(flat && dag);
+        ck_assert_int_eq(flat->read_count, dag->read_count);
+        for (int i = 0; i < flat->read_count; i++)
+            ck_assert_int_eq(flat->reads[i], dag->reads[i]);
+        ck_assert_int_eq(flat->parameter_count, dag->parameter_count);
+        for (int i = 0; i < flat->parameter_count; i++) {
+            ck_assert_int_eq(flat->parameters[i].role, dag->parameters[i].role);
+            roles += flat->parameters[i].role != ROLE_NONE;
+        }
+        reading += flat->read_count > 0;
+        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_IMPORTANCE), strcmp(b->name, "importance") == 0);
+        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_TOLERANCE), strcmp(b->name, "error_control") == 0);
+        ck_assert_int_eq(refiner_find_role(flat, ROLE_ERROR_TOLERANCE, -1) >= 0, strcmp(b->name, "error_control") == 0);
+        ck_assert_int_eq(refiner_find_role(flat, ROLE_SHADOW_TOLERANCE, -1) >= 0, strcmp(b->name, "viewfactors") == 0);
+        refiner_close(flat);
+        refiner_close(dag);
+    }
+    ck_assert_int_ge(reading, 2);
+    ck_assert_int_eq(roles, 4);
+}
+END_TEST
+
 /* ---- convergence */
 
 /* An oracle, its threshold, how fine it gets, and the error that is left then. */
@@ -248,6 +276,7 @@ int main(int count, char **arguments)
     }
     tcase_set_timeout(c, 600);
     tcase_add_loop_test(c, test_releases, 0, 3);
+    tcase_add_test(c, test_declared);
     tcase_add_loop_test(c, test_falling, 0, 3 * FALLING);
     tcase_add_loop_test(c, test_promise, 0, 5);
     suite_add_tcase(suite, c);

@@ -143,7 +143,7 @@ START_TEST(test_oracle)
         struct camera camera;
         r[p] = interpreted("scale.dag", oracle->name ? oracle->text : rest, oracle->name);
         ck_assert_ptr_nonnull(r[p]);
-        ck_assert_int_eq(refiner_count(r[p], 2), 0);
+        ck_assert_int_eq(refiner_count(r[p]), 0);
         run(&s[p], &scene[p], r[p], &camera, length);
         ck_assert_int_eq(statistics_take(&said[p], r[p]), 0);
         if (p > 0) {

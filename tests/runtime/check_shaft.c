@@ -19,6 +19,7 @@
 #include "suite.h"
 #include "tools/exact_visibility.h"
 #include "tools/extinction.h"
+#include "tools/presume_visible.h"
 #include "tools/feature_size.h"
 #include "tools/reference.h"
 #include "tools/shaft.h"
@@ -832,7 +833,11 @@ START_TEST(test_extinction)
         d.receiver = &w.h.elements[pair[0]];
         d.emitter = &w.h.elements[pair[1]];
         d.host = w.host;
-        ck_assert_int_eq(tool_extinction(&d), EXTINCTION_DONE);
+        ck_assert_int_eq(tool_presume_visible(&d), PRESUME_VISIBLE_DONE);
+        ck_assert(d.terms.visibility == 1 && d.terms.visibility_level == VISIBILITY_PRESUMED);
+        ck_assert_int_eq(tool_extinction(&d), EXTINCTION_DONE); /* better than a presumption */
+        ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_EXTINCTION);
+        (void)tool_presume_visible(&d); /* which leaves what is known alone */
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_EXTINCTION);
         for (j = 0; j < (int)w.h.count; j++) {
             const struct element *e = &w.h.elements[j];

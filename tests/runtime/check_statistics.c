@@ -1,5 +1,6 @@
 /* check_statistics.c - counts of an interpreted graph against those of the refinement.
  * SPDX-License-Identifier: MIT */
+#include <pthread.h>
 #include <stdio.h>
 #include "runtime/make_solve.h"
 #include "oracle/statistics.h"
@@ -40,7 +41,7 @@ START_TEST(test_statistics)
     other = interpreted("counting.dag", counting, NULL);
     ck_assert_ptr_nonnull(r);
     ck_assert_int_eq(statistics_take(&counted, r), -1); /* not asked for */
-    ck_assert_int_eq(refiner_count(r, 2), 0);
+    ck_assert_int_eq(refiner_count(r), 0);
     ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(&s, r, &cause), 0);
     ck_assert_int_eq(solve_open(&plain, &scene, &options, &cause), 0);
@@ -93,12 +94,72 @@ START_TEST(test_statistics)
 }
 END_TEST
 
+/* Threads of a program's own, not OpenMP's, and two graphs that the same threads ask in turns. */
+enum { THREADS = 4, ASKED = 20000 };
+
+struct asked {
+    struct refiner *refiners[2];
+};
+
+static void *ask_in_turns(void *at)
+{
+    const struct asked *asked = at;
+    const struct host host = { .occluded = NULL, .area = 1, .extent = 1, .exitance = 1, .irradiance = 1, .radiosity = 1, .importance = 1 };
+    for (int i = 0; i < ASKED; i++) {
+        const struct refiner *r = asked->refiners[i % 3 == 0];
+        struct element element = { .area = 1, .radius = 1, .depth = (uint8_t)(i & 3) };
+        struct discussion d = { .receiver = &element, .emitter = &element, .host = &host };
+        (void)r->refine(r->state, &d);
+    }
+    return NULL;
+}
+
+START_TEST(test_threads)
+{
+    static const char text[] =
+        "oracle turns { start deep;\n"
+        "  node deep = count(as = receiver.depth) { done -> kind; }\n"
+        "  node kind = larger() { receiver | emitter -> stop; } }\n";
+    const uint64_t wanted[2] = { THREADS * (ASKED - (ASKED + 2) / 3), THREADS * ((ASKED + 2) / 3) };
+    struct asked asked;
+    pthread_t threads[THREADS];
+    struct statistics counted;
+    for (int k = 0; k < 2; k++) {
+        asked.refiners[k] = interpreted("turns.dag", text, NULL);
+        ck_assert_ptr_nonnull(asked.refiners[k]);
+    }
+    for (int again = 0; again < 2; again++) { /* the second time from 0, by threads that know the first */
+        for (int k = 0; k < 2; k++)
+            ck_assert_int_eq(refiner_count(asked.refiners[k]), 0);
+        for (int t = 1; t < THREADS; t++)
+            ck_assert_int_eq(pthread_create(&threads[t], NULL, ask_in_turns, &asked), 0);
+        (void)ask_in_turns(&asked);
+        for (int t = 1; t < THREADS; t++)
+            ck_assert_int_eq(pthread_join(threads[t], NULL), 0);
+        for (int k = 0; k < 2; k++) {
+            uint64_t sum = 0;
+            ck_assert_int_eq(statistics_take(&counted, asked.refiners[k]), 0);
+            ck_assert_uint_eq(counted.nodes[0].calls, wanted[k]);
+            ck_assert_uint_eq(counted.nodes[1].calls, wanted[k]);
+            for (int i = 0; i < 4; i++)
+                sum += counted.counts[i];
+            ck_assert_uint_eq(sum, wanted[k]);
+            ck_assert_uint_gt(counted.counts[3], 0);
+            statistics_free(&counted);
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        refiner_close(asked.refiners[k]);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("statistics");
     TCase *c = tcase_create("statistics");
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_statistics);
+    tcase_add_test(c, test_threads);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
