@@ -28,6 +28,7 @@ done | sort -rn >"$times.new" && mv "$times.new" "$times"
 echo "seconds of the clock and of a processor per suite:"
 cat "$times"
 awk '{ sum += $2 } END { printf "%.0f s of a processor in all\n", sum }' "$times"
+grep -h '^accuracy ' "$tmp"/*.log
 grep -h 'skipped[:,]' "$tmp"/*.log | sort -u
 passed=$(find "$tmp" -name '*.passed' | wc -l)
 failed=$(($# - passed))
