@@ -14,6 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "hierarchy/scene.h"
+#include "scene/read_scene.h"
 #include "runtime/path_reference.h"
 #include "suite.h"
 
