@@ -1,6 +1,7 @@
 # make          the commands dagc and radiosity in build/bin, build/libradiosity.a and .so
 # make dagc     dagc and libdagc.a alone, which need a C compiler and libc
 # make check    the tests
+# make check-accuracy  the long ones: all that make check leaves out, and solutions against traced particles
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
@@ -60,7 +61,7 @@ OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/m
 
 FUZZ_SECONDS = 60
 
-.PHONY: all check prove bench-size fuzz demo packages bench clean
+.PHONY: all check check-accuracy prove bench-size fuzz demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -142,9 +143,20 @@ $(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TEST
 packages:
 	@sh tests/packages.sh
 
+# Tests are compiled once for a run of seconds: to optimise them less saves more than it costs.
+$(TESTS:=.o): OPT = -O1
+# As many jobs as there are processors, unless the caller says how many.
+JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine
 check: all
-	@$(MAKE) --no-print-directory $(TESTS) $(BUILD)/tests/runtime/embed_engine
-	@sh tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
+	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
+	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
+
+# The suites that do more when THOROUGH is set, and the accuracy of whole solutions.
+THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/*/*.sh tests/*/check_*.c))
+check-accuracy: all
+	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
+	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS)) $(filter $(THOROUGH),$(SCRIPTS))
 
 prove: commands
 	@sh tests/dagc/prove.sh $(BUILD)/bin/dagc 1000

@@ -4,6 +4,13 @@
 #define SUITE_H
 
 #include <check.h>
+#include <stdlib.h>
+
+/* Is everything asked for, as by make check-accuracy? make check leaves out what takes long and is like what is left. */
+static inline int thorough(void)
+{
+    return getenv("THOROUGH") != NULL;
+}
 
 /* Run the suite, print what failed and the count, and free it. Returns how many tests failed. */
 static inline int suite_failures(Suite *suite)

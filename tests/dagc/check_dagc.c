@@ -254,7 +254,7 @@ static void print_graph(FILE *out, int number)
     static const char *const tools[] = {"look", "weigh", "tally", "measure"};
     static const char *const answers[][3] = {{"left", "right", "neither"}, {"light", "heavy", NULL},
                                              {"few", "some", "many"}, {"done", NULL, NULL}};
-    int nodes = 1 + pick(number % 10 == 0 ? 200 : 30), names[200], lines[200];
+    int nodes = 1 + pick(number % 10 == 0 ? 200 : 30), names[200] = {0}, lines[200];
     for (int i = 0; i < nodes; i++)
         names[i] = lines[i] = i;
     for (int i = 1; i < nodes; i++) {

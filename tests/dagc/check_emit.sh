@@ -35,6 +35,16 @@ says() { # TEXT COMMAND...
     "$@" 2>&1 | tee said | grep -q -- "$text" || { cat said; return 1; }
 }
 
+# What optimises finds no other errors here, and takes ten times as long.
+optimise=-O0
+printf '#!/bin/sh\nexec cc "$@" -O0\n' >cc0 && chmod +x cc0
+graphs=20
+if [ -n "${THOROUGH-}" ]; then
+    optimise=-O2 graphs=200
+else
+    export CC="$tmp/cc0"
+fi
+
 # ---- proofs
 for oracle in "$top"/examples/oracles/*.dag; do
     [ "${oracle##*/}" != common.dag ] || continue # branches alone
@@ -42,7 +52,7 @@ for oracle in "$top"/examples/oracles/*.dag; do
 done
 check "prove a user's tool and term" "$dagc" --prove --instrument --trace "$top/examples/user_tool/near_first.dag"
 check "prove branches and externs" says 'proved on all' "$dagc" -Wno-all --catalog "$catalog" --prove --instrument --trace "$top/tests/dagc/emit_branch.dag"
-check "60 random graphs" sh "$top/tests/dagc/prove.sh" "$dagc" 60
+check "$graphs random graphs" sh "$top/tests/dagc/prove.sh" "$dagc" $graphs
 cat >small.dag <<'END'
 oracle small {
   param most : flux = 1 in [0, inf];
@@ -134,11 +144,11 @@ for compiler in "gcc -std=c99" "clang -std=c99" "tcc" "g++ -x c++ -std=c++17" "c
         continue
     fi
     for oracle in bf bf_guarded viewfactors near_first cluster dark; do
-        check "$compiler $oracle" $compiler $warnings -O2 -c -o $oracle.o $oracle.c
+        check "$compiler $oracle" $compiler $warnings $optimise -c -o $oracle.o $oracle.c
         # shellcheck disable=SC2016
-        [ "$compiler" = tcc ] || check "symbols of $oracle" sh -c "! nm -g --defined-only $oracle.o | grep -v ' ${oracle}_'"
+        [ "$compiler" = tcc ] || check "symbols of $oracle" sh -c "! nm -g --defined-only $oracle.o | grep -v -e ' ${oracle}_' -e ' W _ZSt'"
     done
-    check "$compiler embed" $compiler $warnings -O2 -o embed "$embed/main.c" "$embed/mesh.c" "$embed/refiner.c" -lm
+    check "$compiler embed" $compiler $warnings $optimise -o embed "$embed/main.c" "$embed/mesh.c" "$embed/refiner.c" -lm
     check "$compiler runs" sh -c './embed >got'
     [ -x "$engine" ] && check "$compiler decides as the engine does" cmp wanted got
 done

@@ -260,7 +260,7 @@ END_TEST
 /* A million faces, half of them one and the same; a tenth of that for all strategies but the default. */
 START_TEST(test_million)
 {
-    int count = _i == CLUSTERING_SAH ? 1000000 : 100000;
+    int count = thorough() && _i == CLUSTERING_SAH ? 1000000 : 100000;
     struct faces s = { malloc((size_t)count * sizeof *s.face), 0 };
     struct cluster_tree t;
     uint64_t seed = 3;

@@ -272,7 +272,8 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_small);
     tcase_add_test(c, test_large);
-    tcase_add_test(c, test_feature);
+    if (thorough())
+        tcase_add_test(c, test_feature);
     tcase_add_test(c, test_furnace);
     tcase_add_test(c, test_leak);
     tcase_add_loop_test(c, test_self_shadow, 0, 2);

@@ -196,10 +196,10 @@ START_TEST(test_falling)
 {
     const struct falling *f = &falling[_i / 3];
     const char *const *steps[3] = { f->coarse, f->fine, f->finest };
-    double known[6], worst[3];
-    size_t links[3];
-    int i;
-    for (i = 0; i < 3; i++) {
+    double known[6], worst[3] = { 0, 0, 0 };
+    size_t links[3] = { 0, 0, 0 };
+    int finest = thorough() || _i % 3 > 0, i; /* of the cube it takes a hundred thousand links */
+    for (i = 0; i < 2 + finest; i++) {
         char *settings[4] = { (char *)"min_share=1e-4", (char *)steps[i][0], (char *)steps[i][1], NULL };
         struct scene scene;
         struct solve s;
@@ -216,11 +216,13 @@ START_TEST(test_falling)
     printf("%-14s %s: error %.1e %.1e %.1e by %zu, %zu, %zu links\n", f->oracle,
            _i % 3 == 0 ? "cube" : _i % 3 == 1 ? "parallel" : "perpendicular", worst[0], worst[1], worst[2], links[0], links[1], links[2]);
     ck_assert_uint_le(links[0], links[1]);
-    ck_assert_uint_le(links[1], links[2]);
     /* Within what quadrature leaves, 1e-4, it never rises. */
     ck_assert_double_le(worst[1], worst[0] + 1e-4);
-    ck_assert_double_le(worst[2], worst[1] + 1e-4);
-    ck_assert_double_le(worst[2], f->left[_i % 3]);
+    if (finest) {
+        ck_assert_uint_le(links[1], links[2]);
+        ck_assert_double_le(worst[2], worst[1] + 1e-4);
+        ck_assert_double_le(worst[2], f->left[_i % 3]);
+    }
 }
 END_TEST
 
@@ -231,7 +233,7 @@ END_TEST
 START_TEST(test_promise)
 {
     static const struct { const char *scene; double watts; } promise[] = {
-        { "furnace", 0.3 }, { "furnace_4", 0.4 }, { "cornell", 0.05 }, { "room", 16 }, { "maze_8", 60 },
+        { "furnace", 0.3 }, { "cornell", 0.05 }, { "maze_8", 60 }, { "room", 16 }, { "furnace_4", 0.4 },
     };
     char setting[64], path[128], *settings[3] = { setting, (char *)"share=0", NULL };
     struct scene_options how = { 0, 1 };
@@ -275,10 +277,10 @@ int main(int count, char **arguments)
         return status;
     }
     tcase_set_timeout(c, 600);
-    tcase_add_loop_test(c, test_releases, 0, 3);
+    tcase_add_loop_test(c, test_releases, 0, thorough() ? 3 : 1);
     tcase_add_test(c, test_declared);
     tcase_add_loop_test(c, test_falling, 0, 3 * FALLING);
-    tcase_add_loop_test(c, test_promise, 0, 5);
+    tcase_add_loop_test(c, test_promise, 0, thorough() ? 5 : 3);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

