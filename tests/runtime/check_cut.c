@@ -205,10 +205,10 @@ START_TEST(test_ties)
         struct scene s;
         ck_assert_int_eq(made_open(&s), 0);
         made_material(&s, 0.5, 0);
-        made_quad(&s, 0, d[0], d[1], d[2], 3, 0, 0, 0, 3, 0);
+        made_quad(&s, 0, d[0], d[1], d[2], 3.3, 0, 0, 0, 3.3, 0);
         /* Two walls over half of the floor each, both as long, across each other. */
-        made_quad(&s, 0, d[0] + 1, d[1] + 0.75, d[2], 0, 1.5, 0, 0, 0, 2);
-        made_quad(&s, 0, d[0] + 0.75, d[1] + 2, d[2], 1.5, 0, 0, 0, 0, 2);
+        made_quad(&s, 0, d[0] + 1.1, d[1] + 0.825, d[2], 0, 1.65, 0, 0, 0, 2);
+        made_quad(&s, 0, d[0] + 0.825, d[1] + 2.2, d[2], 1.65, 0, 0, 0, 0, 2);
         if (round % 2) /* as a reader of floats has them */
             for (uint32_t i = 0; i < s.face_count; i++)
                 for (int j = 0; j < 4; j++)
@@ -218,7 +218,7 @@ START_TEST(test_ties)
         at = s.faces[0].vertex[0][0];
         for (int j = 0; j < 4; j++)
             at = fmax(at, s.faces[0].vertex[j][0]);
-        ck_assert_double_eq_tol(at - d[0], 3, 1e-5); /* first along the wall whose direction comes first */
+        ck_assert_double_eq_tol(at - d[0], 3.3, 1e-5); /* first along the wall whose direction comes first */
         made_close(&s);
     }
 }
