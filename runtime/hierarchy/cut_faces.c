@@ -154,21 +154,11 @@ static int has_sound_pieces(const struct cutter *c, const struct part *p)
 /* Cut p along a line at heights h. Returns 0 when a side would not be sound. */
 static int divide(const struct cutter *c, const struct part *p, const double h[CORNERS], struct part side[2])
 {
-    side[0].n = side[1].n = 0;
-    for (uint32_t i = 0; i < p->n; i++) {
-        uint32_t j = (i + 1) % p->n;
-        double cut[3];
-        for (int k = 0; k < 3; k++)
-            cut[k] = crosses(h[i], h[j]) ? p->vertex[i][k] + h[i] / (h[i] - h[j]) * (p->vertex[j][k] - p->vertex[i][k]) : 0;
-        for (int s = 0; s < 2; s++) {
-            if (side[s].n + 2 > CORNERS)
-                return 0;
-            if (s ? h[i] <= 0 : h[i] >= 0)
-                memcpy(side[s].vertex[side[s].n++], p->vertex[i], sizeof cut);
-            if (crosses(h[i], h[j]))
-                memcpy(side[s].vertex[side[s].n++], cut, sizeof cut);
-        }
-    }
+    int below;
+    if (p->n + 1 > CORNERS)
+        return 0;
+    side[0].n = (uint32_t)polygon_divide(&p->vertex[0][0], (int)p->n, 3, h, CORNERS, &side[0].vertex[0][0], &side[1].vertex[0][0], &below);
+    side[1].n = (uint32_t)below;
     return has_sound_pieces(c, &side[0]) && has_sound_pieces(c, &side[1]);
 }
 
