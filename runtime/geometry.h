@@ -7,6 +7,7 @@
 #define GEOMETRY_H
 
 #include <math.h>
+#include <stddef.h>
 
 static inline double dot3(const double a[3], const double b[3])
 {
@@ -38,6 +39,43 @@ static inline double height3(const double p[3], const double on[3], const double
     return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
 }
 
+/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they have heights h: what lies
+ * above goes to `above`, what lies below to `below`, corners at height 0 to both; either may be NULL. Returns how many corners
+ * are above, and below in *n_below. Each has room for `most`; rounding may make a bent polygon cross more than twice, then
+ * corners are left out. [Sutherland and Hodgman 1974] */
+static inline int polygon_divide(const double *v, int n, int size, const double *h, int most,
+                                 double *above, double *below, int *n_below)
+{
+    int i, j, k, up = 0, down = 0;
+    for (i = 0, j = n - 1; i < n; j = i++) {
+        if ((h[j] > 0 && h[i] < 0) || (h[j] < 0 && h[i] > 0)) {
+            const double t = h[j] / (h[j] - h[i]);
+            for (k = 0; k < size; k++) {
+                const double x = v[j * size + k] + t * (v[i * size + k] - v[j * size + k]);
+                if (above && up < most)
+                    above[up * size + k] = x;
+                if (below && down < most)
+                    below[down * size + k] = x;
+            }
+            up += up < most;
+            down += down < most;
+        }
+        if (above && h[i] >= 0 && up < most) {
+            for (k = 0; k < size; k++)
+                above[up * size + k] = v[i * size + k];
+            up++;
+        }
+        if (below && h[i] <= 0 && down < most) {
+            for (k = 0; k < size; k++)
+                below[down * size + k] = v[i * size + k];
+            down++;
+        }
+    }
+    if (below)
+        *n_below = down;
+    return above ? up : 0;
+}
+
 /* A quad cut by one plane has at most 5 corners. */
 enum { POLYGON_MAX = 5 };
 
@@ -46,34 +84,17 @@ struct polygon {
     double v[POLYGON_MAX][3];
 };
 
-/* The part of the convex polygon v[n], n <= 4, in front of the plane (Sutherland-Hodgman). A quad that lies in the plane
- * may cross it four times by rounding: then corners are left out. */
+/* The part of the convex polygon v[n], n <= 4, in front of the plane. */
 static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n,
                                 const double on[3], const double normal[3])
 {
-    int i, count = 0;
-    double h = height3(v[n - 1], on, normal);
-    const double *a = v[n - 1];
-    for (i = 0; i < n; i++) {
-        const double *b = v[i];
-        double g = height3(b, on, normal);
-        if (((h > 0 && g < 0) || (h < 0 && g > 0)) && count < POLYGON_MAX) {
-            double t = h / (h - g);
-            out->v[count][0] = a[0] + t * (b[0] - a[0]);
-            out->v[count][1] = a[1] + t * (b[1] - a[1]);
-            out->v[count][2] = a[2] + t * (b[2] - a[2]);
-            count++;
-        }
-        if (g >= 0 && count < POLYGON_MAX) {
-            out->v[count][0] = b[0];
-            out->v[count][1] = b[1];
-            out->v[count][2] = b[2];
-            count++;
-        }
-        a = b;
-        h = g;
-    }
-    out->n = count < 3 ? 0 : count;
+    double h[POLYGON_MAX];
+    int i;
+    for (i = 0; i < n; i++)
+        h[i] = height3(v[i], on, normal);
+    out->n = polygon_divide(&v[0][0], n, 3, h, POLYGON_MAX, &out->v[0][0], NULL, NULL);
+    if (out->n < 3)
+        out->n = 0;
 }
 
 /* Area of a convex flat polygon with unit normal n (m2). */

@@ -1,11 +1,12 @@
 /* cut_faces.h - cut faces where other faces stand in them.
  * SPDX-License-Identifier: MIT */
-#ifndef SCENE_CUT_H
-#define SCENE_CUT_H
+#ifndef CUT_FACES_H
+#define CUT_FACES_H
 
 #include "hierarchy/scene.h"
 
-/* Cut the scene's faces in place, on so many threads (0: as many as there are processors); scene->cut and scene->parts say how many and into how many. Materials and areas of polygons stay.
+/* Cut the scene's faces in place, on so many threads (0: as many as there are processors); scene->cut and scene->parts say
+ * how many and into how many. Materials and areas of polygons stay.
  * Returns 0, or -1 when out of memory; then nothing has changed. A scene cut before is cut no further where it was
  * not left at the limit. */
 int scene_cut(struct scene *scene, int threads);

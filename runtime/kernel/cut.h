@@ -28,7 +28,7 @@ static inline void cut_from(struct cut *out, const double (*v)[3], int n)
 static inline int cut_below(struct cut *out, const struct cut *in, const double on[3], const double normal[3], double limit)
 {
     double height[CUT_MAX];
-    int i, k, above = 0, count = 0;
+    int i, above = 0;
     for (i = 0; i < in->n; i++) {
         height[i] = height3(in->v[i], on, normal) - limit;
         above += height[i] > 0;
@@ -36,24 +36,8 @@ static inline int cut_below(struct cut *out, const struct cut *in, const double 
     if (above == 0)
         return 1;
     out->n = 0;
-    if (above == in->n)
-        return 0;
-    for (i = 0; i < in->n; i++) {
-        int j = i > 0 ? i - 1 : in->n - 1;
-        double g = height[j], h = height[i];
-        if (((g > 0) != (h > 0)) && count < CUT_MAX) {
-            double t = g / (g - h);
-            for (k = 0; k < 3; k++)
-                out->v[count][k] = in->v[j][k] + t * (in->v[i][k] - in->v[j][k]);
-            count++;
-        }
-        if (h <= 0 && count < CUT_MAX) {
-            for (k = 0; k < 3; k++)
-                out->v[count][k] = in->v[i][k];
-            count++;
-        }
-    }
-    out->n = count;
+    if (above < in->n)
+        (void)polygon_divide(&in->v[0][0], in->n, 3, height, CUT_MAX, NULL, &out->v[0][0], &out->n);
     return 0;
 }
 

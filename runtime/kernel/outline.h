@@ -81,7 +81,7 @@ static inline double outline_twice(const double (*p)[2], int n)
 static inline int outline_cast(struct outline *out, const struct outline_frame *f, const double x[3], double height,
                                const double (*v)[3], int n)
 {
-    double q[2][OUTLINE_CORNERS][3], most = height * (1 - 1e-6), at[2], w[3];
+    double q[2][OUTLINE_CORNERS][3], h[OUTLINE_CORNERS], most = height * (1 - 1e-6), at[2], w[3];
     int i, j, k, side, count = n;
     sub3(w, x, f->origin);
     at[0] = dot3(w, f->u);
@@ -93,23 +93,14 @@ static inline int outline_cast(struct outline *out, const struct outline_frame *
         q[0][i][2] = dot3(w, f->n);
     }
     for (side = 0; side < 2; side++) { /* over the plane; below x */
-        int next = 0;
-        for (i = 0, j = count - 1; i < count; j = i++) {
-            const double *a = q[side][j], *b = q[side][i];
-            double g = side ? most - a[2] : a[2], h = side ? most - b[2] : b[2];
-            if (((g > 0) != (h > 0)) && next < OUTLINE_CORNERS) {
-                double t = g / (g - h);
-                for (k = 0; k < 3; k++)
-                    q[1 - side][next][k] = a[k] + t * (b[k] - a[k]);
-                next++;
-            }
-            if (h > 0 && next < OUTLINE_CORNERS) {
-                for (k = 0; k < 3; k++)
-                    q[1 - side][next][k] = b[k];
-                next++;
-            }
+        int within = 0;
+        for (i = 0; i < count; i++) {
+            h[i] = side ? most - q[side][i][2] : q[side][i][2];
+            within += h[i] > 0;
         }
-        count = next;
+        if (within == 0) /* also what lies in the plane: it hides nothing of it */
+            return 0;
+        count = polygon_divide(&q[side][0][0], count, 3, h, OUTLINE_CORNERS, &q[1 - side][0][0], NULL, NULL);
         if (count < 3)
             return 0;
     }
@@ -166,7 +157,7 @@ static inline void outline_left(const struct outline *shadows, int count, int k,
     struct outline_cell inside[2], outside;
     const struct outline *s;
     const struct outline_cell *now = cell;
-    int e, i, j, flip = 0;
+    int e, i, flip = 0;
     if (cell->n < 3)
         return;
     for (;; k++) { /* the next one that is not wholly beside the cell */
@@ -198,22 +189,7 @@ static inline void outline_left(const struct outline *shadows, int count, int k,
             outline_left(shadows, count, k + 1, now, sum);
             return;
         }
-        inside[flip].n = outside.n = 0;
-        for (i = 0, j = now->n - 1; i < now->n; j = i++) {
-            struct outline_cell *to = h[i] > 0 ? &outside : &inside[flip];
-            if ((h[i] > 0) != (h[j] > 0)) {
-                double t = h[j] / (h[j] - h[i]), p = now->p[j][0] + t * (now->p[i][0] - now->p[j][0]),
-                       q = now->p[j][1] + t * (now->p[i][1] - now->p[j][1]);
-                if (inside[flip].n < OUTLINE_CELL && outside.n < OUTLINE_CELL) {
-                    inside[flip].p[inside[flip].n][0] = outside.p[outside.n][0] = p;
-                    inside[flip].p[inside[flip].n++][1] = outside.p[outside.n++][1] = q;
-                }
-            }
-            if (to->n < OUTLINE_CELL) {
-                to->p[to->n][0] = now->p[i][0];
-                to->p[to->n++][1] = now->p[i][1];
-            }
-        }
+        outside.n = polygon_divide(&now->p[0][0], now->n, 2, h, OUTLINE_CELL, &outside.p[0][0], &inside[flip].p[0][0], &inside[flip].n);
         outline_left(shadows, count, k + 1, &outside, sum);
         now = &inside[flip];
         flip = 1 - flip;

@@ -21,7 +21,7 @@
 static const char STAND_IN[] = "DefaultMaterial";
 static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 
-enum { NONE = UINT32_MAX };
+#define NONE UINT32_MAX /* no material */
 
 struct obj {
     struct scene_file *file;

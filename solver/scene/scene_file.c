@@ -11,52 +11,40 @@
 
 #include "scene/read_assimp.h"
 #include "scene/read_obj.h"
+#include "util/array.h"
 #include "util/ends_with.h"
 #include "util/report.h"
 
-/* Make *array hold one more than `count`. Returns 0, or -1 when out of memory. */
-static int grow(void **array, size_t count, size_t capacity, size_t size)
-{
-    if (count < capacity)
-        return 0;
-    size_t more = capacity < 1024 ? 1024 : 2 * capacity;
-    void *larger = more <= SIZE_MAX / size ? realloc(*array, more * size) : NULL;
-    if (!larger)
-        return -1;
-    *array = larger;
-    return 0;
-}
-
-static size_t grown(size_t count, size_t capacity)
-{
-    return count < capacity ? capacity : capacity < 1024 ? 1024 : 2 * capacity;
-}
-
 int scene_file_add_position(struct scene_file *f, const double position[3])
 {
-    if (f->position_count == UINT32_MAX || grow((void **)&f->positions, f->position_count, f->position_capacity, 3 * sizeof *f->positions))
+    if (f->position_count == UINT32_MAX
+        || array_reserve(&f->positions, f->position_count, &f->position_capacity, 3 * sizeof *f->positions) < 0)
         return -1;
-    f->position_capacity = grown(f->position_count, f->position_capacity);
     memcpy(&f->positions[3 * f->position_count++], position, 3 * sizeof *position);
     return 0;
 }
 
 int scene_file_add_corner(struct scene_file *f, uint32_t position)
 {
-    if (grow((void **)&f->indices, f->index_count, f->index_capacity, sizeof *f->indices))
+    if (array_reserve(&f->indices, f->index_count, &f->index_capacity, sizeof *f->indices) < 0)
         return -1;
-    f->index_capacity = grown(f->index_count, f->index_capacity);
     f->indices[f->index_count++] = position;
     return 0;
 }
 
+/* Make room in an array that shares its capacity with others. */
+static int reserve_beside(void *array, size_t count, size_t capacity, size_t size)
+{
+    return array_reserve(array, count, &capacity, size);
+}
+
 int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t material, uint32_t line)
 {
-    uint32_t n = f->polygon_count, room = f->polygon_capacity;
-    if (n == UINT32_MAX / 2 || grow((void **)&f->sizes, n, room, sizeof *f->sizes)
-        || grow((void **)&f->polygon_materials, n, room, sizeof *f->polygon_materials) || grow((void **)&f->lines, n, room, sizeof *f->lines))
+    uint32_t n = f->polygon_count;
+    if (n == UINT32_MAX || reserve_beside(&f->sizes, n, f->polygon_capacity, sizeof *f->sizes) < 0
+        || reserve_beside(&f->polygon_materials, n, f->polygon_capacity, sizeof *f->polygon_materials) < 0
+        || array_reserve(&f->lines, n, &f->polygon_capacity, sizeof *f->lines) < 0)
         return -1;
-    f->polygon_capacity = (uint32_t)grown(n, room);
     f->sizes[n] = size;
     f->polygon_materials[n] = material;
     f->lines[n] = line;
@@ -66,11 +54,11 @@ int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t materia
 
 int scene_file_add_material(struct scene_file *f, const char *name, const struct RadMaterial *material)
 {
-    uint32_t n = f->material_count, room = f->material_capacity;
-    if (n == UINT32_MAX / 2 || grow((void **)&f->materials, n, room, sizeof *f->materials)
-        || grow((void **)&f->names, n, room, sizeof *f->names) || grow((void **)&f->places, n, room, sizeof *f->places))
+    uint32_t n = f->material_count;
+    if (n == UINT32_MAX || reserve_beside(&f->materials, n, f->material_capacity, sizeof *f->materials) < 0
+        || reserve_beside(&f->names, n, f->material_capacity, sizeof *f->names) < 0
+        || array_reserve(&f->places, n, &f->material_capacity, sizeof *f->places) < 0)
         return -1;
-    f->material_capacity = (uint32_t)grown(n, room);
     f->names[n] = strdup(name);
     if (!f->names[n])
         return -1;

@@ -26,11 +26,13 @@ struct scene_file {
     uint32_t *sizes;             /* [polygon_count], in the file's order; some may have fewer than three corners */
     uint32_t *polygon_materials; /* [polygon_count] */
     uint32_t *lines;             /* [polygon_count]: where each stands in the file; 0 where the format has no lines */
-    uint32_t polygon_count, polygon_capacity;
+    uint32_t polygon_count;
+    size_t polygon_capacity;
     struct RadMaterial *materials; /* [material_count] */
     char **names;                  /* [material_count] */
     struct material_place *places; /* [material_count] */
-    uint32_t material_count, material_capacity;
+    uint32_t material_count;
+    size_t material_capacity;
     int single_precision; /* 1: positions have been floats, as Assimp keeps them */
     uint32_t other; /* points and lines of the file, which are no faces */
 };
