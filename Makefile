@@ -2,6 +2,7 @@
 # make dagc     dagc and libdagc.a alone, which need a C compiler and libc
 # make check    the tests
 # make check-accuracy  the long ones: all that make check leaves out, and solutions against traced particles
+# make mutations  code broken on purpose, and which suite notices
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
@@ -61,7 +62,7 @@ OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/m
 
 FUZZ_SECONDS = 60
 
-.PHONY: all check check-accuracy prove bench-size fuzz demo packages bench clean
+.PHONY: all check check-accuracy mutations prove bench-size fuzz demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -157,6 +158,10 @@ THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/*/*.
 check-accuracy: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
 	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS)) $(filter $(THOROUGH),$(SCRIPTS))
+
+# Code broken on purpose: does a suite near it fail?
+mutations:
+	@bash tests/mutations.sh
 
 prove: commands
 	@sh tests/dagc/prove.sh $(BUILD)/bin/dagc 1000

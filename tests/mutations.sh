@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# mutations.sh - break the code on purpose, one place at a time, and see that a suite near it fails: make mutations.
+# The tree is copied and built once; every mutation is made in the copy by sed, built, tried and undone.
+# mutations.sh NAME... tries those whose names begin so.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/.." && pwd)
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+
+# name | file | what sed does | suites
+table() {
+    sed '/^$/d' <<'END'
+rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
+shadow .05 | runtime/kernel/constants.h | s/ROW_SHADOW 0.5 /ROW_SHADOW 0.05 / | runtime/check_transport runtime/check_closure runtime/check_solve
+rough .2, settled 5 | runtime/kernel/constants.h | s/ROUGH_TOLERANCE 0.005 /ROUGH_TOLERANCE 0.2 /; s/SETTLED 1000 /SETTLED 5 / | runtime/check_transport runtime/check_clusters
+rough .2 | runtime/kernel/constants.h | s/ROUGH_TOLERANCE 0.005 /ROUGH_TOLERANCE 0.2 / | runtime/check_transport runtime/check_clusters
+settled 5 | runtime/kernel/constants.h | s/SETTLED 1000 /SETTLED 5 / | runtime/check_transport runtime/check_clusters
+stop three times looser | runtime/engine/transport.c | s/x->bound <= x->tolerance/x->bound <= 3 * x->tolerance/ | runtime/check_transport runtime/check_solve
+backs 8 of 8 | runtime/kernel/constants.h | s/CONTACT_BACKS 6 /CONTACT_BACKS 8 / | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
+no plain pivots | runtime/engine/pivots.c | s/round_weight, &first, PASSING_PLAIN)/round_weight, \&first, PASSING)/ | runtime/check_separable_links runtime/check_clusters
+END
+}
+
+mkdir "$work/tree"
+(cd "$top" && tar cf - --exclude=./build --exclude='./build-*' --exclude=./.git .) | tar xf - -C "$work/tree"
+cd "$work/tree" || exit 2
+unset MAKEFLAGS MFLAGS MAKELEVEL
+export DAGC=build/bin/dagc RADIOSITY=build/bin/radiosity
+build() { make -j"$(nproc)" "$@" >"$work/said" 2>&1; }
+build commands || { tail -n 5 "$work/said"; exit 2; }
+
+tried=0 survived=0
+while IFS='|' read -r name file change suites; do
+    name=$(echo $name) file=$(echo $file)
+    [ $# = 0 ] || case $name in "$1"*) ;; *) continue ;; esac
+    tried=$((tried + 1))
+    verdict=survived
+    programs=
+    for suite in $suites; do
+        [ -e "tests/$suite.c" ] && programs="$programs build/tests/$suite"
+    done
+    cp -p "$file" "$work/kept" && sed -i "$change" "$file"
+    if cmp -s "$file" "$work/kept"; then
+        verdict="NOT MADE: nothing in $file is like it"
+    elif ! build commands $programs; then
+        verdict="NOT BUILT: $(grep -m 1 'error' "$work/said")"
+    else
+        for program in $programs; do
+            if ! "$program" >"$work/said" 2>&1; then
+                verdict="killed by $(basename "$program"): $(grep -m 1 -E ':[FE]:' "$work/said" | sed 's/.*:[FE]:[^:]*:\([^:]*\):.*/\1/')"
+                break
+            fi
+        done
+    fi
+    cp "$work/kept" "$file" # newer than what was built of the mutation
+    case $verdict in killed*) ;; *) survived=$((survived + 1)) ;; esac
+    printf '%-26s %s\n' "$name" "$verdict"
+done < <(table)
+echo "$tried mutations, $survived not killed"
+[ "$survived" = 0 ]
