@@ -36,10 +36,9 @@ wall_hierarchy  = $(TOOLKIT) util hierarchy
 wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
 wall_engine     = $(wall_visibility) oracle engine
-wall_solver     = $(TOOLKIT) util
 ROOMS     = util oracle hierarchy visibility engine
-# 1: the command sees wall_solver and links the library alone.
-BY_LIBRARY =
+# The command sees public headers, what is inline of a pair's geometry, and the clock; it links the library.
+wall_solver     = $(TOOLKIT)
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))
 # common.dag holds what they share, and no oracle.
@@ -48,6 +47,8 @@ FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,$(ROOMS:%=runtime/%)) $(BUILD)/gen/catalog.o $(FLAT) $(BUILD)/gen/builtin.o
 SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(call objects,tests/hand)
+# What tests of the engine's insides read scenes and name oracles with.
+SUPPORT   = $(call objects,$(wildcard tests/support/*/))
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh tests/*/check_*.sh)
 # Of what goes into the library, each object is compiled once, for the archive, the shared library, the commands and the tests.
@@ -55,7 +56,7 @@ SHARED    = $(call objects,dagc) $(RUNTIME) $(BUILD)/gen/catalog_text.o $(BUILD)
 ARCHIVE   = $(BUILD)/libradiosity.a
 LIBRARY_VERSION = $(shell sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' runtime/radiosity.h)
 SONAME    = libradiosity.so.$(basename $(LIBRARY_VERSION))
-OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
+OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
 
 FUZZ_SECONDS = 60
 
@@ -104,12 +105,12 @@ $(ARCHIVE): $(RUNTIME) $(LIBDAGC)
 $(BUILD)/libradiosity.so: $(RUNTIME) $(LIBDAGC) runtime/package/exported.map
 	$(CC) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
 
-$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(if $(BY_LIBRARY),$(ARCHIVE),$(RUNTIME) $(LIBDAGC))
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
+$(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
 BY_API    = $(BUILD)/tests/runtime/check_api
 $(BY_API): %: %.o $(ARCHIVE)
 	$(CC) $(LDFLAGS) -o $@ $^ $(ENGINE_LIBS) $$(pkg-config --libs check)
-$(filter-out $(BY_API),$(TESTS)): %: %.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(filter-out $(BY_API),$(TESTS)): %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
@@ -118,15 +119,16 @@ $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUI
 $(foreach room,$(ROOMS),$(eval $(BUILD)/runtime/$(room)/%.o: CPPFLAGS += -I$(WALLS)/$(room)))
 $(BUILD)/runtime/oracle/%.o $(BUILD)/runtime/engine/%.o: CPPFLAGS += -Idagc
 $(BUILD)/dagc/%.o: CPPFLAGS += -Idagc
-$(BUILD)/solver/%.o: CPPFLAGS += -Isolver $(if $(BY_LIBRARY),-I$(WALLS)/solver,-Iruntime -Idagc) -Itests/hand
-$(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/hand -Isolver -Iruntime -Idagc
+$(BUILD)/solver/%.o: CPPFLAGS += -Isolver -I$(WALLS)/solver -Itests/hand
+$(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/support -Itests/hand -Isolver -Iruntime -Idagc
 $(BUILD)/examples/%.o: CPPFLAGS += -Iruntime
 $(BUILD)/gen/%.o: CPPFLAGS += -Iruntime -Iruntime/oracle -Idagc
 
 $(WALLS)/made: Makefile
 	@rm -rf $(WALLS)
-	@$(foreach room,$(ROOMS) solver,mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) touch $@
-$(filter $(BUILD)/runtime/%,$(RUNTIME)) $(SOLVER) $(BUILD)/solver/main.o: | $(WALLS)/made
+	@$(foreach room,$(ROOMS) solver,mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) \
+	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/clock.h $(WALLS)/solver/util && touch $@
+$(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
 $(SHARED): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += -fvisibility=hidden
 
@@ -187,7 +189,7 @@ include install.mk
 # Path-traced radiosities per face, to measure solutions by.
 .PHONY: reference
 reference: $(BUILD)/bin/reference
-$(BUILD)/bin/reference: $(BUILD)/tests/runtime/reference.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(BUILD)/bin/reference: $(BUILD)/tests/runtime/reference.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
 
 # Rows of view factors against rays, in a room of 6,528 faces or any other number.

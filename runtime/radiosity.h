@@ -114,8 +114,9 @@ struct RadPolygons {
     uint32_t size;
     const uint32_t *materials; /* [count], indices of materials; NULL: all have material 0 */
     uint32_t count;
-    int single_precision; /* 1: positions have been floats, as in many file formats, and faces need be no flatter than these allow */
-    int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand in it; for studies of what comes of it */
+    int single_precision; /* 1: positions have been floats; then what is thinner or bent by less than these can say is taken so */
+    int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand in it; for studies of
+                     what comes of it */
 };
 
 RAD_API RadScene radNewScene(RadDevice device);

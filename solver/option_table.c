@@ -236,9 +236,9 @@ enum {
     ALL = SCENES | STABILITY
 };
 
-static const char *const releases[] = {"flat", "dag", "hand", NULL};
+const char *const release_words[] = {"flat", "dag", "hand", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
-static const char *const closures_of_factors[] = {"none", "rows", "reciprocal", NULL};
+const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
@@ -258,7 +258,7 @@ const struct option_row option_rows[] = {
     /* The one nearest to the default that has a release by hand. */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
     {"release", "flat|dag|hand", SOLVE | CLUSTERING, NULL, "compiled, interpreted or written by hand (flat)",
-     WORD(read_release, releases)},
+     WORD(read_release, release_words)},
     {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL, .read = read_setting},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters)},
@@ -272,7 +272,7 @@ const struct option_row option_rows[] = {
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
      WORD(read_closure, closures)},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
-     WORD(read_closure, closures_of_factors)},
+     WORD(read_closure, closure_words)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},

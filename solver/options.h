@@ -18,6 +18,9 @@ enum command {
     COMMANDS
 };
 
+/* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
+extern const char *const release_words[], *const closure_words[];
+
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
 /* What a command does not take is zero. Texts are the command line's own; NULL: not given, not wanted. */

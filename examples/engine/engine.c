@@ -4,6 +4,7 @@
 #include <radiosity.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double corners[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 /* Counter-clockwise as seen from inside: ceiling, floor, walls. */
@@ -14,7 +15,14 @@ static const uint32_t materials[6] = { 0, 1, 1, 1, 1, 1 }; /* the ceiling has ma
 static RadScene make_cube(RadDevice device, double rho)
 {
     struct RadMaterial material[2] = { { { rho, rho, rho }, { 1, 1, 1 }, 0 }, { { rho, rho, rho }, { 0, 0, 0 }, 0 } };
-    struct RadPolygons cube = { &corners[0][0], 8, &faces[0][0], NULL, 4, materials, 6, 0 };
+    struct RadPolygons cube;
+    memset(&cube, 0, sizeof cube);
+    cube.positions = &corners[0][0];
+    cube.position_count = 8;
+    cube.indices = &faces[0][0];
+    cube.size = 4;
+    cube.materials = materials;
+    cube.count = 6;
     RadScene scene = radNewScene(device);
     if (radSetSceneMaterials(scene, material, 2) < 0 || radSetSceneSharedPolygons(scene, &cube) < 0 || radCommitScene(scene) < 0) {
         radReleaseScene(scene);

@@ -332,12 +332,6 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     return more < 0 ? -1 : 0;
 }
 
-struct solution solve_solution(const struct solve *s)
-{
-    struct solution view = { s->problem.scene, &s->hierarchy, s->problem.bands, s->state.radiosity, s->state.irradiance };
-    return view;
-}
-
 void solve_close(struct solve *s)
 {
     refinement_close(&s->refinement);

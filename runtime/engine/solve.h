@@ -10,7 +10,6 @@
 #include "engine/problem.h"
 #include "engine/refine.h"
 #include "engine/row_sums.h"
-#include "engine/solution.h"
 
 /* The solution so far, element by element: [element * bands + band]. */
 struct state {
@@ -60,7 +59,6 @@ int solve_step(struct solve *s, const char **cause);
  * Returns 0, or -1 with *cause set. */
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause);
 
-struct solution solve_solution(const struct solve *s);
 void solve_close(struct solve *s);
 
 #endif

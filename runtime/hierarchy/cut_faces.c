@@ -30,7 +30,7 @@ enum { FEW = 2048 }; /* faces for which one thread does */
 enum { PARTS = 256, CORNERS = 12 }; /* of one face at the most, before polygons become quads; of one part */
 
 static const double TOUCH = 1e-4;     /* of the size: nearer than that to a plane is in it */
-static const double FLOATS = 2.4e-7;  /* of the largest coordinate: what is no nearer than floats can say */
+static const double ROUNDINGS = 4;    /* of the largest coordinate: what is no nearer than its precision can say */
 static const double SAME_LINE = 1e-4; /* radians, and of the size: lines that near are one */
 static const double SLIVER = 1e-4;    /* of the size: no cut leaves less than that on a side */
 static const double CORNER = 1e-5;    /* of the size: a cut that near to a corner goes through it */
@@ -114,7 +114,7 @@ static int take(struct cutter *c, uint32_t i)
     double largest = 0, longest = 0;
     uint32_t j;
     int k;
-    if (polygon_degenerate(f.vertex, f.vertices))
+    if (polygon_degenerate(f.vertex, f.vertices, c->scene->precision))
         return 0;
     c->face = i;
     c->two_sided = is_pair(c->scene, i);
@@ -131,12 +131,12 @@ static int take(struct cutter *c, uint32_t i)
             largest = fmax(largest, fabs(f.vertex[j][k]));
         }
     }
-    c->touch = fmax(TOUCH * c->size, FLOATS * largest);
+    c->touch = fmax(TOUCH * c->size, ROUNDINGS * c->scene->precision * largest);
     for (j = 0; j < f.vertices; j++) {
         double e[3], length;
         sub3(e, f.vertex[(j + 1) % f.vertices], f.vertex[j]);
         length = length3(e);
-        if (length > longest) {
+        if (length > longest + c->touch || !j) {
             longest = length;
             for (k = 0; k < 3; k++)
                 c->u[k] = e[k] / length;
@@ -287,15 +287,18 @@ static int by_start(const void *a, const void *b)
 /* Contacts [first, end) lie on one line: it is the longest one's. */
 static int add_line(struct cutter *c, uint32_t first, uint32_t end)
 {
-    struct contact *x = c->contacts, best = x[first];
+    struct contact *x = c->contacts, best = {.face = UINT32_MAX};
     struct line *l;
+    double longest = 0;
     uint32_t i;
     int k;
     if (!room((void **)&c->lines, c->line_count, &c->line_capacity, sizeof *c->lines))
         return -1;
     qsort(x + first, end - first, sizeof *x, by_start);
     for (i = first; i < end; i++)
-        if (x[i].to - x[i].from > best.to - best.from)
+        longest = fmax(longest, x[i].to - x[i].from);
+    for (i = first; i < end; i++)
+        if (x[i].to - x[i].from >= longest - c->touch && x[i].face < best.face)
             best = x[i];
     l = &c->lines[c->line_count++];
     *l = (struct line){ .offset = best.offset, .first = first, .count = 1 };
@@ -359,11 +362,11 @@ static double cover(const struct cutter *c, const struct part *p, const struct l
     }
     for (i = l->first; i < l->first + l->count; i++)
         covered += fmax(0, fmin(to, c->contacts[i].to) - fmax(from, c->contacts[i].from));
-    return covered >= COVER * (to - from) ? covered : 0;
+    return covered > c->touch && covered >= COVER * (to - from) - c->touch ? covered : 0;
 }
 
 /* A part becomes quads and at most one triangle, cut off where the cut is shortest. Returns how many. */
-static uint32_t pieces(const struct part *p, struct piece *piece)
+static uint32_t pieces(const struct part *p, double touch, struct piece *piece)
 {
     uint32_t ring[CORNERS], rest[CORNERS], n = p->n, count = 0, i, j;
     for (i = 0; i < n; i++)
@@ -374,7 +377,7 @@ static uint32_t pieces(const struct part *p, struct piece *piece)
         for (i = 0; i < n; i++) {
             double d[3];
             sub3(d, p->vertex[ring[i]], p->vertex[ring[(i + 3) % n]]);
-            if (length3(d) < shortest) {
+            if (length3(d) < shortest - touch) {
                 shortest = length3(d);
                 best = i;
             }
@@ -392,25 +395,25 @@ static uint32_t pieces(const struct part *p, struct piece *piece)
 }
 
 /* Do all of a part's pieces have an area to speak of? */
-static int sound(const struct part *p)
+static int sound(const struct cutter *c, const struct part *p)
 {
     struct piece piece[CORNERS / 2];
     uint32_t count, i, j;
     if (p->n < 3)
         return 0;
-    count = pieces(p, piece);
+    count = pieces(p, c->touch, piece);
     for (i = 0; i < count; i++) {
         double v[4][3];
         for (j = 0; j < piece[i].n; j++)
             memcpy(v[j], p->vertex[piece[i].corner[j]], sizeof v[j]);
-        if (polygon_degenerate(v, piece[i].n))
+        if (polygon_degenerate(v, piece[i].n, c->scene->precision))
             return 0;
     }
     return 1;
 }
 
 /* Cut p along a line at heights h. Returns 0 when a side would not be sound. */
-static int divide(const struct part *p, const double h[CORNERS], struct part side[2])
+static int divide(const struct cutter *c, const struct part *p, const double h[CORNERS], struct part side[2])
 {
     uint32_t i;
     int k, s;
@@ -430,7 +433,7 @@ static int divide(const struct part *p, const double h[CORNERS], struct part sid
                 memcpy(side[s].vertex[side[s].n++], cut, sizeof cut);
         }
     }
-    return sound(&side[0]) && sound(&side[1]);
+    return sound(c, &side[0]) && sound(c, &side[1]);
 }
 
 /* Find where to cut a part: along the line with the most contact. */
@@ -442,7 +445,7 @@ static void look(const struct cutter *c, struct part *p)
     p->covered = 0;
     for (i = 0; i < c->line_count; i++) {
         double covered = cover(c, p, &c->lines[i], h);
-        if (covered > p->covered && divide(p, h, side)) {
+        if (covered > p->covered + c->touch && divide(c, p, h, side)) {
             p->covered = covered;
             p->line = i;
         }
@@ -479,12 +482,12 @@ static int cut(struct cutter *c)
     look(c, &part[0]);
     for (; count < PARTS; count++) {
         for (i = best = 0; i < count; i++)
-            if (part[i].covered > part[best].covered)
+            if (part[i].covered > part[best].covered + c->touch)
                 best = i;
         if (!(part[best].covered > 0))
             break;
         cover(c, &part[best], &c->lines[part[best].line], h);
-        divide(&part[best], h, side);
+        divide(c, &part[best], h, side);
         look(c, &side[0]);
         look(c, &side[1]);
         part[best] = side[0];
@@ -492,7 +495,7 @@ static int cut(struct cutter *c)
     }
     for (i = 0; i < count && count > 1; i++) {
         struct piece piece[CORNERS / 2];
-        uint32_t n = pieces(&part[i], piece), j;
+        uint32_t n = pieces(&part[i], c->touch, piece), j;
         for (j = 0; j < n; j++)
             if (emit(c, f, &part[i], &piece[j]) < 0)
                 return -1;

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "geometry.h"
+#include "kernel/constants.h"
 
 double polygon_normal(double (*vertex)[3], uint32_t count, double normal[3])
 {
@@ -52,7 +53,7 @@ double polygon_size(double (*vertex)[3], uint32_t count)
     return length3(diagonal);
 }
 
-int polygon_degenerate(double (*vertex)[3], uint32_t count)
+int polygon_degenerate(double (*vertex)[3], uint32_t count, double precision)
 {
     if (count < 3)
         return 1;
@@ -61,12 +62,12 @@ int polygon_degenerate(double (*vertex)[3], uint32_t count)
         for (int k = 0; k < 3; k++)
             largest = fmax(largest, fabs(vertex[i][k]));
     double area = polygon_normal(vertex, count, normal);
-    return !(area > 1e-7 * size * size && area > 1.2e-7 * largest * size);
+    return !(area > SCENE_THIN * size * size && area > SCENE_THIN_ROUNDINGS * precision * largest * size);
 }
 
 int polygon_flat(double (*vertex)[3], uint32_t count, double tolerance)
 {
-    double normal[3], centre[3] = {0, 0, 0}, size = polygon_size(vertex, count);
+    double normal[3], centre[3] = {0, 0, 0};
     polygon_normal(vertex, count, normal);
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
@@ -74,7 +75,7 @@ int polygon_flat(double (*vertex)[3], uint32_t count, double tolerance)
     for (uint32_t i = 0; i < count; i++) {
         double d[3];
         sub3(d, vertex[i], centre);
-        if (fabs(dot3(d, normal)) > tolerance * size)
+        if (fabs(dot3(d, normal)) > tolerance)
             return 0;
     }
     return 1;

@@ -12,11 +12,11 @@ double polygon_normal(double (*vertex)[3], uint32_t count, double normal[3]);
 /* The longest distance between two corners. */
 double polygon_size(double (*vertex)[3], uint32_t count);
 
-/* 1 when there is no area to speak of: thinner than 1e-7 of its length, or than the rounding of
- * its coordinates when they have been stored in single precision. */
-int polygon_degenerate(double (*vertex)[3], uint32_t count);
+/* 1 when there is no area to speak of: thinner than SCENE_THIN, or than the rounding of its coordinates, which is `precision` times the
+ * largest of them. */
+int polygon_degenerate(double (*vertex)[3], uint32_t count, double precision);
 
-/* 1 when every corner lies within tolerance * size of the mean plane. */
+/* 1 when every corner lies within `tolerance` (m) of the mean plane. */
 int polygon_flat(double (*vertex)[3], uint32_t count, double tolerance);
 
 /* 1 when a flat quad has no inward corner and does not cross itself. */

@@ -24,6 +24,8 @@ struct builder {
     uint8_t *used;       /* [material_count]: NAMED by a polygon, SEEN on one with an area */
     double (*corner)[3]; /* of the polygon at hand */
     uint32_t (*triangle)[3], *scratch;
+    double low[3], high[3]; /* box of all polygons (m) */
+    double flat;            /* corners no farther than that from a plane are in it (m) */
     struct scene_error *error;
 };
 
@@ -96,10 +98,13 @@ static int check_polygons(struct builder *b, uint32_t *largest, size_t *most)
                 return fail(b->error, invalid, "corner %u of polygon %u is position %u, but there are %zu; correct the index",
                             (unsigned)j, (unsigned)i, (unsigned)index, polygons->position_count);
             const double *p = &polygons->positions[3 * (size_t)index];
-            for (int k = 0; k < 3; k++)
+            for (int k = 0; k < 3; k++) {
                 if (!(fabs(p[k]) <= (double)FLT_MAX))
                     return fail(b->error, invalid, "corner %u of polygon %u is not finite (%g); correct position %u",
                                 (unsigned)j, (unsigned)i, p[k], (unsigned)index);
+                b->low[k] = fmin(b->low[k], p[k]);
+                b->high[k] = fmax(b->high[k], p[k]);
+            }
         }
         at += n;
         *largest = n > *largest ? n : *largest;
@@ -147,12 +152,14 @@ static void add_polygon(struct builder *b, uint32_t input, const uint32_t *indic
     const uint32_t whole[4] = {0, 1, 2, 3};
     uint32_t material = material_of(b->polygons, input), count = gather_corners(b, indices, n);
     double normal[3], *area = &scene->areas[input];
-    if (polygon_degenerate(b->corner, count)) {
+    if (polygon_degenerate(b->corner, count, scene->precision)) {
         scene->dropped++;
         return;
     }
     b->used[material] = SEEN;
-    if (count == 3 || (count == 4 && b->polygons->as_given) || (count == 4 && polygon_flat(b->corner, 4, SCENE_FLAT_QUAD) && polygon_convex_quad(b->corner))) {
+    if (count == 3 || (count == 4 && b->polygons->as_given)
+        || (count == 4 && polygon_flat(b->corner, 4, fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(b->corner, 4)))
+            && polygon_convex_quad(b->corner))) {
         *area = polygon_normal(b->corner, count, normal);
         add_face(b, whole, count, material, input);
         return;
@@ -162,7 +169,7 @@ static void add_polygon(struct builder *b, uint32_t input, const uint32_t *indic
         double part[3][3];
         for (int k = 0; k < 3; k++)
             memcpy(part[k], b->corner[b->triangle[i][k]], sizeof part[k]);
-        if (polygon_degenerate(part, 3))
+        if (polygon_degenerate(part, 3, scene->precision))
             continue;
         *area += polygon_normal(part, 3, normal);
         add_face(b, b->triangle[i], 3, material, input);
@@ -200,6 +207,9 @@ static int build(struct builder *b, int threads)
     if (!scene->faces || !scene->areas || !b->corner || !b->triangle || !b->scratch)
         return out_of_memory(b->error);
     scene->input_count = b->polygons->count;
+    scene->precision = b->polygons->single_precision ? SCENE_SINGLE : SCENE_DOUBLE;
+    double extent = fmax(fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]);
+    b->flat = b->polygons->single_precision ? SCENE_FLAT_ROUNDED * extent : INFINITY;
     for (uint32_t i = 0; i < scene->input_count; i++) {
         add_polygon(b, i, &b->polygons->indices[at], size_of(b->polygons, i));
         at += size_of(b->polygons, i);
@@ -216,7 +226,8 @@ static int build(struct builder *b, int threads)
 int scene_build(struct scene *scene, const struct RadPolygons *polygons, const struct RadMaterial *materials,
                 uint32_t material_count, int threads, struct scene_error *error)
 {
-    struct builder b = {.scene = scene, .polygons = polygons, .error = error};
+    struct builder b = {.scene = scene, .polygons = polygons, .error = error,
+                        .low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     *scene = (struct scene){.materials = malloc(((size_t)material_count + 1) * sizeof *materials), .material_count = material_count};
     *error = (struct scene_error){0};
     int result;

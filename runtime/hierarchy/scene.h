@@ -14,6 +14,7 @@ struct scene {
     uint32_t material_count;
     double *areas; /* [input_count]: one side's area of each polygon (m2), 0 of those that were dropped */
     uint32_t input_count; /* polygons */
+    double precision; /* relative rounding of coordinates: half a unit in the last place of what they have been; 0: exact */
     uint32_t bands;   /* 1 when every material that is used is grey, else 3 */
     uint32_t dropped; /* polygons without area */
     uint32_t cut;     /* faces cut where others stand in them (cut_faces.h), far sides not counted */

@@ -6,46 +6,21 @@
 #include "scene/read_assimp.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
-#include "scene/import_text.h"
-#include "scene/obj_scan.h"
 #include "util/report.h"
 
 struct reader {
     struct scene_file *file;
     const char *path;
-    struct obj_scan scan; /* empty when the file is no OBJ */
 };
 
 static int out_of_memory(const struct reader *r)
 {
     return report_error(r->path, 0, "out of memory; use a smaller scene or a larger machine");
-}
-
-/* The line a face came from, when the format has lines. */
-static uint32_t face_line(const struct reader *r, uint32_t input)
-{
-    return input < r->scan.faces ? r->scan.face_line[input] : 0;
-}
-
-/* Files hold decimals; Assimp holds floats. The shortest decimal that rounds to the float is what
- * was written, as long as it had 7 digits or fewer, and keeps 1 - rho exact to the last of them. */
-static double decimal(float value)
-{
-    char text[40];
-    for (int digits = 6; digits < 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        if (strtof(text, NULL) == value)
-            return strtod(text, NULL);
-    }
-    return (double)value;
 }
 
 static void read_material(const struct aiMaterial *from, struct RadMaterial *to)
@@ -54,15 +29,15 @@ static void read_material(const struct aiMaterial *from, struct RadMaterial *to)
     float strength = 1;
     if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour) == aiReturn_SUCCESS ||
         aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
-        to->reflectance[0] = decimal(colour.r);
-        to->reflectance[1] = decimal(colour.g);
-        to->reflectance[2] = decimal(colour.b);
+        to->reflectance[0] = (double)colour.r;
+        to->reflectance[1] = (double)colour.g;
+        to->reflectance[2] = (double)colour.b;
     }
     if (aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &colour) == aiReturn_SUCCESS) {
         aiGetMaterialFloatArray(from, AI_MATKEY_EMISSIVE_INTENSITY, &strength, NULL);
-        to->exitance[0] = decimal(colour.r) * decimal(strength);
-        to->exitance[1] = decimal(colour.g) * decimal(strength);
-        to->exitance[2] = decimal(colour.b) * decimal(strength);
+        to->exitance[0] = (double)colour.r * (double)strength;
+        to->exitance[1] = (double)colour.g * (double)strength;
+        to->exitance[2] = (double)colour.b * (double)strength;
     }
     int two_sided = 0;
     aiGetMaterialIntegerArray(from, AI_MATKEY_TWOSIDED, &two_sided, NULL);
@@ -78,9 +53,6 @@ static int read_materials(struct reader *r, const struct aiScene *from)
         read_material(from->mMaterials[i], &material);
         if (scene_file_add_material(r->file, name.length ? name.data : "unnamed", &material))
             return out_of_memory(r);
-        const struct obj_material *where = obj_scan_material(&r->scan, r->file->names[i]);
-        if (where)
-            r->file->places[i] = (struct material_place){strdup(where->file), where->diffuse_line, where->emissive_line};
     }
     /* A file without materials still gets one: grey, dark. */
     if (!from->mNumMaterials && scene_file_add_material(r->file, "unnamed", &(struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}}))
@@ -104,21 +76,20 @@ static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct a
     }
     for (uint32_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *from = &mesh->mFaces[i];
-        uint32_t line = face_line(r, f->polygon_count);
         for (uint32_t j = 0; j < from->mNumIndices; j++) {
             uint32_t index = from->mIndices[mirrored ? from->mNumIndices - 1 - j : j];
             if (index >= mesh->mNumVertices)
-                return report_error(r->path, line,
+                return report_error(r->path, 0,
                                     "face %u of mesh '%s' names vertex %u of %u; the file is damaged, export it again",
                                     (unsigned)i, mesh->mName.data, (unsigned)index, (unsigned)mesh->mNumVertices);
             const double *p = &f->positions[3 * (first + index)];
             if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
-                return report_error(r->path, line, "vertex %u of mesh '%s' is not finite; correct its coordinates",
+                return report_error(r->path, 0, "vertex %u of mesh '%s' is not finite; correct its coordinates",
                                     (unsigned)index, mesh->mName.data);
             if (scene_file_add_corner(f, (uint32_t)(first + index)))
                 return out_of_memory(r);
         }
-        if (scene_file_add_polygon(f, from->mNumIndices, material, line))
+        if (scene_file_add_polygon(f, from->mNumIndices, material, 0))
             return out_of_memory(r);
     }
     return 0;
@@ -145,31 +116,19 @@ static int convert(struct reader *r, const struct aiScene *from)
     aiIdentityMatrix4(&identity);
     if (read_materials(r, from) || read_node(r, from, from->mRootNode, &identity))
         return -1;
-    if (r->scan.faces && r->file->polygon_count != r->scan.faces)
-        return report_error(r->path, 0, "%u faces in the file but %u were read; report this as a bug",
-                            (unsigned)r->scan.faces, (unsigned)r->file->polygon_count);
-    r->file->other = r->scan.other;
     return 0;
 }
 
-int read_assimp(struct scene_file *file, const char *path, int is_obj)
+int read_assimp(struct scene_file *file, const char *path)
 {
     struct reader r = {.file = file, .path = path};
-    const struct aiScene *from;
-    if (is_obj) {
-        if (obj_scan_read(&r.scan, path))
-            return -1;
-        from = import_text(path, r.scan.text, r.scan.size);
-        obj_scan_free_text(&r.scan); /* large, and read */
-    } else {
-        from = aiImportFile(path, 0);
-    }
+    const struct aiScene *from = aiImportFile(path, 0);
+    file->single_precision = sizeof(ai_real) == sizeof(float);
     int result;
     if (!from || !from->mRootNode)
         result = report_error(path, 0, "cannot be read as a scene: %s; check the format and that the file is whole", aiGetErrorString());
     else
         result = convert(&r, from);
     aiReleaseImport(from);
-    obj_scan_free(&r.scan);
     return result;
 }

@@ -6,6 +6,6 @@
 #include "scene/scene_file.h"
 
 /* Fill an empty file. Returns 0, or -1 after one line on stderr. */
-int read_assimp(struct scene_file *file, const char *path, int is_obj);
+int read_assimp(struct scene_file *file, const char *path);
 
 #endif

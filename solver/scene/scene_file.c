@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "scene/read_assimp.h"
+#include "scene/read_obj.h"
 #include "util/ends_with.h"
 #include "util/report.h"
 
@@ -137,7 +138,7 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
     if (S_ISDIR(status.st_mode))
         return report_error(path, 0, "this is a folder; name a scene file in it");
-    int result = read_assimp(f, path, has_extension(path, obj));
+    int result = has_extension(path, obj) ? read_obj(f, path) : read_assimp(f, path);
     if (!result) {
         replace_stand_in(f, path, options);
         for (uint32_t i = 0; i < f->material_count; i++)
@@ -171,6 +172,7 @@ struct RadPolygons scene_file_polygons(const struct scene_file *f)
     return (struct RadPolygons){
         .positions = f->positions, .position_count = f->position_count, .indices = f->indices,
         .sizes = f->sizes, .materials = f->polygon_materials, .count = f->polygon_count,
+        .single_precision = f->single_precision,
     };
 }
 

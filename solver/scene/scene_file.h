@@ -31,6 +31,7 @@ struct scene_file {
     char **names;                  /* [material_count] */
     struct material_place *places; /* [material_count] */
     uint32_t material_count, material_capacity;
+    int single_precision; /* 1: positions have been floats, as Assimp keeps them */
     uint32_t other; /* points and lines of the file, which are no faces */
 };
 

@@ -11,10 +11,6 @@
 #include "util/ends_with.h"
 #include "util/report.h"
 
-const char *const release_words[] = {
-    [RAD_RELEASE_FLAT] = "flat", [RAD_RELEASE_DAG] = "dag", [RAD_RELEASE_HAND] = "hand", NULL
-};
-
 static int is_file(const char *oracle)
 {
     return strchr(oracle, '/') || (strlen(oracle) > 4 && ends_with(oracle, ".dag")) || strcmp(oracle, "-") == 0;

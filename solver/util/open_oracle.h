@@ -5,8 +5,6 @@
 
 #include "radiosity.h"
 
-extern const char *const release_words[]; /* of enum RadRelease; NULL-terminated */
-
 /* `oracle`: the name of a built-in oracle, or a .dag file; settings: [count] texts "NAME=VALUE" for its parameters.
  * Returns NULL after a message. */
 RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release, char *const *settings, int count);

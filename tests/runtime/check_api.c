@@ -200,7 +200,7 @@ START_TEST(test_polygons)
     RadDevice device = radNewDevice(NULL);
     struct RadSceneReport r;
     memcpy(p, at, sizeof at);
-    const struct RadPolygons polygons = { p, 12, indices, sizes, 0, materials, 5, 0 };
+    const struct RadPolygons polygons = { .positions = p, .position_count = 12, .indices = indices, .sizes = sizes, .materials = materials, .count = 5 };
     RadScene scene = make_scene(device, &polygons, m, 3);
     free(p);
     memset(indices, 0xff, sizeof indices);
@@ -504,15 +504,15 @@ START_TEST(test_bad_scenes)
     expect_bad_scene(device, &p, &m, "exitance -1");
     m = grey(0.5, (double)INFINITY);
     expect_bad_scene(device, &p, &m, "exitance inf");
-    expect_bad_scene(device, &(struct RadPolygons){ corners, 8, sides, NULL, 4, lamp_above, 6, 0 }, &good, "material 1");
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = corners, .position_count = 8, .indices = sides, .size = 4, .materials = lamp_above, .count = 6 }, &good, "material 1");
     memcpy(positions, corners, sizeof positions);
     positions[7] = (double)NAN;
-    expect_bad_scene(device, &(struct RadPolygons){ positions, 8, sides, NULL, 4, NULL, 6, 0 }, &good, "not finite");
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = positions, .position_count = 8, .indices = sides, .size = 4, .materials = NULL, .count = 6 }, &good, "not finite");
     memcpy(indices, sides, sizeof indices);
     indices[9] = 8;
-    expect_bad_scene(device, &(struct RadPolygons){ corners, 8, indices, NULL, 4, NULL, 6, 0 }, &good, "8");
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = corners, .position_count = 8, .indices = indices, .size = 4, .materials = NULL, .count = 6 }, &good, "8");
     memset(positions, 0, sizeof positions);
-    expect_bad_scene(device, &(struct RadPolygons){ positions, 8, sides, NULL, 4, NULL, 6, 0 }, &good, "degenerate");
+    expect_bad_scene(device, &(struct RadPolygons){ .positions = positions, .position_count = 8, .indices = sides, .size = 4, .materials = NULL, .count = 6 }, &good, "degenerate");
 
     RadScene scene = radNewScene(device);
     ck_assert_int_eq(radCommitScene(scene), -1);

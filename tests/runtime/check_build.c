@@ -107,6 +107,45 @@ START_TEST(test_many_corners)
 }
 END_TEST
 
+/* A tilted square of 1 m whose corners have been floats, 3 km from the origin: they bend it by up to 2^-13 m, which is flat enough for a
+ * scene of 1 km but not for one of 2 m, where rays keep 2^-17 m off. As doubles the same corners are what they say. */
+START_TEST(test_rounded)
+{
+    const double extent[] = {2, 1024};
+    for (int i = 0; i < 4; i++) {
+        double at[21] = {3000.1, 3000.1, 3000.1, 3000.9, 3000.5, 3000.7, 3000.5, 3001.3, 3001.1, 2999.7, 3000.9, 3000.5};
+        const uint32_t indices[] = {0, 1, 2, 3, 4, 5, 6}, sizes[] = {4, 3};
+        for (int k = 0; k < 12; k++)
+            at[k] = (double)(float)at[k];
+        for (int k = 0; k < 9; k++)
+            at[12 + k] = (k % 3 == 2 ? 3005 : 3000) + (k == 3 || k == 7 ? extent[i / 2] : 0);
+        at[11] += ldexp(1, -13);
+        const struct RadPolygons p = {.positions = at, .position_count = 7, .indices = indices, .sizes = sizes, .count = 2, .single_precision = i % 2};
+        struct scene s;
+        struct scene_error error;
+        ck_assert_int_eq(scene_build(&s, &p, &grey, 1, 1, &error), 0);
+        ck_assert_uint_eq(s.face_count, i == 1 ? 3 : 2);
+        scene_free(&s);
+    }
+}
+END_TEST
+
+/* A strip as thin as floats are apart at 3 km has no area when it has been floats, and has one in doubles. */
+START_TEST(test_thin)
+{
+    const double at[] = {3000, 0, 0, 3000.0002, 0, 0, 3000.0002, 0.3, 0, 3000, 0.3, 0, 3000, 0, 0, 3000, 0, 1, 3000, 1, 1, 3000, 1, 0};
+    const uint32_t indices[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    for (int single = 0; single < 2; single++) {
+        const struct RadPolygons p = {.positions = at, .position_count = 8, .indices = indices, .size = 4, .count = 2, .single_precision = single};
+        struct scene s;
+        struct scene_error error;
+        ck_assert_int_eq(scene_build(&s, &p, &grey, 1, 1, &error), 0);
+        ck_assert_uint_eq(s.dropped, (unsigned)single);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 static void expect_refusal(const struct RadPolygons *p, const struct RadMaterial *materials, uint32_t count, const char *text)
 {
     struct scene s;
@@ -169,6 +208,8 @@ int main(void)
     tcase_add_test(t, test_square);
     tcase_add_test(t, test_mixed);
     tcase_add_test(t, test_many_corners);
+    tcase_add_test(t, test_rounded);
+    tcase_add_test(t, test_thin);
     tcase_add_test(t, test_refused);
     suite_add_tcase(suite, t);
     return suite_failures(suite) != 0;

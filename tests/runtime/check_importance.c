@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include "engine/residual.h"
 #include "runtime/make_solve.h"
-#include "output/view.h"
+#include "make_camera.h"
 #include "oracles.h"
 #include "suite.h"
 
@@ -78,7 +78,16 @@ static double part_of(const struct solve *s, uint32_t j, uint32_t e)
     return up == e ? s->hierarchy.elements[j].area * s->operator.uncovered[j] / (s->hierarchy.elements[e].area * s->operator.uncovered[e]) : 0;
 }
 
-static const struct view into_the_corner = { .eye = { 3.9, 4.9, 2.9 }, .at = { 0, 0, 0 }, .fov = 25 };
+struct view {
+    double eye[3], at[3], fov; /* m, degrees */
+};
+static const struct view into_the_corner = { { 3.9, 4.9, 2.9 }, { 0, 0, 0 }, 25 };
+
+static struct camera camera_of(const struct view *view, double aspect)
+{
+    return made_camera(view->eye, view->at, view->fov, aspect);
+}
+
 
 /* Importance by sweeps over the links is that of the same links written out as one matrix and solved at once. */
 START_TEST(test_importance_dense)
@@ -92,7 +101,7 @@ START_TEST(test_importance_dense)
     options.tolerance = 1e-9;
     options.closure = CLOSURE_ROWS; /* no gifts among leaves, which a matrix row does not show */
     furnished(&scene, 1);
-    const struct camera camera = view_camera(&into_the_corner, &scene, 1.5);
+    const struct camera camera = camera_of(&into_the_corner, 1.5);
     options.camera = &camera;
     solve_view(&s, &scene, "0.1 / max(receiver.importance, 0.01)", options);
     leaf = malloc(s.hierarchy.count * sizeof *leaf);
@@ -138,7 +147,7 @@ END_TEST
  * are reciprocal: two plates, linked alike both ways. In a room as good as its links. */
 START_TEST(test_importance_dual)
 {
-    static const struct view down = { .eye = { 0.5, 0.5, 0.9 }, .at = { 0.4, 0.5, 0 }, .fov = 40 };
+    static const struct view down = { { 0.5, 0.5, 0.9 }, { 0.4, 0.5, 0 }, 40 };
     struct scene scene;
     struct solve s;
     struct solve_options options = quick(1);
@@ -153,7 +162,7 @@ START_TEST(test_importance_dual)
         made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
         made_quad(&scene, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
     }
-    const struct camera camera = view_camera(_i ? &into_the_corner : &down, &scene, 1);
+    const struct camera camera = camera_of(_i ? &into_the_corner : &down, 1);
     options.camera = &camera;
     solve_view(&s, &scene, "0.05 + 0 * receiver.importance", options);
     for (i = 0; i < s.hierarchy.count; i++) {
@@ -182,7 +191,7 @@ START_TEST(test_importance_pays)
     uint32_t i;
     int k;
     furnished(&scene, 1);
-    const struct camera camera = view_camera(&into_the_corner, &scene, 1);
+    const struct camera camera = camera_of(&into_the_corner, 1);
     options.camera = &camera;
     for (k = 0; k < 2; k++) {
         solve_view(&s[k], &scene, k ? "0.02 / max(receiver.importance, 0.01)" : "0.02 + 0 * receiver.importance", options);

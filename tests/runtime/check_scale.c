@@ -8,7 +8,7 @@
 #include "runtime/make_solve.h"
 #include "oracle/statistics.h"
 #include "oracles.h"
-#include "output/view.h"
+#include "make_camera.h"
 #include "suite.h"
 
 static const int powers[] = { -20, 20 };
@@ -89,8 +89,8 @@ static void run(struct solve *s, struct scene *scene, struct refiner *r, struct 
                   i < 4 ? 0.08 : 0, 0);
     }
     made_scale(scene, length);
-    const struct view view = { .eye = { 3.9 * length, 4.9 * length, 2.9 * length }, .at = { 0, 0, 0 }, .fov = 60 };
-    *camera = view_camera(&view, scene, 1);
+    const double eye[3] = { 3.9 * length, 4.9 * length, 2.9 * length }, at[3] = { 0, 0, 0 };
+    *camera = made_camera(eye, at, 60, 1);
     options.camera = camera;
     options.closure = CLOSURE_ROWS;
     set(r, length);

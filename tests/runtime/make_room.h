@@ -122,17 +122,14 @@ static inline const struct room_side *room_side_of(const struct room *r, int fac
     return &r->side[k];
 }
 
-/* Area of a face as a reader of floats has it. */
+/* Area of a face. */
 static inline double room_area(const struct room *r, int face)
 {
     const struct room_side *s = room_side_of(r, face);
     int i = (face - s->first) % s->cuts, j = (face - s->first) / s->cuts, c, k;
     double corner[4][3], a[3], b[3], n[3];
-    for (c = 0; c < 4; c++) {
+    for (c = 0; c < 4; c++)
         room_corner(s, i + (c == 1 || c == 2), j + (c >= 2), corner[c]);
-        for (k = 0; k < 3; k++)
-            corner[c][k] = (double)(float)corner[c][k];
-    }
     for (k = 0; k < 3; k++) {
         a[k] = corner[2][k] - corner[0][k];
         b[k] = corner[3][k] - corner[1][k];

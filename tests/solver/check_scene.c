@@ -16,6 +16,7 @@
 #include "util/atomic_file.h"
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
+#include "load_scene.h"
 #include "scene/read_scene.h"
 #include "suite.h"
 
@@ -354,6 +355,99 @@ START_TEST(test_black_and_grey)
 }
 END_TEST
 
+/* ---- OBJ in full ---- */
+
+/* Coordinates 1e-4 apart at 1e6, where floats are 1/16 apart: no digit is lost. */
+START_TEST(test_double)
+{
+    const double at[4][2] = {{1000000.0001, -2000000.0001}, {1000000.0003, -2000000.0001}, {1000000.0003, -1999999.9997}, {1000000.0001, -1999999.9997}};
+    struct scene s;
+    char body[512];
+    int size = 0;
+    for (int i = 0; i < 4; i++)
+        size += snprintf(body + size, sizeof body - (size_t)size, "v %.4f %.4f 0.1234567890123456\n", at[i][0], at[i][1]);
+    snprintf(body + size, sizeof body - (size_t)size, "usemtl a\nf 1 2 3 4\n");
+    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_uint_eq(s.face_count, 1);
+    ck_assert_uint_eq(s.faces[0].vertices, 4);
+    for (int i = 0; i < 4; i++) {
+        ck_assert_double_eq(s.faces[0].vertex[i][0], at[i][0]);
+        ck_assert_double_eq(s.faces[0].vertex[i][1], at[i][1]);
+        ck_assert_double_eq(s.faces[0].vertex[i][2], 0.1234567890123456);
+    }
+    ck_assert_double_eq_tol(s.areas[0], 8e-8, 1e-12);
+    scene_free(&s);
+}
+END_TEST
+
+/* What may stand in a file, and what is passed over. */
+START_TEST(test_obj)
+{
+    static const double corner[4][3] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
+    static const struct { const char *name, *material; double rho, exitance; } expected[] = {
+        {"before usemtl", "DefaultMaterial", 0.6, 0}, {"defined later", "late", 0.25, 0}, {"blanks", "two words", 0.125, 1e6},
+        {"no Kd", "plain", 0.6, 3},
+    };
+    struct scene s;
+    write_text("one.mtl", "# Kd 9 9 9\nnewmtl  two words\t\nKd 0.125\nd 0.5\nTr 0.5\nKe 1e6 1000000 1.0e+06\nillum 2\nmap_Kd a.png\nNs x\n"
+                          "newmtl late\nKd 0.75 0.75 0.75\nnewmtl plain\n\tKe 3 3 3 # W/m2\n");
+    write_text("an other.mtl", "newmtl late\r\nKd .25 .25 .25\r\n");
+    const char *obj = write_text("full.obj",
+        "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\nvp 1\n"
+        "f -1 -2 -3\n" /* three vertices before this line are none: replaced below */);
+    ck_assert_int_eq(read_scene(&s, obj, NULL), -1);
+    ck_assert_msg(strstr(last_error, "full.obj:6: error: vertex index -1 is out of range: 0 vertices come before this line"), "%s", last_error);
+    obj = write_text("full.obj",
+        "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\n"
+        "v 9 9 9 # never used\nv 0 0 1\nv 4 0 2 2\nv\t2\t2\t1\t0.5\t0.5\t0.5\r\nv 0 2 \\\n1\n"
+        "f 2/1/1 3//1 4/1 5\n"        /* faces before any material */
+        "mtllib one.mtl\ng a b c\ns off\nusemtl late\n"
+        "f -4/9/9 7 -2 -1 # vertex 7 comes later\n"
+        "v 2 0 1\nv 2 0 1\n"        /* 7 is 3 once more */
+        "usemtl two words \n\tf 2 3 \\\r\n 4 5\ng d\nl 1 2\np 1\ncall x\n"
+        "usemtl plain\nf +2 3 4 5\nmtllib an other.mtl");
+    ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
+    ck_assert_uint_eq(s.face_count, 4);
+    ck_assert_uint_eq(s.dropped, 0);
+    ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
+    for (int i = 0; i < 4; i++) {
+        const struct face *f = &s.faces[i];
+        ck_assert_uint_eq(f->vertices, 4);
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 3; k++)
+                ck_assert_msg(fabs(f->vertex[j][k] - corner[j][k]) <= 0, "%s: %g at %d", expected[i].name, f->vertex[j][k], j);
+        ck_assert_str_eq(s.names[f->material], expected[i].material);
+        for (int k = 0; k < 3; k++) {
+            ck_assert_double_eq(s.materials[f->material].reflectance[k], expected[i].rho);
+            ck_assert_double_eq(s.materials[f->material].exitance[k], expected[i].exitance);
+        }
+    }
+    ck_assert_uint_eq(s.bands, 1);
+    scene_free(&s);
+}
+END_TEST
+
+/* Every polygon knows its line, also behind lines that are continued. */
+START_TEST(test_lines)
+{
+    struct scene_file file;
+    write_text("m.mtl", MTL);
+    const char *obj = write_text("l.obj", "mtllib m.mtl\nv 0 0 0\nv 1 \\\n 0 0\nv 1 1 0\nf 1 2 \\\n3\n\nusemtl a\nf 1 2\n#\nf 3 2 1");
+    ck_assert_int_eq(scene_file_read(&file, obj, NULL), 0);
+    ck_assert_uint_eq(file.polygon_count, 3);
+    ck_assert_uint_eq(file.position_count, 3);
+    ck_assert_int_eq(file.single_precision, 0);
+    static const uint32_t lines[] = {6, 10, 12}, sizes[] = {3, 2, 3};
+    for (int i = 0; i < 3; i++) {
+        ck_assert_uint_eq(file.lines[i], lines[i]);
+        ck_assert_uint_eq(file.sizes[i], sizes[i]);
+    }
+    ck_assert_str_eq(file.names[file.polygon_materials[0]], "DefaultMaterial");
+    ck_assert_str_eq(file.names[file.polygon_materials[1]], "a");
+    scene_file_free(&file);
+}
+END_TEST
+
 /* ---- errors: file, line, cause ---- */
 
 START_TEST(test_errors)
@@ -367,6 +461,10 @@ START_TEST(test_errors)
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "s.obj:5: error: vertex index 4 is out of range: 3 vertices");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -4\n", "s.obj:5: error: vertex index -4 is out of range");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n", "s.obj:5: error: vertex index 0 is out of range");
+    expect_error("f 1 2 \\\n3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "s.obj:2: error: vertex index 4 is out of range: 3 vertices are in the file");
+    expect_error("v 0 0 0\nv 1 \\\n0 0\nv 1 1 0\nf 1 2 x\n", "s.obj:6: error: 'x' is not a corner");
+    expect_error("v 0 0 0\nv 1 0 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite when divided by its w, 0");
+    expect_error("usemtl b\nusemtl aa\nusemtl aa\n", "s.obj:2: error: material 'b' is in no material library");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 99999999999999999999\n", "out of range");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf a b c\n", "s.obj:5: error: 'a' is not a corner");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf\n", "s.obj:5: error: a face without corners");
@@ -528,27 +626,22 @@ END_TEST
 
 START_TEST(test_faces_csv)
 {
-    struct scene s;
-    struct hierarchy h;
+    enum { FRONT = 1, BACK };
+    const uint32_t face_element[2] = {FRONT, BACK};
+    const struct element elements[3] = {[FRONT] = {.area = 1, .vertices = 4}, [BACK] = {.area = 1, .vertices = 4}};
+    const double b[3] = {[FRONT] = 3, [BACK] = 1}, irradiance[3] = {[FRONT] = 4};
+    struct loaded l;
     write_text("n.mtl", "newmtl a, \"b\"_2s\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
-    const char *obj = write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n");
-    ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
-    ck_assert_uint_eq(s.face_count, 2);
-    ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    double b[8] = {0}, irradiance[8] = {0};
-    ck_assert_uint_le(h.count, 8);
-    b[h.face_element[0]] = 3; /* front */
-    b[h.face_element[1]] = 1; /* back */
-    irradiance[h.face_element[0]] = 4;
-    struct solution solution = {&s, &h, s.bands, b, irradiance};
+    load_scene(&l, write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n"));
+    ck_assert_uint_eq(l.report.faces, 2);
+    const struct solution solution = {l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL}};
     ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution), 0);
     char *text = read_text(in_folder("f.csv"));
     ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0\n"
                            "0,\"a, \"\"b\"\"_2s\",0,0,0,0,0\n"
                            "1,\"a, \"\"b\"\"_2s\",1,1,0.5,2,2\n");
     free(text);
-    hierarchy_free(&h);
-    scene_free(&s);
+    unload_scene(&l);
 }
 END_TEST
 
@@ -579,6 +672,9 @@ int main(void)
     tcase_add_test(t, test_star);
     tcase_add_test(t, test_dropped);
     tcase_add_test(t, test_black_and_grey);
+    tcase_add_test(t, test_double);
+    tcase_add_test(t, test_obj);
+    tcase_add_test(t, test_lines);
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
