@@ -180,6 +180,27 @@ START_TEST(test_across_faces)
 }
 END_TEST
 
+/* Faces that meet at an angle share no value, though their material is one. */
+START_TEST(test_across_an_edge)
+{
+    const double upright[4][3] = {{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}};
+    const double floor[3] = {0.3, 1e-9, 0}, wall[3] = {0.3, 0, 1e-9};
+    struct stage *s = stage_new(1);
+    double value;
+    stage_face(s, 0, 4, SQUARE);
+    stage_face(s, 0, 4, upright);
+    stage_build(s);
+    for (uint32_t i = 0; i < s->h.count; i++)
+        s->b[i] = s->h.elements[i].face == 0 ? 1 : 9;
+    stage_solve(s);
+    vertex_values_at(&s->values, &s->solution, 0, floor, &value);
+    ck_assert_double_eq_tol(value, 1, 1e-6);
+    vertex_values_at(&s->values, &s->solution, 1, wall, &value);
+    ck_assert_double_eq_tol(value, 9, 1e-6);
+    stage_free(s);
+}
+END_TEST
+
 /* In one leaf: bilinear in a quad, linear in a triangle, whatever its shape. */
 START_TEST(test_shape_functions)
 {
@@ -463,6 +484,11 @@ START_TEST(test_exposure)
         ck_assert_double_eq_tol(dim[k], bright[k], 1e-12);
     ck_assert_double_eq_tol(dim[0] / dim[1], 1.5, 1e-12); /* the hue is kept */
     ck_assert(dim[0] > 0.05 && dim[0] < 0.95);
+    /* The log-mean goes to 0.34, and the shoulder ends 1.2 times above what 98 % of the picture do not exceed. */
+    struct meter_sample bright_spot[3] = {{1, 60}, {1000, 1}, {30, 39}};
+    f = exposure_measure(bright_spot, 3);
+    ck_assert_double_eq_tol(f.scale * exp(0.39 * log(30) + 0.01 * log(1000)), 0.34, 1e-12);
+    ck_assert_double_eq_tol(f.white, 1.2 * 30 * f.scale, 1e-12);
     f = exposure_measure(samples, 0);
     exposure_apply(&f, zero, 1, dim);
     ck_assert(dim[0] == 0 && dim[1] == 0 && dim[2] == 0);
@@ -679,6 +705,7 @@ int main(void)
     tcase_set_timeout(t, 60);
     tcase_add_test(t, test_no_seams);
     tcase_add_test(t, test_across_faces);
+    tcase_add_test(t, test_across_an_edge);
     tcase_add_test(t, test_shape_functions);
     tcase_add_test(t, test_view_parse);
     tcase_add_test(t, test_frame_straight_down);
