@@ -96,6 +96,7 @@ static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double ar
     op->row_scale[leaf] = own > cap ? cap / own : 1;
     op->row_above[leaf] = row <= cap ? 1 : own < cap ? (cap - own) / above : 0;
     op->row_share[leaf] = row > ROW_SHADOW * cap && row < cap ? uncovered * (cap - row) / most : 0;
+    op->row[leaf] = op->row_share[leaf] > 0 ? row + (cap - row) / most * rows->excess : fmin(row, cap);
 }
 
 static void close_row(struct face_rows *rows, uint32_t leaf, double row, double area)
@@ -107,6 +108,7 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     op->row_above[leaf] = op->row_scale[leaf];
     op->row_share[leaf] = row > 0 || !closed || !(rows->seeing > 0) ? 0
                         : (area > 0 ? op->uncovered[leaf] : 1) / rows->seeing;
+    op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
 void row_sums_scale(struct operator *op, struct row_report *report)
