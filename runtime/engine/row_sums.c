@@ -122,7 +122,7 @@ void row_sums_scale(struct operator *op, struct row_report *report)
     *report = (struct row_report){ .low = INFINITY };
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];
-        double most = 1 + 0.5 * (1 - p->whitest[i]);
+        double most = 1 + ROW_EXCESS * (1 - p->whitest[i]);
         struct face_rows rows = { .cap = 1, .op = op, .report = report };
         visit_leaves(&rows, e, measure_row);
         uncovered += rows.area;

@@ -7,7 +7,7 @@
 #include "hierarchy/hierarchy.h"
 #include "hierarchy/scene.h"
 
-/* Values are constant over a leaf. Radiosity is the mean over the part of an element that is not buried in a
+/* Values are constant over a leaf. Radiosity is the mean over the part of an element that is not covered by a
  * solid; irradiance the mean over all of it. */
 struct solution {
     const struct scene *scene;         /* borrowed */

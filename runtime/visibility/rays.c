@@ -2,10 +2,11 @@
  *
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
- * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
- * scene's size, more where faces are bent by the rounding of large coordinates), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
- * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer; packets filled across
- * pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a scene of 13,000 faces).
+ * Segments start and end a little off their surfaces (host.ray_offset), which no rounding of Embree's robust mode can
+ * cross; so no hit needs to be filtered.
+ * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer;
+ * packets filled across pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a
+ * scene of 13,000 faces).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -13,9 +14,8 @@
 #include <omp.h>
 #include "visibility/candidates.h"
 #include "util/embree.h"
-#include "kernel/hemisphere.h"
+#include "kernel/constants.h"
 #include "visibility/rays.h"
-#include "kernel/surface_point.h"
 
 enum { PACKET = 16 };
 
@@ -176,13 +176,9 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
     /* Coordinates that came as floats are off by up to 2^-25 of the largest, which bends quads that lie far from the
      * origin. Rays keep off their own face by some times that, and by no more: there may be others near it. */
-    rays->host.ray_offset = ldexp(size, -18);
-    bent = 4 * most_bent(h);
-    if (bent > ldexp(largest, -21))
-        bent = ldexp(largest, -21);
-    if (rays->host.ray_offset < bent)
-        rays->host.ray_offset = bent;
-    rays->host.flat = 0.5 * rays->host.ray_offset;
+    bent = fmin(RAY_OFFSET_BENT * most_bent(h), RAY_OFFSET_BENT_MOST * largest);
+    rays->host.ray_offset = fmax(RAY_OFFSET * size, bent);
+    rays->host.flat = RAY_FLAT * rays->host.ray_offset;
 }
 
 static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)

@@ -114,7 +114,7 @@ static void link_all(uint32_t receivers, double *got, double *should, double *di
     struct refinement r;
     struct separable_links light;
     uint32_t r_list[MOST], s_list[MOST], i, j;
-    unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: two of them are no beam */
+    unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: a link between two of them is not separable */
     double sum = 0, truth = 0, off = 0;
     int n, m, k;
     ck_assert_int_eq(hierarchy_build(&h, faces, faces_count), 0);
@@ -255,8 +255,8 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("cluster light");
-    TCase *c = tcase_create("cluster light");
+    Suite *suite = suite_create("separable links");
+    TCase *c = tcase_create("separable links");
     tcase_add_loop_test(c, test_exchange, 0, BODIES * BODIES);
     tcase_add_loop_test(c, test_grazing, 0, 3);
     tcase_add_test(c, test_on_edge);
