@@ -532,7 +532,7 @@ START_TEST(test_refined)
         ck_assert_int_eq(refinement_start(&r), 0);
         ck_assert_int_gt((int)r.link_count, 10000);
         for (k = 1; k < r.pool_count; k++)
-            ck_assert_uint_eq(r.pool[k].holders, 0); /* every list was let go */
+            ck_assert_uint_eq(r.pool[k].references, 0); /* every list was released */
         if (i == 0) {
             printf("refined: %zu links from %llu discussions, %llu with an inherited list, %u lists at once, %llu rays\n", r.link_count,
                    (unsigned long long)r.pairs, (unsigned long long)s.inherited, r.pool_count,
