@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/bvh_strategy.h"
+#include "kernel/constants.h"
 #include "hierarchy/hierarchy.h"
 
 /* Nodes divided between two serial steps; items above which all threads share one. */
@@ -228,7 +229,7 @@ static void take_boxes(struct cluster_tree *t, const struct build *b)
 
 int cluster_tree_build(struct cluster_tree *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads)
 {
-    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < MANY_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
+    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < CLUSTERS_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
     struct build b = { .faces = faces, .count = count, .threads = threads };
     uint32_t i;
     int result = -1;

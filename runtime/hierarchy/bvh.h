@@ -22,9 +22,8 @@ enum clustering {
     CLUSTERINGS(X)
 #undef X
     CLUSTERING_COUNT,
-    CLUSTERING_DEFAULT = CLUSTERING_COUNT /* sah from MANY_FACES on, since groups may be linked; below halves, as it always was */
+    CLUSTERING_DEFAULT = CLUSTERING_COUNT /* sah from CLUSTERS_FACES on, below halves */
 };
-enum { MANY_FACES = 1000 };
 extern const char *const clustering_names[CLUSTERING_COUNT], *const clustering_helps[CLUSTERING_COUNT];
 
 /* Returns the strategy's number, or -1. */
