@@ -19,7 +19,6 @@
 #include "hierarchy/group_hierarchy.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
-#include "tools/group_level.h"
 
 enum { FANOUT = 4 };
 
@@ -224,7 +223,8 @@ static void make_rectangle(struct builder *b, uint32_t index, const struct frame
         e->area += face_of(b, b->h->order[i])->area;
     e->cone = 1;
     e->vertices = 4;
-    e->face = GROUP_FACE;
+    e->face = b->h->order[range.from];
+    e->group = 1;
     b->h->range[index] = range;
     b->h->solid[index] = (unsigned char)(!within_solid && tiles(b, f, range, low, high));
 }
