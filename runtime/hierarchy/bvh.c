@@ -1,4 +1,4 @@
-/* cluster_tree.c - the driver of the strategies: levels of the tree, each divided.
+/* bvh.c - the driver of the strategies: levels of the tree, each divided.
  *
  * Nodes of a level are divided in parallel, or the few large ones at the top one after the other by all threads; then
  * their children get their places in order. Invariant: places depend on the answers alone, and a strategy's answer on the

@@ -1,6 +1,6 @@
-/* cluster_tree.h - the tree of clusters over the faces, and the strategies that can build it.
+/* bvh.h - the tree of clusters over the faces, and the strategies that can build it.
  *
- * What a strategy is asked to do stands in build.h; whatever it answers, the tree is sound: each face is in it once, a node
+ * What a strategy is asked to do stands in bvh_strategy.h; whatever it answers, the tree is sound: each face is in it once, a node
  * has 2 to PARTS_MAX children, and no path is longer than DEPTH_MAX and what halving needs below that.
  * SPDX-License-Identifier: MIT */
 #ifndef CLUSTER_TREE_H

@@ -1,6 +1,6 @@
 /* hierarchy.c - elements from the tree of clusters, and split surfaces below the faces.
  *
- * The tree is a strategy's (cluster_tree.h); here its nodes become elements, in the same places, with boxes, areas and cones of
+ * The tree is a strategy's (bvh.h); here its nodes become elements, in the same places, with boxes, areas and cones of
  * normals. Cones are as tight as the faces allow: each cluster looks at all its faces, not at its children's
  * cones. Invariant: indices depend on the order of splits, identities (`id`) only on the path from the root, and those of faces
  * and their parts on the face alone.
