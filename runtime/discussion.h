@@ -57,7 +57,8 @@ struct element {
     double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
     double tolerance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     uint32_t parent;     /* index in the hierarchy; the root is its own parent */
-    uint32_t face;       /* surface: index of the face it is part of */
+    uint32_t face;       /* surface: index of the face it is part of; of the first of a group's faces */
+    uint32_t group;      /* 1: a flat group of faces, given as the surface that is the rectangle around them */
 };
 
 /* A straight line between two points, ends included. */

@@ -485,13 +485,55 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
     return sum / REFINER_CONTOUR_FACTOR_TWO_PI;
 }
 
+/* lambert.h - Lambert's kernel: what two pieces of surface exchange.
+ *
+ * Of points x, y with unit normals n, m, r = y - x, s = r.r, the kernel is (n.r)(-m.r) / (pi s^2), in 1/m2. Of faces, to second
+ * order in their size over their distance, it is taken at the centroids and weighted with both faces' second moments M (m2):
+ *     pi k = a b / s^2 + a b (12 r.Qr / s^4 - 2 tr Q / s^3) - 4 (a m.M_i r + b n.M_j r) / s^3,   Q = M_i + M_j,
+ * a = n.r, b = m.r, m here the normal of j turned round; n M_i = 0 and m M_j = 0 because faces are flat. What that leaves out is of
+ * fourth order.
+ * [Taylor's formula for Lambert's kernel, derived here] */
+
+#define REFINER_LAMBERT_PI 3.14159265358979323846
+
+/* The kernel of points on front sides, else 0 (1/m2). `spread` (m2), a piece's area, bounds it where pieces touch: no more than
+ * about 1 / spread is exchanged. */
+static inline double refiner_lambert_points(const double x[3], const double n[3], const double y[3], const double m[3], double spread)
+{
+    double w[3], cos_x, cos_y, square;
+    refiner_sub3(w, y, x);
+    cos_x = refiner_dot3(n, w);
+    cos_y = -refiner_dot3(m, w);
+    square = refiner_dot3(w, w);
+    return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread)) : 0;
+}
+
+/* The form factor from the point x with normal n to a flat convex polygon v[count] in front of it, in (0, 1]; negative seen from its
+ * back: -(1/2pi) sum theta_i Gamma_i.n over its edges, theta_i the angle that edge i subtends at x, Gamma_i the unit normal of the
+ * plane through x and the edge. [Lambert 1760] */
+static inline double refiner_lambert_sum(const double x[3], const double n[3], const double (*v)[3], int count)
+{
+    double sum = 0, a[3], b[3], c[3];
+    if (count < 3)
+        return 0;
+    refiner_sub3(a, v[count - 1], x);
+    for (int i = 0; i < count; i++) {
+        refiner_sub3(b, v[i], x);
+        refiner_cross3(c, a, b);
+        double size = refiner_length3(c);
+        if (size > 0)
+            sum += atan2(size, refiner_dot3(a, b)) / size * refiner_dot3(c, n);
+        for (int k = 0; k < 3; k++)
+            a[k] = b[k];
+    }
+    return sum * (-0.5 / REFINER_LAMBERT_PI);
+}
+
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
  * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
  * Source of the formulas: form_factor.h. */
-
-#define REFINER_POLYGON_FACTOR_PI 3.14159265358979323846
 
 /* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
 #define REFINER_POLYGON_FACTOR_NEAR 3.0
@@ -507,27 +549,6 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
 #define REFINER_POLYGON_FACTOR_FAINT 1e-6
 
 #define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
-
-/* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
- * wholly in front of p and faces it. [Lambert's formula] */
-static inline double refiner_polygon_factor_point(const double p[3], const double n[3], const struct refiner_polygon *q)
-{
-    double sum = 0, a[3], b[3], c[3], size, angle;
-    int i;
-    refiner_sub3(a, q->v[q->n - 1], p);
-    for (i = 0; i < q->n; i++) {
-        refiner_sub3(b, q->v[i], p);
-        refiner_cross3(c, a, b);
-        size = refiner_length3(c);
-        angle = atan2(size, refiner_dot3(a, b));
-        if (size > 0)
-            sum += angle / size * refiner_dot3(c, n);
-        a[0] = b[0];
-        a[1] = b[1];
-        a[2] = b[2];
-    }
-    return sum * (-0.5 / REFINER_POLYGON_FACTOR_PI);
-}
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, double factor)
@@ -561,7 +582,7 @@ static inline double refiner_polygon_factor_triangle(const double *a, const doub
                          *p2 = i == 0 ? c : i == 1 ? a : b;
             for (k = 0; k < 3; k++)
                 x[k] = w * p0[k] + v * p1[k] + v * p2[k];
-            part += refiner_polygon_factor_point(x, n, q);
+            part += refiner_lambert_sum(x, n, (const double (*)[3])q->v, q->n);
         }
         sum += weight[order][group] * part;
     }
@@ -588,7 +609,7 @@ static inline double refiner_polygon_factor_quad(const double (*v)[3], const dou
                 ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
             }
             refiner_cross3(jacobian, ds, dt);
-            sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n) * refiner_polygon_factor_point(p, n, q);
+            sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n) * refiner_lambert_sum(p, n, (const double (*)[3])q->v, q->n);
         }
     return sum;
 }
@@ -663,7 +684,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     if (!exact && distance > REFINER_POLYGON_FACTOR_FAR * large->radius) {
         double cos_r = -refiner_dot3(small->normal, away), cos_s = refiner_dot3(large->normal, away), square = refiner_dot3(away, away);
         if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
-            return cos_r * cos_s * s->area / (REFINER_POLYGON_FACTOR_PI * square * square);
+            return cos_r * cos_s * s->area / (REFINER_LAMBERT_PI * square * square);
     }
     refiner_polygon_clip(&p, (const double (*)[3])small->vertex, small->vertices, large->centre, large->normal);
     refiner_polygon_clip(&q, (const double (*)[3])large->vertex, large->vertices, small->centre, small->normal);
@@ -705,7 +726,7 @@ static inline double refiner_point_factor_at(const double x[3], const struct ref
     double f;
     if (q->n == 0 || !(refiner_height3(x, s->centre, s->normal) > 0))
         return 0;
-    f = refiner_polygon_factor_point(x, r->normal, q);
+    f = refiner_lambert_sum(x, r->normal, (const double (*)[3])q->v, q->n);
     return f > 0 ? f < 1 ? f : 1 : 0;
 }
 

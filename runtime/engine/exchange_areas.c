@@ -14,13 +14,13 @@ enum { TILE = 64 };
 /* One of the two links between the same two elements: the one whose receiver stands later in the tree's order. */
 static int link_counts(const struct exchange_tree *t, const struct link *link)
 {
-    return exchange_tree_range(t, link->receiver).from > exchange_tree_range(t, link->emitter).from;
+    return hierarchy_range(&t->h, link->receiver).from > hierarchy_range(&t->h, link->emitter).from;
 }
 
 /* The blocks of a link, with the link that each is of; NULL: count them only. */
 static void add_tiles(struct exchange_areas *m, const struct link *link, const struct link **links)
 {
-    struct face_range r = exchange_tree_range(m->tree, link->receiver), s = exchange_tree_range(m->tree, link->emitter);
+    struct face_range r = hierarchy_range(&m->tree->h, link->receiver), s = hierarchy_range(&m->tree->h, link->emitter);
     uint32_t i, j;
     for (i = r.from; i < r.to; i += TILE)
         for (j = s.from; j < s.to; j += TILE) {

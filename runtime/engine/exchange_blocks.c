@@ -12,7 +12,6 @@
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
 #include "terms/visibility.h"
-#include "tools/group_level.h"
 
 int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
 {
@@ -175,8 +174,8 @@ static void block_by_pairs(const struct exchange_pair *pair, double *out)
     const struct element *r = pair->receiver, *s = pair->emitter;
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
         for (uint32_t j = pair->columns.from; j < pair->columns.to; j++)
-            *out++ = one_pair(group_level_group(r) ? exchange_tree_face(pair->tree, i) : r,
-                              group_level_group(s) ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host);
+            *out++ = one_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
+                              s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host);
 }
 
 void exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair, const struct link *link,
@@ -184,7 +183,7 @@ void exchange_block_fill(const struct exchange_faces *p, const struct exchange_p
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = { .known = BLOCKERS_UNKNOWN };
-    if (!group_level_group(r) && !group_level_group(s)) {
+    if (!r->group && !s->group) {
         double e = r->area * (double)link->form_factor * (link->visibility * (1.0 / LINK_VISIBLE)), least = r->area < s->area ? r->area : s->area;
         *out = e < least ? e : least;
         return;

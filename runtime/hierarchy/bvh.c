@@ -1,4 +1,4 @@
-/* cluster_tree.c - the driver of the strategies: levels of the tree, each divided.
+/* bvh.c - the driver of the strategies: levels of the tree, each divided.
  *
  * Nodes of a level are divided in parallel, or the few large ones at the top one after the other by all threads; then
  * their children get their places in order. Invariant: places depend on the answers alone, and a strategy's answer on the
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/bvh_strategy.h"
+#include "kernel/constants.h"
 #include "hierarchy/hierarchy.h"
 
 /* Nodes divided between two serial steps; items above which all threads share one. */
@@ -228,7 +229,7 @@ static void take_boxes(struct cluster_tree *t, const struct build *b)
 
 int cluster_tree_build(struct cluster_tree *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads)
 {
-    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < MANY_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
+    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < CLUSTERS_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
     struct build b = { .faces = faces, .count = count, .threads = threads };
     uint32_t i;
     int result = -1;

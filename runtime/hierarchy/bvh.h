@@ -1,6 +1,6 @@
-/* cluster_tree.h - the tree of clusters over the faces, and the strategies that can build it.
+/* bvh.h - the tree of clusters over the faces, and the strategies that can build it.
  *
- * What a strategy is asked to do stands in build.h; whatever it answers, the tree is sound: each face is in it once, a node
+ * What a strategy is asked to do stands in bvh_strategy.h; whatever it answers, the tree is sound: each face is in it once, a node
  * has 2 to PARTS_MAX children, and no path is longer than DEPTH_MAX and what halving needs below that.
  * SPDX-License-Identifier: MIT */
 #ifndef CLUSTER_TREE_H
@@ -22,9 +22,8 @@ enum clustering {
     CLUSTERINGS(X)
 #undef X
     CLUSTERING_COUNT,
-    CLUSTERING_DEFAULT = CLUSTERING_COUNT /* sah from MANY_FACES on, since groups may be linked; below halves, as it always was */
+    CLUSTERING_DEFAULT = CLUSTERING_COUNT /* sah from CLUSTERS_FACES on, below halves */
 };
-enum { MANY_FACES = 1000 };
 extern const char *const clustering_names[CLUSTERING_COUNT], *const clustering_helps[CLUSTERING_COUNT];
 
 /* Returns the strategy's number, or -1. */

@@ -1,10 +1,10 @@
-/* build_kd.c - clusters by an overlapping k-d tree.
+/* bvh_kd.c - clusters by an overlapping k-d tree.
  *
  * A cell is cut where area times number, summed over its two sides, is least; the area is that of the side, not of what is in
  * it, and a face counts on each side that it reaches into [MacDonald and Booth 1990]. A face belongs to the side of its middle;
  * one that is longer across the plane than that side is wide belongs to neither and stays at the node, so that a wall
  * does not make a cell of small things large [overlapping k-d trees as clusters: Hasenfratz, Damez, Sillion and Drettakis 1999;
- * this rule: derived here]. Those that stay become a cluster beside the sides. Three cuts make a node, as in build_sah.c. A cell is never
+ * this rule: derived here]. Those that stay become a cluster beside the sides. Three cuts make a node, as in bvh_sah.c. A cell is never
  * larger than the box of what is in it.
  * SPDX-License-Identifier: MIT */
 #include <math.h>

@@ -1,4 +1,4 @@
-/* build_octree.c - clusters by a uniform octree.
+/* bvh_octree.c - clusters by a uniform octree.
  *
  * The scene's box, made a cube, is cut in eight, and so on. A face belongs to the octant that holds its middle, and goes no deeper
  * than cells of its own size; so cells overlap by half of their side at the most, and no face climbs to the root only because

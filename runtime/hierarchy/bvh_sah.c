@@ -1,4 +1,4 @@
-/* build_sah.c - clusters by a top-down binned surface-area heuristic [Wald 2007].
+/* bvh_sah.c - clusters by a top-down binned surface-area heuristic [Wald 2007].
  *
  * Items fall into BINS slices of the range of their centres, on each axis; a range is cut at the border between slices
  * where area times number, summed over both sides, is least. Three such cuts of the largest part make four, as many

@@ -1,6 +1,6 @@
-/* build.h - what a strategy that builds the tree of clusters must do.
+/* bvh_strategy.h - what a strategy that builds the tree of clusters must do.
  *
- * It cuts a range of items into parts, again and again; cluster_tree.c asks it, level by level, and makes the tree of the
+ * It cuts a range of items into parts, again and again; bvh.c asks it, level by level, and makes the tree of the
  * answers.
  * SPDX-License-Identifier: MIT */
 #ifndef BUILD_H
@@ -50,7 +50,7 @@ static inline double item_centre(const struct item *i, int axis)
 }
 
 /* Cut items [from, to) in two by the surface-area heuristic over their boxes, keeping their order on each side. Returns where
- * the second begins; the middle when all centres coincide. (build_sah.c) */
+ * the second begins; the middle when all centres coincide. (bvh_sah.c) */
 uint32_t build_cut(const struct build *b, uint32_t from, uint32_t to, int threads);
 
 /* Three cuts, each of the part with the most items. cut() makes 2 or more of one. Returns how many parts there are. */

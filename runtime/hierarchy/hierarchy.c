@@ -1,6 +1,6 @@
 /* hierarchy.c - elements from the tree of clusters, and split surfaces below the faces.
  *
- * The tree is a strategy's (cluster_tree.h); here its nodes become elements, in the same places, with boxes, areas and cones of
+ * The tree is a strategy's (bvh.h); here its nodes become elements, in the same places, with boxes, areas and cones of
  * normals. Cones are as tight as the faces allow: each cluster looks at all its faces, not at its children's
  * cones. Invariant: indices depend on the order of splits, identities (`id`) only on the path from the root, and those of faces
  * and their parts on the face alone.
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/hierarchy.h"
+#include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "kernel/surface.h"
 
@@ -19,8 +20,7 @@ static uint64_t child_id(uint64_t parent, uint32_t k)
     return hash64(parent * 4 + k + HASH_STEP);
 }
 
-/* What a solver may say of an element later. */
-static void reset_fields(struct element *e)
+void element_reset(struct element *e)
 {
     e->importance = 1;
     e->tolerance = INFINITY;
@@ -37,37 +37,30 @@ static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
     e->id = child_id(FACES, face);
     h->face_element[face] = index;
     surface_measure(e);
-    reset_fields(e);
+    element_reset(e);
 }
 
-/* What a face adds to its clusters; in the tree's order, since clusters are ranges of that. */
-struct share {
-    double normal[3], area;
-    int black;
-};
-
-/* Cone of normals and area of the faces in a range. Exactly equal normals give a cone of angle 0. */
-static void measure_cluster(struct element *e, const struct share *share, const struct bounds *box, struct face_range range)
+void element_measure_cluster(struct element *e, const struct face_share *share, const struct bounds *box, struct face_range range)
 {
     double axis[3] = { 0, 0, 0 }, size;
     uint32_t i;
     int k;
-    reset_fields(e);
+    element_reset(e);
     e->black = 1;
     for (i = range.from; i < range.to; i++) {
-        const struct share *s = &share[i];
+        const struct face_share *s = &share[i];
         e->area += s->area;
         e->black = e->black && s->black;
         for (k = 0; k < 3; k++)
             axis[k] += s->area * s->normal[k];
     }
     size = length3(axis);
-    e->cone = size > 1e-9 * e->area ? 1 : -1;
+    e->cone = size > CONE_LEAST * e->area ? 1 : -1;
     for (k = 0; k < 3; k++)
         e->normal[k] = size > 0 ? axis[k] / size : 0;
     for (i = range.from; i < range.to && e->cone > -1; i++) {
         double c = dot3(share[i].normal, e->normal);
-        if (c < 1 - 1e-14 && c < e->cone)
+        if (c < 1 - CONE_EQUAL && c < e->cone)
             e->cone = c;
     }
     for (k = 0; k < 3; k++) {
@@ -120,7 +113,7 @@ static void place_elements(struct hierarchy *h, const struct cluster_tree *t)
 int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count, enum clustering strategy, int threads)
 {
     struct cluster_tree t;
-    struct share *share = NULL;
+    struct face_share *share = NULL;
     uint32_t i;
     int result = -1;
     memset(h, 0, sizeof *h);
@@ -140,7 +133,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (i = 0; i < t.count; i++) {
         const struct element *e = &h->elements[i];
-        struct share *s = &share[t.nodes[i].from];
+        struct face_share *s = &share[t.nodes[i].from];
         if (t.nodes[i].children)
             continue;
         make_face(h, i, t.order[t.nodes[i].from]);
@@ -151,7 +144,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
 #pragma omp parallel for schedule(dynamic, 64) num_threads(threads)
     for (i = 0; i < t.count; i++)
         if (t.nodes[i].children)
-            measure_cluster(&h->elements[i], share, &t.boxes[i], h->range[i]);
+            element_measure_cluster(&h->elements[i], share, &t.boxes[i], h->range[i]);
     h->order = t.order;
     t.order = NULL;
     result = 0;
@@ -201,5 +194,6 @@ void hierarchy_free(struct hierarchy *h)
     free(h->face_element);
     free(h->order);
     free(h->range);
+    free(h->solid);
     memset(h, 0, sizeof *h);
 }

@@ -30,6 +30,8 @@ struct hierarchy {
     } *range;               /* [built]: the part of `order` below each element made by hierarchy_build */
     uint32_t built;         /* elements made by hierarchy_build: clusters and faces */
     double low[3], high[3]; /* bounding box of the faces (m) */
+    unsigned char *solid;   /* [built]: 1: what stands in shafts: faces, and groups that are as good as one. NULL: faces alone */
+    double flat;            /* with groups: how far from their planes their faces may reach (m) */
 };
 
 enum { NO_ELEMENT = 0 }; /* as a child index: not split */
@@ -46,5 +48,23 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
 int hierarchy_split(struct hierarchy *h, uint32_t element);
 
 void hierarchy_free(struct hierarchy *h);
+
+/* The part of `order` below an element; of a part of a face the face's. */
+static inline struct face_range hierarchy_range(const struct hierarchy *h, uint32_t element)
+{
+    return h->range[element < h->built ? element : h->face_element[h->elements[element].face]];
+}
+
+/* For builders of hierarchies: what a solver may say of an element later, unsaid; */
+void element_reset(struct element *e);
+
+/* what a face adds to its clusters; */
+struct face_share {
+    double normal[3], area;
+    int black;
+};
+
+/* and a cluster's area, box and cone of normals, from shares in the tree's order. Exactly equal normals give a cone of angle 0. */
+void element_measure_cluster(struct element *e, const struct face_share *share, const struct bounds *box, struct face_range range);
 
 #endif

@@ -30,6 +30,22 @@
 #define CUT_PARALLEL 0.01 /* sine. Planes at a smaller angle have no line of contact to speak of. Chosen */
 #define CUT_COVER 0.5 /* of a chord. Contacts that cover less of it do not cut: a wall with a door does, the leg of a table does not. Chosen */
 
+#define CLUSTERS_FACES 1000 /* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below this no
+                               shipped graph links clusters, and the tree decides only in which order pairs are found; chosen */
+#define CONE_LEAST 1e-9 /* of a cluster's area: a mean normal no longer than that, times area, points nowhere; rounding of a sum */
+#define CONE_EQUAL 1e-14 /* of a cosine: normals no farther apart count as equal, so that flat clusters have a cone of angle 0;
+                            what rounding leaves of two unit vectors' product */
+#define GROUP_COSINE 0.99999 /* between the normals of a coplanar group's faces, least: 0.26 degrees. chosen; heights decide before it */
+#define GROUP_NORMAL_GAP 1e-5 /* of a unit normal: neighbours in the order of one coordinate that are farther apart are not in one
+                                 plane; chosen, above the rounding of corners given as floats */
+#define GROUP_HEIGHT_GAP 0.5 /* of host.flat: the same of heights; half, since a corner may be off either way */
+#define GROUP_GAPS 1e-5 /* of a group's rectangle: so much may its faces' areas be off and still tile it; chosen, above what
+                           GROUP_COSINE and rounding of corners make of areas */
+#define GROUP_SAME_PLACE 1e-6 /* of the scene's size: middles of faces no farther apart are in one row, which is not cut; chosen */
+#define LOWEST_GROUP 16 /* faces of a lowest group. Shadows are found group by group: 16 are as good as 8 or 32, by the seconds of
+                          `radiosity viewfactors` on rooms of make_room.h */
+
+
 /* ---- visibility */
 
 #define RAY_OFFSET 0x1p-18 /* of the scene's size. Rays start so far off their surface: 32 units in the last place of a

@@ -26,6 +26,27 @@ static inline double lambert_points(const double x[3], const double n[3], const 
     return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (LAMBERT_PI * square + spread)) : 0;
 }
 
+/* The form factor from the point x with normal n to a flat convex polygon v[count] in front of it, in (0, 1]; negative seen from its
+ * back: -(1/2pi) sum theta_i Gamma_i.n over its edges, theta_i the angle that edge i subtends at x, Gamma_i the unit normal of the
+ * plane through x and the edge. [Lambert 1760] */
+static inline double lambert_sum(const double x[3], const double n[3], const double (*v)[3], int count)
+{
+    double sum = 0, a[3], b[3], c[3];
+    if (count < 3)
+        return 0;
+    sub3(a, v[count - 1], x);
+    for (int i = 0; i < count; i++) {
+        sub3(b, v[i], x);
+        cross3(c, a, b);
+        double size = length3(c);
+        if (size > 0)
+            sum += atan2(size, dot3(a, b)) / size * dot3(c, n);
+        for (int k = 0; k < 3; k++)
+            a[k] = b[k];
+    }
+    return sum * (-0.5 / LAMBERT_PI);
+}
+
 /* pi k of two faces: a = n.r, b = m.r, t = 1 / s, quad = r.Qr, trace = tr Q, skew = a m.M_i r + b n.M_j r. Inlined always, so that
  * loops over faces run several at a time. */
 TOOL double lambert_second_order(double a, double b, double t, double quad, double trace, double skew)

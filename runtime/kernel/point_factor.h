@@ -26,7 +26,7 @@ static inline double point_factor_at(const double x[3], const struct element *r,
     double f;
     if (q->n == 0 || !(height3(x, s->centre, s->normal) > 0))
         return 0;
-    f = polygon_factor_point(x, r->normal, q);
+    f = lambert_sum(x, r->normal, (const double (*)[3])q->v, q->n);
     return f > 0 ? f < 1 ? f : 1 : 0;
 }
 

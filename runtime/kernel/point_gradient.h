@@ -52,8 +52,8 @@ static inline double point_factor_gradient(const double x[3], const double n[3],
             a[k] = b[k];
     }
     for (k = 0; k < 3; k++)
-        gradient[k] *= -0.5 / POLYGON_FACTOR_PI;
-    return sum * (-0.5 / POLYGON_FACTOR_PI);
+        gradient[k] *= -0.5 / LAMBERT_PI;
+    return sum * (-0.5 / LAMBERT_PI);
 }
 
 #endif

@@ -9,8 +9,7 @@
 
 #include "discussion.h"
 #include "kernel/contour_factor.h"
-
-#define POLYGON_FACTOR_PI 3.14159265358979323846
+#include "kernel/lambert.h"
 
 /* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
 #define POLYGON_FACTOR_NEAR 3.0
@@ -21,27 +20,6 @@
 /* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
 #define POLYGON_FACTOR_FAINT 1e-6
 #define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
-
-/* Fraction of the light leaving a point p with normal n that meets the polygon q, which lies
- * wholly in front of p and faces it. [Lambert's formula] */
-static inline double polygon_factor_point(const double p[3], const double n[3], const struct polygon *q)
-{
-    double sum = 0, a[3], b[3], c[3], size, angle;
-    int i;
-    sub3(a, q->v[q->n - 1], p);
-    for (i = 0; i < q->n; i++) {
-        sub3(b, q->v[i], p);
-        cross3(c, a, b);
-        size = length3(c);
-        angle = atan2(size, dot3(a, b));
-        if (size > 0)
-            sum += angle / size * dot3(c, n);
-        a[0] = b[0];
-        a[1] = b[1];
-        a[2] = b[2];
-    }
-    return sum * (-0.5 / POLYGON_FACTOR_PI);
-}
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void polygon_factor_scale(struct polygon *p, double factor)
@@ -75,7 +53,7 @@ static inline double polygon_factor_triangle(const double *a, const double *b, c
                          *p2 = i == 0 ? c : i == 1 ? a : b;
             for (k = 0; k < 3; k++)
                 x[k] = w * p0[k] + v * p1[k] + v * p2[k];
-            part += polygon_factor_point(x, n, q);
+            part += lambert_sum(x, n, (const double (*)[3])q->v, q->n);
         }
         sum += weight[order][group] * part;
     }
@@ -102,7 +80,7 @@ static inline double polygon_factor_quad(const double (*v)[3], const double n[3]
                 ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
             }
             cross3(jacobian, ds, dt);
-            sum += weight[order][i] * weight[order][j] * dot3(jacobian, n) * polygon_factor_point(p, n, q);
+            sum += weight[order][i] * weight[order][j] * dot3(jacobian, n) * lambert_sum(p, n, (const double (*)[3])q->v, q->n);
         }
     return sum;
 }
@@ -177,7 +155,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     if (!exact && distance > POLYGON_FACTOR_FAR * large->radius) {
         double cos_r = -dot3(small->normal, away), cos_s = dot3(large->normal, away), square = dot3(away, away);
         if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
-            return cos_r * cos_s * s->area / (POLYGON_FACTOR_PI * square * square);
+            return cos_r * cos_s * s->area / (LAMBERT_PI * square * square);
     }
     polygon_clip(&p, (const double (*)[3])small->vertex, small->vertices, large->centre, large->normal);
     polygon_clip(&q, (const double (*)[3])large->vertex, large->vertices, small->centre, small->normal);

@@ -39,26 +39,6 @@ struct visible_part {
     double near;      /* cells are not cut off thinner than this (m) */
 };
 
-/* Form factor from x to a convex polygon in front of it. */
-static inline double visible_part_factor(const double x[3], const double n[3], const struct cut *q)
-{
-    double sum = 0, a[3], b[3], c[3], size;
-    int i, k;
-    if (q->n < 3)
-        return 0;
-    sub3(a, q->v[q->n - 1], x);
-    for (i = 0; i < q->n; i++) {
-        sub3(b, q->v[i], x);
-        cross3(c, a, b);
-        size = length3(c);
-        if (size > 0)
-            sum += atan2(size, dot3(a, b)) / size * dot3(c, n);
-        for (k = 0; k < 3; k++)
-            a[k] = b[k];
-    }
-    return sum * (-0.5 / POLYGON_FACTOR_PI);
-}
-
 /* What face f hides of *from, seen from x. */
 static inline void visible_part_hidden(const struct visible_part *p, int f, const double x[3], const struct cut *from, struct cut *out)
 {
@@ -91,14 +71,14 @@ static inline double visible_part_shadow(const struct visible_part *p, const dou
     struct cut hidden, both;
     double sum;
     visible_part_hidden(p, 0, x, &p->source, &hidden);
-    sum = visible_part_factor(x, p->normal, &hidden);
+    sum = lambert_sum(x, p->normal, (const double (*)[3])hidden.v, hidden.n);
     if (p->faces > 1) {
         if (hidden.n > 2) {
             visible_part_hidden(p, 1, x, &hidden, &both);
-            sum -= visible_part_factor(x, p->normal, &both);
+            sum -= lambert_sum(x, p->normal, (const double (*)[3])both.v, both.n);
         }
         visible_part_hidden(p, 1, x, &p->source, &both);
-        sum += visible_part_factor(x, p->normal, &both);
+        sum += lambert_sum(x, p->normal, (const double (*)[3])both.v, both.n);
     }
     return sum;
 }

@@ -163,7 +163,7 @@ OUTLINE void form_factor_range_bound(const struct element *r, const struct eleme
         for (j = 0; j < 3; j++)
             level += height3(t.v[j], r->centre, r->normal) * polygon_area(&t, s->normal) * (1 / 3.0);
     }
-    b.share = level > 0 ? level / POLYGON_FACTOR_PI : 0;
+    b.share = level > 0 ? level / LAMBERT_PI : 0;
     b.cap = 0.5 - 0.5 * turn < 1 ? 0.5 - 0.5 * turn : 1;
     b.slope = turn * turn < 1 ? sqrt(1 - turn * turn) : 0;
     b.seen[0] = b.bound[0] = INFINITY;

@@ -5,11 +5,10 @@
 #define TOOL_GROUPS_H
 
 #include "discussion.h"
-#include "tools/group_level.h"
 
 TOOL enum groups_answer tool_groups(struct discussion *d)
 {
-    int r = group_level_group(d->receiver), s = group_level_group(d->emitter);
+    int r = d->receiver->group != 0, s = d->emitter->group != 0;
     return r ? s ? GROUPS_BOTH : GROUPS_RECEIVER : s ? GROUPS_EMITTER : GROUPS_NEITHER;
 }
 

@@ -15,24 +15,40 @@ struct walk {
     uint32_t *faces;
 };
 
-/* Returns 0, or -1 when there is no room left. */
-static int visit(struct walk *w, uint32_t index)
+/* The box of a group, whose faces may reach out of its plane a little. */
+static void box_of_group(const struct element *e, double flat, double low[3], double high[3])
 {
-    const struct element *e = &w->h->elements[index];
-    int c;
-    if (e->vertices) {
-        const struct face *f = &w->h->faces[e->face];
-        if (f->back || !shaft_meets(w->shaft, f->vertex, (int)f->vertices, NULL))
+    for (int k = 0; k < 3; k++) {
+        low[k] = high[k] = e->vertex[0][k];
+        for (int i = 1; i < e->vertices; i++) {
+            low[k] = e->vertex[i][k] < low[k] ? e->vertex[i][k] : low[k];
+            high[k] = e->vertex[i][k] > high[k] ? e->vertex[i][k] : high[k];
+        }
+        low[k] -= flat;
+        high[k] += flat;
+    }
+}
+
+/* Returns 0, or -1 when there is no room left. */
+static int walk_shaft(struct walk *w, uint32_t index)
+{
+    const struct hierarchy *h = w->h;
+    const struct element *e = &h->elements[index];
+    double low[3], high[3];
+    if (h->solid ? h->solid[index] : e->vertices) {
+        if (h->faces[h->order[h->range[index].from]].back || !shaft_meets(w->shaft, (const double (*)[3])e->vertex, e->vertices, NULL))
             return 0;
         if (w->found == w->most)
             return -1;
-        w->faces[w->found++] = e->face;
+        w->faces[w->found++] = h->solid ? index : e->face;
         return 0;
     }
-    if (shaft_misses_box(w->shaft, e->vertex[0], e->vertex[1]))
+    if (e->vertices)
+        box_of_group(e, h->flat, low, high);
+    if (shaft_misses_box(w->shaft, e->vertices ? low : e->vertex[0], e->vertices ? high : e->vertex[1]))
         return 0;
-    for (c = 0; c < e->children; c++)
-        if (visit(w, e->child + (uint32_t)c) < 0)
+    for (uint32_t c = 0; c < e->children; c++)
+        if (walk_shaft(w, e->child + c) < 0)
             return -1;
     return 0;
 }
@@ -40,14 +56,14 @@ static int visit(struct walk *w, uint32_t index)
 int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most, uint32_t *faces)
 {
     struct walk w = { h, shaft, most, 0, faces };
-    return visit(&w, 0) < 0 ? most + 1 : w.found;
+    return walk_shaft(&w, 0) < 0 ? most + 1 : w.found;
 }
 
 void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon *polygon)
 {
-    const struct face *f = &h->faces[face];
-    polygon->n = (int)f->vertices;
-    memcpy(polygon->v, f->vertex, f->vertices * sizeof *f->vertex);
+    const struct element *e = &h->elements[h->solid ? face : h->face_element[face]];
+    polygon->n = e->vertices;
+    memcpy(polygon->v, e->vertex, e->vertices * sizeof *e->vertex);
 }
 
 /* Length of the segment inside a box (m). */

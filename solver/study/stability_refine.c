@@ -152,7 +152,7 @@ static double touching_range(double h)
     for (int i = 0; i < SIDE; i++)
         for (int j = 0; j < SIDE; j++) {
             const double p[3] = { h * (i + 0.5) / SIDE, h * (j + 0.0625) / SIDE, 0 };
-            double f = polygon_factor_point(p, up, &wall);
+            double f = lambert_sum(p, up, (const double (*)[3])wall.v, wall.n);
             low = fmin(low, f);
             high = fmax(high, f);
         }

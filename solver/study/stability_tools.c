@@ -21,7 +21,7 @@ double stability_factor(const struct stability_method *method, const struct elem
         square = dot3(axis, axis);
         cos_r = dot3(r->normal, axis);
         cos_s = -dot3(s->normal, axis);
-        kernel = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (POLYGON_FACTOR_PI * square * square) : 0;
+        kernel = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (LAMBERT_PI * square * square) : 0;
         return method->number == FACTOR_CULLED && kernel < 1e-6 ? 0 : kernel * s->area;
     case FACTOR_DISC:
         return form_factor_disc(&d);

@@ -2,11 +2,11 @@
  * pairs of its faces exchange.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
-#include "engine/exchange_areas.h"
-#include "kernel/plane_side.h"
+#include "engine/exchange.h"
+#include "kernel/constants.h"
+#include "oracle/oracles.h"
 #include "scene/make_scene.h"
 #include "suite.h"
-#include "tools/group_level.h"
 
 /* Two unit squares at distance 1, cells x cells faces each, and 12 plates that hide a quarter of the plane between them, each a little
  * above the one before: no two are in one plane. Seen from one point, no more than a hundredth of them overlaps or parts. */
@@ -36,12 +36,12 @@ static enum decision link_groups(const void *state, struct discussion *d)
         return DECISION_SUBDIVIDE_EMITTER;
     if (!(height3(s->centre, r->centre, r->normal) > 0) || !(height3(r->centre, s->centre, s->normal) > 0))
         return DECISION_STOP;
-    if (*deep && group_level_group(r) && (s->depth || group_level_group(s)))
+    if (*deep && r->group && (s->depth || s->group))
         return s->depth ? DECISION_LINK : DECISION_SUBDIVIDE_EMITTER;
-    if (*deep && group_level_group(s) && r->depth)
+    if (*deep && s->group && r->depth)
         return DECISION_LINK;
-    if (*deep && (group_level_group(r) || group_level_group(s)))
-        return group_level_group(r) ? DECISION_SUBDIVIDE_EMITTER : DECISION_SUBDIVIDE_RECEIVER;
+    if (*deep && (r->group || s->group))
+        return r->group ? DECISION_SUBDIVIDE_EMITTER : DECISION_SUBDIVIDE_RECEIVER;
     return DECISION_LINK;
 }
 
@@ -91,6 +91,67 @@ START_TEST(test_parts_and_groups)
 }
 END_TEST
 
+static int stop_at(void *context, const struct exchange *x, const char *phase)
+{
+    (void)x;
+    return phase[0] == *(const char *)context;
+}
+
+/* The progress function ends it in either phase; then there is nothing, and no cause but that. Else rows of a cube are 1. */
+START_TEST(test_cancel)
+{
+    static const char *const phases[] = { "refine", "factors", "none" };
+    struct scene scene;
+    static const uint32_t m[6] = { 0 };
+    made_open(&scene);
+    made_material(&scene, 0.5, 0);
+    made_room(&scene, m, 1, 1, 1);
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    for (int i = 0; i < 3; i++) {
+        const struct exchange_options options = { 3e-4, CLOSURE_RECIPROCAL, 2, stop_at, (void *)(uintptr_t)phases[i] };
+        struct exchange x;
+        double row[6];
+        const char *cause = "not set";
+        ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options, &cause), i < 2 ? -1 : 0);
+        if (i < 2) {
+            ck_assert_ptr_null(cause);
+            ck_assert_ptr_null(x.tree.rays);
+            continue;
+        }
+        ck_assert_double_eq_tol(exchange_row(&x, 3, row), 1, 1e-11);
+        ck_assert_double_eq_tol(row[0], 0.2000437760754032, 1e-5);
+        ck_assert_uint_eq(x.report.rows_closed, 6);
+        exchange_close(&x);
+    }
+    refiner_close(refiner);
+    made_close(&scene);
+}
+END_TEST
+
+/* Limits follow the tolerance, and only they do. */
+START_TEST(test_tolerance)
+{
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    exchange_set_tolerance(refiner, 0.1 * EXCHANGE_TOLERANCE);
+    for (int i = 0; i < refiner->parameter_count; i++) {
+        const struct oracle_parameter *p = &refiner->parameters[i];
+        int limit = strcmp(p->name, "shadow") == 0 || strcmp(p->name, "group_shadow") == 0;
+        ck_assert_double_eq_tol(refiner_get(refiner, i), p->value * (limit ? 0.1 : 1), 1e-12 * p->value);
+    }
+    refiner_close(refiner);
+}
+END_TEST
+
+/* The rule of one row. */
+START_TEST(test_row_scale)
+{
+    ck_assert_double_eq(closure_row_scale(0.5, 2, 1), 4);
+    ck_assert_double_eq(closure_row_scale(0.5, 2, 0), 1);
+    ck_assert_double_eq(closure_row_scale(4, 2, 0), 0.5);
+    ck_assert_double_eq(closure_row_scale(0, 2, 1), 1);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("exchange areas");
@@ -98,6 +159,9 @@ int main(void)
     tcase_set_timeout(c, 60);
     tcase_add_test(c, test_many_blockers);
     tcase_add_test(c, test_parts_and_groups);
+    tcase_add_test(c, test_cancel);
+    tcase_add_test(c, test_tolerance);
+    tcase_add_test(c, test_row_scale);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

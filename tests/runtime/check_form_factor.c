@@ -45,8 +45,8 @@ START_TEST(test_point)
 {
     struct polygon q = { 4, { { 0, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 0, 1 } } };
     const double p[3] = { 0, 0, 0 }, n[3] = { 0, 0, 1 }, centre[3] = { 0.5, 0.5, 0 };
-    ck_assert_double_eq_tol(polygon_factor_point(p, n, &q), 0.1385316060, 1e-10);
-    ck_assert_double_eq_tol(polygon_factor_point(centre, n, &q), 0.2394564705, 1e-10);
+    ck_assert_double_eq_tol(lambert_sum(p, n, (const double (*)[3])q.v, q.n), 0.1385316060, 1e-10);
+    ck_assert_double_eq_tol(lambert_sum(centre, n, (const double (*)[3])q.v, q.n), 0.2394564705, 1e-10);
 }
 END_TEST
 
