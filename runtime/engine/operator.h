@@ -20,6 +20,8 @@ struct operator {
     double *row_above; /* [element]: of leaves only, the factor for what comes over those of the elements above it */
     double *row_share; /* [element]: of leaves only, per area (1/m2), its share of the power that the cap takes from its
                           face, or, under closure, of its face's irradiance when it has no row of its own */
+    double *row;       /* [element]: of leaves only, the row once scaled, what it is shared included: the irradiance per
+                          uncovered area that a radiosity of 1 everywhere makes */
 };
 
 /* The weight of child j in the mean radiosity of e: its share of the uncovered area, or of all where none is. */

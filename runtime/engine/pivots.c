@@ -1,20 +1,22 @@
-/* find_pivots.c - see find_pivots.h.
+/* pivots.c - the two points, with a normal each, between which a separable link's kernel is taken.
  *
- * Ends are found in three steps. First the flatter side is the mean of its faces that may turn to the other's centre;
- * then the other is the mean of its faces by what passes between them and that first end; then the flatter side is found anew,
- * likewise. So k(r, s) is not small where what passes is not, though half of a side may lie behind the other's plane.
- * A receiver's faces count by their areas, an emitter's by what the oracles see them send.
+ * They are found in three steps. First the flatter side is the mean of its faces that may turn to the other's centre;
+ * then the other is the mean of its faces by what passes between them and that first pivot; then the flatter side is
+ * found anew, likewise. So k(r, s) is not small where what passes is not, though half of a side may lie behind the
+ * other's plane. A receiver's faces count by their areas, an emitter's by what the oracles see them send.
+ * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/pivots.h"
+#include "kernel/constants.h"
 
-#define LEAST 1e-30f /* what is less is nothing: 1 over it is still a float */
+#define UNDERFLOW 1e-30f /* what is less is nothing: 1 over it is still a float */
 
 /* Set *pivot from the sums of weights, of weighted centres, of weighted normals, and of normals . centres. Returns the sum of
- * weights, 0 where there is no end. */
+ * weights, 0 where there is no pivot. */
 static float mean_pivot(struct pivot *pivot, const float sum[8])
 {
-    float inverse = sum[0] > LEAST ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
+    float inverse = sum[0] > UNDERFLOW ? 1 / sum[0] : 0, length = sqrtf(sum[4] * sum[4] + sum[5] * sum[5] + sum[6] * sum[6]);
     int k;
     pivot->shift = 0;
     for (k = 0; k < 3; k++) {
@@ -23,15 +25,15 @@ static float mean_pivot(struct pivot *pivot, const float sum[8])
         pivot->shift += pivot->normal[k] * pivot->centre[k];
     }
     pivot->shift -= length > 0 ? sum[7] / length : 0;
-    return length > 0 && sum[0] > LEAST ? sum[0] : 0;
+    return length > 0 && sum[0] > UNDERFLOW ? sum[0] : 0;
 }
 
-/* What a face weighs: by what it may show in a direction, by k(x, other), or by that when the other's normal is not to be relied on. */
+/* What a face weighs: what it may show in a direction; k(x, other); or that without the other's cosine (PIVOT_RELIABLE). */
 enum weighing { SHOWN, PASSING, PASSING_PLAIN };
 
-/* Set *pivot to the mean of a side. SHOWN: faces and normals weigh weight max(0, n . other->normal + other->shift), a direction and the
- * sine of an angle about it. Else faces weigh weight k(x, other), and normals that over n . v. `how` is a constant in
- * every call, so each is a loop of its own. Returns the sum of weights, 0 where there is no end. */
+/* Set *pivot to the mean of a side. SHOWN: `other` is a direction and, as its shift, the sine of an angle about it; faces and
+ * normals weigh weight max(0, n . other->normal + other->shift). Else faces weigh weight k(x, other), and normals that
+ * over n . v. `how` is a constant in every call, so each is a loop of its own. Returns the sum of weights, 0 where there is no pivot. */
 TOOL float find_pivot(struct pivot *pivot, const struct separable_side *side, const float *weight, const struct pivot *other, enum weighing how)
 {
     const struct separable_faces f = side->faces;
@@ -65,7 +67,7 @@ TOOL float find_pivot(struct pivot *pivot, const struct separable_side *side, co
     return mean_pivot(pivot, (const float[8]){ all, x, y, z, nx, ny, nz, plane });
 }
 
-/* pi k(r, s) between two ends. */
+/* pi k(r, s) between two pivots. */
 static float between(const struct pivot *r, const struct pivot *s)
 {
     float v[3], square, near, far;
@@ -79,7 +81,7 @@ static float between(const struct pivot *r, const struct pivot *s)
 }
 
 float find_pivots(struct pivot *r, struct pivot *s, const struct element *receiver, const struct element *emitter,
-                   const struct separable_side *of_r, const struct separable_side *of_s)
+                  const struct separable_side *of_r, const struct separable_side *of_s)
 {
     const int emitter_first = emitter->vertices || (!receiver->vertices && emitter->cone > receiver->cone);
     const struct element *flat = emitter_first ? emitter : receiver, *round = emitter_first ? receiver : emitter;
@@ -100,10 +102,10 @@ float find_pivots(struct pivot *r, struct pivot *s, const struct element *receiv
         return 0;
     for (k = 0; k < 3; k++)
         turned += first.normal[k] * direction.normal[k];
-    if (!((flat->vertices || turned >= 0.3f ? find_pivot(round_pivot, of_round, round_weight, &first, PASSING)
+    if (!((flat->vertices || (double)turned >= PIVOT_RELIABLE ? find_pivot(round_pivot, of_round, round_weight, &first, PASSING)
                                             : find_pivot(round_pivot, of_round, round_weight, &first, PASSING_PLAIN)) > 0)
         || !(find_pivot(flat_pivot, of_flat, flat_weight, round_pivot, PASSING) > 0))
         return 0;
     passes = between(r, s);
-    return passes > LEAST ? passes : 0;
+    return passes > UNDERFLOW ? passes : 0;
 }

@@ -6,9 +6,10 @@
  * element indices depend on the scene, the oracle and its parameters alone, never on threads,
  * timing or release. Taking from the end keeps the queue short: a few rounds' worth, not the square of the faces.
  *
- * Where the oracle looks into the shaft between two elements, the candidates it found are handed on: a list
- * stands once in a pool, with the number of pairs that hold it. A pair whose discussion made none hands on what it
- * was given; a list that overflowed, or does not hold below, is not kept. Lists spare work and change no answer (kernel/shaft.h).
+ * Where the oracle looks into the shaft between two elements, the candidates it found are handed on to the pairs below: a
+ * list stands once in a pool and counts the pairs that refer to it, which retain and release it. A pair whose discussion
+ * made none hands on what it was given; a list that overflowed, or is not good for the pairs below, is released. Lists
+ * spare work and change no answer (kernel/shaft.h).
  * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited candidates; rounds: derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -81,21 +82,21 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
 
 /* ---- the pool of lists; only between rounds */
 
-static void retain_list(struct refinement *r, uint32_t list, uint32_t holders)
+static void retain_list(struct refinement *r, uint32_t list, uint32_t references)
 {
     if (list)
-        r->pool[list].holders += holders;
+        r->pool[list].references += references;
 }
 
 static void release_list(struct refinement *r, uint32_t list)
 {
-    if (list && --r->pool[list].holders == 0) {
+    if (list && --r->pool[list].references == 0) {
         r->pool[list].next = r->pool_free;
         r->pool_free = list;
     }
 }
 
-/* A place for the list, held once; 0 when there is none: then the pairs below make theirs anew. */
+/* A place for the list, retained once; 0 when there is none: then the pairs below make theirs anew. */
 static uint32_t pool_list(struct refinement *r, const struct blockers *list)
 {
     uint32_t at = r->pool_free;
@@ -109,11 +110,11 @@ static uint32_t pool_list(struct refinement *r, const struct blockers *list)
     }
     r->pool[at].list = *list;
     r->pool[at].list.known = BLOCKERS_INHERITED;
-    r->pool[at].holders = 1;
+    r->pool[at].references = 1;
     return at;
 }
 
-/* What the pairs below pair i of the round are given, held once more; `list`: what it was given itself. */
+/* The list that the pairs below pair i of the round are given, retained once more; `list`: what it was given itself. */
 static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 {
     const struct outcome *o = &r->outcomes[i];
@@ -195,7 +196,7 @@ static void discuss_round(struct refinement *r, int count)
 enum { SPLIT_RECEIVER = 1, SPLIT_EMITTER = 2 };
 
 /* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
- * itself gives the pairs of its children with each other and themselves. They hold `list`. */
+ * itself gives the pairs of its children with each other and themselves. They retain `list`. */
 static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both, uint32_t list)
 {
     struct hierarchy *h = r->hierarchy;

@@ -37,10 +37,10 @@ struct outcome {
     unsigned char listed; /* refinement.found holds the pair's candidates */
 };
 
-/* A list of candidates that waiting pairs hold, or a place for one. */
+/* A list of candidates that waiting pairs refer to, or a place for one. */
 struct pooled {
     struct blockers list;
-    uint32_t holders; /* 0: free */
+    uint32_t references; /* 0: free */
     uint32_t next;    /* free: the next free one, 0: none */
 };
 

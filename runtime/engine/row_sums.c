@@ -96,6 +96,7 @@ static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double ar
     op->row_scale[leaf] = own > cap ? cap / own : 1;
     op->row_above[leaf] = row <= cap ? 1 : own < cap ? (cap - own) / above : 0;
     op->row_share[leaf] = row > ROW_SHADOW * cap && row < cap ? uncovered * (cap - row) / most : 0;
+    op->row[leaf] = op->row_share[leaf] > 0 ? row + (cap - row) / most * rows->excess : fmin(row, cap);
 }
 
 static void close_row(struct face_rows *rows, uint32_t leaf, double row, double area)
@@ -107,6 +108,7 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     op->row_above[leaf] = op->row_scale[leaf];
     op->row_share[leaf] = row > 0 || !closed || !(rows->seeing > 0) ? 0
                         : (area > 0 ? op->uncovered[leaf] : 1) / rows->seeing;
+    op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
 void row_sums_scale(struct operator *op, struct row_report *report)
@@ -120,7 +122,7 @@ void row_sums_scale(struct operator *op, struct row_report *report)
     *report = (struct row_report){ .low = INFINITY };
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];
-        double most = 1 + 0.5 * (1 - p->whitest[i]);
+        double most = 1 + ROW_EXCESS * (1 - p->whitest[i]);
         struct face_rows rows = { .cap = 1, .op = op, .report = report };
         visit_leaves(&rows, e, measure_row);
         uncovered += rows.area;

@@ -1,4 +1,4 @@
-/* separable_faces.h - faces as arrays of numbers, and what passes between one of them and the far end of a link (separable_links.h).
+/* separable_faces.h - faces as arrays of numbers, and the kernel between one of them and a pivot (separable_links.h).
  * Lengths are in units of `unit`, a power of two that is at least the scene's extent, from the corner of its box: so
  * floats do, and no scale of the scene changes a bit.
  * SPDX-License-Identifier: MIT */
@@ -8,7 +8,8 @@
 #include <stddef.h>
 #include "discussion.h"
 
-/* What one side of a link is to the other. Its faces turn to x by the mean of n_i . (x - y_i), which is normal . (x - centre) + shift. */
+/* What one side of a link is to the other: a point and a normal. Its faces turn to x by the mean of n_i . (x - y_i), which
+ * is normal . (x - centre) + shift. */
 struct pivot {
     float centre[3], normal[3]; /* unit; unit vector */
     float shift;                /* 0 for one plane (unit) */
@@ -26,7 +27,7 @@ struct separable_faces {
 enum { SEPARABLE_ARRAYS = 14 }; /* of struct separable_faces, besides what the bands have */
 #define SEPARABLE_TINY 1e-15f   /* against division by 0; lengths are at most 1 here */
 
-/* The faces of one end of a link. */
+/* The faces of one side of a link. */
 struct separable_side {
     struct separable_faces faces;
     size_t from, to;

@@ -1,5 +1,5 @@
-/* separable_links.c - see separable_links.h. Invariant: what a face gathers is summed in the order of its clusters' links from the
- * root down, then its own; so the result does not depend on threads.
+/* separable_links.c - see separable_links.h. Invariant: what a face gathers is summed in the order of its clusters' links
+ * from the root down, then its own; so the result does not depend on threads.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -39,8 +39,8 @@ static void separate_link(const struct separable_links *c, struct separable_link
         b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (double)passes);
 }
 
-/* What the link brings in each band: J. */
-static void bring(const struct separable_links *c, const struct separable_link *b, int bands, const double *radiosity, float *to)
+/* J of the link in each band; of a radiosity of 1 when there is none. */
+static void send_link(const struct separable_links *c, const struct separable_link *b, int bands, const double *radiosity, float *to)
 {
     struct separable_side side;
     float sum[3] = { 0, 0, 0 };
@@ -77,7 +77,7 @@ static void bring(const struct separable_links *c, const struct separable_link *
 }
 
 /* Add to `received` what the links of e and of the elements below bring to the faces from .. to - 1. */
-static void receive(const struct separable_links *c, int bands, uint32_t e, size_t from, size_t to)
+static void receive_below(const struct separable_links *c, int bands, uint32_t e, size_t from, size_t to)
 {
     const struct hierarchy *h = c->hierarchy;
     const struct element *x = &h->elements[e];
@@ -102,7 +102,7 @@ static void receive(const struct separable_links *c, int bands, uint32_t e, size
         }
     }
     for (k = 0; k < x->children && !x->vertices; k++)
-        receive(c, bands, x->child + (uint32_t)k, from, to);
+        receive_below(c, bands, x->child + (uint32_t)k, from, to);
 }
 
 static void receive_all(const struct separable_links *c, int bands)
@@ -114,7 +114,7 @@ static void receive_all(const struct separable_links *c, int bands)
         int k;
         for (k = 0; k < bands; k++)
             memset(&c->received[(size_t)k * count + i], 0, (to - i) * sizeof *c->received);
-        receive(c, bands, 0, i, to);
+        receive_below(c, bands, 0, i, to);
     }
 }
 
@@ -171,7 +171,7 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h, c
         for (from = r->first_link[e]; from < r->first_link[e + 1]; from++)
             if (is_separable(h, &r->links[from])) {
                 separate_link(c, &c->links[at], &r->links[from]);
-                bring(c, &c->links[at], 1, NULL, &c->arrives[at]);
+                send_link(c, &c->links[at], 1, NULL, &c->arrives[at]);
                 at++;
             }
     }
@@ -196,7 +196,7 @@ void separable_links_send(const struct separable_links *c, int bands, const doub
         }
 #pragma omp for schedule(dynamic, 256)
         for (i = 0; i < c->count; i++)
-            bring(c, &c->links[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
+            send_link(c, &c->links[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
     }
     receive_all(c, bands);
 }

@@ -1,6 +1,11 @@
 /* solve.c - Hanrahan's multigridding around the radiosity iteration: refine, solve, let the oracle see the new
  * radiosities, refine again, until no link changes.
  *
+ * Where groups are linked there are many links, and most passes change many of them. Those solve to ROUGH_TOLERANCE
+ * only, less than what oracles notice (HYSTERESIS). Once so few links change, one in SETTLED, passes solve to the
+ * tolerance. The solve has converged when such a pass changes no link: what the last links gave is then known to the
+ * tolerance, and the oracle would leave them as they are.
+ *
  * The equation is solved in transport.c; what is done about rows that sum to more or less than 1 stands in row_sums.c;
  * what the oracles see of a solution in oracle_inputs.c.
  * [Hanrahan et al. 1991, sections 4 and 5]
@@ -44,10 +49,13 @@ static int make_room(struct solve *s)
     uint32_t count = s->hierarchy.count, b = s->problem.bands;
     if (count > s->room) {
         double **const by_band[] = { &state->radiosity, &state->irradiance, &s->inputs.least, &s->inputs.most };
-        double **const single[] = { &op->uncovered, &op->row_scale, &op->row_above, &op->row_share };
+        double **const single[] = { &op->uncovered, &op->row_scale, &op->row_above, &op->row_share, &op->row };
         size_t room = (size_t)count + count / 4;
-        for (int i = 0; i < 4; i++)
-            if (enlarge(by_band[i], room * b) < 0 || enlarge(single[i], room) < 0)
+        for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
+            if (enlarge(by_band[i], room * b) < 0)
+                return -1;
+        for (size_t i = 0; i < sizeof single / sizeof *single; i++)
+            if (enlarge(single[i], room) < 0)
                 return -1;
         unsigned char *changed = realloc(s->inputs.changed, room);
         if (!changed)
@@ -303,23 +311,22 @@ int solve_step(struct solve *s, const char **cause)
     double start = seconds(), middle, tolerance = p->options.tolerance;
     int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
     int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
-    int last = rough && settled;
-    int64_t changed = 0;
-    if (iterate(s, rough && !last ? fmax(ROUGH_TOLERANCE, tolerance) : tolerance) < 0)
+    int64_t changed;
+    rough = rough && !settled && tolerance < ROUGH_TOLERANCE;
+    if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance) < 0)
         return fail(s, "out of memory", cause);
     middle = seconds();
-    if (!last)
-        changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);
+    changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);
     if (changed < 0)
         return fail(s, refining, cause);
     s->report.passes++;
     s->report.changing = (uint64_t)changed;
-    s->report.converged = s->report.converged && changed == 0;
+    s->report.converged = s->report.converged && changed == 0 && !rough;
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
     sum_power(&s->report, &s->operator, s->state.irradiance);
-    return changed > 0 || (rough && !last);
+    return changed > 0 || rough;
 }
 
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
@@ -342,6 +349,7 @@ void solve_close(struct solve *s)
     error_control_free(&s->error);
     double *const lists[] = { s->state.radiosity, s->state.irradiance, s->inputs.least, s->inputs.most,
                               s->operator.uncovered, s->operator.row_scale, s->operator.row_above, s->operator.row_share,
+                              s->operator.row,
                               s->problem.exitance, s->problem.reflectance, s->problem.whitest };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]);

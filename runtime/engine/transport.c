@@ -3,15 +3,24 @@
  * A sweep gathers H_r += F V x_s over the links of every element, pushes it down to the leaves, where
  * x = source + rho H, and pulls area means up. A sweep goes through the faces in blocks; within a block all
  * gather first and are updated then, so the result is the same for any number of threads. One block
- * is Jacobi's method, many are Gauss-Seidel's. With rows at most 1 a sweep contracts by rho, the largest reflectance, so
- * the error left is about residual * rho / (1 - rho), which is what the tolerance is held against.
+ * is Jacobi's method, many are Gauss-Seidel's.
+ *
+ * When to stop. A sweep is x_n = s + L x_n + U x_(n-1) with L + U = K >= 0, the operator (L = 0 is Jacobi's); so errors
+ * and changes go as e_n = T e_(n-1), d_n = x_n - x_(n-1) = (T - 1) e_(n-1), T = (1 - L)^-1 U. A value of 1 everywhere
+ * makes k_i = rho_i row_i at leaf i by K, the rows as row_sums.c leaves them, and no more by T. So with a = max |d_n| / (1 - k),
+ *     |e_(n-1)| <= a everywhere,  |e_n| <= a k_i at leaf i,  sum A |e_n| <= a sum A k,
+ * and that, over sum A x and summed over bands, is the bound that the tolerance is held against. The largest k may be above
+ * rho, for the cap allows rows up to 1 + (1 - rho) / 2; it is below 1 all the same. The change is taken in the norm in
+ * which K is known to contract, largest modulus; sum A |d| would not do: there its factor is the largest column, and since
+ * caps and closure scale rows alone, A_i F_ij = A_j F_ji does not hold and columns may exceed 1.
+ * [Arvo et al. 1994, sections 5.3 and 6.3, for the norms; derived here]
  *
  * A solid may stand on part of a surface, like a table leg on the floor. What it covers receives nothing and sends
  * nothing; rays know that, but a mean over the whole element would send the missing light a second time less. So x is
  * the mean over the uncovered part, and x = source + rho H / uncovered, where H stays the mean over all. (A leaf found
  * wholly covered has no weight in its parent, but may yet be linked by rays that did find it: closure gives it the
  * irradiance of its face too.)
- * [Hanrahan et al. 1991, sections 4 and 5; Arvo et al. 1994, section 5.3 for the bound]
+ * [Hanrahan et al. 1991, sections 4 and 5]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -87,17 +96,23 @@ void transport_average(const struct operator *op, struct transport *x)
             average(op, x, e);
 }
 
-/* x = source + rho H at the leaves, means above. Returns sum A |dx| over the leaves. */
-static double pull(const struct operator *op, const struct transport *x, uint32_t e, const double spare[3])
+/* What a sweep changes on one face. */
+struct change {
+    double moved;           /* sum A |dx| over uncovered leaves, all bands */
+    double most[3], sum[3]; /* max |dx| / (1 - k) over leaves; sum A k over uncovered leaves */
+};
+
+/* x = source + rho H at the leaves, means above. */
+static void pull(const struct operator *op, const struct transport *x, uint32_t e, const double spare[3], struct change *change)
 {
     const struct element *at = &op->hierarchy->elements[e];
     uint32_t b = x->bands;
-    double *X = &x->value[(size_t)e * b], *H = &x->irradiance[(size_t)e * b], moved = 0;
+    double *X = &x->value[(size_t)e * b], *H = &x->irradiance[(size_t)e * b];
     if (at->children) {
         for (int c = 0; c < at->children; c++)
-            moved += pull(op, x, at->child + (uint32_t)c, spare);
+            pull(op, x, at->child + (uint32_t)c, spare, change);
         average(op, x, e);
-        return moved;
+        return;
     }
     const double *source = &x->source[(x->by_element ? (size_t)e : (size_t)at->face) * b];
     const double *rho = &x->reflectance[(size_t)at->face * b];
@@ -105,14 +120,16 @@ static double pull(const struct operator *op, const struct transport *x, uint32_
         double uncovered = op->uncovered[e], shared = spare[k] * op->row_share[e], next;
         H[k] += uncovered > 0 ? shared : 0;
         next = source[k] + rho[k] * (uncovered > 0 ? H[k] / uncovered : shared);
-        moved += at->area * uncovered * fabs(next - X[k]);
+        double grown = rho[k] * op->row[e], moved = fabs(next - X[k]);
+        change->moved += at->area * uncovered * moved;
+        change->sum[k] += at->area * uncovered * grown;
+        change->most[k] = fmax(change->most[k], moved > 0 && !(grown < 1) ? INFINITY : moved / (1 - grown));
         X[k] = next;
     }
-    return moved;
 }
 
-/* One sweep over all faces. moved[face] receives sum A |dx|. */
-static void sweep(const struct operator *op, const struct transport *x, double *moved)
+/* One sweep over all faces. change: [face]. */
+static void sweep(const struct operator *op, const struct transport *x, struct change *change)
 {
     static const double nothing[3] = { 0, 0, 0 };
     const struct solve_options *o = &op->problem->options;
@@ -129,35 +146,47 @@ static void sweep(const struct operator *op, const struct transport *x, double *
         for (uint32_t i = from; i < to; i++) {
             double spare[3] = { 0, 0, 0 };
             push(op, x, element[i], nothing, spare);
-            moved[i] = pull(op, x, element[i], spare);
+            change[i] = (struct change){ 0 };
+            pull(op, x, element[i], spare, &change[i]);
         }
     }
 }
 
-int transport_solve(const struct operator *op, struct transport *x)
+/* Residual and bound after a sweep. */
+static void measure(const struct operator *op, struct transport *x, const struct change *change)
 {
     const struct hierarchy *h = op->hierarchy;
-    double *moved = malloc(h->face_count * sizeof *moved), rho = 0;
+    struct change all = { 0 };
+    double power = 0, left = 0;
+    for (uint32_t i = 0; i < h->face_count; i++) {
+        uint32_t e = h->face_element[i];
+        all.moved += change[i].moved;
+        for (uint32_t k = 0; k < x->bands; k++) {
+            power += h->elements[e].area * op->uncovered[e] * x->value[(size_t)e * x->bands + k];
+            all.most[k] = fmax(all.most[k], change[i].most[k]);
+            all.sum[k] += change[i].sum[k];
+        }
+    }
+    for (uint32_t k = 0; k < x->bands; k++)
+        left += all.most[k] > 0 && all.sum[k] > 0 ? all.most[k] * all.sum[k] : 0;
+    x->residual = power > 0 ? all.moved / power : 0;
+    x->bound = left > 0 ? left / power : 0;
+}
+
+int transport_solve(const struct operator *op, struct transport *x)
+{
+    struct change *change = malloc(op->hierarchy->face_count * sizeof *change);
     int stopped = 0;
-    if (!moved)
+    if (!change)
         return -1;
-    for (uint32_t i = 0; i < h->face_count * x->bands; i++)
-        rho = fmax(rho, x->reflectance[i]);
     x->converged = 0;
     for (x->sweeps = 0; x->sweeps < op->problem->options.iterations && !x->converged && !stopped;) {
-        double change = 0, power = 0;
-        sweep(op, x, moved);
+        sweep(op, x, change);
+        measure(op, x, change);
         x->sweeps++;
-        for (uint32_t i = 0; i < h->face_count; i++) {
-            uint32_t e = h->face_element[i];
-            change += moved[i];
-            for (uint32_t k = 0; k < x->bands; k++)
-                power += h->elements[e].area * op->uncovered[e] * x->value[(size_t)e * x->bands + k];
-        }
-        x->residual = power > 0 ? change / power : 0;
-        x->converged = x->residual * rho <= x->tolerance * (1 - rho);
+        x->converged = x->bound <= x->tolerance;
         stopped = x->watch && x->watch(x->watch_context, x);
     }
-    free(moved);
+    free(change);
     return stopped ? -1 : 0;
 }

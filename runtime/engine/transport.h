@@ -12,15 +12,16 @@ struct transport {
     const double *source;       /* [face * bands + band], or [element * bands + band] (leaves are read) */
     const double *reflectance;  /* [face * bands + band] */
     int by_element;             /* which of the two the source is given by */
-    double tolerance;           /* relative error that iteration may leave */
+    double tolerance;           /* bound that iteration must reach */
     int (*watch)(void *context, const struct transport *x); /* after each sweep; NULL: none; nonzero stops */
     void *watch_context;
 
     int sweeps, converged;      /* of this solve */
     double residual;            /* of the last sweep: sum A |dx| / sum A x over leaves */
+    double bound;               /* on what iteration has left: sum A |x - its limit| / sum A x; INFINITY where rows are too large for one */
 };
 
-/* Sweep until the error that iteration leaves is below the tolerance; the row scales are set (row_sums.h).
+/* Sweep until the bound on what iteration leaves is within the tolerance; the row scales are set (row_sums.h).
  * Returns 0, or -1 when out of memory or stopped by `watch`. */
 int transport_solve(const struct operator *op, struct transport *x);
 

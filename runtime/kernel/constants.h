@@ -22,6 +22,10 @@
 
 /* ---- visibility */
 
+#define RAY_OFFSET 0x1p-18 /* of the scene's size. Rays start so far off their surface: 32 units in the last place of a
+                              float of that size, which Embree's rounding does not cross */
+#define RAY_FLAT 0.5    /* of the ray offset: a point this near to a plane lies in it, so that no ray that starts off the one
+                           surface starts behind the other; chosen */
 #define CONTACT_RAYS 8  /* rays per point. chosen: cosine-spread, enough that two may go astray */
 #define CONTACT_BACKS 6 /* of CONTACT_RAYS that must meet backs for a point to lie inside a solid. chosen: two may meet
                            fronts of what reaches into the solid; points outside meet backs of closed solids never */
@@ -39,6 +43,8 @@
                                  this: a quarter of HYSTERESIS, so that oracles do not notice; must stay below it */
 #define SETTLED 1000    /* links per changed link. Passes solve to the tolerance once no more links change than one in
                            this many; chosen: so few cannot bring many others to change */
+#define ROW_EXCESS 0.5  /* of 1 - rho: how far the cap may exceed 1 where a face's mean row does. Below 1 the iteration
+                           converges, rho (1 + (1 - rho)) < 1; half of it leaves it a rate. derived in row_sums.c */
 #define ROW_SHADOW 0.5  /* of the cap. Leaves whose row is below this take nothing of what is capped off others: their
                            row is small because something stands before them, not by error; chosen */
 #define IMPORTANCE_LEAST 1e-4 /* of the largest importance. What oracles see is no less, so that nothing divides by 0;

@@ -2,10 +2,11 @@
  *
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
- * Segments start and end a little off their surfaces (host.ray_offset, 32 units in the last place of a float of the
- * scene's size), which no rounding of Embree's robust mode can cross; so no hit needs to be filtered.
- * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer; packets filled across
- * pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a scene of 13,000 faces).
+ * Segments start and end a little off their surfaces (host.ray_offset), which no rounding of Embree's robust mode can
+ * cross; so no hit needs to be filtered.
+ * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer;
+ * packets filled across pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a
+ * scene of 13,000 faces).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -13,9 +14,8 @@
 #include <omp.h>
 #include "visibility/candidates.h"
 #include "util/embree.h"
-#include "kernel/hemisphere.h"
+#include "kernel/constants.h"
 #include "visibility/rays.h"
-#include "kernel/surface_point.h"
 
 enum { PACKET = 16 };
 
@@ -161,8 +161,8 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
     rays->host.radiosity = area > 0 ? (emitted + reflected * rays->host.irradiance) / area : 0;
-    rays->host.ray_offset = ldexp(size, -18);
-    rays->host.flat = 0.5 * rays->host.ray_offset;
+    rays->host.ray_offset = RAY_OFFSET * size;
+    rays->host.flat = RAY_FLAT * rays->host.ray_offset;
 }
 
 static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)

@@ -39,7 +39,7 @@ static void furnace_box(struct scene *s, double rho)
     made_quad(s, 0, 0.6, 0.8, 0, 0.1, -0.5, 0, 0, 0, 0.6);
 }
 
-/* With its rows closed a furnace is right in every element that is not buried, and loses no power; without, the defect
+/* With its rows closed a furnace is right in every element that no solid covers, and loses no power; without, the defect
  * that closure removes is there. */
 START_TEST(test_closed_furnace)
 {

@@ -55,7 +55,7 @@ static struct solve *solved(struct solve *s, const struct scene *scene, const ch
     return released(s, scene, oracle, RELEASE_FLAT, threads, closure, set);
 }
 
-static size_t beams(const struct solve *s)
+static size_t group_links(const struct solve *s)
 {
     size_t i, n = 0;
     for (i = 0; i < s->refinement.link_count; i++)
@@ -103,7 +103,7 @@ START_TEST(test_small)
     ck_assert(scene.face_count > 150 && scene.face_count < 1500);
     solved(&a, &scene, "clusters", 2, CLOSURE_NONE, NULL);
     solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
-    ck_assert_uint_eq(beams(&a), 0);
+    ck_assert_uint_eq(group_links(&a), 0);
     ck_assert_uint_eq(a.refinement.link_count, b.refinement.link_count);
     ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links, a.refinement.link_count * sizeof *a.refinement.links), 0);
     ck_assert_uint_eq(a.hierarchy.count, b.hierarchy.count);
@@ -126,9 +126,9 @@ START_TEST(test_large)
     released(&one, &scene, "clusters", RELEASE_DAG, 1, CLOSURE_NONE, NULL);
     solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
     printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; power lost %.2g\n", scene.face_count,
-           with.refinement.link_count, beams(&with), without.refinement.link_count, difference(&with, &without),
+           with.refinement.link_count, group_links(&with), without.refinement.link_count, difference(&with, &without),
            1 - with.report.absorbed / with.report.emitted);
-    ck_assert_uint_gt(beams(&with), 1000);
+    ck_assert_uint_gt(group_links(&with), 1000);
     ck_assert_uint_lt(2 * with.refinement.link_count, without.refinement.link_count);
     ck_assert_double_le(difference(&with, &without), 0.015);
     ck_assert_double_le(fabs(1 - with.report.absorbed / with.report.emitted), 0.03);
@@ -151,8 +151,8 @@ START_TEST(test_feature)
     released(&one, &scene, "clusters_feature", RELEASE_DAG, 1, CLOSURE_NONE, "min_share=5e-4");
     solved(&rays, &scene, "clusters", 2, CLOSURE_NONE, "min_share=5e-4");
     printf("room of %u faces through fog: %zu links, %zu of them of clusters; B differs by %.2g; power lost %.2g\n", scene.face_count,
-           fog.refinement.link_count, beams(&fog), difference(&fog, &rays), 1 - fog.report.absorbed / fog.report.emitted);
-    ck_assert_uint_gt(beams(&fog), 1000);
+           fog.refinement.link_count, group_links(&fog), difference(&fog, &rays), 1 - fog.report.absorbed / fog.report.emitted);
+    ck_assert_uint_gt(group_links(&fog), 1000);
     ck_assert_double_le(difference(&fog, &rays), 0.1);
     ck_assert_double_le(fabs(1 - fog.report.absorbed / fog.report.emitted), 0.1);
     ck_assert_uint_eq(fog.refinement.link_count, one.refinement.link_count);
@@ -179,7 +179,7 @@ START_TEST(test_furnace)
         box(&scene, 0, 15, 0, 0, 0, 1, 1, 1, 0);
         box(&scene, 0, 6, 0.3, 0.35, 0.2, 0.3, 0.3, 0.3, 1);
         solved(&s, &scene, "clusters", 2, closure ? CLOSURE_ROWS : CLOSURE_NONE, NULL);
-        ck_assert_uint_gt(beams(&s), 1000);
+        ck_assert_uint_gt(group_links(&s), 1000);
         worst[closure] = mean[closure] = gain[closure] = 0;
         for (i = 0; i < scene.face_count; i++) {
             double off = fabs(face_value(&s, i) / 2 - 1), a = s.hierarchy.elements[s.hierarchy.face_element[i]].area;
@@ -220,7 +220,7 @@ START_TEST(test_leak)
             ck_assert(face_value(&s, i) <= 0);
         }
     ck_assert_uint_eq(dark, 864);
-    ck_assert_uint_gt(beams(&s), 1000);
+    ck_assert_uint_gt(group_links(&s), 1000);
     solve_close(&s);
     made_close(&scene);
 }
@@ -255,11 +255,11 @@ START_TEST(test_self_shadow)
         if (scene.faces[i].material < 3)
             got[scene.faces[i].material] += s.state.irradiance[s.hierarchy.face_element[i]] / (24 * 24);
     printf("plates: %.4f of the lamp's light above, %.2g underneath, %.2g below; %zu links of groups\n", got[0] / expected,
-           got[1] / expected, got[2] / expected, beams(&s));
+           got[1] / expected, got[2] / expected, group_links(&s));
     ck_assert_double_eq_tol(got[0] / expected, 1, 0.02);
     ck_assert_double_le(got[1] / expected, _i == 0 ? 0 : 0.02);
     ck_assert_double_le(got[2] / expected, 0.02);
-    ck_assert(_i == 1 || beams(&s) > 0);
+    ck_assert(_i == 1 || group_links(&s) > 0);
     solve_close(&s);
     made_close(&scene);
 }

@@ -351,7 +351,7 @@ START_TEST(test_residual_groups)
     struct solve s;
     struct refiner *r;
     const char *cause;
-    uint32_t i, leaves = 0, beams = 0;
+    uint32_t i, leaves = 0, groups = 0;
     double worst = 0;
     made_open(&scene);
     made_material(&scene, 0, 20);
@@ -365,7 +365,7 @@ START_TEST(test_residual_groups)
     ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(&s, r, &cause), 0);
     for (i = 0; i < s.refinement.link_count; i++)
-        beams += !s.hierarchy.elements[s.refinement.links[i].emitter].vertices;
+        groups += !s.hierarchy.elements[s.refinement.links[i].emitter].vertices;
     for (i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
         int k;
@@ -380,9 +380,9 @@ START_TEST(test_residual_groups)
             worst = fmax(worst, 0.5 * fabs(sum - s.state.irradiance[i]));
         }
     }
-    printf("groups: %u leaves, %u links of groups, off by %.2g of %.2g at the corners\n", leaves, beams, worst, eps);
+    printf("groups: %u leaves, %u links of groups, off by %.2g of %.2g at the corners\n", leaves, groups, worst, eps);
     ck_assert_uint_gt(leaves, 4);
-    ck_assert_uint_gt(beams, 0);
+    ck_assert_uint_gt(groups, 0);
     ck_assert_double_le(worst, 1.25 * eps);
     solve_close(&s);
     refiner_close(r);

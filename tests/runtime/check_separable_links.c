@@ -114,7 +114,7 @@ static void link_all(uint32_t receivers, double *got, double *should, double *di
     struct refinement r;
     struct separable_links light;
     uint32_t r_list[MOST], s_list[MOST], i, j;
-    unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: two of them are no beam */
+    unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: a link between two of them is not separable */
     double sum = 0, truth = 0, off = 0;
     int n, m, k;
     ck_assert_int_eq(hierarchy_build(&h, faces, faces_count), 0);
@@ -221,12 +221,45 @@ START_TEST(test_grazing)
 }
 END_TEST
 
+/* A terrace whose mean normal is turned square to a box below its level: 12 squares lean away from it, 18 look up past it, and
+ * 6 look at it. The box lies wholly behind the plane that the terrace has in the mean, yet light passes. */
+START_TEST(test_on_edge)
+{
+    const double s = 0.08, slope = sqrt(1.09);
+    double got, should, differ;
+    uint32_t receivers;
+    faces_count = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            const double at[3] = { 0.1 * i - 0.25, 0.1 * j - 0.25, 0 }, across[3] = { 0, s, 0 };
+            double along[3] = { s, 0, 0 }, corner[3];
+            if (i < 2) { /* normal (-1, 0, 0.3) / slope */
+                along[0] = 0.3 * s / slope;
+                along[2] = s / slope;
+            } else if (i == 5) {
+                along[0] = 0;
+                along[2] = -s;
+            }
+            for (int k = 0; k < 3; k++)
+                corner[k] = -0.5 * (along[k] + across[k]);
+            grid(1, at, corner, along, across);
+        }
+    receivers = faces_count;
+    body(BOX, (double[3]){ 1.2, 0, -0.37 }, 0);
+    link_all(receivers, &got, &should, &differ);
+    printf("on edge: %+.1e in all, %.1e by face\n", got / should - 1, differ / should);
+    ck_assert_double_le(fabs(got / should - 1), 0.015);
+    ck_assert_double_le(differ / should, 0.015);
+}
+END_TEST
+
 int main(void)
 {
-    Suite *suite = suite_create("cluster light");
-    TCase *c = tcase_create("cluster light");
+    Suite *suite = suite_create("separable links");
+    TCase *c = tcase_create("separable links");
     tcase_add_loop_test(c, test_exchange, 0, BODIES * BODIES);
     tcase_add_loop_test(c, test_grazing, 0, 3);
+    tcase_add_test(c, test_on_edge);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
