@@ -39,7 +39,7 @@ wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
 wall_engine     = $(wall_visibility) oracle engine
 ROOMS     = util oracle hierarchy visibility engine
-# The command sees public headers, what is inline of a pair's geometry, and the clock; it links the library.
+# The command sees public headers, what is inline of a pair's geometry, arrays and the clock; it links the library.
 wall_solver     = $(TOOLKIT)
 
 objects   = $(patsubst %.c,$(BUILD)/%.o,$(filter-out %/main.c,$(foreach d,$(1),$(wildcard $(d:/=)/*.c))))
@@ -129,7 +129,7 @@ $(BUILD)/gen/%.o: CPPFLAGS += -Iruntime -Iruntime/oracle -Idagc
 $(WALLS)/made: Makefile
 	@rm -rf $(WALLS)
 	@$(foreach room,$(ROOMS) solver,mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) \
-	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/clock.h $(WALLS)/solver/util && touch $@
+	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/array.h $(CURDIR)/runtime/util/clock.h $(WALLS)/solver/util && touch $@
 $(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
 $(SHARED): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += -fvisibility=hidden
