@@ -4,7 +4,7 @@
 #include <string.h>
 #include "engine/exchange.h"
 #include "kernel/constants.h"
-#include "oracle/oracles.h"
+#include "util/oracles.h"
 #include "scene/make_scene.h"
 #include "suite.h"
 
