@@ -159,6 +159,13 @@ static int divide(const struct cutter *c, const struct part *p, const double h[C
         return 0;
     side[0].n = (uint32_t)polygon_divide(&p->vertex[0][0], (int)p->n, 3, h, CORNERS, &side[0].vertex[0][0], &side[1].vertex[0][0], &below);
     side[1].n = (uint32_t)below;
+    /* Sides begin with the first corner of p that they have, not with the crossing before it. */
+    for (int q = 0; q < 2 && crosses(h[p->n - 1], h[0]); q++) {
+        double first[3];
+        memcpy(first, side[q].vertex[0], sizeof first);
+        memmove(side[q].vertex[0], side[q].vertex[1], (side[q].n - 1) * sizeof first);
+        memcpy(side[q].vertex[side[q].n - 1], first, sizeof first);
+    }
     return has_sound_pieces(c, &side[0]) && has_sound_pieces(c, &side[1]);
 }
 
