@@ -843,29 +843,6 @@ static inline uint64_t refiner_hash64(uint64_t x)
     return x ^ x >> 31;
 }
 
-/* lambert.h - Lambert's kernel: what two pieces of surface exchange.
- *
- * Of points x, y with unit normals n, m, r = y - x, s = r.r, the kernel is (n.r)(-m.r) / (pi s^2), in 1/m2. Of faces, to second
- * order in their size over their distance, it is taken at the centroids and weighted with both faces' second moments M (m2):
- *     pi k = a b / s^2 + a b (12 r.Qr / s^4 - 2 tr Q / s^3) - 4 (a m.M_i r + b n.M_j r) / s^3,   Q = M_i + M_j,
- * a = n.r, b = m.r, m here the normal of j turned round; n M_i = 0 and m M_j = 0 because faces are flat. What that leaves out is of
- * fourth order.
- * [Taylor's formula for Lambert's kernel, derived here] */
-
-#define REFINER_LAMBERT_PI 3.14159265358979323846
-
-/* The kernel of points on front sides, else 0 (1/m2). `spread` (m2), a piece's area, bounds it where pieces touch: no more than
- * about 1 / spread is exchanged. */
-static inline double refiner_lambert_points(const double x[3], const double n[3], const double y[3], const double m[3], double spread)
-{
-    double w[3], cos_x, cos_y, square;
-    refiner_sub3(w, y, x);
-    cos_x = refiner_dot3(n, w);
-    cos_y = -refiner_dot3(m, w);
-    square = refiner_dot3(w, w);
-    return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread)) : 0;
-}
-
 /* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In [0, 1].
  *
  * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see each other
