@@ -54,11 +54,11 @@ SUPPORT   = $(call objects,$(wildcard tests/support/*/))
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh tests/*/check_*.sh)
 # Of what goes into the library, each object is compiled once, for the archive, the shared library, the commands and the tests.
-SHARED    = $(call objects,dagc) $(RUNTIME) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
+SHARED    = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
 ARCHIVE   = $(BUILD)/libradiosity.a
 LIBRARY_VERSION = $(shell sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' runtime/radiosity.h)
 SONAME    = libradiosity.so.$(basename $(LIBRARY_VERSION))
-OBJECTS   = $(call objects,dagc) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/main.o $(BUILD)/solver/main.o
+OBJECTS   = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(SOLVER) $(SUPPORT) $(BUILD)/dagc/command/main.o $(BUILD)/solver/main.o
 
 FUZZ_SECONDS = 60
 
@@ -74,19 +74,19 @@ library: $(ARCHIVE) $(BUILD)/libradiosity.so
 dagc: $(BUILD)/bin/dagc $(LIBDAGC)
 
 # What is built by what: catalog.dag -> libdagc -> dagc -> everything that includes discussion.h.
-$(BUILD)/bin/dagc: $(BUILD)/dagc/main.o $(LIBDAGC)
+$(BUILD)/bin/dagc: $(BUILD)/dagc/command/main.o $(LIBDAGC)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -ldl -lm
-$(LIBDAGC): $(call objects,dagc) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
+$(LIBDAGC): $(call objects,$(wildcard dagc/*/)) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
 	rm -f $@
 	ar rcs $@ $^
-$(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/embed.sh
+$(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/emit/embed.sh
 	@mkdir -p $(@D)
-	sh dagc/embed.sh dagc_standard_catalog $< > $@
+	sh dagc/emit/embed.sh dagc_standard_catalog $< > $@
 HEADERS   = discussion.h geometry.h oracle.h standalone.h $(patsubst runtime/%,%,$(wildcard runtime/kernel/*.h runtime/terms/*.h runtime/tools/*.h))
-$(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/embed_headers.sh
+$(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/emit/embed_headers.sh
 	@mkdir -p $(@D)
-	sh dagc/embed_headers.sh runtime $(HEADERS) > $@
+	sh dagc/emit/embed_headers.sh runtime $(HEADERS) > $@
 $(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
 $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
@@ -94,7 +94,7 @@ $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
 $(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(BUILD)/bin/dagc
 	@mkdir -p $(@D)
 	$(BUILD)/bin/dagc -o $@ --header $(@:.c=.h) $<
-$(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/embed.sh
+$(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	sh runtime/oracle/builtin.sh $(ORACLES) > $@
 

@@ -72,7 +72,7 @@ $(BUILD)/install/radiosityConfigVersion.cmake: dagc/package/dagcConfigVersion.cm
 $(BUILD)/install/dagcConfigVersion.cmake: dagc/package/dagcConfigVersion.cmake.in dagc/dag.h
 	@mkdir -p $(@D)
 	sed 's|@VERSION@|$(VERSION)|' $< > $@
-$(BUILD)/install/dagc%: dagc/man/dagc% dagc/man/tables.sh dagc/dag.h $(wildcard dagc/*.def)
+$(BUILD)/install/dagc%: dagc/man/dagc% dagc/man/tables.sh dagc/dag.h $(wildcard dagc/*/*.def)
 	@mkdir -p $(@D)
 	sh dagc/man/tables.sh $(VERSION) $< > $@
 $(BUILD)/install/radiosity.1: solver/man/radiosity.1 solver/man/options.sh $(BUILD)/bin/radiosity

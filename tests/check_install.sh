@@ -280,7 +280,7 @@ if have node; then
     check "JSON" node -e 'for (const f of process.argv.slice(1)) JSON.parse(require("fs").readFileSync(f))' \
         "$top"/dagc/editors/vscode/*.json "$top"/dagc/editors/vscode/syntaxes/*.json
 fi
-for word in $(sed -n '/item_words\[\] =/,/;/p' "$top/dagc/parse.c" | grep -o '"[a-z]*"' | tr -d '"') node start param otherwise exits; do
+for word in $(sed -n '/item_words\[\] =/,/;/p' "$top/dagc/read/parse.c" | grep -o '"[a-z]*"' | tr -d '"') node start param otherwise exits; do
     check "vim: $word" grep -qw "$word" "$top/dagc/editors/vim/syntax/dag.vim"
     check "VS Code: $word" grep -qw "$word" "$top/dagc/editors/vscode/syntaxes/dag.tmLanguage.json"
 done

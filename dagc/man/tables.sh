@@ -9,7 +9,7 @@ here=$(dirname "$0")/..
 rows() { # TABLE
     sed -n -e 's/^[A-Z]*([A-Z_]*, *"\([^"]*\)", *\([A-Z]*\),* *"\(.*\)")$/\1|\2|\3/' -e '/|/!d' \
         -e 's/|CATALOG|/|The source is a catalog: /' -e 's/|OFF|/|Off unless asked for: /' -e 's/|ERROR|/|An error by default: /' \
-        -e 's/|[A-Z]*|/|/' -e 's/\\"/"/g' -e 's/-/\\-/g' -e 's/^\([^|]*\)|\([^|]*\)|*\(.*\)$/.It Cm \1\n\\\&\2\3./p' "$here/$1.def"
+        -e 's/|[A-Z]*|/|/' -e 's/\\"/"/g' -e 's/-/\\-/g' -e 's/^\([^|]*\)|\([^|]*\)|*\(.*\)$/.It Cm \1\n\\\&\2\3./p' "$here"/*/"$1.def"
 }
 
 while IFS= read -r line; do

@@ -3,7 +3,7 @@
  * Arguments of numbers and parameters are evaluated once, when a parameter is set. A step with others
  * calls `program_compute` in its tool's place, which runs a program for a stack that ends as the tool's
  * arguments; so the walk itself need not ask which kind a step is. Operations and their order are
- * those of the flat release's C text (dagc/emit_expression.c): the values are the same to the bit.
+ * those of the flat release's C text (dagc/emit/emit_expression.c): the values are the same to the bit.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@ for name; do echo "extern const struct oracle ${name}_oracle;"; done
 for name; do
     sed 's/^import "common.dag";$//' "examples/oracles/$name.dag" >"$folder/$name.dag"
     cat examples/oracles/common.dag >>"$folder/$name.dag"
-    sh dagc/embed.sh "text_$name" "$folder/$name.dag"
+    sh dagc/emit/embed.sh "text_$name" "$folder/$name.dag"
 done
 echo 'const struct builtin builtins[] = {'
 for name; do echo "    { \"$name\", text_$name, &${name}_oracle },"; done

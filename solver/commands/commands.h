@@ -4,7 +4,7 @@
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
-#include "options.h"
+#include "options/options.h"
 #include "scene/open_scene.h"
 
 int command_solve(const struct options *options, const struct open_scene *scene);

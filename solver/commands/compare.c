@@ -8,7 +8,7 @@
 #include <string.h>
 #include "commands/commands.h"
 #include "output/json_file.h"
-#include "progress.h"
+#include "util/progress.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
 #include "util/report.h"

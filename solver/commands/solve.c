@@ -8,7 +8,7 @@
 #include "output/image.h"
 #include "output/json_file.h"
 #include "output/statistics_file.h"
-#include "progress.h"
+#include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/open_oracle.h"

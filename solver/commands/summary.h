@@ -4,7 +4,7 @@
 #define SUMMARY_H
 
 #include <jansson.h>
-#include "options.h"
+#include "options/options.h"
 #include "scene/open_scene.h"
 #include "util/solved.h"
 

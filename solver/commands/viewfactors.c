@@ -8,7 +8,7 @@
 #include "commands/commands.h"
 #include "output/factor_file.h"
 #include "output/json_file.h"
-#include "progress.h"
+#include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/open_oracle.h"

@@ -4,7 +4,7 @@
 #ifndef STUDY_H
 #define STUDY_H
 
-#include "options.h"
+#include "options/options.h"
 #include "scene/open_scene.h"
 
 int study_stability(const struct options *options, const struct open_scene *scene);

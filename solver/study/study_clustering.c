@@ -19,7 +19,7 @@
 #include "util/open_oracle.h"
 #include "util/solved.h"
 #include "study/faces_reference.h"
-#include "progress.h"
+#include "util/progress.h"
 #include "util/report.h"
 
 enum { STRATEGIES_MAX = 16 };

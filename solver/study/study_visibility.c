@@ -20,7 +20,7 @@
 #include "util/device.h"
 #include "util/open_oracle.h"
 #include "util/solved.h"
-#include "progress.h"
+#include "util/progress.h"
 #include "util/report.h"
 
 enum { TOOLS = 3, CLASSES = 3 }; /* tested by one run of the graph; none, partial, all */

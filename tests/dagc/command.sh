@@ -102,7 +102,7 @@ check "a locale with a decimal comma" sh -c "LC_ALL=de_DE.UTF-8 $run good.dag >d
 # ---- warnings: the table, its list, its cases
 "$dagc" -W >list
 names=$(awk '$2 == "on" || $2 == "off" || $2 == "error" { print $1 }' list)
-check "-W lists the table" sh -c "[ $(echo "$names" | wc -l) = $(grep -c '^WARNING(' "$here/../../dagc/warnings.def") ]"
+check "-W lists the table" sh -c "[ $(echo "$names" | wc -l) = $(grep -c '^WARNING(' "$here/../../dagc/base/warnings.def") ]"
 
 for name in $names; do
     check "a case of -W$name" grep -qE "^#\\| .*\[-W(error=)?$name\]" "$here"/*.dag

@@ -17,7 +17,7 @@ echo '# run: --emit=catalog FILE' >>"$seeds/runtime_catalog.dag"
 
 # The words: those the parser asks for, those the catalog declares, and the marks.
 {
-    grep -oh '"[a-z_]\{2,\}"' dagc/parse*.c
+    grep -oh '"[a-z_]\{2,\}"' dagc/read/parse*.c
     grep -ohE '[a-z_]{3,}' runtime/catalog.dag tests/dagc/test_catalog.dag | sed 's/.*/"&"/'
     printf '"%s"\n' '->' '>=' '\x22' '{' '}' '(' ')' ' = ' ';' '|' 'in [0, inf]' 'otherwise -> stop; ' 'start a; ' \
         'node a = ' ') exits (a, b) ' 'import \x22library/branches.dag\x22;' '# run: --catalog test_catalog.dag'

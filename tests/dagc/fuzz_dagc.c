@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "warn.h"
+#include "base/warn.h"
 
 static const char folder[] = "tests/dagc/";
 static const char *const folders[] = {"tests/dagc/imports", "tests/dagc/library"};

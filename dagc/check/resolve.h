@@ -1,0 +1,21 @@
+/* resolve.h - what the two resolvers share.
+ * SPDX-License-Identifier: MIT */
+#ifndef RESOLVE_H
+#define RESOLVE_H
+
+#include "base/internal.h"
+
+/* The names that one graph declares. */
+struct scope {
+    struct oracle_graph *graph;
+    struct table nodes, parameters, exits;
+};
+
+void dag_resolve_expression(struct dag *dag, const struct scope *scope, int expression);
+void dag_resolve_answers(struct dag *dag, struct span answers, const char *what);
+void dag_resolve_twice(struct dag *dag, const char *what, const char *name, struct where where,
+                       struct where first);
+int dag_resolve_type(struct dag *dag, const char *name, struct where where);
+void dag_resolve_parameters(struct dag *dag, struct span span, int roles); /* may they have roles? */
+
+#endif

@@ -1,0 +1,147 @@
+/* main.c - the command dagc: the passes, then what was asked for.
+ *
+ * Exit status: 0 done; 1 the sources have errors, or a file cannot be read or written; 2 the
+ * command line is wrong. With a status other than 0 no output file has been touched.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+
+#include "emit/depfile.h"
+#include "prove/diff.h"
+#include "emit/emit_svg.h"
+#include "command/options.h"
+#include "prove/prove.h"
+
+static void emit(struct dag *dag, struct job *job)
+{
+    struct text *out = &job->outputs[OUTPUT_TEXT].text;
+    const struct output *header = &job->outputs[OUTPUT_HEADER];
+    const char *slash = header->path == NULL ? NULL : strrchr(header->path, '/');
+    const char *name = slash != NULL ? slash + 1 : header->path;
+    switch (job->emit) {
+    case EMIT_C:
+        if (job->c.standalone)
+            dag_emit_standalone(dag, out, &job->outputs[OUTPUT_HEADER].text, name, &job->c);
+        else
+            dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name, &job->c);
+        break;
+    case EMIT_DOT:
+    case EMIT_SVG: /* run() has it drawn, outside of dag_protect */
+        dag_emit_dot(dag, out);
+        break;
+    case EMIT_JSON:
+        dag_emit_json(dag, out);
+        break;
+    case EMIT_TEXT:
+        dag_emit_text(dag, out, PASS_ANALYSE);
+        break;
+    case EMIT_CATALOG:
+        dag_emit_catalog_doc(dag, out);
+        break;
+    case EMIT_CATALOG_H:
+        dag_emit_catalog_h(dag, out, NULL);
+        break;
+    case EMIT_CATALOG_C:
+        dag_emit_catalog_c(dag, out);
+        break;
+    case EMIT_STUB:
+    case EMIT_NONE:
+    case EMITS:
+        break;
+    }
+    dag_emit_depfile(dag, job->outputs);
+}
+
+static const char *from_environment(const char *name)
+{
+    const char *value = getenv(name);
+    return value != NULL && *value != '\0' ? value : NULL;
+}
+
+static void passes(struct dag *dag, void *context)
+{
+    struct job *job = context;
+    int is_catalog = dag_job_is_catalog(job);
+    struct text *text = &job->outputs[OUTPUT_TEXT].text;
+    dag->warnings = &job->warnings;
+    dag->folders = job->folders;
+    dag->folder_count = job->folder_count;
+
+    dag_run_passes(dag, is_catalog ? &job->input : &job->catalog,
+                   is_catalog || job->emit == EMIT_STUB ? NULL : &job->input, job->stop);
+    if (dag->error_count > 0)
+        return;
+    if (job->emit == EMIT_STUB)
+        dag_emit_stub(dag, text, job->input_path);
+    else if (job->stop != PASSES)
+        dag_emit_text(dag, text, job->stop);
+    else if (job->prove) {
+        struct dag_compiler compiler = {from_environment("CC"), from_environment("TMPDIR")};
+        job->proved = dag_prove(dag, &job->c, &compiler, stdout);
+    } else
+        emit(dag, job);
+}
+
+static int run(struct job *job)
+{
+    struct dag *dag = dag_new();
+    struct text *out = &job->outputs[OUTPUT_TEXT].text;
+    int result = 1;
+    if (job->emit != EMIT_STUB) /* there FILE.dag is the name of a tool */
+        dag_input_open(&job->input, job->input_path);
+    if (job->catalog_path != NULL)
+        dag_input_open(&job->catalog, job->catalog_path);
+    else {
+        job->catalog.name = "the standard catalog";
+        job->catalog.bytes = dagc_standard_catalog;
+        job->catalog.length = strlen(dagc_standard_catalog);
+    }
+    if (dag == NULL || dag_protect(dag, passes, job) != 0)
+        fprintf(stderr, "dagc: error: out of memory\n");
+    else {
+        dag_print_diagnostics(dag, stderr);
+        if (dag->error_count == 0) {
+            int draws = job->emit == EMIT_SVG && job->stop == PASSES;
+            if (job->prove || (job->emit == EMIT_NONE && job->stop == PASSES))
+                job->outputs[OUTPUT_TEXT].path = NULL;
+            if (job->prove)
+                result = job->proved != 0 || fflush(stdout) != 0;
+            else if (!draws || dag_draw_svg(out) == 0)
+                result = dag_write_outputs(job->outputs, OUTPUTS) != 0;
+        }
+    }
+    for (int i = 0; i < OUTPUTS; i++)
+        dag_text_free(&job->outputs[i].text);
+    dag_input_close(&job->input);
+    dag_input_close(&job->catalog);
+    dag_free(dag);
+    return result;
+}
+
+static int run_diff(const struct job *job)
+{
+    struct dag_options options = {0};
+    options.catalog_path = job->catalog_path;
+    options.folders = job->folders;
+    options.folder_count = job->folder_count;
+    int result = dag_diff(job->input_path, job->second_path, &options, stdout);
+    return fflush(stdout) != 0 ? 2 : result;
+}
+
+int main(int count, char **arguments)
+{
+    int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
+    struct job job = {0};
+    job.folders = calloc((size_t)count, sizeof *job.folders);
+    if (job.folders == NULL) {
+        fprintf(stderr, "dagc: error: out of memory\n");
+        return diff ? 2 : 1;
+    }
+    int status = diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
+    if (status == 0)
+        status = fflush(stdout) != 0;
+    else if (status < 0)
+        status = diff ? run_diff(&job) : run(&job);
+    free(job.folders);
+    return status;
+}

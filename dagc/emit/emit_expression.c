@@ -1,0 +1,257 @@
+/* emit_expression.c - computed arguments in C.
+ *
+ * Terms and externs are read first, into constants, in the order of evaluation: reading a term may
+ * compute it, and C leaves open which operand of + comes first. What is left is arithmetic in
+ * double with the source's association. min and max are functions, so that each operand stands
+ * once, and facts are functions of the discussion, so that a catalog's C text needs no rewriting.
+ * SPDX-License-Identifier: MIT */
+#include "emit/emit.h"
+
+static int precedence(enum expression_kind kind)
+{
+    switch (kind) {
+    case EXPRESSION_ADD:
+    case EXPRESSION_SUBTRACT:
+        return 1;
+    case EXPRESSION_MULTIPLY:
+    case EXPRESSION_DIVIDE:
+        return 2;
+    case EXPRESSION_NEGATE:
+        return 3;
+    default:
+        return 4;
+    }
+}
+
+/* `at` is the discussion's address, as the text around has it. Prints e where an operator of precedence `around` stands; *value counts the constants. */
+static void print(const struct dag *dag, struct text *out, int expression, int around, const char *at,
+                  int *value)
+{
+    static const char *const operators[] = {" + ", " - ", " * ", " / "};
+    static const char *const functions[] = {"sqrt(", "fabs("};
+    const struct expression *e = &dag->expressions[expression];
+    int own = precedence(e->kind), parentheses = own < around;
+    dag_print(out, "%s", parentheses ? "(" : "");
+    switch (e->kind) {
+    case EXPRESSION_NUMBER:
+        if (e->number < 0 && around > 0)
+            dag_print(out, "(");
+        dag_print_number(out, e->number);
+        if (e->number < 0 && around > 0)
+            dag_print(out, ")");
+        break;
+    case EXPRESSION_PARAMETER: {
+        const struct parameter *parameter = &dag->parameters[e->parameter];
+        int integer = dag->types[parameter->type].base == BASE_INTEGER;
+        dag_print(out, "%sparameters->%s", integer ? "(double)" : "", parameter->name);
+        break;
+    }
+    case EXPRESSION_FACT:
+        dag_print(out, "fact_");
+        dag_emit_fact_name(out, &dag->facts[e->index]);
+        dag_print(out, "(%s)", at);
+        break;
+    case EXPRESSION_TERM:
+    case EXPRESSION_EXTERN:
+        dag_print(out, "value_%d", ++*value);
+        break;
+    case EXPRESSION_NEGATE:
+        dag_print(out, "-");
+        print(dag, out, e->left, 4, at, value);
+        break;
+    case EXPRESSION_SQRT:
+    case EXPRESSION_ABS:
+        dag_print(out, "%s", functions[e->kind - EXPRESSION_SQRT]);
+        print(dag, out, e->left, 0, at, value);
+        dag_print(out, ")");
+        break;
+    case EXPRESSION_MIN:
+    case EXPRESSION_MAX:
+        dag_print(out, e->kind == EXPRESSION_MIN ? "value_min(" : "value_max(");
+        print(dag, out, e->left, 0, at, value);
+        dag_print(out, ", ");
+        print(dag, out, e->right, 0, at, value);
+        dag_print(out, ")");
+        break;
+    default: /* the operators: left to right, so the right operand binds tighter */
+        print(dag, out, e->left, own, at, value);
+        dag_print(out, "%s", operators[e->kind - EXPRESSION_ADD]);
+        print(dag, out, e->right, own + 1, at, value);
+        break;
+    }
+    dag_print(out, "%s", parentheses ? ")" : "");
+}
+
+void dag_emit_fact_name(struct text *out, const struct fact *fact)
+{
+    for (const char *c = fact->name; *c != '\0'; c++)
+        dag_print(out, "%c", *c == '.' ? '_' : *c);
+}
+
+void dag_emit_fact_number(const struct dag *dag, struct text *out, int fact)
+{
+    dag_print(out, "FACT_");
+    for (const char *c = dag->facts[fact].name; *c != '\0'; c++) {
+        char letter[2] = {*c == '.' ? '_' : *c, '\0'};
+        dag_print_upper(out, letter);
+    }
+}
+
+void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
+                         const char *at, int *value)
+{
+    const struct expression *e = &dag->expressions[argument->expression];
+    int integer = dag->types[dag->parameters[argument->parameter].type].base == BASE_INTEGER;
+    if (e->kind == EXPRESSION_PARAMETER)
+        dag_print(out, "parameters->%s", dag->parameters[e->parameter].name);
+    else if (integer && e->kind == EXPRESSION_NUMBER)
+        dag_print_integer(out, e->number);
+    else {
+        dag_print(out, "%s", integer ? "(int)(" : "");
+        print(dag, out, argument->expression, 0, at, value);
+        dag_print(out, "%s", integer ? ")" : "");
+    }
+}
+
+/* term_NAME(&d, NAME_LEVEL), or term_NAME(&d) for a term without levels */
+static void print_term(const struct dag *dag, struct text *out, int term, int level, const char *at)
+{
+    const struct term *t = &dag->terms[term];
+    dag_print(out, "term_%s(%s", t->name, at);
+    if (t->levels.count > 0) {
+        dag_print(out, ", ");
+        dag_print_upper(out, t->name);
+        dag_print(out, "_");
+        dag_print_upper(out, dag->levels[t->levels.first + level - 1].name);
+    }
+    dag_print(out, ")");
+}
+
+static void print_reads(const struct dag *dag, struct text *out, int expression, const char *at, int *value)
+{
+    const struct expression *e = &dag->expressions[expression];
+    if (e->kind == EXPRESSION_TERM) {
+        dag_print(out, "    const double value_%d = ", ++*value);
+        print_term(dag, out, e->index, e->level, at);
+        dag_print(out, ";\n");
+    } else if (e->kind == EXPRESSION_EXTERN) {
+        const struct callback *callback = &dag->callbacks[e->index];
+        struct span reads = callback->reads;
+        for (int i = reads.first; i < reads.first + reads.count; i++) {
+            dag_print(out, "    (void)");
+            print_term(dag, out, dag->needs[i].term, dag->needs[i].level, at);
+            dag_print(out, ";\n");
+        }
+        dag_print(out, "    const double value_%d = %s(%s);\n", ++*value, callback->name, at);
+    }
+    if (e->left >= 0)
+        print_reads(dag, out, e->left, at, value);
+    if (e->right >= 0)
+        print_reads(dag, out, e->right, at, value);
+}
+
+int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node, const char *at)
+{
+    int value = 0;
+    for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++)
+        print_reads(dag, out, dag->arguments[i].expression, at, &value);
+    return value;
+}
+
+static int has_reads(const struct dag *dag, int expression)
+{
+    const struct expression *e = &dag->expressions[expression];
+    return e->kind == EXPRESSION_TERM || e->kind == EXPRESSION_EXTERN ||
+           (e->left >= 0 && has_reads(dag, e->left)) || (e->right >= 0 && has_reads(dag, e->right));
+}
+
+int dag_has_reads(const struct dag *dag, const struct node *node)
+{
+    for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++)
+        if (has_reads(dag, dag->arguments[i].expression))
+            return 1;
+    return 0;
+}
+
+/* ---- what the expressions of all reached nodes call */
+
+struct reached {
+    unsigned char *facts, *callbacks, *terms;
+    int minimum, maximum, arithmetic;
+};
+
+static void reach(const struct dag *dag, struct reached *reached, int expression)
+{
+    const struct expression *e = &dag->expressions[expression];
+    if (e->kind == EXPRESSION_FACT)
+        reached->facts[e->index] = 1;
+    else if (e->kind == EXPRESSION_EXTERN)
+        reached->callbacks[e->index] = 1;
+    reached->minimum |= e->kind == EXPRESSION_MIN;
+    reached->maximum |= e->kind == EXPRESSION_MAX;
+    reached->arithmetic |= e->left >= 0;
+    if (e->left >= 0)
+        reach(dag, reached, e->left);
+    if (e->right >= 0)
+        reach(dag, reached, e->right);
+}
+
+static struct reached reach_all(struct dag *dag)
+{
+    struct reached reached = {0};
+    reached.facts = dag_alloc(&dag->arena, (size_t)dag->fact_count);
+    reached.callbacks = dag_alloc(&dag->arena, (size_t)dag->callback_count);
+    reached.terms = dag_alloc(&dag->arena, (size_t)dag->term_count);
+    for (int i = 0; i < dag->order_count; i++) {
+        const struct node *node = &dag->nodes[dag->order[i]];
+        for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
+            reach(dag, &reached, dag->arguments[a].expression);
+        for (int r = node->reads.first; r < node->reads.first + node->reads.count; r++)
+            reached.terms[dag->needs[r].term] = 1;
+    }
+    return reached;
+}
+
+void dag_emit_externs(struct dag *dag, struct text *out)
+{
+    struct reached reached = reach_all(dag);
+    for (int i = 0; i < dag->callback_count; i++) {
+        const struct callback *callback = &dag->callbacks[i];
+        if (!reached.callbacks[i])
+            continue;
+        dag_print(out, "\n/* Yours to define");
+        if (*callback->doc != '\0') {
+            dag_print(out, ": ");
+            dag_print_comment(out, callback->doc);
+        }
+        dag_print(out, " */\ndouble %s(const struct discussion *d);\n", callback->name);
+    }
+}
+
+void dag_emit_accessors(struct dag *dag, struct text *out)
+{
+    struct reached reached = reach_all(dag);
+    for (int i = 0; i < dag->term_count; i++)
+        if (reached.terms[i])
+            dag_print(out, "#include \"%s\"\n", dag->terms[i].header);
+    if (reached.arithmetic) /* a * b + c must round twice, as in the interpreter; gcc has a flag */
+        dag_print(out, "\n#ifdef __clang__\n#pragma STDC FP_CONTRACT OFF\n#endif\n");
+    if (reached.minimum)
+        dag_print(out, "\nstatic inline double value_min(double a, double b)\n{\n"
+                       "    return a < b ? a : b;\n}\n");
+    if (reached.maximum)
+        dag_print(out, "\nstatic inline double value_max(double a, double b)\n{\n"
+                       "    return a > b ? a : b;\n}\n");
+    for (int i = 0; i < dag->fact_count; i++)
+        if (reached.facts[i]) {
+            dag_print(out, "\nstatic inline ");
+            dag_emit_fact(dag, out, i);
+        }
+}
+
+void dag_emit_fact(const struct dag *dag, struct text *out, int fact)
+{
+    dag_print(out, "double fact_");
+    dag_emit_fact_name(out, &dag->facts[fact]);
+    dag_print(out, "(const struct discussion *d)\n{\n    return %s;\n}\n", dag->facts[fact].c);
+}

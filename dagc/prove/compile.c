@@ -1,0 +1,217 @@
+/* compile.c - a temporary folder, the compiler, dlopen; then the folder goes, a loaded library stays.
+ *
+ * The flags keep the releases of an oracle equal to the bit. -Bsymbolic: an oracle may be called as
+ * one that the program exports itself.
+ * SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "prove/compile.h"
+#include "emit/headers.h"
+#include "base/internal.h"
+
+extern char **environ;
+
+enum { PATH_SIZE = PATH_MAX + 64, FLAGS_MAX = 24, QUOTED = 2000 /* bytes of what the compiler says */ };
+
+static const char library_name[] = "oracles.so", output_name[] = "output.txt";
+
+/* folder/name; 0 when it does not fit. */
+static int path_of(char path[PATH_SIZE], const char *folder, const char *name)
+{
+    int length = snprintf(path, PATH_SIZE, "%s/%s", folder, name);
+    return length > 0 && length < PATH_SIZE;
+}
+
+static int write_file(const char *folder, const struct c_file *file)
+{
+    char path[PATH_SIZE];
+    if (!path_of(path, folder, file->name)) {
+        errno = ENAMETOOLONG;
+        return -1;
+    }
+    char *slash = strchr(file->name, '/') != NULL ? strrchr(path, '/') : NULL;
+    if (slash != NULL) {
+        *slash = '\0';
+        if (mkdir(path, 0700) < 0 && errno != EEXIST)
+            return -1;
+        *slash = '/';
+    }
+    FILE *stream = fopen(path, "wb");
+    if (stream == NULL)
+        return -1;
+    int bad = fwrite(file->text, 1, file->length, stream) != file->length;
+    return fclose(stream) != 0 || bad ? -1 : 0;
+}
+
+static void remove_all(const char *folder, const struct c_file *files, int count)
+{
+    char path[PATH_SIZE];
+    for (int i = 0; i < count; i++)
+        if (path_of(path, folder, files[i].name)) {
+            unlink(path);
+            if (strchr(files[i].name, '/') != NULL) {
+                *strrchr(path, '/') = '\0';
+                rmdir(path); /* succeeds with the last of its files */
+            }
+        }
+    if (path_of(path, folder, library_name))
+        unlink(path);
+    if (path_of(path, folder, output_name))
+        unlink(path);
+    rmdir(folder);
+}
+
+/* Runs a program, its output going to a file. Its status; -1 with errno when it did not end by itself. */
+static int run(char *const arguments[], const char *output)
+{
+    posix_spawn_file_actions_t actions;
+    pid_t child = 0;
+    int status, error = posix_spawn_file_actions_init(&actions);
+    if (error == 0) {
+        error = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        if (error == 0)
+            error = posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+        if (error == 0)
+            error = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    if (error != 0) {
+        errno = error;
+        return -1;
+    }
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR)
+            return -1;
+    errno = EINTR; /* by a signal */
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* Puts the compiler's words below the message. */
+static void quote(char *message, size_t size, const char *output)
+{
+    size_t used = strlen(message), room = size - used > QUOTED ? QUOTED : size - used;
+    FILE *stream = fopen(output, "rb");
+    if (stream == NULL)
+        return;
+    if (room > 2) {
+        size_t got = fread(message + used + 1, 1, room - 2, stream);
+        while (got > 0 && message[used + got] == '\n')
+            got--;
+        message[used] = got > 0 ? '\n' : '\0';
+        message[used + 1 + got] = '\0';
+    }
+    fclose(stream);
+}
+
+static int compile(const char *folder, const char *source, const char *library, const char *const *flags,
+                   const char *command, char *message, size_t size)
+{
+    char include[PATH_SIZE + 2], output[PATH_SIZE];
+    const char *arguments[FLAGS_MAX + 16] = {command, "-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic",
+                                             "-ffp-contract=off", include};
+    int count = 7;
+    for (; *flags != NULL && count < FLAGS_MAX; flags++)
+        arguments[count++] = *flags;
+    arguments[count++] = "-o";
+    arguments[count++] = library;
+    arguments[count++] = source;
+    arguments[count++] = "-lm";
+    snprintf(include, sizeof include, "-I%s", folder);
+    if (!path_of(output, folder, output_name))
+        return -1;
+    int status = run((char *const *)(void *)arguments, output);
+    if (status == 0)
+        return 0;
+    if (status < 0)
+        snprintf(message, size, "cannot run the C compiler '%s': %s; install it or set CC to another", command,
+                 strerror(errno));
+    else {
+        snprintf(message, size, "the C compiler '%s' failed; set CC to another", command);
+        quote(message, size, output);
+    }
+    return -1;
+}
+
+void *dag_compile(const struct c_file *files, int count, const char *const *flags,
+                  const struct dag_compiler *compiler, char *message, size_t size)
+{
+    const char *parent = compiler != NULL && compiler->temporary != NULL ? compiler->temporary : "/tmp";
+    const char *command = compiler != NULL && compiler->command != NULL ? compiler->command : "cc";
+    char folder[PATH_MAX], source[PATH_SIZE], library[PATH_SIZE];
+    void *handle = NULL;
+    int length = snprintf(folder, sizeof folder, "%s/dagc.XXXXXX", parent), bad = 0;
+    errno = ENAMETOOLONG;
+    if (length >= (int)sizeof folder || mkdtemp(folder) == NULL) {
+        snprintf(message, size, "cannot make a temporary folder in %s: %s; set TMPDIR to another place", parent,
+                 strerror(errno));
+        return NULL;
+    }
+    for (int i = 0; i < count && !bad; i++)
+        bad = write_file(folder, &files[i]) < 0;
+    if (bad || !path_of(source, folder, files[0].name) || !path_of(library, folder, library_name))
+        snprintf(message, size, "cannot write to %s: %s; set TMPDIR to another place", folder, strerror(errno));
+    else if (compile(folder, source, library, flags, command, message, size) == 0) {
+        handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+        if (handle == NULL)
+            snprintf(message, size, "cannot load what was compiled: %s", dlerror());
+    }
+    remove_all(folder, files, count);
+    return handle;
+}
+
+/* ---- oracles against the runtime's own headers */
+
+struct request {
+    const struct dag_compiler *compiler;
+    char *message;
+    size_t size;
+    struct text c, catalog;
+    void *library;
+};
+
+static void build(struct dag *dag, void *context)
+{
+    struct request *r = context;
+    const struct source *source = &dag->sources[dag->oracles[0].where.source];
+    const char *slash = source->is_file ? strrchr(source->name, '/') : NULL;
+    const char *beside = slash == NULL ? "-I." : /* headers of the user's own tools */
+                         dag_format(&dag->arena, "-I%.*s", (int)(slash - source->name) + 1, source->name);
+    const char *const flags[] = {"-O2", beside, NULL};
+    int count = 0;
+    while (dagc_headers[count].name != NULL)
+        count++;
+    struct c_file *files = dag_alloc(&dag->arena, ((size_t)count + 2) * sizeof *files);
+    dag_emit_c(dag, &r->c, NULL, NULL, NULL);
+    dag_emit_catalog_h(dag, &r->catalog, NULL);
+    if (r->c.failed || r->catalog.failed)
+        dag_out_of_memory(&dag->arena);
+    files[0] = (struct c_file){"oracles.c", r->c.bytes, r->c.length};
+    files[1] = (struct c_file){"catalog.h", r->catalog.bytes, r->catalog.length};
+    for (int i = 0; i < count; i++)
+        files[i + 2] = (struct c_file){dagc_headers[i].name, dagc_headers[i].text, strlen(dagc_headers[i].text)};
+    r->library = dag_compile(files, count + 2, flags, r->compiler, r->message, r->size);
+}
+
+void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message, size_t size)
+{
+    struct request r = {compiler, message, size, {0}, {0}, NULL};
+    struct protector *outer = dag->arena.protector;
+    message[0] = '\0';
+    if (dag_protect(dag, build, &r) != 0)
+        snprintf(message, size, "out of memory");
+    dag->arena.protector = outer;
+    dag_text_free(&r.c);
+    dag_text_free(&r.catalog);
+    return r.library;
+}

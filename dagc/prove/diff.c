@@ -1,0 +1,560 @@
+/* diff.c - two oracles walked side by side.
+ *
+ * A state is a node (or leaf) of each graph, what has been written to the data manager on either
+ * side, and the answers given so far that one of the two may still come to ask about. A question is
+ * a tool, its arguments (parameters by name, numbers by value) and the levels of the terms that it and
+ * its arguments read, as its side has written them; whoever asks it again gets the answer it had. A state that was seen
+ * is not walked again, and where both sides stand before the same subgraph with the same terms
+ * nothing can differ, so the work is polynomial in all but the answers that stay relevant; it is
+ * capped, and a walk that was cut short says so.
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "analyse/analyse.h"
+#include "prove/diff.h"
+
+enum { STATES_MAX = 1000000, TABLE_SIZE = 1 << 21, SHOWN = 20, GROUPS_MAX = 1000, SIDES = 2 };
+
+/* A tool with its arguments: equal numbers, equal questions but for the terms. */
+struct question {
+    int side, node; /* where it was first seen */
+};
+
+/* One that has been asked, with the levels of what it reads. */
+struct asked {
+    int base, answer;
+    const unsigned char *levels; /* [read_count] */
+};
+
+struct group { /* ways to decide that differ, by what was asked last on either side */
+    int node[SIDES], decision[SIDES];
+};
+
+struct side {
+    struct dag *dag;
+    const struct oracle_graph *oracle;
+    const char *path;
+    int *base;                 /* by order: in bases */
+    unsigned char *reach;      /* [order][bases in bits]: may it still be asked from here? */
+    uint64_t *subgraph;        /* by order: a hash of all that follows */
+    unsigned char *levels;     /* by term: written so far */
+    struct target at;
+    int last;                  /* the node that led to `at`; its order */
+};
+
+struct walk {
+    struct arena *arena; /* of the first dag */
+    struct side side[SIDES];
+    struct question *bases;
+    int base_count, bytes;
+    struct asked *trail;
+    int trail_count;
+    unsigned char *kept; /* per item of the trail, kept_size bytes: what it has to put back */
+    size_t kept_size;
+    uint64_t *seen;
+    int states, cut;
+    struct group groups[GROUPS_MAX];
+    int group_count;
+    FILE *out;
+};
+
+static const struct node *node_at(const struct side *side, int place)
+{
+    return &side->dag->nodes[side->dag->order[side->oracle->order.first + place]];
+}
+
+/* ---- questions */
+
+static int same_value(const struct dag *a, int i, const struct dag *b, int j)
+{
+    const struct expression *x = &a->expressions[i], *y = &b->expressions[j];
+    if (x->kind != y->kind)
+        return 0;
+    switch (x->kind) {
+    case EXPRESSION_NUMBER:
+        return x->number == y->number;
+    case EXPRESSION_PARAMETER:
+        return strcmp(a->parameters[x->parameter].name, b->parameters[y->parameter].name) == 0;
+    case EXPRESSION_FACT:
+        return strcmp(a->facts[x->index].name, b->facts[y->index].name) == 0;
+    case EXPRESSION_TERM:
+        return x->index == y->index && x->level == y->level;
+    case EXPRESSION_EXTERN:
+        return strcmp(a->callbacks[x->index].name, b->callbacks[y->index].name) == 0;
+    default:
+        return same_value(a, x->left, b, y->left) && (x->right < 0 || same_value(a, x->right, b, y->right));
+    }
+}
+
+static int same_base(const struct side *a, const struct node *x, const struct side *b, const struct node *y)
+{
+    if (x->tool != y->tool || x->reads.count != y->reads.count)
+        return 0;
+    for (int i = 0; i < x->reads.count; i++) { /* an extern may be declared otherwise */
+        const struct need *p = &a->dag->needs[x->reads.first + i], *q = &b->dag->needs[y->reads.first + i];
+        if (p->term != q->term || p->level != q->level)
+            return 0;
+    }
+    for (int i = 0; i < x->arguments.count; i++)
+        if (!same_value(a->dag, a->dag->arguments[x->arguments.first + i].expression,
+                        b->dag, b->dag->arguments[y->arguments.first + i].expression))
+            return 0;
+    return 1;
+}
+
+/* What an answer depends on: the terms that the arguments read, then those of the tool. */
+static int read_count(const struct dag *dag, const struct node *node)
+{
+    return node->reads.count + dag->tools[node->tool].reads.count;
+}
+
+/* The level of the term when the tool is asked: its arguments have been evaluated by then. */
+static unsigned char level_at(const struct side *side, const struct node *node, int term)
+{
+    unsigned char level = side->levels[term];
+    for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
+        if (side->dag->needs[i].term == term && side->dag->needs[i].level > level)
+            level = (unsigned char)side->dag->needs[i].level;
+    return level;
+}
+
+static unsigned char level_read(const struct side *side, const struct node *node, int k)
+{
+    const struct tool *tool = &side->dag->tools[node->tool];
+    int need = k < node->reads.count ? node->reads.first + k : tool->reads.first + k - node->reads.count;
+    return level_at(side, node, side->dag->needs[need].term);
+}
+
+/* Bases are looked for among those of the same tool: chains, newest first. */
+static void find_bases(struct walk *walk)
+{
+    int tools = walk->side[0].dag->tool_count;
+    int most = walk->side[0].oracle->order.count + walk->side[1].oracle->order.count;
+    int *last = dag_alloc(walk->arena, (size_t)tools * sizeof(int) + 1);
+    int *before = dag_alloc(walk->arena, (size_t)most * sizeof(int));
+    walk->bases = dag_alloc(walk->arena, (size_t)most * sizeof *walk->bases);
+    for (int s = 0; s < SIDES; s++) {
+        struct side *side = &walk->side[s];
+        side->base = dag_alloc(walk->arena, (size_t)side->oracle->order.count * sizeof(int));
+        for (int i = 0; i < side->oracle->order.count; i++) {
+            const struct node *node = node_at(side, i);
+            int found = last[node->tool] - 1;
+            for (; found >= 0; found = before[found] - 1) {
+                const struct side *other = &walk->side[walk->bases[found].side];
+                if (same_base(side, node, other, node_at(other, walk->bases[found].node)))
+                    break;
+            }
+            if (found < 0) {
+                found = walk->base_count++;
+                walk->bases[found].side = s;
+                walk->bases[found].node = i;
+                before[found] = last[node->tool];
+                last[node->tool] = found + 1;
+            }
+            side->base[i] = found;
+        }
+    }
+}
+
+static void find_reach(struct walk *walk)
+{
+    walk->bytes = (walk->base_count + 7) / 8;
+    for (int s = 0; s < SIDES; s++) {
+        struct side *side = &walk->side[s];
+        int count = side->oracle->order.count;
+        side->reach = dag_alloc(walk->arena, (size_t)count * (size_t)walk->bytes);
+        for (int i = count - 1; i >= 0; i--) {
+            const struct node *node = node_at(side, i);
+            unsigned char *row = side->reach + (size_t)i * (size_t)walk->bytes;
+            row[side->base[i] / 8] |= (unsigned char)(1 << side->base[i] % 8);
+            for (int a = 0; a < node->arcs.count; a++) {
+                const struct target *target = &side->dag->arcs[node->arcs.first + a].target;
+                if (target->kind != TARGET_NODE)
+                    continue;
+                const unsigned char *from =
+                    side->reach + (size_t)side->dag->nodes[target->index].order * (size_t)walk->bytes;
+                for (int k = 0; k < walk->bytes; k++)
+                    row[k] |= from[k];
+            }
+        }
+    }
+}
+
+static uint64_t mix(uint64_t x, uint64_t y)
+{
+    x = (x ^ y) * UINT64_C(0x9e3779b97f4a7c15);
+    return x ^ x >> 29;
+}
+
+static uint64_t subgraph_of(const struct side *side, const struct target *target)
+{
+    return target->kind == TARGET_NODE ? side->subgraph[side->dag->nodes[target->index].order]
+                                       : mix(3, (uint64_t)target->index);
+}
+
+static void find_subgraphs(struct walk *walk)
+{
+    for (int s = 0; s < SIDES; s++) {
+        struct side *side = &walk->side[s];
+        int count = side->oracle->order.count;
+        side->subgraph = dag_alloc(walk->arena, (size_t)count * sizeof *side->subgraph);
+        for (int i = count - 1; i >= 0; i--) {
+            const struct node *node = node_at(side, i);
+            uint64_t hash = mix(4, (uint64_t)side->base[i]);
+            for (int a = 0; a < node->arcs.count; a++)
+                hash = mix(hash, subgraph_of(side, &side->dag->arcs[node->arcs.first + a].target));
+            side->subgraph[i] = hash;
+        }
+    }
+}
+
+/* Nothing that follows can differ: the same graph lies before both, with the same terms. */
+static int must_agree(const struct walk *walk)
+{
+    const struct side *a = &walk->side[0], *b = &walk->side[1];
+    return subgraph_of(a, &a->at) == subgraph_of(b, &b->at) &&
+           memcmp(a->levels, b->levels, (size_t)a->dag->term_count) == 0;
+}
+
+static int place_of(const struct side *side)
+{
+    return side->at.kind == TARGET_NODE ? side->dag->nodes[side->at.index].order : -1;
+}
+
+static int may_ask(const struct walk *walk, const struct side *side, int base)
+{
+    int place = place_of(side);
+    return place >= 0 && (side->reach[(size_t)place * (size_t)walk->bytes + (size_t)(base / 8)] >> base % 8 & 1);
+}
+
+/* The answer that the question of this side's node has had; -1: none yet. */
+static int answer_known(const struct walk *walk, const struct side *side)
+{
+    int place = place_of(side);
+    const struct node *node = node_at(side, place);
+    for (int i = 0; i < walk->trail_count; i++) {
+        const struct asked *asked = &walk->trail[i];
+        int same = asked->base == side->base[place];
+        for (int k = 0; same && k < read_count(side->dag, node); k++)
+            same = asked->levels[k] == level_read(side, node, k);
+        if (same)
+            return asked->answer;
+    }
+    return -1;
+}
+
+/* ---- states */
+
+static uint64_t hash_state(const struct walk *walk)
+{
+    uint64_t hash = 1, answers = 0;
+    for (int s = 0; s < SIDES; s++) {
+        const struct side *side = &walk->side[s];
+        hash = mix(mix(hash, (uint64_t)side->at.kind), (uint64_t)side->at.index);
+        if (side->at.kind != TARGET_NODE) /* ways that differ are told apart by it */
+            hash = mix(hash, (uint64_t)side->last);
+        for (int t = 0; t < side->dag->term_count; t++)
+            hash = mix(hash, side->levels[t]);
+    }
+    for (int i = 0; i < walk->trail_count; i++) {
+        const struct asked *asked = &walk->trail[i];
+        const struct question *base = &walk->bases[asked->base];
+        if (!may_ask(walk, &walk->side[0], asked->base) && !may_ask(walk, &walk->side[1], asked->base))
+            continue;
+        const struct side *side = &walk->side[base->side];
+        const struct node *node = node_at(side, base->node);
+        uint64_t one = mix(mix(2, (uint64_t)asked->base), (uint64_t)asked->answer);
+        for (int k = 0; k < read_count(side->dag, node); k++)
+            one = mix(one, asked->levels[k]);
+        answers += one; /* in whatever order they came */
+    }
+    hash = mix(hash, answers);
+    return hash == 0 ? 1 : hash;
+}
+
+/* Has the state been walked? Else it has now. */
+static int seen_before(struct walk *walk)
+{
+    uint64_t hash = hash_state(walk);
+    size_t slot = hash & (TABLE_SIZE - 1);
+    while (walk->seen[slot] != 0 && walk->seen[slot] != hash)
+        slot = (slot + 1) & (TABLE_SIZE - 1);
+    if (walk->seen[slot] == hash)
+        return 1;
+    if (walk->states >= STATES_MAX) {
+        walk->cut = 1;
+        return 1;
+    }
+    walk->seen[slot] = hash;
+    walk->states++;
+    return 0;
+}
+
+/* ---- the report */
+
+static void print_question(FILE *out, const struct side *side, const struct node *node)
+{
+    fprintf(out, "  %s(", side->dag->tools[node->tool].name);
+    for (int i = 0; i < node->arguments.count; i++) {
+        const struct argument *argument = &side->dag->arguments[node->arguments.first + i];
+        fprintf(out, "%s%s = %s", i > 0 ? ", " : "", argument->name,
+                dag_value_text(side->dag, argument->expression));
+    }
+    fprintf(out, ")");
+}
+
+static void report(struct walk *walk)
+{
+    struct group new_group = {{0}, {0}};
+    for (int s = 0; s < SIDES; s++) {
+        new_group.node[s] = walk->side[s].last;
+        new_group.decision[s] = walk->side[s].at.index;
+    }
+    for (int i = 0; i < walk->group_count; i++)
+        if (memcmp(&walk->groups[i], &new_group, sizeof new_group) == 0)
+            return;
+    if (walk->group_count >= GROUPS_MAX)
+        return;
+    walk->groups[walk->group_count++] = new_group;
+    if (walk->group_count > SHOWN)
+        return;
+    fprintf(walk->out, "\n");
+    for (int i = 0; i < walk->trail_count; i++) {
+        const struct asked *asked = &walk->trail[i];
+        const struct side *side = &walk->side[walk->bases[asked->base].side];
+        const struct node *node = node_at(side, walk->bases[asked->base].node);
+        const struct tool *tool = &side->dag->tools[node->tool];
+        print_question(walk->out, side, node);
+        fprintf(walk->out, ": %s\n", side->dag->answers[tool->answers.first + asked->answer].name);
+    }
+    for (int s = 0; s < SIDES; s++)
+        fprintf(walk->out, "%c %s decides %s after %s\n", s == 0 ? '-' : '+', walk->side[s].path,
+                walk->side[s].dag->decisions[walk->side[s].at.index].name,
+                node_at(&walk->side[s], walk->side[s].last)->name);
+}
+
+/* ---- the walk */
+
+/* One side takes the answer's arc; its arguments have then read their terms, and its tool has written
+ * what it declares. */
+static void take(struct side *side, int answer)
+{
+    const struct node *node = &side->dag->nodes[side->at.index];
+    const struct tool *tool = &side->dag->tools[node->tool];
+    for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
+        side->levels[side->dag->needs[i].term] = level_at(side, node, side->dag->needs[i].term);
+    for (int i = 0; i < tool->writes.count; i++) {
+        const struct need *need = &side->dag->needs[tool->writes.first + i];
+        if (side->levels[need->term] < need->level)
+            side->levels[need->term] = (unsigned char)need->level;
+    }
+    side->last = node->order;
+    side->at = side->dag->arcs[node->arcs.first + answer].target;
+}
+
+struct saved {
+    struct target at[SIDES];
+    int last[SIDES];
+};
+
+static void go(struct walk *walk);
+
+/* Tries every answer of the question that side s is at. */
+static void branch(struct walk *walk, int s)
+{
+    struct side *side = &walk->side[s];
+    int place = place_of(side);
+    const struct node *node = node_at(side, place);
+    size_t terms = (size_t)side->dag->term_count;
+    int reads = read_count(side->dag, node);
+    unsigned char *kept = walk->kept + (size_t)walk->trail_count * walk->kept_size;
+    struct asked *asked = &walk->trail[walk->trail_count];
+    for (int k = 0; k < reads; k++)
+        kept[2 * terms + (size_t)k] = level_read(side, node, k);
+    asked->base = side->base[place];
+    asked->levels = kept + 2 * terms;
+    struct saved saved;
+    for (int i = 0; i < SIDES; i++) {
+        memcpy(kept + (size_t)i * terms, walk->side[i].levels, terms);
+        saved.at[i] = walk->side[i].at;
+        saved.last[i] = walk->side[i].last;
+    }
+    walk->trail_count++;
+    for (int answer = 0; answer < node->arcs.count && !walk->cut; answer++) {
+        asked->answer = answer;
+        go(walk);
+        for (int i = 0; i < SIDES; i++) {
+            memcpy(walk->side[i].levels, kept + (size_t)i * terms, terms);
+            walk->side[i].at = saved.at[i];
+            walk->side[i].last = saved.last[i];
+        }
+    }
+    walk->trail_count--;
+}
+
+/* Follows what is known on both sides, then asks the first thing that is not. */
+static void go(struct walk *walk)
+{
+    int next = -1;
+    for (int s = 0; s < SIDES; s++) {
+        struct side *side = &walk->side[s];
+        int answer;
+        while (side->at.kind == TARGET_NODE && (answer = answer_known(walk, side)) >= 0)
+            take(side, answer);
+        if (side->at.kind == TARGET_NODE && next < 0)
+            next = s;
+    }
+    if (must_agree(walk) || seen_before(walk))
+        return;
+    if (next >= 0)
+        branch(walk, next);
+    else if (walk->side[0].at.index != walk->side[1].at.index)
+        report(walk);
+}
+
+/* Parameters that one of them lacks, or whose defaults differ. */
+static int compare_parameters(const struct walk *walk)
+{
+    int different = 0;
+    for (int s = 0; s < SIDES; s++) {
+        const struct side *side = &walk->side[s], *other = &walk->side[1 - s];
+        for (int i = 0; i < side->oracle->parameters.count; i++) {
+            const struct parameter *a = &side->dag->parameters[side->oracle->parameters.first + i], *b = NULL;
+            for (int k = 0; k < other->oracle->parameters.count && b == NULL; k++) {
+                const struct parameter *q = &other->dag->parameters[other->oracle->parameters.first + k];
+                b = strcmp(a->name, q->name) == 0 ? q : NULL;
+            }
+            char x[32], y[32];
+            if (b == NULL)
+                fprintf(walk->out, "%c parameter %s\n", s == 0 ? '-' : '+', a->name);
+            else if (s == 0 && a->value != b->value) {
+                fprintf(walk->out, "- parameter %s = %s\n", a->name, dag_number(a->value, x));
+                fprintf(walk->out, "+ parameter %s = %s\n", a->name, dag_number(b->value, y));
+                different = 1;
+            }
+        }
+    }
+    return different;
+}
+
+struct request {
+    struct side side[SIDES];
+    FILE *out;
+    int result;
+};
+
+/* (Protected twice: the arenas of both dags grow.) */
+static void compare(struct dag *other, void *context)
+{
+    struct request *request = context;
+    struct dag *dag = request->side[0].dag;
+    (void)other;
+    struct walk *walk = dag_alloc(&dag->arena, sizeof *walk);
+    walk->arena = &dag->arena;
+    walk->out = request->out;
+    memcpy(walk->side, request->side, sizeof walk->side);
+    find_bases(walk);
+    find_reach(walk);
+    find_subgraphs(walk);
+    for (int s = 0; s < SIDES; s++) {
+        walk->side[s].levels = dag_alloc(walk->arena, (size_t)dag->term_count + 1);
+        walk->side[s].at = walk->side[s].oracle->start;
+    }
+    size_t most = (size_t)walk->side[0].oracle->order.count + (size_t)walk->side[1].oracle->order.count + 1;
+    int reads = 0;
+    for (int s = 0; s < SIDES; s++)
+        for (int i = 0; i < walk->side[s].oracle->order.count; i++) {
+            int more = read_count(walk->side[s].dag, node_at(&walk->side[s], i));
+            reads = more > reads ? more : reads;
+        }
+    walk->kept_size = 2 * (size_t)dag->term_count + (size_t)reads + 1;
+    walk->kept = dag_alloc(walk->arena, most * walk->kept_size);
+    walk->trail = dag_alloc(walk->arena, most * sizeof *walk->trail);
+    walk->seen = dag_alloc(walk->arena, TABLE_SIZE * sizeof *walk->seen);
+    fprintf(walk->out, "oracle %s\n", walk->side[0].oracle->name);
+    request->result |= compare_parameters(walk);
+    go(walk);
+    if (walk->group_count > SHOWN)
+        fprintf(walk->out, "\n%d ways to decide differ%s; the first %d are shown\n", walk->group_count,
+                walk->group_count == GROUPS_MAX ? " at least" : "", SHOWN);
+    else
+        fprintf(walk->out, "%s%d ways to decide differ\n", walk->group_count > 0 ? "\n" : "", walk->group_count);
+    if (walk->cut)
+        fprintf(walk->out, "stopped after %d states: there may be more\n", walk->states);
+    request->result |= (walk->group_count > 0 ? 1 : 0) | (walk->cut ? 2 : 0);
+}
+
+static void compare_protected(struct dag *dag, void *context)
+{
+    struct request *request = context;
+    (void)dag;
+    if (dag_protect(request->side[1].dag, compare, request) != 0) {
+        fprintf(stderr, "dagc: error: out of memory\n");
+        request->result = 2;
+    }
+}
+
+/* Do both files know the same tools, terms and decisions? They may declare some themselves. */
+static int same_catalog(const struct dag *a, const struct dag *b)
+{
+    int same = a->tool_count == b->tool_count && a->term_count == b->term_count && a->decision_count == b->decision_count;
+    for (int i = 0; same && i < a->tool_count; i++) {
+        const struct tool *x = &a->tools[i], *y = &b->tools[i];
+        same = strcmp(x->name, y->name) == 0 && x->answers.count == y->answers.count &&
+               x->parameters.count == y->parameters.count && x->reads.count == y->reads.count;
+        for (int k = 0; same && k < x->answers.count; k++)
+            same = strcmp(a->answers[x->answers.first + k].name, b->answers[y->answers.first + k].name) == 0;
+    }
+    for (int i = 0; same && i < a->term_count; i++)
+        same = strcmp(a->terms[i].name, b->terms[i].name) == 0 && a->terms[i].levels.count == b->terms[i].levels.count;
+    for (int i = 0; same && i < a->decision_count; i++)
+        same = strcmp(a->decisions[i].name, b->decisions[i].name) == 0;
+    return same;
+}
+
+/* Oracles of one name are compared; two files of one oracle each whatever the names. */
+static int pair_up(struct request *request, int index)
+{
+    struct dag *a = request->side[0].dag, *b = request->side[1].dag;
+    int other = a->oracle_count == 1 && b->oracle_count == 1 ? 0 : dag_oracle(b, a->oracles[index].name);
+    if (other < 0) {
+        fprintf(request->out, "- oracle %s\n", a->oracles[index].name);
+        request->result |= 1;
+        return 0;
+    }
+    request->side[0].oracle = &a->oracles[index];
+    request->side[1].oracle = &b->oracles[other];
+    return 1;
+}
+
+int dag_diff(const char *a, const char *b, const struct dag_options *options, FILE *out)
+{
+    struct request request = {0};
+    request.out = out;
+    request.side[0].path = a;
+    request.side[1].path = b;
+    struct dag_options loaded = *options;
+    loaded.switches = "no-all"; /* a graph with weaknesses can be compared, too */
+    request.side[0].dag = dag_load_with(a, &loaded, stderr);
+    request.side[1].dag = dag_load_with(b, &loaded, stderr);
+    if (request.side[0].dag == NULL || request.side[1].dag == NULL)
+        request.result = 2;
+    else if (!same_catalog(request.side[0].dag, request.side[1].dag)) {
+        fprintf(stderr, "dagc: error: the two files declare different tools, terms or decisions\n");
+        request.result = 2;
+    }
+    for (int i = 0; request.result < 2 && i < request.side[0].dag->oracle_count; i++)
+        if (pair_up(&request, i) && dag_protect(request.side[0].dag, compare_protected, &request) != 0) {
+            fprintf(stderr, "dagc: error: out of memory\n");
+            request.result = 2;
+        }
+    for (int i = 0; request.result < 2 && i < request.side[1].dag->oracle_count; i++)
+        if (!(request.side[0].dag->oracle_count == 1 && request.side[1].dag->oracle_count == 1) &&
+            dag_oracle(request.side[0].dag, request.side[1].dag->oracles[i].name) < 0) {
+            fprintf(out, "+ oracle %s\n", request.side[1].dag->oracles[i].name);
+            request.result |= 1;
+        }
+    dag_free(request.side[0].dag);
+    dag_free(request.side[1].dag);
+    return request.result >= 2 ? 2 : request.result;
+}

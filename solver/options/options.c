@@ -1,0 +1,320 @@
+/* options.c - parse the command line by the table of options, and print --help from it.
+ *
+ * getopt_long does the parsing; that an option may be abbreviated as long as it is clear is its doing, too.
+ * SPDX-License-Identifier: MIT */
+#include "options/options.h"
+
+#include <getopt.h>
+#include <omp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "options/option_table.h"
+#include "util/report.h"
+
+enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 }; /* what getopt_long returns: a letter, or one of these */
+
+/* ---- help */
+
+static void print_lines(const char *prefix)
+{
+    for (int i = 0; i < COMMANDS; i++) {
+        const struct command_row *c = &command_rows[i];
+        char left[32];
+        if (strncmp(c->name, prefix, strlen(prefix)) != 0)
+            continue;
+        snprintf(left, sizeof left, "%s %s", c->name, c->argument);
+        printf("  %-23s %s\n", left, c->help);
+    }
+}
+
+static int print_help(void)
+{
+    printf("usage: radiosity COMMAND [SCENE] [options]\n"
+           "\n"
+           "Light in a closed scene of diffuse surfaces, by hierarchical radiosity.\n"
+           "\n");
+    print_lines("");
+    printf("\n"
+           "    radiosity solve room.obj --image room.png\n"
+           "\n"
+           "SCENE is OBJ+MTL, PLY, glTF, Collada or what else Assimp reads, in metres. The\n"
+           "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
+           "Faces have one side unless the material's name ends in _2s.\n"
+           "\n"
+           "  --help                  this, or of a command: its options\n"
+           "  --version               the version\n"
+           "\n"
+           "Messages go to standard error. Exit status: 0 done; 1 the scene, an oracle or a\n"
+           "file is at fault, and nothing half-written is left; 2 wrong usage.\n");
+    return 0;
+}
+
+static int print_studies_help(void)
+{
+    printf("usage: radiosity study NAME [SCENE] [options]\n"
+           "\n"
+           "Experiments whose table is the result; `radiosity study NAME --help` tells more.\n"
+           "\n");
+    print_lines("study");
+    return 0;
+}
+
+/* "--name ARGUMENT". Returns its length. */
+static int option_text(const struct option_row *row, char text[64])
+{
+    return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name, row->argument ? " " : "",
+                    row->argument ? row->argument : "");
+}
+
+static int print_command_help(enum command command)
+{
+    const struct command_row *c = &command_rows[command];
+    char text[64];
+    int width = 0;
+    printf("usage: radiosity %s%s%s%s\n%s", c->name, *c->argument ? " " : "", c->argument,
+           command == COMMAND_ORACLES ? "" : " [options]", c->lesson);
+    const char *const *names = radGetClusteringNames();
+    for (int i = 0; command == COMMAND_CLUSTERING && names[i]; i++)
+        printf("  %-6s %s\n", names[i], radGetClusteringDoc(names[i]));
+    printf("\n");
+    for (int i = 0; i < option_row_count; i++) {
+        int length = option_rows[i].commands >> command & 1 ? option_text(&option_rows[i], text) : 0;
+        width = length > width ? length : width;
+    }
+    for (int i = 0; i < option_row_count; i++) {
+        const struct option_row *row = &option_rows[i];
+        if (!(row->commands >> command & 1))
+            continue;
+        option_text(row, text);
+        printf("  %-*s  %s", width, text, row->help);
+        printf(row->preset ? " (%s)\n" : "\n", row->preset);
+    }
+    printf("%s    %s\n", width ? "\n" : "", c->example);
+    return 0;
+}
+
+/* ---- what is wrong */
+
+/* Returns the exit status. `command`: whose --help tells more, "" for all. */
+static int wrong(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
+static int wrong(const char *command, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    fprintf(stderr, "radiosity: error: ");
+    vfprintf(stderr, format, list);
+    fprintf(stderr, "; see radiosity %s%s--help\n", command, *command ? " " : "");
+    va_end(list);
+    return 2;
+}
+
+/* An option that getopt_long does not know, or knows several of. */
+static int wrong_option(enum command command, const char *argument)
+{
+    const char *name = command_rows[command].name, *word = argument + strspn(argument, "-");
+    size_t length = strcspn(word, "=");
+    char several[128] = "";
+    int others = -1, is_long = argument[1] == '-';
+    for (int i = 0; i < option_row_count; i++) {
+        const struct option_row *row = &option_rows[i];
+        int whole = strlen(row->name) == length;
+        if (strncmp(row->name, word, length) != 0 || (row->name[1] != 0) != is_long)
+            continue;
+        if (row->commands >> command & 1)
+            snprintf(several + strlen(several), sizeof several - strlen(several), "%s--%s", *several ? ", " : "", row->name);
+        for (int c = 0; c < COMMANDS && whole && others < 0; c++)
+            others = row->commands >> c & 1 ? c : -1;
+    }
+    if (length && *several)
+        return wrong(name, "%.*s could be %s", (int)(strcspn(argument, "=")), argument, several);
+    if (length && others >= 0)
+        return wrong(name, "%s has no option %.*s; %s has", name, (int)(strcspn(argument, "=")), argument,
+                     command_rows[others].name);
+    return wrong(name, "unknown option %s", argument);
+}
+
+/* ---- parsing */
+
+static int read_value(struct options *o, const struct option_row *row, const char *value)
+{
+    char text[64];
+    const char *command = command_rows[o->command].name;
+    option_text(row, text);
+    text[strcspn(text, " ")] = 0;
+    if (row->argument && !*value)
+        return wrong(command, "%s takes %s, not an empty value", text, row->argument);
+    if (row->read(o, row, value) < 0)
+        return wrong(command, "%s takes %s, not %s", text, option_takes(row), value);
+    return -1;
+}
+
+/* The command that the arguments begin with. Returns how many of them say it, 0 when none does. */
+static int command_of(int count, char **arguments, enum command *command)
+{
+    for (int i = 0; i < COMMANDS; i++) {
+        const char *name = command_rows[i].name, *space = strchr(name, ' ');
+        size_t first = space ? (size_t)(space - name) : strlen(name);
+        if (strlen(arguments[0]) != first || memcmp(arguments[0], name, first) != 0)
+            continue;
+        *command = (enum command)i;
+        if (!space)
+            return 1;
+        if (count > 1 && strcmp(arguments[1], space + 1) == 0)
+            return 2;
+    }
+    return 0;
+}
+
+static int is_help(const char *argument)
+{
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+/* The arguments name no command. Returns the exit status. */
+static int without_command(int count, char **arguments)
+{
+    if (count < 2 || !*arguments[1])
+        return wrong("", "no command is given");
+    if (is_help(arguments[1]) || strcmp(arguments[1], "help") == 0)
+        return print_help();
+    if (strcmp(arguments[1], "--version") == 0) {
+        printf("radiosity %s\n", RADIOSITY_VERSION);
+        return 0;
+    }
+    if (*arguments[1] == '-')
+        return wrong("", "a command comes first, not %s", arguments[1]);
+    if (strcmp(arguments[1], "study") != 0)
+        return wrong("", "unknown command %s", arguments[1]);
+    if (count < 3 || !*arguments[2])
+        return wrong("study", "study what?");
+    return is_help(arguments[2]) ? print_studies_help() : wrong("study", "there is no study %s", arguments[2]);
+}
+
+/* The table as getopt_long wants it, for one command. */
+static void options_of(enum command command, struct option longs[OPTIONS_MAX], char shorts[OPTIONS_MAX])
+{
+    int n = 0;
+    strcpy(shorts, "-:h"); /* "-": what is no option comes in its order; ":": tell missing values from unknown options */
+    for (int i = 0; i < option_row_count; i++) {
+        const struct option_row *row = &option_rows[i];
+        if (!(row->commands >> command & 1))
+            continue;
+        if (row->name[1])
+            longs[n++] = (struct option){row->name, row->argument != NULL, NULL, ROWS + i};
+        else
+            snprintf(shorts + strlen(shorts), 3, "%s%s", row->name, row->argument ? ":" : "");
+    }
+    longs[n++] = (struct option){"help", 0, NULL, HELP};
+    longs[n++] = (struct option){"version", 0, NULL, VERSION};
+    longs[n] = (struct option){0};
+}
+
+/* The row that getopt_long's number or letter means for the command, or NULL. */
+static const struct option_row *row_of(enum command command, int number)
+{
+    if (number >= ROWS)
+        return &option_rows[number - ROWS];
+    for (int i = 0; i < option_row_count; i++)
+        if (option_rows[i].commands >> command & 1 && !option_rows[i].name[1] && option_rows[i].name[0] == number)
+            return &option_rows[i];
+    return NULL;
+}
+
+static int set_scene(struct options *o, const char *path)
+{
+    const struct command_row *c = &command_rows[o->command];
+    if (!*c->argument)
+        return wrong(c->name, "%s takes no scene, but got %s", c->name, *path ? path : "an empty name");
+    if (!*path)
+        return wrong(c->name, "the scene's name is empty");
+    if (o->scene)
+        return wrong(c->name, "more than one scene: %s", path);
+    o->scene = path;
+    return -1;
+}
+
+/* What getopt_long found, by its number. Returns -1 to go on, or the exit status. */
+static int read_argument(struct options *o, int number, const char *last)
+{
+    const char *command = command_rows[o->command].name;
+    const struct option_row *row = row_of(o->command, number == '?' || number == ':' ? optopt : number);
+    char letter[3] = {'-', (char)optopt, 0};
+    switch (number) {
+    case 1:
+        return set_scene(o, optarg);
+    case 'h':
+    case HELP:
+        return print_command_help(o->command);
+    case VERSION:
+        printf("radiosity %s\n", RADIOSITY_VERSION);
+        return 0;
+    case ':':
+        return wrong(command, "a value is missing after %s%s", row->name[1] ? "--" : "-", row->name);
+    case '?':
+        if (optopt >= HELP)
+            return wrong(command, "no value goes with --%.*s", (int)strcspn(last + 2, "="), last + 2);
+        return wrong_option(o->command, optopt ? letter : last);
+    default:
+        return read_value(o, row, optarg);
+    }
+}
+
+/* What no option says by itself. Returns -1, or the exit status. */
+static int check_together(struct options *o)
+{
+    const struct command_row *c = &command_rows[o->command];
+    if (*c->argument && !o->scene)
+        return wrong(c->name, "no scene is given");
+    if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)
+        return wrong(c->name, "--statistics counts what the interpreted graph does: it takes no --release but dag");
+    if (o->statistics)
+        o->release = RAD_RELEASE_DAG;
+    if (o->mesh && !o->image)
+        return wrong(c->name, "--mesh is for a picture: add --image FILE.png");
+    return -1;
+}
+
+int options_parse(struct options *o, int count, char **arguments)
+{
+    struct option longs[OPTIONS_MAX];
+    char shorts[OPTIONS_MAX];
+    int words, number, status = -1;
+    memset(o, 0, sizeof *o);
+    o->threads = omp_get_num_procs();
+    words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
+    if (!words)
+        return without_command(count, arguments);
+    for (int i = 0; i < option_row_count && status < 0; i++)
+        if (option_rows[i].commands >> o->command & 1 && option_rows[i].preset)
+            status = read_value(o, &option_rows[i], option_rows[i].preset);
+    options_of(o->command, longs, shorts);
+    count -= words;
+    arguments += words;
+    optind = 1;
+    opterr = 0;
+    while (status < 0 && (number = getopt_long(count, arguments, shorts, longs, NULL)) != -1)
+        status = read_argument(o, number, arguments[optind - 1]);
+    for (; status < 0 && optind < count; optind++)
+        status = set_scene(o, arguments[optind]);
+    return status < 0 ? check_together(o) : status;
+}
+
+int options_outputs(const struct options *o, const char *paths[OUTPUTS_MAX])
+{
+    int n = 0;
+    for (int i = 0; i < option_row_count; i++)
+        if (option_rows[i].output && option_rows[i].commands >> o->command & 1) {
+            paths[n] = *(const char *const *)(const void *)((const char *)o + option_rows[i].field);
+            n += paths[n] != NULL;
+        }
+    return n;
+}
+
+void options_free(struct options *o)
+{
+    free(o->settings);
+    o->settings = NULL;
+}
