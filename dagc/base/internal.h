@@ -152,7 +152,7 @@ struct token dag_lex(struct lexer *lexer);
 /* What --dump can show, and --emit=text after the last of them. */
 enum pass {
 #define PASS(number, name, says) PASS_##number,
-#include "command/passes.def"
+#include "base/passes.def"
 #undef PASS
     PASSES
 };

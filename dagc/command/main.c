@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "emit/depfile.h"
+#include "command/depfile.h"
 #include "prove/diff.h"
 #include "emit/emit_svg.h"
 #include "command/options.h"

@@ -43,7 +43,7 @@ static const struct {
     const char *name, *says;
 } passes[PASSES] = {
 #define PASS(number, name, says) {name, says},
-#include "command/passes.def"
+#include "base/passes.def"
 #undef PASS
 };
 

@@ -26,7 +26,7 @@ struct standalone {
 static void include(struct c_items *items, const char *name, void *context);
 
 /* Takes the header in, once; 0: there is none of this name. */
-static int take(struct standalone *s, struct c_items *items, const char *name)
+static int include_once(struct standalone *s, struct c_items *items, const char *name)
 {
     if (dag_put(&s->dag->arena, &s->seen, name, 1) >= 0)
         return 1;
@@ -49,12 +49,12 @@ static int take(struct standalone *s, struct c_items *items, const char *name)
 static void include(struct c_items *items, const char *name, void *context)
 {
     struct standalone *s = context;
-    if (!take(s, items, name))
+    if (!include_once(s, items, name))
         dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I", name);
 }
 
 /* The text in the arena; the buffer is freed. A text that was cut short must not go on. */
-static const char *settle(struct dag *dag, struct text *text)
+static const char *text_kept(struct dag *dag, struct text *text)
 {
     if (text->failed) {
         dag_text_free(text);
@@ -74,7 +74,7 @@ static void collect(struct standalone *s, struct c_items *items)
     struct text catalog = {0}, declarations = {0}, functions = {0};
     s->seen = (struct table){NULL, NULL, 0, 0};
     dag_emit_catalog_h(dag, &catalog, s->options.terms);
-    s->catalog = settle(dag, &catalog);
+    s->catalog = text_kept(dag, &catalog);
     dag_emit_externs(dag, &declarations);
     for (int i = 0; i < dag->oracle_count; i++)
         dag_emit_oracle_h(dag, &declarations, &dag->oracles[i], &s->options);
@@ -86,12 +86,12 @@ static void collect(struct standalone *s, struct c_items *items)
 
     include(items, dag->runtime_header, s);
     include(items, "catalog.h", s);
-    take(s, items, "standalone.h"); /* a runtime need not have one */
+    include_once(s, items, "standalone.h"); /* a runtime need not have one */
     for (int i = 0; i < dag->tool_count; i++)
         if (reached[i])
             include(items, dag->tools[i].header, s);
-    dag_items_add(items, public_name, settle(dag, &declarations), include, s);
-    dag_items_add(items, private_name, settle(dag, &functions), include, s);
+    dag_items_add(items, public_name, text_kept(dag, &declarations), include, s);
+    dag_items_add(items, private_name, text_kept(dag, &functions), include, s);
 }
 
 static void keep(struct c_items *items)

@@ -337,7 +337,7 @@ static void report(struct walk *walk)
 
 /* One side takes the answer's arc; its arguments have then read their terms, and its tool has written
  * what it declares. */
-static void take(struct side *side, int answer)
+static void follow_arc(struct side *side, int answer)
 {
     const struct node *node = &side->dag->nodes[side->at.index];
     const struct tool *tool = &side->dag->tools[node->tool];
@@ -357,7 +357,7 @@ struct saved {
     int last[SIDES];
 };
 
-static void go(struct walk *walk);
+static void walk_on(struct walk *walk);
 
 /* Tries every answer of the question that side s is at. */
 static void branch(struct walk *walk, int s)
@@ -382,7 +382,7 @@ static void branch(struct walk *walk, int s)
     walk->trail_count++;
     for (int answer = 0; answer < node->arcs.count && !walk->cut; answer++) {
         asked->answer = answer;
-        go(walk);
+        walk_on(walk);
         for (int i = 0; i < SIDES; i++) {
             memcpy(walk->side[i].levels, kept + (size_t)i * terms, terms);
             walk->side[i].at = saved.at[i];
@@ -393,14 +393,14 @@ static void branch(struct walk *walk, int s)
 }
 
 /* Follows what is known on both sides, then asks the first thing that is not. */
-static void go(struct walk *walk)
+static void walk_on(struct walk *walk)
 {
     int next = -1;
     for (int s = 0; s < SIDES; s++) {
         struct side *side = &walk->side[s];
         int answer;
         while (side->at.kind == TARGET_NODE && (answer = answer_known(walk, side)) >= 0)
-            take(side, answer);
+            follow_arc(side, answer);
         if (side->at.kind == TARGET_NODE && next < 0)
             next = s;
     }
@@ -473,7 +473,7 @@ static void compare(struct dag *other, void *context)
     walk->seen = dag_alloc(walk->arena, TABLE_SIZE * sizeof *walk->seen);
     fprintf(walk->out, "oracle %s\n", walk->side[0].oracle->name);
     request->result |= compare_parameters(walk);
-    go(walk);
+    walk_on(walk);
     if (walk->group_count > SHOWN)
         fprintf(walk->out, "\n%d ways to decide differ%s; the first %d are shown\n", walk->group_count,
                 walk->group_count == GROUPS_MAX ? " at least" : "", SHOWN);

@@ -138,7 +138,7 @@ static void take_items(struct build *b)
 
 /* One level: nodes [first, first + count) are open[0 .. count). Their children are appended; those of two items and more are the
  * next level, written to `next`. Returns how many those are. */
-static uint32_t grow_level(struct cluster_tree *t, const struct build *b, const struct strategy *s, const struct part *open,
+static uint32_t grow_level(struct bvh *t, const struct build *b, const struct strategy *s, const struct part *open,
                            const uint32_t *node, uint32_t count, uint32_t depth, struct part (*parts)[PARTS_MAX], int *found,
                            struct part *next, uint32_t *next_node)
 {
@@ -154,13 +154,13 @@ static uint32_t grow_level(struct cluster_tree *t, const struct build *b, const 
             if (!found[i])
                 found[i] = divide(b, s, &open[from + i], parts[i], depth, 1);
         for (i = 0; i < n; i++) {
-            struct cluster_node *parent = &t->nodes[node[from + i]];
+            struct bvh_node *parent = &t->nodes[node[from + i]];
             int k;
             parent->child = t->count;
             parent->children = (uint32_t)found[i];
             for (k = 0; k < found[i]; k++) {
                 const struct part *p = &parts[i][k];
-                t->nodes[t->count] = (struct cluster_node){ p->from, p->to, 0, 0 };
+                t->nodes[t->count] = (struct bvh_node){ p->from, p->to, 0, 0 };
                 if (p->to - p->from > 1) {
                     next[after] = *p;
                     next_node[after++] = t->count;
@@ -173,7 +173,7 @@ static uint32_t grow_level(struct cluster_tree *t, const struct build *b, const 
 }
 
 /* The levels, from the root down. Returns 0 or -1. */
-static int grow(struct cluster_tree *t, const struct build *b, const struct strategy *s)
+static int grow(struct bvh *t, const struct build *b, const struct strategy *s)
 {
     /* Open parts have two items at least, so there are no more than half as many. */
     size_t most = b->count / 2 + 1;
@@ -188,7 +188,7 @@ static int grow(struct cluster_tree *t, const struct build *b, const struct stra
     bounds_empty(&open[0][0].cell);
     for (i = 0; i < b->count; i++)
         bounds_add(&open[0][0].cell, &b->items[i].box);
-    t->nodes[0] = (struct cluster_node){ 0, b->count, 0, 0 };
+    t->nodes[0] = (struct bvh_node){ 0, b->count, 0, 0 };
     t->count = t->depth = 1;
     if (b->count == 1) { /* the root is a cluster, whatever it holds */
         t->nodes[1] = t->nodes[0];
@@ -212,11 +212,11 @@ done:
 }
 
 /* Boxes from the leaves up. */
-static void take_boxes(struct cluster_tree *t, const struct build *b)
+static void take_boxes(struct bvh *t, const struct build *b)
 {
     uint32_t i, k;
     for (i = t->count; i-- > 0;) {
-        const struct cluster_node *n = &t->nodes[i];
+        const struct bvh_node *n = &t->nodes[i];
         if (!n->children) {
             t->boxes[i] = b->items[n->from].box;
             continue;
@@ -227,7 +227,7 @@ static void take_boxes(struct cluster_tree *t, const struct build *b)
     }
 }
 
-int cluster_tree_build(struct cluster_tree *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads)
+int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads)
 {
     const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < CLUSTERS_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
     struct build b = { .faces = faces, .count = count, .threads = threads };
@@ -262,11 +262,11 @@ done:
     free(b.items);
     free(b.scratch);
     if (result < 0)
-        cluster_tree_free(t);
+        bvh_free(t);
     return result;
 }
 
-void cluster_tree_free(struct cluster_tree *t)
+void bvh_free(struct bvh *t)
 {
     free(t->order);
     free(t->nodes);

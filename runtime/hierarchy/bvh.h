@@ -35,23 +35,23 @@ struct bounds {
     double low[3], high[3];
 };
 
-struct cluster_node {
+struct bvh_node {
     uint32_t from, to; /* its faces in `order` */
     uint32_t child;    /* the first; the others follow */
     uint32_t children; /* 0: it is one face */
 };
 
-struct cluster_tree {
+struct bvh {
     uint32_t *order;            /* [face_count]: faces */
-    struct cluster_node *nodes; /* [count], breadth first; [0] is the root, the only one that may have a single child */
+    struct bvh_node *nodes; /* [count], breadth first; [0] is the root, the only one that may have a single child */
     struct bounds *boxes;       /* [count] */
     uint32_t count;
     uint32_t depth;             /* nodes from the root to the farthest face, both ends included */
 };
 
 /* Returns 0, or -1 when out of memory; then the tree is empty. The tree depends on faces and strategy alone. */
-int cluster_tree_build(struct cluster_tree *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads);
-void cluster_tree_free(struct cluster_tree *t);
+int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads);
+void bvh_free(struct bvh *t);
 
 void bounds_empty(struct bounds *b);
 void bounds_add(struct bounds *b, const struct bounds *other);

@@ -145,9 +145,9 @@ static int box_reaches(const struct cut_frame *c, const double low[3], const dou
 }
 
 static int collect_below(struct contact_list *list, const struct cut_frame *c, const struct face *faces,
-                         const struct cluster_tree *tree, uint32_t node)
+                         const struct bvh *tree, uint32_t node)
 {
-    const struct cluster_node *n = &tree->nodes[node];
+    const struct bvh_node *n = &tree->nodes[node];
     if (!box_reaches(c, tree->boxes[node].low, tree->boxes[node].high))
         return 0;
     for (uint32_t i = 0; i < n->children; i++)
@@ -164,7 +164,7 @@ static int collect_below(struct contact_list *list, const struct cut_frame *c, c
     return 0;
 }
 
-int contacts_collect(struct contact_list *list, const struct cut_frame *frame, const struct face *faces, const struct cluster_tree *tree)
+int contacts_collect(struct contact_list *list, const struct cut_frame *frame, const struct face *faces, const struct bvh *tree)
 {
     list->count = 0;
     return collect_below(list, frame, faces, tree, 0);

@@ -55,7 +55,7 @@ struct cutting {
 /* One thread's. */
 struct cutter {
     const struct scene *scene;
-    const struct cluster_tree *tree;
+    const struct bvh *tree;
     struct cut_frame frame;       /* of the face at hand */
     struct contact_list contacts; /* its */
     struct line_list lines;
@@ -311,9 +311,9 @@ int scene_cut(struct scene *scene, int threads)
     if (!scene->face_count)
         return 0;
     threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : omp_get_max_threads();
-    struct cluster_tree tree;
+    struct bvh tree;
     struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
-    if (!cutters || cluster_tree_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0) {
+    if (!cutters || bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0) {
         free(cutters);
         return -1;
     }
@@ -335,6 +335,6 @@ int scene_cut(struct scene *scene, int threads)
         free(cutters[t].cuttings);
     }
     free(cutters);
-    cluster_tree_free(&tree);
+    bvh_free(&tree);
     return status ? -1 : 0;
 }

@@ -92,13 +92,13 @@ static int reserve(struct hierarchy *h, uint32_t more)
 }
 
 /* Parents, children, identities: from the root down. */
-static void place_elements(struct hierarchy *h, const struct cluster_tree *t)
+static void place_elements(struct hierarchy *h, const struct bvh *t)
 {
     uint32_t i, k;
     memset(h->elements, 0, t->count * sizeof *h->elements);
     h->elements[0].id = child_id(0, 0);
     for (i = 0; i < t->count; i++) {
-        const struct cluster_node *n = &t->nodes[i];
+        const struct bvh_node *n = &t->nodes[i];
         struct element *e = &h->elements[i];
         h->range[i] = (struct face_range){ n->from, n->to };
         e->child = n->child;
@@ -112,12 +112,12 @@ static void place_elements(struct hierarchy *h, const struct cluster_tree *t)
 
 int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count, enum clustering strategy, int threads)
 {
-    struct cluster_tree t;
+    struct bvh t;
     struct face_share *share = NULL;
     uint32_t i;
     int result = -1;
     memset(h, 0, sizeof *h);
-    if (cluster_tree_build(&t, faces, face_count, strategy, threads) < 0)
+    if (bvh_build(&t, faces, face_count, strategy, threads) < 0)
         return -1;
     h->faces = faces;
     h->face_count = face_count;
@@ -150,7 +150,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     result = 0;
 done:
     free(share);
-    cluster_tree_free(&t);
+    bvh_free(&t);
     if (result < 0)
         hierarchy_free(h);
     return result;

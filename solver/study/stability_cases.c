@@ -116,7 +116,7 @@ static const struct stability_case mesh_cases[] = {
       { PASS(BF, 0), PASS(DEFAULT, 0) } },
 };
 
-static const struct stability_case balance_cases[] = {
+static const struct stability_case energy_cases[] = {
     { "furnace_95", "a cube, E = 1 and rho = .95 everywhere", "B = 20", "largest relative error of B", NULL, stability_furnace_95,
       { FAIL(DISC, 1e-3, 0.58, 0.6, "B = 31.7"), PASS(POLYGON, 1e-3), PASS(CONTOUR, 1e-6) } },
     { "furnace_98", "the same, rho = .98", "B = 50", "largest relative error of B", NULL, stability_furnace_98,
@@ -158,6 +158,6 @@ const struct stability_group stability_groups[] = {
     GROUP("visibility", sight_cases),
     GROUP("refinement", refine_cases),
     GROUP("meshes", mesh_cases),
-    GROUP("balance", balance_cases),
+    GROUP("balance", energy_cases),
 };
 const int stability_group_count = sizeof stability_groups / sizeof *stability_groups;

@@ -102,7 +102,7 @@ static struct faces made(int set)
 }
 
 /* Each face once; children divide their parent's range, stand behind it and side by side; nothing is deeper than it may be. */
-static void check_tree(const struct cluster_tree *t, uint32_t faces)
+static void check_tree(const struct bvh *t, uint32_t faces)
 {
     unsigned char *seen = calloc(faces, 1);
     uint32_t *depth = calloc(t->count, sizeof *depth);
@@ -116,7 +116,7 @@ static void check_tree(const struct cluster_tree *t, uint32_t faces)
     }
     must(t->nodes[0].from == 0 && t->nodes[0].to == faces);
     for (i = 0; i < t->count; i++) {
-        const struct cluster_node *n = &t->nodes[i];
+        const struct bvh_node *n = &t->nodes[i];
         uint32_t from = n->from;
         must(n->from < n->to);
         deepest = depth[i] > deepest ? depth[i] : deepest;
@@ -150,17 +150,17 @@ START_TEST(test_tree)
 {
     int strategy = _i % CLUSTERING_COUNT, set = _i / CLUSTERING_COUNT;
     struct faces s = made(set);
-    struct cluster_tree t;
-    ck_assert_int_eq(cluster_tree_build(&t, s.face, s.count, (enum clustering)strategy, 2), 0);
+    struct bvh t;
+    ck_assert_int_eq(bvh_build(&t, s.face, s.count, (enum clustering)strategy, 2), 0);
     check_tree(&t, s.count);
     if (set == CLUTTER || set == COINCIDENT || set == SHRINKING)
         printf("%s, %s: %u nodes, depth %u\n", clustering_names[strategy], set_names[set], t.count, t.depth);
-    cluster_tree_free(&t);
+    bvh_free(&t);
     free(s.face);
 }
 END_TEST
 
-static int same(const struct cluster_tree *a, const struct cluster_tree *b, uint32_t faces)
+static int same(const struct bvh *a, const struct bvh *b, uint32_t faces)
 {
     return a->count == b->count && a->depth == b->depth && memcmp(a->nodes, b->nodes, a->count * sizeof *a->nodes) == 0
            && memcmp(a->order, b->order, faces * sizeof *a->order) == 0;
@@ -171,27 +171,27 @@ START_TEST(test_same)
 {
     int strategy = _i % CLUSTERING_COUNT, set = _i / CLUSTERING_COUNT, threads, n, k;
     struct faces s = made(set);
-    struct cluster_tree t, other;
+    struct bvh t, other;
     uint32_t i;
-    ck_assert_int_eq(cluster_tree_build(&t, s.face, s.count, (enum clustering)strategy, 1), 0);
+    ck_assert_int_eq(bvh_build(&t, s.face, s.count, (enum clustering)strategy, 1), 0);
     for (threads = 2; threads <= (set == MANY ? 2 : 4); threads += 2) {
-        ck_assert_int_eq(cluster_tree_build(&other, s.face, s.count, (enum clustering)strategy, threads), 0);
+        ck_assert_int_eq(bvh_build(&other, s.face, s.count, (enum clustering)strategy, threads), 0);
         ck_assert(same(&t, &other, s.count));
         ck_assert_int_eq(memcmp(t.boxes, other.boxes, t.count * sizeof *t.boxes), 0);
-        cluster_tree_free(&other);
+        bvh_free(&other);
     }
     for (n = -30; n <= 30 && set != MANY; n += 60) {
         for (i = 0; i < s.count; i++)
             for (k = 0; k < 12; k++)
                 s.face[i].vertex[k / 3][k % 3] *= ldexp(1, n);
-        ck_assert_int_eq(cluster_tree_build(&other, s.face, s.count, (enum clustering)strategy, 1), 0);
+        ck_assert_int_eq(bvh_build(&other, s.face, s.count, (enum clustering)strategy, 1), 0);
         ck_assert(same(&t, &other, s.count));
-        cluster_tree_free(&other);
+        bvh_free(&other);
         for (i = 0; i < s.count; i++)
             for (k = 0; k < 12; k++)
                 s.face[i].vertex[k / 3][k % 3] *= ldexp(1, -n);
     }
-    cluster_tree_free(&t);
+    bvh_free(&t);
     free(s.face);
 }
 END_TEST
@@ -262,7 +262,7 @@ START_TEST(test_million)
 {
     int count = thorough() && _i == CLUSTERING_SAH ? 1000000 : 100000;
     struct faces s = { malloc((size_t)count * sizeof *s.face), 0 };
-    struct cluster_tree t;
+    struct bvh t;
     uint64_t seed = 3;
     int i;
     ck_assert_ptr_nonnull(s.face);
@@ -271,9 +271,9 @@ START_TEST(test_million)
             square(&s, 0.5, 0.5, 0.5, 0.01, 0, 0);
         else
             square(&s, chance(&seed), chance(&seed), chance(&seed), 0.001, i % 3, 0);
-    ck_assert_int_eq(cluster_tree_build(&t, s.face, s.count, (enum clustering)_i, 2), 0);
+    ck_assert_int_eq(bvh_build(&t, s.face, s.count, (enum clustering)_i, 2), 0);
     check_tree(&t, s.count);
-    cluster_tree_free(&t);
+    bvh_free(&t);
     free(s.face);
 }
 END_TEST

@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "emit/depfile.h"
+#include "command/depfile.h"
 #include "command/options.h"
 
 /* A name that make reads as one word and as written. */
