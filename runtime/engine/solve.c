@@ -234,10 +234,11 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
 
 /* Solve for the radiosities over the links as they are, to `tolerance`, and for importance where it is asked for;
  * let the oracles see both. Returns 0 or -1. */
-static int iterate(struct solve *s, double tolerance)
+static int iterate(struct solve *s, double tolerance, int rough)
 {
     struct operator *op = &s->operator;
     struct transport x = light(s, tolerance), carried;
+    x.rough = rough;
     separable_links_close(&op->separable);
     if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)x.bands, s->problem.options.threads) < 0)
         return -1;
@@ -313,7 +314,7 @@ int solve_step(struct solve *s, const char **cause)
     int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
     int64_t changed;
     rough = rough && !settled && tolerance < ROUGH_TOLERANCE;
-    if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance) < 0)
+    if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance, rough) < 0)
         return fail(s, "out of memory", cause);
     middle = seconds();
     changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);

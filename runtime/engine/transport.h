@@ -12,7 +12,8 @@ struct transport {
     const double *source;       /* [face * bands + band], or [element * bands + band] (leaves are read) */
     const double *reflectance;  /* [face * bands + band] */
     int by_element;             /* which of the two the source is given by */
-    double tolerance;           /* bound that iteration must reach */
+    double tolerance;           /* what iteration may leave, relative */
+    int rough;                  /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance */
     int (*watch)(void *context, const struct transport *x); /* after each sweep; NULL: none; nonzero stops */
     void *watch_context;
 
@@ -21,7 +22,7 @@ struct transport {
     double bound;               /* on what iteration has left: sum A |x - its limit| / sum A x; INFINITY where rows are too large for one */
 };
 
-/* Sweep until the bound on what iteration leaves is within the tolerance; the row scales are set (row_sums.h).
+/* Sweep until what iteration leaves is within the tolerance; the row scales are set (row_sums.h).
  * Returns 0, or -1 when out of memory or stopped by `watch`. */
 int transport_solve(const struct operator *op, struct transport *x);
 
