@@ -113,8 +113,11 @@ $(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TEST
 packages:
 	@sh tests/packages.sh
 
-# Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves.
+# Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
+# compute much themselves.
+COMPUTING = shaft separable_links cluster_light viewfactors accuracy oracles
 $(TESTS:=.o): OPT = -O0
+$(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
