@@ -144,8 +144,12 @@ $(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TEST
 packages:
 	@sh tests/packages.sh
 
-# Tests are compiled once for a run of seconds: to optimise them less saves more than it costs.
-$(TESTS:=.o): OPT = -O1
+# Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
+# compute much themselves.
+COMPUTING = shaft separable_links cluster_light viewfactors accuracy oracles
+$(TESTS:=.o): OPT = -O0
+$(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
+$(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine
@@ -154,7 +158,7 @@ check: all
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
 
 # The suites that do more when THOROUGH is set, and the accuracy of whole solutions.
-THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/*/*.sh tests/*/check_*.c))
+THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/check_*.sh tests/*/*.sh tests/*/check_*.c))
 check-accuracy: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
 	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS)) $(filter $(THOROUGH),$(SCRIPTS))

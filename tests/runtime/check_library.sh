@@ -110,7 +110,7 @@ done
 
 # ---- dagc alone is made of dagc alone
 check "make install-dagc" sh -c "make -n -B -C '$top' install-dagc BUILD='$tmp/none' PREFIX='$tmp/usr' >steps"
-check "it compiles dagc" grep -q 'dagc/parse\.c' steps
+check "it compiles dagc" grep -q 'dagc/read/parse\.c' steps
 grep -nE '(runtime|solver)/[a-z_/]*\.c( |$)|embree|assimp|jansson|-lpng' steps >more
 check "and nothing else" none more
 
