@@ -36,12 +36,12 @@ struct where {
 enum { LINES_STEP = 1024 };
 
 struct source {
-    const char *name; /* as the user gave it */
-    const char *base; /* without its directory: what generated files may mention */
-    const char *text; /* NUL-terminated copy */
-    int length;       /* bytes, without the NUL */
-    const int *lines; /* how many end before byte 0, LINES_STEP, 2 * LINES_STEP ... */
-    unsigned char is_file; /* `name` is its path; else standard input or a text in memory */
+    const char *name;       /* as the user gave it */
+    const char *base;       /* without its directory: what generated files may mention */
+    const char *text;       /* NUL-terminated copy */
+    int length;             /* bytes, without the NUL */
+    const int *lines;       /* how many end before byte 0, LINES_STEP, 2 * LINES_STEP ... */
+    unsigned char is_file;  /* `name` is its path; else standard input or a text in memory */
     struct where importer;  /* the `import` that asked for it; nowhere: it was given */
     uint64_t device, inode; /* which file it is, however it is called */
     unsigned char on_disk;  /* device and inode are known */
@@ -50,7 +50,7 @@ struct source {
 
 /* import "FILE"; or import standard; in the order of reading. */
 struct import {
-    const char *path;    /* as written; NULL: the standard catalog */
+    const char *path; /* as written; NULL: the standard catalog */
     struct where where;
     int source;          /* in sources; -1: not read */
     unsigned char first; /* it is for this one that the source was read */
@@ -103,11 +103,12 @@ struct fact {
     const char *type_name;
     int type;
     double low, high;
-    const char *c;    /* its value as a C expression over `const struct discussion *d` */
+    const char *c; /* its value as a C expression over `const struct discussion *d` */
     const char *doc;
 };
 
-/* role NAME : TYPE "doc"; what a parameter of an oracle may be for a program, which finds it by this and not by its name. */
+/* role NAME : TYPE "doc"; what a parameter of an oracle may be for a program, which finds it by
+ * this and not by its name. */
 struct role {
     const char *name;
     struct where where;
@@ -146,13 +147,13 @@ struct parameter {
     struct where type_where, value_where, range_where, role_where;
     const char *type_name;
     const char *role_name; /* as written; NULL: none */
-    int role;            /* in roles; -1: none */
-    int type;            /* in types; always a scalar */
-    const char *doc;     /* "" when none */
-    double value;        /* the default, NAN when there is none (tools only) */
-    double low, high;    /* closed range; -INFINITY, INFINITY when none was written */
-    unsigned char given; /* PARAMETER_VALUE | PARAMETER_RANGE: which of them were written */
-    unsigned char bad;   /* an error was reported: say no more about its value or range */
+    int role;              /* in roles; -1: none */
+    int type;              /* in types; always a scalar */
+    const char *doc;       /* "" when none */
+    double value;          /* the default, NAN when there is none (tools only) */
+    double low, high;      /* closed range; -INFINITY, INFINITY when none was written */
+    unsigned char given;   /* PARAMETER_VALUE | PARAMETER_RANGE: which of them were written */
+    unsigned char bad;     /* an error was reported: say no more about its value or range */
 };
 enum { PARAMETER_VALUE = 1, PARAMETER_RANGE = 2 };
 
@@ -171,26 +172,30 @@ enum tool_kind { TOOL_QUESTION, TOOL_COMMAND };
 enum keeps {
     KEEPS_NOTHING,
     KEEPS_COUNT, /* counts: how often its only argument, a whole number, had each value */
-    KEEPS_RECORD /* records: a histogram of its first argument, under the number that is the second */
+    /* records: a histogram of its first argument, under the number that is the second */
+    KEEPS_RECORD
 };
 
-/* tool NAME(parameters) question|command answers (...) [reads] [writes] [guards] [counts|records] [header] "doc"; */
+/* tool NAME(parameters) question|command answers (...) [reads] [writes] [guards]
+ * [counts|records] [header] "doc"; */
 struct tool {
     const char *name;
     struct where where;
     enum tool_kind kind;
-    struct span parameters;  /* in parameters */
-    struct span answers;     /* in answers; their numbers, from 0, are the C enum's values */
-    struct span reads;       /* in needs */
-    struct span writes;      /* in needs */
-    unsigned char guards;    /* says that a subdivision may go on: every way to one passes a guard */
+    struct span parameters; /* in parameters */
+    struct span answers;    /* in answers; their numbers, from 0, are the C enum's values */
+    struct span reads;      /* in needs */
+    struct span writes;     /* in needs */
+    /* says that a subdivision may go on: every way to one passes a guard */
+    unsigned char guards;
     enum keeps keeps;
     struct where keeps_where; /* of the word that says so */
-    const char *header;      /* C header with `tool_NAME`, "tools/NAME.h" when not written */
+    const char *header;       /* C header with `tool_NAME`, "tools/NAME.h" when not written */
     const char *doc;
 };
 
-/* (Named so that an enum decision may stand beside it.) decision NAME [reads (...)] [subdivides] "doc"; a leaf, the same in every oracle. */
+/* (Named so that an enum decision may stand beside it.) decision NAME [reads (...)] [subdivides]
+ * "doc"; a leaf, the same in every oracle. */
 struct decision_tool {
     const char *name;
     struct where where;
@@ -202,27 +207,36 @@ struct decision_tool {
 /* The value of an argument: a tree of these. All arithmetic is in double, operands are evaluated
  * from left to right, both of them always; min is (a < b ? a : b), max is (a > b ? a : b). */
 enum expression_kind {
-    EXPRESSION_NUMBER, EXPRESSION_PARAMETER,
+    EXPRESSION_NUMBER,
+    EXPRESSION_PARAMETER,
     EXPRESSION_NAME, /* a name not yet resolved, or unknown */
-    EXPRESSION_FACT, EXPRESSION_TERM, EXPRESSION_EXTERN,
-    EXPRESSION_NEGATE, EXPRESSION_SQRT, EXPRESSION_ABS, /* one operand, left */
-    EXPRESSION_ADD, EXPRESSION_SUBTRACT, EXPRESSION_MULTIPLY, EXPRESSION_DIVIDE,
-    EXPRESSION_MIN, EXPRESSION_MAX
+    EXPRESSION_FACT,
+    EXPRESSION_TERM,
+    EXPRESSION_EXTERN,
+    EXPRESSION_NEGATE,
+    EXPRESSION_SQRT,
+    EXPRESSION_ABS, /* one operand, left */
+    EXPRESSION_ADD,
+    EXPRESSION_SUBTRACT,
+    EXPRESSION_MULTIPLY,
+    EXPRESSION_DIVIDE,
+    EXPRESSION_MIN,
+    EXPRESSION_MAX
 };
 
 struct expression {
     enum expression_kind kind;
-    struct where where;   /* for a tool's default: of that default in the catalog */
-    const char *name;     /* a name as written, with its part behind the '.', if any */
-    int dot;              /* offset of the '.' in name; 0: none */
-    double number;        /* NUMBER */
-    int parameter;        /* PARAMETER: in parameters; in a node, one of the oracle's own */
-    int index;            /* FACT, TERM, EXTERN: in facts, terms, callbacks */
-    int level;            /* TERM: as in struct need */
-    int left, right;      /* operands, in expressions; -1 */
-    int size, depth;      /* of the tree: at most EXPRESSION_SIZE and EXPRESSION_DEPTH */
-    struct unit unit;     /* of the value; of a bare NUMBER: the unit it was used with */
-    double low, high;     /* bounds of the value, by interval arithmetic */
+    struct where where;     /* for a tool's default: of that default in the catalog */
+    const char *name;       /* a name as written, with its part behind the '.', if any */
+    int dot;                /* offset of the '.' in name; 0: none */
+    double number;          /* NUMBER */
+    int parameter;          /* PARAMETER: in parameters; in a node, one of the oracle's own */
+    int index;              /* FACT, TERM, EXTERN: in facts, terms, callbacks */
+    int level;              /* TERM: as in struct need */
+    int left, right;        /* operands, in expressions; -1 */
+    int size, depth;        /* of the tree: at most EXPRESSION_SIZE and EXPRESSION_DEPTH */
+    struct unit unit;       /* of the value; of a bare NUMBER: the unit it was used with */
+    double low, high;       /* bounds of the value, by interval arithmetic */
     unsigned char any_unit; /* numbers alone: it has the unit that it is used with */
     unsigned char whole;    /* an integer */
     unsigned char checked, bad;
@@ -239,7 +253,9 @@ struct argument {
 
 /* Where an arc leads: the name of a node or of a decision. */
 enum target_kind {
-    TARGET_NONE, TARGET_NODE, TARGET_DECISION,
+    TARGET_NONE,
+    TARGET_NODE,
+    TARGET_DECISION,
     TARGET_EXIT /* inside a branch, before it is expanded */
 };
 
@@ -284,7 +300,7 @@ struct use {
  * oracle from them: every use of a branch is replaced by a copy of its nodes, so that later
  * passes know nodes with tools, and no branches. */
 struct node {
-    const char *name;      /* of a copy: USE__NAME */
+    const char *name; /* of a copy: USE__NAME */
     struct where where;
     const char *tool_name;
     struct where tool_where;
@@ -359,47 +375,76 @@ struct dag {
     int lost;                   /* a declaration lost its name to a syntax error: a name that
                                    seems unknown may be that one */
     struct where runtime_where;
-    struct type *types;         int type_count;
-    struct level *levels;       int level_count;
-    struct term *terms;         int term_count;
-    struct need *needs;         int need_count;
-    struct answer *answers;     int answer_count;
-    struct tool *tools;         int tool_count;
-    struct decision_tool *decisions; int decision_count; /* their numbers are the C enum's values */
-    struct fact *facts;         int fact_count;
-    struct role *roles;         int role_count; /* their numbers, from 1, are the C enum's values */
-    struct callback *callbacks; int callback_count;
+    struct type *types;
+    int type_count;
+    struct level *levels;
+    int level_count;
+    struct term *terms;
+    int term_count;
+    struct need *needs;
+    int need_count;
+    struct answer *answers;
+    int answer_count;
+    struct tool *tools;
+    int tool_count;
+    struct decision_tool *decisions;
+    int decision_count; /* their numbers are the C enum's values */
+    struct fact *facts;
+    int fact_count;
+    struct role *roles;
+    int role_count; /* their numbers, from 1, are the C enum's values */
+    struct callback *callbacks;
+    int callback_count;
 
     /* The graphs. */
-    struct parameter *parameters;   int parameter_count; /* of tools and of oracles */
-    struct expression *expressions; int expression_count;
-    struct argument *arguments;     int argument_count;
-    struct label *labels;           int label_count;
-    struct rule *rules;             int rule_count;
-    struct arc *arcs;               int arc_count;
-    struct node *drafts;            int draft_count;
-    struct node *nodes;             int node_count;
-    struct use *uses;               int use_count;
-    int *order;                     int order_count; /* indices in nodes */
-    struct oracle_graph *oracles;   int oracle_count;
-    struct oracle_graph *branches;  int branch_count;
+    struct parameter *parameters;
+    int parameter_count; /* of tools and of oracles */
+    struct expression *expressions;
+    int expression_count;
+    struct argument *arguments;
+    int argument_count;
+    struct label *labels;
+    int label_count;
+    struct rule *rules;
+    int rule_count;
+    struct arc *arcs;
+    int arc_count;
+    struct node *drafts;
+    int draft_count;
+    struct node *nodes;
+    int node_count;
+    struct use *uses;
+    int use_count;
+    int *order;
+    int order_count; /* indices in nodes */
+    struct oracle_graph *oracles;
+    int oracle_count;
+    struct oracle_graph *branches;
+    int branch_count;
 
     /* Names, filled by resolve. */
     struct table type_names, term_names, tool_names, decision_names, oracle_names;
     struct table fact_names, callback_names, branch_names, role_names;
-    struct { int types, terms, tools, decisions, facts, roles, callbacks; } resolved; /* how many are */
+    /* how many are */
+    struct {
+        int types, terms, tools, decisions, facts, roles, callbacks;
+    } resolved;
     unsigned char recursive; /* some branch uses itself: none is expanded */
-    int use; /* in uses: of the branch that a pass looks at, for messages; -1 */
+    int use;                 /* in uses: of the branch that a pass looks at, for messages; -1 */
 
     /* Where the text came from and what is wrong with it. */
-    struct source *sources;         int source_count;
-    struct import *imports;         int import_count;
-    int imports_read;                /* the first so many have been read */
-    const char *const *folders;     int folder_count; /* where to look for imports */
-    char *reading;                   /* a file's bytes on their way into sources */
-    struct diagnostic *diagnostics; int diagnostic_count;
-    int error_count, warning_count; /* all of them, also those not kept */
-    unsigned char muted;            /* the last one was not kept: nor are its notes */
+    struct source *sources;
+    int source_count;
+    struct import *imports;
+    int import_count;
+    int imports_read; /* the first so many have been read */
+    const char *const *folders;
+    int folder_count; /* where to look for imports */
+    char *reading;    /* a file's bytes on their way into sources */
+    struct diagnostic *diagnostics;
+    int diagnostic_count;
+    int error_count, warning_count;  /* all of them, also those not kept */
+    unsigned char muted;             /* the last one was not kept: nor are its notes */
     const struct warnings *warnings; /* see warn.h; NULL: only those that are errors by nature */
 };
 
@@ -422,14 +467,14 @@ struct dag *dag_load_text(const char *name, const char *text, size_t length,
 
 /* What else dag_load_with may be told; all zero: what dag_load does. */
 struct dag_options {
-    const char *text;           /* the source itself, `path` being its name; NULL: read path */
-    size_t length;              /* of text */
+    const char *text; /* the source itself, `path` being its name; NULL: read path */
+    size_t length;    /* of text */
     const char *catalog_name, *catalog; /* as above */
-    const char *catalog_path;   /* the catalog's file, instead of its text */
+    const char *catalog_path;           /* the catalog's file, instead of its text */
     const char *const *folders; /* where imports are looked for, after the importing file's own */
     int folder_count;
-    const char *switches;       /* as after `-W` on the command line, separated by spaces, such as
-                                   "all no-unused-parameter error"; NULL: errors alone */
+    const char *switches; /* as after `-W` on the command line, separated by spaces, such as
+                             "all no-unused-parameter error"; NULL: errors alone */
 };
 struct dag *dag_load_with(const char *path, const struct dag_options *options, FILE *errors);
 
@@ -445,12 +490,15 @@ struct dag_compiler {
     const char *command, *temporary;
 };
 
-/* The oracles as machine code: emits C, compiles it against the runtime's headers (which the library carries) and
- * loads it. Returns dlopen's handle, in which each oracle is `const struct oracle NAME_oracle` (oracle.h), or NULL with the
- * cause in `message`. The dag must hold one oracle at least. */
-void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message, size_t size);
+/* The oracles as machine code: emits C, compiles it against the runtime's headers (which the
+ * library carries) and loads it. Returns dlopen's handle, in which each oracle is `const struct
+ * oracle NAME_oracle` (oracle.h), or NULL with the cause in `message`. The dag must hold one oracle
+ * at least. */
+void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
+                          size_t size);
 
-/* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or many. */
+/* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or
+ * many. */
 int dag_oracle(const struct dag *dag, const char *name);
 
 /* Is it made of numbers and parameters alone? Then it is the same in every discussion of a run. */

@@ -1,4 +1,5 @@
-/* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the host.
+/* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the
+ * host.
  *
  * A discussion is one run of an oracle over one pair (receiver, emitter). Tools are
  * `static inline` functions over a discussion, one file each under tools/; they share values
@@ -6,8 +7,9 @@
  * it was computed at. A tool that needs a term asks term_NAME(d, level) (terms/NAME.h), which
  * computes the term when it is absent or coarser. [Turbet & Sillion, sections 3 and 4.1]
  *
- * Invariant: a tool reads the pair and the host and writes nothing but terms (the list of term blockers among them). So pairs can be
- * discussed in any order and on any thread, and the result is the same.
+ * Invariant: a tool reads the pair and the host and writes nothing but terms (the list of term
+ * blockers among them). So pairs can be discussed in any order and on any thread, and the result is
+ * the same.
  *
  * This header is C11 and C++11, needs libm only, and allocates nothing. Units: metres, W/m2.
  * SPDX-License-Identifier: MIT */
@@ -52,13 +54,18 @@ struct element {
     double centre[3];    /* surface: area centroid; cluster: middle of the bounding box (m) */
     double vertex[4][3]; /* surface: corners (m); cluster: [0] and [1] are the box's corners */
     uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
-    double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
-    double reflectance;  /* rho, largest band; cluster: area mean */
-    double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
-    double tolerance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
-    uint32_t parent;     /* index in the hierarchy; the root is its own parent */
-    uint32_t face;       /* surface: index of the face it is part of; of the first of a group's faces */
-    uint32_t group;      /* 1: a flat group of faces, given as the surface that is the rectangle around them */
+    /* largest less smallest B below the element, W/m2. Constant during a round */
+    double spread;
+    double reflectance; /* rho, largest band; cluster: area mean */
+    /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
+    double importance;
+    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
+    double tolerance;
+    uint32_t parent; /* index in the hierarchy; the root is its own parent */
+    /* surface: index of the face it is part of; of the first of a group's faces */
+    uint32_t face;
+    /* 1: a flat group of faces, given as the surface that is the rectangle around them */
+    uint32_t group;
 };
 
 /* A straight line between two points, ends included. */
@@ -72,11 +79,13 @@ enum { SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 enum { SHAFT_PLANES = 28 };
 struct shaft {
     int planes;
-    double normal[SHAFT_PLANES][3], offset[SHAFT_PLANES]; /* inside: normal . p <= offset, normals of length 1 */
+    /* inside: normal . p <= offset, normals of length 1 */
+    double normal[SHAFT_PLANES][3], offset[SHAFT_PLANES];
     double low[3], high[3]; /* box around it, `reach` included (m) */
-    double reach;           /* what is farther from it does not meet it, whatever the tolerances (m) */
+    /* what is farther from it does not meet it, whatever the tolerances (m) */
+    double reach;
     double margin, touch, slack, grow, flat, nests; /* tolerances (m) */
-    int points[2];   /* of the two ends: their corners, as far off the surface as rays start */
+    int points[2]; /* of the two ends: their corners, as far off the surface as rays start */
     double end[2][POLYGON_MAX][3], facing[2][3]; /* and their normals */
 };
 
@@ -84,10 +93,11 @@ struct shaft {
 enum { BLOCKERS_MAX = 8, BLOCKERS_TOO_MANY = BLOCKERS_MAX + 1 };
 enum { BLOCKERS_UNKNOWN, BLOCKERS_INHERITED, BLOCKERS_OWN };
 struct blockers {
-    int count;             /* or BLOCKERS_TOO_MANY */
-    unsigned char known;   /* not at all; of a pair that holds this one; of this pair */
-    unsigned char handed;  /* own: good for the pairs below this one */
-    unsigned char covered; /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
+    int count;            /* or BLOCKERS_TOO_MANY */
+    unsigned char known;  /* not at all; of a pair that holds this one; of this pair */
+    unsigned char handed; /* own: good for the pairs below this one */
+    /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
+    unsigned char covered;
     uint32_t face[BLOCKERS_MAX];
 };
 
@@ -96,34 +106,39 @@ struct host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */
     uint64_t (*occluded)(const struct host *host, int count, const struct segment *segments);
-    double area;       /* of all faces, m2 */
-    double extent;     /* longest side of the scene's box (m) */
-    double exitance;   /* the largest E, W/m2 */
+    double area;        /* of all faces, m2 */
+    double extent;      /* longest side of the scene's box (m) */
+    double exitance;    /* the largest E, W/m2 */
     double reflectance; /* the largest rho */
-    double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
-    double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
-    double importance; /* the largest Y; 1 where no view asks */
-    double faces;      /* how many */
-    const struct element *const *elements; /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
+    double irradiance;  /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
+    double radiosity;   /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
+    double importance;  /* the largest Y; 1 where no view asks */
+    double faces;       /* how many */
+    /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
+    const struct element *const *elements;
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
 
-    /* For the tools that look into a shaft; NULL: the host has none of it, and they answer too_complex.
-     * Lists in `faces` up to `most` faces that may meet the shaft and returns how many; more than `most` when
-     * there may be more. It may list a face too many, never one too few; kernel/shaft.h helps. */
-    int (*candidates)(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces);
+    /* For the tools that look into a shaft; NULL: the host has none of it, and they answer
+     * too_complex. Lists in `faces` up to `most` faces that may meet the shaft and returns how
+     * many; more than `most` when there may be more. It may list a face too many, never one too
+     * few; kernel/shaft.h helps. */
+    int (*candidates)(const struct host *host, const struct shaft *shaft, int most,
+                      uint32_t *faces);
     /* The corners of a face that `candidates` listed. */
     void (*corners)(const struct host *host, uint32_t face, struct polygon *polygon);
-    /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that hold one of two faces
-     * (tools/extinction.h). NULL: 0. */
-    double (*optical_depth)(const struct host *host, const struct segment *segment, uint32_t receiver, uint32_t emitter);
+    /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that
+     * hold one of two faces (tools/extinction.h). NULL: 0. */
+    double (*optical_depth)(const struct host *host, const struct segment *segment,
+                            uint32_t receiver, uint32_t emitter);
 };
 
 struct discussion {
     const struct element *receiver, *emitter;
     const struct host *host;
     struct terms terms; /* the data manager; all zero: nothing is known yet */
-    struct blockers *blockers; /* where term blockers keeps its list; may hold an inherited one. NULL: nothing is kept */
+    /* where term blockers keeps its list; may hold an inherited one. NULL: nothing is kept */
+    struct blockers *blockers;
 };
 
 #endif

@@ -39,18 +39,19 @@ static inline double height3(const double p[3], const double on[3], const double
     return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
 }
 
-/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they have heights h: what lies
- * above goes to `above`, what lies below to `below`, corners at height 0 to both; either may be NULL. Returns how many corners
- * are above, and below in *n_below. Each has room for `most`; rounding may make a bent polygon cross more than twice, then
- * corners are left out. [Sutherland and Hodgman 1974] */
+/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they
+ * have heights h: what lies above goes to `above`, what lies below to `below`, corners at height 0
+ * to both; either may be NULL. Returns how many corners are above, and below in *n_below. Each has
+ * room for `most`; rounding may make a bent polygon cross more than twice, then corners are left
+ * out. [Sutherland and Hodgman 1974] */
 static inline int polygon_divide(const double *v, int n, int size, const double *h, int most,
                                  double *above, double *below, int *n_below)
 {
-    int i, j, k, up = 0, down = 0;
+    int i, j, up = 0, down = 0;
     for (i = 0, j = n - 1; i < n; j = i++) {
         if ((h[j] > 0 && h[i] < 0) || (h[j] < 0 && h[i] > 0)) {
             const double t = h[j] / (h[j] - h[i]);
-            for (k = 0; k < size; k++) {
+            for (int k = 0; k < size; k++) {
                 const double x = v[j * size + k] + t * (v[i * size + k] - v[j * size + k]);
                 if (above && up < most)
                     above[up * size + k] = x;
@@ -61,12 +62,12 @@ static inline int polygon_divide(const double *v, int n, int size, const double 
             down += down < most;
         }
         if (above && h[i] >= 0 && up < most) {
-            for (k = 0; k < size; k++)
+            for (int k = 0; k < size; k++)
                 above[up * size + k] = v[i * size + k];
             up++;
         }
         if (below && h[i] <= 0 && down < most) {
-            for (k = 0; k < size; k++)
+            for (int k = 0; k < size; k++)
                 below[down * size + k] = v[i * size + k];
             down++;
         }
@@ -89,8 +90,7 @@ static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n
                                 const double on[3], const double normal[3])
 {
     double h[POLYGON_MAX];
-    int i;
-    for (i = 0; i < n; i++)
+    for (int i = 0; i < n; i++)
         h[i] = height3(v[i], on, normal);
     out->n = polygon_divide(&v[0][0], n, 3, h, POLYGON_MAX, &out->v[0][0], NULL, NULL);
     if (out->n < 3)
@@ -101,8 +101,7 @@ static inline void polygon_clip(struct polygon *out, const double (*v)[3], int n
 static inline double polygon_area(const struct polygon *p, const double n[3])
 {
     double twice = 0;
-    int i;
-    for (i = 2; i < p->n; i++) {
+    for (int i = 2; i < p->n; i++) {
         double a[3], b[3], c[3];
         sub3(a, p->v[i - 1], p->v[0]);
         sub3(b, p->v[i], p->v[0]);
@@ -117,23 +116,23 @@ static inline double polygon_distance(const double p[3], const double (*v)[3], i
                                       const double normal[3])
 {
     double best = INFINITY;
-    int i, inside = 1;
-    for (i = 0; i < n; i++) {
+    int inside = 1;
+    for (int i = 0; i < n; i++) {
         const double *a = v[i], *b = v[i + 1 < n ? i + 1 : 0];
-        double e[3], w[3], side[3], t, q, ee;
+        double e[3], w[3], side[3];
         sub3(e, b, a);
         sub3(w, p, a);
         cross3(side, e, w);
         if (dot3(side, normal) >= 0)
             continue;
         inside = 0;
-        ee = dot3(e, e);
-        t = ee > 0 ? dot3(w, e) / ee : 0;
+        double ee = dot3(e, e);
+        double t = ee > 0 ? dot3(w, e) / ee : 0;
         t = t < 0 ? 0 : t > 1 ? 1 : t;
         w[0] -= t * e[0];
         w[1] -= t * e[1];
         w[2] -= t * e[2];
-        q = dot3(w, w);
+        double q = dot3(w, w);
         if (q < best)
             best = q;
     }

@@ -27,10 +27,11 @@ struct oracle {
     const char *fingerprint; /* of the graph: equal fingerprints, equal decisions */
     const struct oracle_parameter *parameters;
     int parameter_count;
-    size_t parameters_size;            /* sizeof the parameter structure */
+    size_t parameters_size;             /* sizeof the parameter structure */
     void (*defaults)(void *parameters); /* fills a parameter structure */
     enum decision (*refine)(const void *parameters, struct discussion *discussion);
-    const int *reads; /* [read_count], enum catalog_fact: the facts that its arguments read, ascending */
+    /* [read_count], enum catalog_fact: the facts that its arguments read, ascending */
+    const int *reads;
     int read_count;
 };
 

@@ -1,4 +1,5 @@
-/* main.c - the command radiosity: parse the options, see that what shall be written can be, run the command.
+/* main.c - the command radiosity: parse the options, see that what shall be written can be, run the
+ * command.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
@@ -11,9 +12,12 @@
 #include "util/report.h"
 
 static int (*const commands[COMMANDS])(const struct options *, const struct open_scene *) = {
-    [COMMAND_SOLVE] = command_solve,           [COMMAND_COMPARE] = command_compare,
-    [COMMAND_VIEWFACTORS] = command_viewfactors, [COMMAND_STABILITY] = study_stability,
-    [COMMAND_VISIBILITY] = study_visibility,   [COMMAND_CLUSTERING] = study_clustering,
+    [COMMAND_SOLVE] = command_solve,
+    [COMMAND_COMPARE] = command_compare,
+    [COMMAND_VIEWFACTORS] = command_viewfactors,
+    [COMMAND_STABILITY] = study_stability,
+    [COMMAND_VISIBILITY] = study_visibility,
+    [COMMAND_CLUSTERING] = study_clustering,
     [COMMAND_ORACLES] = command_oracles,
 };
 
@@ -39,10 +43,10 @@ static int check_outputs(const struct options *o)
 /* Run the command, on the scene where it takes one. Returns the exit status. */
 static int run(const struct options *o)
 {
-    const struct scene_options how = { o->two_sided, o->quiet };
-    struct open_scene scene;
+    const struct scene_options how = {o->two_sided, o->quiet};
     if (!o->scene)
         return commands[o->command](o, NULL);
+    struct open_scene scene;
     if (open_scene(&scene, o->scene, &how, o->threads) < 0)
         return 1;
     int status = commands[o->command](o, &scene);

@@ -6,7 +6,8 @@
 #include <check.h>
 #include <stdlib.h>
 
-/* Is everything asked for, as by make check-accuracy? make check leaves out what takes long and is like what is left. */
+/* Is everything asked for, as by make check-accuracy? make check leaves out what takes long and
+ * is like what is left. */
 static inline int thorough(void)
 {
     return getenv("THOROUGH") != NULL;
@@ -16,9 +17,8 @@ static inline int thorough(void)
 static inline int suite_failures(Suite *suite)
 {
     SRunner *runner = srunner_create(suite);
-    int failed;
     srunner_run_all(runner, CK_NORMAL);
-    failed = srunner_ntests_failed(runner);
+    int failed = srunner_ntests_failed(runner);
     srunner_free(runner);
     return failed;
 }

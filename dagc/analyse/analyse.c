@@ -167,8 +167,10 @@ const char *dag_value_text(struct dag *dag, int expression)
         return dag->facts[e->index].name;
     case EXPRESSION_TERM: {
         const struct term *term = &dag->terms[e->index];
-        return term->levels.count == 0 ? term->name
-             : dag_format(&dag->arena, "%s.%s", term->name, dag->levels[term->levels.first + e->level - 1].name);
+        return term->levels.count == 0
+                   ? term->name
+                   : dag_format(&dag->arena, "%s.%s", term->name,
+                                dag->levels[term->levels.first + e->level - 1].name);
     }
     case EXPRESSION_EXTERN:
         return dag_format(&dag->arena, "extern %s", e->name);
@@ -202,7 +204,7 @@ const char *dag_need_text(struct dag *dag, const struct need *need)
 {
     const char *term = dag->terms[need->term].name;
     return need->level_name == NULL ? term
-         : dag_format(&dag->arena, "%s >= %s", term, need->level_name);
+                                    : dag_format(&dag->arena, "%s >= %s", term, need->level_name);
 }
 
 const char *dag_join(struct dag *dag, const char *list, const char *name)

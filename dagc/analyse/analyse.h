@@ -49,7 +49,8 @@ const char *dag_answer_name(const struct dag *dag, const struct node *node, int 
 const char *dag_target_name(const struct dag *dag, const struct target *target);
 /* The value, whole and the same for the same value: names resolved, operators in parentheses. */
 const char *dag_value_text(struct dag *dag, int expression);
-const char *dag_call_text(struct dag *dag, const struct node *node); /* "transfer(absolute = epsilon)" */
+/* "transfer(absolute = epsilon)" */
+const char *dag_call_text(struct dag *dag, const struct node *node);
 const char *dag_need_text(struct dag *dag, const struct need *need); /* "form_factor >= polygon" */
 /* ", a, b or c": appends a name to a list, for sentences. */
 const char *dag_join(struct dag *dag, const char *list, const char *name);

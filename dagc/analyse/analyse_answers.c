@@ -44,13 +44,15 @@ static void check_wildcard(struct dag *dag, struct search *search, const struct 
         shown = shown < 0 ? a : shown;
         count++;
     }
-    if (count == 0 || !dag_warn(dag, WARNING_SWALLOWED_ANSWER, otherwise->where,
-                                "'otherwise' swallows the precise answer%s %s of '%s'",
-                                count > 1 ? "s" : "", precise, node->name))
+    if (count == 0
+        || !dag_warn(dag, WARNING_SWALLOWED_ANSWER, otherwise->where,
+                     "'otherwise' swallows the precise answer%s %s of '%s'", count > 1 ? "s" : "",
+                     precise, node->name))
         return;
     const char *end = dag_target_name(dag, &dag->arcs[node->arcs.first + shown].target);
     dag_note(dag, node->where, "%s", dag_search_path(search, node, 0, shown, end));
-    dag_note(dag, dag_nowhere, "say which answers are meant: %s -> %s;", all, otherwise->target.name);
+    dag_note(dag, dag_nowhere, "say which answers are meant: %s -> %s;", all,
+             otherwise->target.name);
 }
 
 /* ---- classes of nodes that decide alike */
@@ -64,8 +66,9 @@ struct classes {
 /* The class of a target; decisions are the negative numbers. */
 static int class_of(const struct classes *classes, const struct target *target)
 {
-    return target->kind == TARGET_DECISION ? -1 - target->index
-         : classes->class[classes->dag->nodes[target->index].order];
+    return target->kind == TARGET_DECISION
+               ? -1 - target->index
+               : classes->class[classes->dag->nodes[target->index].order];
 }
 
 static void find_classes(struct classes *classes)
@@ -109,8 +112,8 @@ static int twin_of(const struct classes *classes, const struct node *node, int a
 {
     const struct arc *arcs = &classes->dag->arcs[node->arcs.first];
     for (int a = 0; a < answer; a++)
-        if (!same_target(&arcs[a].target, &arcs[answer].target) &&
-            class_of(classes, &arcs[a].target) == class_of(classes, &arcs[answer].target))
+        if (!same_target(&arcs[a].target, &arcs[answer].target)
+            && class_of(classes, &arcs[a].target) == class_of(classes, &arcs[answer].target))
             return a;
     return -1;
 }
@@ -122,7 +125,8 @@ static void check_alike(struct classes *classes, struct search *search, const st
     dag->use = node->use;
     if (is_idle(classes, node)) {
         if (dag_warn(dag, WARNING_IDLE_QUESTION, node->where,
-                     "'%s' decides nothing: all its answers lead to the same decisions", node->name)) {
+                     "'%s' decides nothing: all its answers lead to the same decisions",
+                     node->name)) {
             dag_note(dag, arcs[0].target.where, "%s",
                      dag_search_path(search, node, 0, 0, dag_target_name(dag, &arcs[0].target)));
             dag_note(dag, dag_nowhere, "lead to '%s' at once", arcs[0].target.name);
@@ -137,8 +141,9 @@ static void check_alike(struct classes *classes, struct search *search, const st
                      "'%s' and '%s' of '%s' lead to '%s' and '%s', which decide alike",
                      dag_answer_name(dag, node, twin), dag_answer_name(dag, node, a), node->name,
                      arcs[twin].target.name, arcs[a].target.name)) {
-            dag_note(dag, arcs[twin].target.where, "%s",
-                     dag_search_path(search, node, 0, twin, dag_target_name(dag, &arcs[twin].target)));
+            dag_note(
+                dag, arcs[twin].target.where, "%s",
+                dag_search_path(search, node, 0, twin, dag_target_name(dag, &arcs[twin].target)));
             dag_note(dag, dag_nowhere, "lead both to '%s'", arcs[twin].target.name);
         }
         break;
@@ -155,9 +160,9 @@ void dag_analyse_answers(struct dag *dag)
 {
     struct search search = dag_search_new(dag);
     struct classes classes = {dag, NULL, NULL};
-    if (dag_warning_level(dag, WARNING_SWALLOWED_ANSWER) == LEVEL_OFF &&
-        dag_warning_level(dag, WARNING_IDLE_QUESTION) == LEVEL_OFF &&
-        dag_warning_level(dag, WARNING_TWIN_ANSWERS) == LEVEL_OFF)
+    if (dag_warning_level(dag, WARNING_SWALLOWED_ANSWER) == LEVEL_OFF
+        && dag_warning_level(dag, WARNING_IDLE_QUESTION) == LEVEL_OFF
+        && dag_warning_level(dag, WARNING_TWIN_ANSWERS) == LEVEL_OFF)
         return;
     classes.class = dag_alloc(&dag->arena, (size_t)dag->order_count * sizeof(int));
     for (int i = 0; i < dag->oracle_count; i++) {

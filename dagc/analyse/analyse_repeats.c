@@ -22,8 +22,8 @@ enum { BITS = 64 };
 
 /* A question that stands at more than one node of the oracle. */
 struct question {
-    int first;         /* a node that asks it */
-    int nodes;         /* how many do */
+    int first;          /* a node that asks it */
+    int nodes;          /* how many do */
     int shift, answers; /* its bits in the word: 1 << shift is "not asked", then the answers; the
                           last stands for all answers that have no bit of their own */
 };
@@ -33,12 +33,12 @@ struct repeats {
     const struct oracle_graph *oracle;
     struct question *questions;
     int question_count;
-    int *question;     /* by place in the order */
-    int *arc;          /* by place in the order: an arc on which its question has surely been
-                          asked, best one with a known answer; -1: there is none */
-    int *arc_place;    /* where that arc begins */
+    int *question;            /* by place in the order */
+    int *arc;                 /* by place in the order: an arc on which its question has surely been
+                                 asked, best one with a known answer; -1: there is none */
+    int *arc_place;           /* where that arc begins */
     unsigned char *arc_known; /* it brings one answer */
-    uint64_t *state;   /* by place in the order: the word being swept */
+    uint64_t *state;          /* by place in the order: the word being swept */
     uint64_t *changed; /* by tool: "not asked", of the questions it may change the answer of */
     int from, to;      /* the questions in the word */
     struct search search;
@@ -69,8 +69,8 @@ static int may_change(const struct dag *dag, const struct tool *tool, const stru
                       int same_question)
 {
     const struct tool *asked = &dag->tools[question->tool];
-    return writes_any(dag, tool, asked->reads) || writes_any(dag, tool, question->reads) ||
-           (!same_question && writes_any(dag, tool, asked->writes));
+    return writes_any(dag, tool, asked->reads) || writes_any(dag, tool, question->reads)
+           || (!same_question && writes_any(dag, tool, asked->writes));
 }
 
 /* The same of what the arguments of another question's node read. */
@@ -78,8 +78,8 @@ static int arguments_may_change(const struct dag *dag, const struct node *node,
                                 const struct node *question)
 {
     const struct tool *asked = &dag->tools[question->tool];
-    return raises_any(dag, node, asked->reads) || raises_any(dag, node, question->reads) ||
-           raises_any(dag, node, asked->writes);
+    return raises_any(dag, node, asked->reads) || raises_any(dag, node, question->reads)
+           || raises_any(dag, node, asked->writes);
 }
 
 static const struct node *node_of(const struct repeats *repeats, const struct question *question)
@@ -106,7 +106,8 @@ static void find_questions(struct repeats *repeats)
         int old = dag_put(&dag->arena, &table, dag_call_text(dag, node), repeats->question_count);
         repeats->question[i] = old >= 0 ? old : repeats->question_count++;
     }
-    repeats->questions = dag_alloc(&dag->arena, (size_t)repeats->question_count * sizeof(struct question));
+    repeats->questions =
+        dag_alloc(&dag->arena, (size_t)repeats->question_count * sizeof(struct question));
     for (int i = count - 1; i >= 0; i--) {
         struct question *question = &repeats->questions[repeats->question[i]];
         question->first = i;
@@ -118,9 +119,10 @@ static void find_questions(struct repeats *repeats)
 static void fill_word(struct repeats *repeats)
 {
     const struct dag *dag = repeats->dag;
-    int used = 0, i;
+    int used = 0;
     for (int t = 0; t < dag->tool_count; t++)
         repeats->changed[t] = 0;
+    int i;
     for (i = repeats->from; i < repeats->question_count; i++) {
         struct question *question = &repeats->questions[i];
         const struct tool *tool = tool_of(repeats, question);
@@ -153,14 +155,13 @@ static uint64_t bits_of(const struct question *question, uint64_t word)
 
 static uint64_t with_bits(const struct question *question, uint64_t word, uint64_t bits)
 {
-    return (word & ~(bits_of(question, ~UINT64_C(0)) << question->shift)) |
-           bits << question->shift;
+    return (word & ~(bits_of(question, ~UINT64_C(0)) << question->shift)) | bits << question->shift;
 }
 
 static int is_in_word(const struct repeats *repeats, int question)
 {
-    return question >= repeats->from && question < repeats->to &&
-           repeats->questions[question].nodes > 1;
+    return question >= repeats->from && question < repeats->to
+           && repeats->questions[question].nodes > 1;
 }
 
 /* "not asked", of the questions in the word whose answer the node may change. */
@@ -169,7 +170,8 @@ static uint64_t changes(const struct repeats *repeats, const struct node *node)
     uint64_t changed = repeats->changed[node->tool];
     for (int i = repeats->from; node->reads.count > 0 && i < repeats->to; i++) {
         const struct question *question = &repeats->questions[i];
-        if (question->nodes > 1 && arguments_may_change(repeats->dag, node, node_of(repeats, question)))
+        if (question->nodes > 1
+            && arguments_may_change(repeats->dag, node, node_of(repeats, question)))
             changed |= UINT64_C(1) << question->shift;
     }
     return changed;
@@ -202,7 +204,8 @@ static uint64_t after(const struct repeats *repeats, int place, int answer, uint
     uint64_t bit = UINT64_C(1) << answer_bit(question, answer);
     if ((before & (bit | 1)) == 0) /* the earlier answer was another one */
         return with_bits(question, word, 0);
-    return with_bits(question, word, may_change(repeats->dag, tool, node_of(repeats, question), 1) ? 1 : bit);
+    return with_bits(question, word,
+                     may_change(repeats->dag, tool, node_of(repeats, question), 1) ? 1 : bit);
 }
 
 static int is_single(uint64_t bits)
@@ -283,8 +286,8 @@ static int asked(const struct search *search, const struct node *node, int answe
     (void)answer;
     if (asks_it(context, node))
         return !may_change(dag, tool, context->node, 1);
-    return phase && !may_change(dag, tool, context->node, 0) &&
-           !arguments_may_change(dag, node, context->node);
+    return phase && !may_change(dag, tool, context->node, 0)
+           && !arguments_may_change(dag, node, context->node);
 }
 
 /* The path to the node on which it is asked twice, through the arc on which that is sure if there
@@ -326,12 +329,13 @@ static void check_implied(struct repeats *repeats, const struct node *node,
 {
     struct dag *dag = repeats->dag;
     const char *call = dag_call_text(dag, node);
-    int shown = dag->tools[node->tool].answers.count == 1
-        ? dag_warn(dag, WARNING_IMPLIED_ANSWER, node->where,
-                   "'%s' does nothing: every path to it has had %s already", node->name, call)
-        : dag_warn(dag, WARNING_IMPLIED_ANSWER, node->where,
-                   "'%s' always answers '%s': every path to it has asked %s already", node->name,
-                   dag_answer_name(dag, node, answer), call);
+    int shown =
+        dag->tools[node->tool].answers.count == 1
+            ? dag_warn(dag, WARNING_IMPLIED_ANSWER, node->where,
+                       "'%s' does nothing: every path to it has had %s already", node->name, call)
+            : dag_warn(dag, WARNING_IMPLIED_ANSWER, node->where,
+                       "'%s' always answers '%s': every path to it has asked %s already",
+                       node->name, dag_answer_name(dag, node, answer), call);
     if (shown)
         note_witness(repeats, node, question);
 }
@@ -358,9 +362,10 @@ static void check_node(struct repeats *repeats, int place)
                      "%s path to '%s' has asked %s already, and nothing has changed the answer",
                      all ? "every" : "a", node->name, call))
             note_witness(repeats, node, question);
-    } else if (dag_warn(dag, WARNING_SHARED_QUESTION, node->where,
-                        "a path to '%s' has asked %s already, and shares it with paths that have not",
-                        node->name, call)) {
+    } else if (dag_warn(
+                   dag, WARNING_SHARED_QUESTION, node->where,
+                   "a path to '%s' has asked %s already, and shares it with paths that have not",
+                   node->name, call)) {
         note_witness(repeats, node, question);
         dag_note(dag, dag_nowhere, "a copy of the nodes they share would spare the question");
     }
@@ -382,9 +387,9 @@ void dag_analyse_repeats(struct dag *dag)
 {
     struct repeats repeats = {0};
     size_t count = (size_t)dag->order_count;
-    if (dag_warning_level(dag, WARNING_REPEATED_QUESTION) == LEVEL_OFF &&
-        dag_warning_level(dag, WARNING_SHARED_QUESTION) == LEVEL_OFF &&
-        dag_warning_level(dag, WARNING_IMPLIED_ANSWER) == LEVEL_OFF)
+    if (dag_warning_level(dag, WARNING_REPEATED_QUESTION) == LEVEL_OFF
+        && dag_warning_level(dag, WARNING_SHARED_QUESTION) == LEVEL_OFF
+        && dag_warning_level(dag, WARNING_IMPLIED_ANSWER) == LEVEL_OFF)
         return;
     repeats.dag = dag;
     repeats.question = dag_alloc(&dag->arena, count * sizeof(int));

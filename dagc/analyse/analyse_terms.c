@@ -76,8 +76,8 @@ void dag_possible_terms(const struct dag *dag, const struct oracle_graph *oracle
     for (int i = 0; i < oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, oracle, i);
         const struct tool *tool = &dag->tools[node->tool];
-        int after = possible[i] || handles(dag, node->reads, term) ||
-                    handles(dag, tool->reads, term) || handles(dag, tool->writes, term);
+        int after = possible[i] || handles(dag, node->reads, term)
+                    || handles(dag, tool->reads, term) || handles(dag, tool->writes, term);
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
             if (target->kind == TARGET_NODE)
@@ -144,14 +144,14 @@ static void report_lack(struct search *search, const struct need *need, const ch
     struct wanted wanted = {need->term, need->level};
     dag->use = node->use;
     struct where where = lack->answer < 0 ? node->tool_where
-                       : dag->arcs[node->arcs.first + lack->answer].target.where;
+                                          : dag->arcs[node->arcs.first + lack->answer].target.where;
     if (!dag_warn(dag, WARNING_MISSING_TERM, where,
                   "'%s' needs %s, and a path to it does not compute that", who,
                   dag_need_text(dag, need)))
         return;
     dag_search(search, search->oracle, 1, lacks, &wanted);
-    dag_note(dag, node->where, "%s", dag_search_path(search, node, 0, lack->answer,
-                                                     lack->answer < 0 ? NULL : who));
+    dag_note(dag, node->where, "%s",
+             dag_search_path(search, node, 0, lack->answer, lack->answer < 0 ? NULL : who));
     if (lack->count > 1)
         dag_note(dag, dag_nowhere, "at %d more place%s it is missing as well", lack->count - 1,
                  lack->count > 2 ? "s" : "");
@@ -165,8 +165,7 @@ static void check_decision(struct search *search, int decision, const struct nee
     struct lack lack = {NULL, 0, 0};
     for (int i = 0; i < search->oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, search->oracle, i);
-        if (sure[i] >= need->level ||
-            dag_left_level(dag, node, need->term) >= need->level)
+        if (sure[i] >= need->level || dag_left_level(dag, node, need->term) >= need->level)
             continue;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
@@ -198,8 +197,8 @@ static void check_tool(struct search *search, int tool, const struct need *need,
     struct lack lack = {NULL, -1, 0};
     for (int i = 0; i < search->oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, search->oracle, i);
-        if (node->tool == tool && sure[i] < need->level && !reads_it(dag, node, need) &&
-            lack.count++ == 0)
+        if (node->tool == tool && sure[i] < need->level && !reads_it(dag, node, need)
+            && lack.count++ == 0)
             lack.node = node;
     }
     if (lack.count > 0)

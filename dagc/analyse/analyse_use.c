@@ -51,15 +51,15 @@ static void unreachable(struct dag *dag, const struct oracle_graph *graph, unsig
         follow(dag, &dag->drafts[i], marks, LED_TO, NULL, NULL);
     for (int i = graph->drafts.first; i < end; i++) {
         const struct node *draft = &dag->drafts[i];
-        if ((marks[i] & REACHED) != 0 ||
-            !dag_warn(dag, WARNING_UNREACHABLE_NODE, draft->where,
-                      "no path from start leads to the node '%s'", draft->name))
+        if ((marks[i] & REACHED) != 0
+            || !dag_warn(dag, WARNING_UNREACHABLE_NODE, draft->where,
+                         "no path from start leads to the node '%s'", draft->name))
             continue;
         if ((marks[i] & LED_TO) != 0)
             dag_note(dag, dag_nowhere, "only nodes that are unreachable themselves lead to it");
         else
-            dag_note(dag, graph->start.where, "no answer of any node leads to it, and start is '%s'",
-                     graph->start.name);
+            dag_note(dag, graph->start.where,
+                     "no answer of any node leads to it, and start is '%s'", graph->start.name);
     }
 }
 
@@ -76,7 +76,8 @@ static void mark(const struct dag *dag, int expression, unsigned char *used)
         mark(dag, e->right, used);
 }
 
-static void unused_parameters(struct dag *dag, const struct oracle_graph *graph, unsigned char *used)
+static void unused_parameters(struct dag *dag, const struct oracle_graph *graph,
+                              unsigned char *used)
 {
     struct span drafts = graph->drafts, parameters = graph->parameters;
     for (int i = drafts.first; i < drafts.first + drafts.count; i++) {
@@ -86,9 +87,10 @@ static void unused_parameters(struct dag *dag, const struct oracle_graph *graph,
                 mark(dag, dag->arguments[a].expression, used);
     }
     for (int i = parameters.first; i < parameters.first + parameters.count; i++)
-        if (!used[i] && dag_warn(dag, WARNING_UNUSED_PARAMETER, dag->parameters[i].where,
-                                 "no node of '%s' uses the parameter '%s'", graph->name,
-                                 dag->parameters[i].name))
+        if (!used[i]
+            && dag_warn(dag, WARNING_UNUSED_PARAMETER, dag->parameters[i].where,
+                        "no node of '%s' uses the parameter '%s'", graph->name,
+                        dag->parameters[i].name))
             dag_note(dag, dag_nowhere, "who sets it would see nothing change: use it or remove it");
 }
 
@@ -99,8 +101,8 @@ static void unused_branches(struct dag *dag)
 {
     for (int i = 0; i < dag->branch_count; i++) {
         const struct oracle_graph *branch = &dag->branches[i];
-        if (branch->use < 0 && dag->oracle_count > 0 &&
-            branch->where.source == dag->oracles[0].where.source)
+        if (branch->use < 0 && dag->oracle_count > 0
+            && branch->where.source == dag->oracles[0].where.source)
             dag_warn(dag, WARNING_UNUSED_BRANCH, branch->where, "no node uses the graph '%s'",
                      branch->name);
     }
@@ -171,8 +173,8 @@ static void unused_imports(struct dag *dag)
             sources[dag->imports[i].where.source] = 1;
     for (int i = 0; i < dag->import_count; i++) {
         const struct import *import = &dag->imports[i];
-        if (import->source < 0 || sources[import->source] || dag->oracle_count == 0 ||
-            import->where.source != dag->oracles[0].where.source)
+        if (import->source < 0 || sources[import->source] || dag->oracle_count == 0
+            || import->where.source != dag->oracles[0].where.source)
             continue;
         dag_warn(dag, WARNING_UNUSED_IMPORT, import->where, "nothing of %s is used",
                  dag->sources[import->source].name);
@@ -185,8 +187,8 @@ void dag_analyse_use(struct dag *dag)
     int *stack = dag_alloc(&dag->arena, (size_t)dag->draft_count * sizeof(int));
     unsigned char *used = dag_alloc(&dag->arena, (size_t)dag->parameter_count);
     for (int i = 0; i < dag->oracle_count + dag->branch_count; i++) {
-        const struct oracle_graph *graph = i < dag->oracle_count ? &dag->oracles[i]
-                                         : &dag->branches[i - dag->oracle_count];
+        const struct oracle_graph *graph =
+            i < dag->oracle_count ? &dag->oracles[i] : &dag->branches[i - dag->oracle_count];
         unreachable(dag, graph, marks, stack);
         unused_parameters(dag, graph, used);
     }

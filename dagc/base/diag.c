@@ -76,9 +76,9 @@ static int least(int a, int b)
 static int distance(const char *a, const char *b)
 {
     int la = (int)strlen(a), lb = (int)strlen(b);
-    int rows[3][NAME_MAX_LENGTH + 1];
     if (la > NAME_MAX_LENGTH || lb > NAME_MAX_LENGTH)
         return NAME_MAX_LENGTH;
+    int rows[3][NAME_MAX_LENGTH + 1];
     for (int j = 0; j <= lb; j++)
         rows[0][j] = j;
     for (int i = 1; i <= la; i++) {
@@ -98,7 +98,8 @@ void dag_suggest(struct suggestion *suggestion, const char *candidate)
     int length = (int)strlen(suggestion->wanted);
     int limit = length <= 2 ? 1 : length <= 5 ? 2 : length / 3 + 1;
     int steps = distance(suggestion->wanted, candidate);
-    if (steps <= limit && steps < length && (suggestion->best == NULL || steps < suggestion->distance)) {
+    if (steps <= limit && steps < length
+        && (suggestion->best == NULL || steps < suggestion->distance)) {
         suggestion->best = candidate;
         suggestion->distance = steps;
     }
@@ -122,12 +123,12 @@ enum { LINE_SHOWN = 120 };
 
 static void print_line(const struct source *source, const struct where *where, int start, FILE *out)
 {
-    int end = start, from = start, to;
+    int end = start, from = start;
     while (end < source->length && source->text[end] != '\n')
         end++;
     if (where->offset - start > LINE_SHOWN * 2 / 3)
         from = where->offset - LINE_SHOWN / 3;
-    to = end - from > LINE_SHOWN ? from + LINE_SHOWN : end;
+    int to = end - from > LINE_SHOWN ? from + LINE_SHOWN : end;
     while (from > start && !starts_character(source->text[from]))
         from--;
     while (to < end && to > from && !starts_character(source->text[to]))
@@ -137,7 +138,10 @@ static void print_line(const struct source *source, const struct where *where, i
     fprintf(out, "    %s", left);
     for (int i = from; i < to; i++) {
         unsigned char byte = (unsigned char)source->text[i];
-        fputc(byte == '\t' ? '\t' : byte == '\r' ? ' ' : byte < ' ' || byte == 0x7f ? '?' : byte,
+        fputc(byte == '\t'                 ? '\t'
+              : byte == '\r'               ? ' '
+              : byte < ' ' || byte == 0x7f ? '?'
+                                           : byte,
               out);
     }
     fprintf(out, "%s\n    %*s", right, (int)strlen(left), "");

@@ -21,13 +21,13 @@
 #endif
 
 enum {
-    NAME_MAX_LENGTH = 63,          /* what every C compiler tells apart */
-    STRING_MAX_LENGTH = 2000,      /* C promises 4095 in a literal; escapes take up to twice */
-    SOURCE_MAX_LENGTH = 64 << 20,  /* so that every offset and index is an int */
+    NAME_MAX_LENGTH = 63,         /* what every C compiler tells apart */
+    STRING_MAX_LENGTH = 2000,     /* C promises 4095 in a literal; escapes take up to twice */
+    SOURCE_MAX_LENGTH = 64 << 20, /* so that every offset and index is an int */
     VECTOR_MAX_LENGTH = 16,
-    BRANCH_DEPTH = 64,             /* branches within branches */
-    NODES_MAX = 1 << 16,           /* of a file's oracles that use branches, these expanded */
-    ANSWERS_MAX = 256              /* an answer's number fits a byte */
+    BRANCH_DEPTH = 64,   /* branches within branches */
+    NODES_MAX = 1 << 16, /* of a file's oracles that use branches, these expanded */
+    ANSWERS_MAX = 256    /* an answer's number fits a byte */
 };
 
 /* ---- arena.c */
@@ -40,7 +40,7 @@ struct protector {
  * decimal point inside, whatever the thread's locale. */
 int dag_protect(struct dag *dag, void (*body)(struct dag *dag, void *context), void *context);
 
-struct dag *dag_new(void); /* NULL: out of memory */
+struct dag *dag_new(void);                         /* NULL: out of memory */
 void *dag_alloc(struct arena *arena, size_t size); /* zeroed, aligned for anything */
 void *dag_grow(struct arena *arena, void *items, int count, size_t size);
 NO_RETURN void dag_out_of_memory(struct arena *arena); /* back to dag_protect */
@@ -49,7 +49,7 @@ const char *dag_format(struct arena *arena, const char *format, ...) PRINTF_LIKE
 const char *dag_vformat(struct arena *arena, const char *format, va_list arguments);
 
 /* Appends a zeroed item to a list of the dag: its index. */
-#define ADD(dag, list, list_count)                                                          \
+#define ADD(dag, list, list_count) \
     ((dag)->list = dag_grow(&(dag)->arena, (dag)->list, (dag)->list_count, sizeof *(dag)->list), \
      (dag)->list_count++)
 
@@ -69,7 +69,7 @@ void dag_print(struct text *text, const char *format, ...) PRINTF_LIKE(2, 3);
 void dag_print_upper(struct text *text, const char *name);
 void dag_print_number(struct text *text, double value); /* as C: 0.1, 16.0, -INFINITY */
 void dag_print_integer(struct text *text, double value);
-void dag_print_string(struct text *text, const char *value); /* as a C literal, quotes included */
+void dag_print_string(struct text *text, const char *value);  /* as a C literal, quotes included */
 void dag_print_comment(struct text *text, const char *value); /* safe inside a C comment */
 void dag_text_free(struct text *text);
 /* Shortest digits that read back as the same double; "inf" for the infinities. */
@@ -83,8 +83,8 @@ struct input {
     const char *bytes;
     char *owned; /* the same, when dag_input_close is to free it */
     size_t length;
-    int error; /* an errno; dag_read reports it */
-    unsigned char is_file; /* not standard input, not a text in memory */
+    int error;              /* an errno; dag_read reports it */
+    unsigned char is_file;  /* not standard input, not a text in memory */
     uint64_t device, inode; /* which file it is */
     int on_disk;            /* these are known */
 };
@@ -124,10 +124,13 @@ int dag_errors_full(const struct dag *dag); /* no more are shown: save the searc
 /* ---- lex.c */
 
 enum token_kind {
-    TOKEN_END, TOKEN_NAME, TOKEN_NUMBER, TOKEN_STRING,
-    TOKEN_ARROW,         /* -> */
-    TOKEN_AT_LEAST,      /* >= */
-    TOKEN_PUNCTUATION    /* one character, in `mark` */
+    TOKEN_END,
+    TOKEN_NAME,
+    TOKEN_NUMBER,
+    TOKEN_STRING,
+    TOKEN_ARROW,      /* -> */
+    TOKEN_AT_LEAST,   /* >= */
+    TOKEN_PUNCTUATION /* one character, in `mark` */
 };
 
 struct token {
@@ -157,45 +160,48 @@ enum pass {
     PASSES
 };
 
-/* Runs them over a catalog and then, unless it is NULL, over a file of oracles, up to the pass that --dump is to show (PASSES:
- * all) or to errors, which dag->error_count tells. */
-void dag_run_passes(struct dag *dag, const struct input *catalog, const struct input *file, enum pass stop);
+/* Runs them over a catalog and then, unless it is NULL, over a file of oracles, up to the pass that
+ * --dump is to show (PASSES: all) or to errors, which dag->error_count tells. */
+void dag_run_passes(struct dag *dag, const struct input *catalog, const struct input *file,
+                    enum pass stop);
 
 /* ---- passes, in their order */
 
 enum content { CONTENT_CATALOG, CONTENT_ORACLES };
 void dag_parse(struct dag *dag, int source, enum content content); /* and what it imports */
 void dag_resolve_catalog(struct dag *dag); /* what was declared since the last time */
-void dag_check_names(struct dag *dag);  /* the catalog's names as C names */
-void dag_resolve(struct dag *dag);      /* the oracles: names to indices, rules to arcs */
-void dag_check_values(struct dag *dag); /* types, units, ranges */
-void dag_expand(struct dag *dag);       /* branches to plain nodes */
-void dag_check_graph(struct dag *dag);  /* cycles; the topological order */
-void dag_analyse(struct dag *dag);     /* what paths prove: warnings, terms, termination */
+void dag_check_names(struct dag *dag);     /* the catalog's names as C names */
+void dag_resolve(struct dag *dag);         /* the oracles: names to indices, rules to arcs */
+void dag_check_values(struct dag *dag);    /* types, units, ranges */
+void dag_expand(struct dag *dag);          /* branches to plain nodes */
+void dag_check_graph(struct dag *dag);     /* cycles; the topological order */
+void dag_analyse(struct dag *dag);         /* what paths prove: warnings, terms, termination */
 void dag_fingerprint(struct dag *dag);
 /* What --emit=c adds to the plain function. */
 struct emit_options {
-    int counted; /* --instrument: NAME_refine_counted */
-    int traced;  /* --trace: NAME_refine_traced */
-    int lines;   /* --lines: a comment at each node says where it stands in its source */
-    int standalone;              /* --standalone: all that it needs, in one .c and one .h */
-    const char *prefix;          /* of every name in it; NULL: the first oracle's name */
-    const char *const *folders;  /* -I: where headers are looked for before the built-in ones */
+    int counted;        /* --instrument: NAME_refine_counted */
+    int traced;         /* --trace: NAME_refine_traced */
+    int lines;          /* --lines: a comment at each node says where it stands in its source */
+    int standalone;     /* --standalone: all that it needs, in one .c and one .h */
+    const char *prefix; /* of every name in it; NULL: the first oracle's name */
+    const char *const *folders; /* -I: where headers are looked for before the built-in ones */
     int folder_count;
-    const unsigned char *terms;  /* by term: is it in struct terms? NULL: all are */
+    const unsigned char *terms; /* by term: is it in struct terms? NULL: all are */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */
-void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, const char *header_name,
-                         const struct emit_options *options);
+void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
+                         const char *header_name, const struct emit_options *options);
 void dag_emit_dot(struct dag *dag, struct text *out);
 void dag_emit_json(struct dag *dag, struct text *out);
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
 void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availability */
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
-void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms); /* terms: as above */
+/* terms: as above */
+void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
-void dag_emit_stub(struct dag *dag, struct text *out, const char *name); /* a tool's or term's header */
+/* a tool's or term's header */
+void dag_emit_stub(struct dag *dag, struct text *out, const char *name);
 
 /* ---- expression.c */
 
@@ -215,7 +221,8 @@ int dag_check_expression(struct dag *dag, int expression);
 /* ---- unit.c, names.c */
 
 int dag_parse_unit(const char *text, struct unit *unit); /* -1, or the offset of what is wrong */
-const char *dag_unit_name(const struct type *type);      /* for messages: "W/m2", "a plain number" */
+/* for messages: "W/m2", "a plain number" */
+const char *dag_unit_name(const struct type *type);
 int dag_same_unit(const struct unit *a, const struct unit *b);
 /* Exponents a + sign * b; 0: too large. */
 int dag_unit_product(struct unit *result, const struct unit *a, const struct unit *b, int sign);

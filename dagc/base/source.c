@@ -15,8 +15,11 @@
 static int character(const unsigned char *at, const unsigned char *end, unsigned *code)
 {
     static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
-    int length = *at < 0x80 ? 1 : (*at & 0xe0) == 0xc0 ? 2 : (*at & 0xf0) == 0xe0 ? 3
-               : (*at & 0xf8) == 0xf0 ? 4 : 0;
+    int length = *at < 0x80             ? 1
+                 : (*at & 0xe0) == 0xc0 ? 2
+                 : (*at & 0xf0) == 0xe0 ? 3
+                 : (*at & 0xf8) == 0xf0 ? 4
+                                        : 0;
     if (length == 0 || end - at < length)
         return 0;
     *code = length == 1 ? *at : *at & (0x7fu >> length);
@@ -113,7 +116,8 @@ static int slurp(FILE *file, struct input *input)
 void dag_input_open(struct input *input, const char *path)
 {
     int standard = strcmp(path, "-") == 0;
-    *input = (struct input){standard ? "standard input" : path, NULL, NULL, 0, 0, !standard, 0, 0, 0};
+    *input =
+        (struct input){standard ? "standard input" : path, NULL, NULL, 0, 0, !standard, 0, 0, 0};
     FILE *file = standard ? stdin : fopen(path, "rb");
     if (file == NULL)
         input->error = errno != 0 ? errno : ENOENT;
@@ -141,7 +145,8 @@ void dag_input_close(struct input *input)
 int dag_read(struct dag *dag, const struct input *input)
 {
     if (input->error == 0) {
-        int count = dag->source_count, index = dag_read_text(dag, input->name, input->bytes, input->length);
+        int count = dag->source_count,
+            index = dag_read_text(dag, input->name, input->bytes, input->length);
         if (dag->source_count > count) {
             dag->sources[count].is_file = input->is_file;
             dag->sources[count].device = input->device;

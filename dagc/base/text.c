@@ -29,8 +29,9 @@ static int reserve(struct text *text, size_t more)
 
 void dag_print(struct text *text, const char *format, ...)
 {
-    va_list arguments, again;
+    va_list arguments;
     va_start(arguments, format);
+    va_list again;
     va_copy(again, arguments);
     int length = vsnprintf(NULL, 0, format, arguments);
     if (length < 0)
@@ -72,10 +73,10 @@ const char *dag_number(double value, char buffer[32])
 
 void dag_print_number(struct text *text, double value)
 {
-    char buffer[32];
     if (isinf(value))
         dag_print(text, "%s", value < 0 ? "-INFINITY" : "INFINITY");
     else {
+        char buffer[32];
         const char *digits = dag_number(value, buffer);
         dag_print(text, "%s%s", digits, strpbrk(digits, ".e") == NULL ? ".0" : "");
     }

@@ -50,8 +50,7 @@ static const char *after(const char *text, const char *prefix)
 
 const char *dag_warnings_switch(struct warnings *warnings, const char *what, const char **nearest)
 {
-    const char *name, *no = after(what, "no-");
-    int index;
+    const char *no = after(what, "no-");
     if (strcmp(what, "error") == 0 || strcmp(what, "no-error") == 0) {
         warnings->all_errors = no == NULL;
         return NULL;
@@ -64,6 +63,8 @@ const char *dag_warnings_switch(struct warnings *warnings, const char *what, con
                 warnings->level[i] = LEVEL_WARN;
         return NULL;
     }
+    const char *name;
+    int index;
     if ((name = after(what, "error=")) != NULL) {
         if ((index = find(name, nearest)) < 0)
             return name;
@@ -100,8 +101,8 @@ enum warning_level dag_warning_level(const struct dag *dag, enum warning warning
     const struct warnings *warnings = dag->warnings;
     if (warnings == NULL)
         return dag_warning_facts[warning].level == LEVEL_ERROR ? LEVEL_ERROR : LEVEL_OFF;
-    if (warnings->level[warning] == LEVEL_WARN && warnings->all_errors &&
-        !warnings->spared[warning])
+    if (warnings->level[warning] == LEVEL_WARN && warnings->all_errors
+        && !warnings->spared[warning])
         return LEVEL_ERROR;
     return (enum warning_level)warnings->level[warning];
 }
@@ -113,8 +114,8 @@ static int said_of_another_use(const struct dag *dag, enum warning warning, stru
     for (int i = 0; dag->use >= 0 && i < dag->diagnostic_count; i++) {
         const struct diagnostic *said = &dag->diagnostics[i];
         const char *tail = strrchr(said->message, '[');
-        if (said->where.source == where.source && said->where.offset == where.offset &&
-            said->use != dag->use && tail != NULL && strstr(tail, name) != NULL)
+        if (said->where.source == where.source && said->where.offset == where.offset
+            && said->use != dag->use && tail != NULL && strstr(tail, name) != NULL)
             return 1;
     }
     return 0;

@@ -26,8 +26,8 @@ static int write_stream(FILE *file, const struct text *text)
 {
     int error = 0;
     errno = 0;
-    if ((text->length > 0 && fwrite(text->bytes, 1, text->length, file) != text->length) ||
-        fflush(file) != 0)
+    if ((text->length > 0 && fwrite(text->bytes, 1, text->length, file) != text->length)
+        || fflush(file) != 0)
         error = errno != 0 ? errno : EIO;
     if (file != stdout && fclose(file) != 0 && error == 0)
         error = errno != 0 ? errno : EIO;
@@ -37,9 +37,9 @@ static int write_stream(FILE *file, const struct text *text)
 /* Where the output goes: sets real, and part when it is to be renamed. */
 static int plan(struct output *output)
 {
-    struct stat status;
     if (strcmp(output->path, "-") == 0)
         return 0;
+    struct stat status;
     int exists = stat(output->path, &status) == 0;
     if (exists && S_ISDIR(status.st_mode))
         return fail(output->path, EISDIR);

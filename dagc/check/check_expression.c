@@ -51,8 +51,8 @@ static void bounds_of_quotient(struct expression *e, const struct expression *a,
     /* a / b and a * (1 / b) differ by rounding: only signs and infinities are certain, and the
      * quotients of the ends where none of them is 0 or infinite. */
     bounds_of_product(e, a, &inverse);
-    if (isfinite(a->low) && isfinite(a->high) && isfinite(b->low) && isfinite(b->high) &&
-        (b->low > 0 || b->high < 0)) {
+    if (isfinite(a->low) && isfinite(a->high) && isfinite(b->low) && isfinite(b->high)
+        && (b->low > 0 || b->high < 0)) {
         double q[4] = {a->low / b->low, a->low / b->high, a->high / b->low, a->high / b->high};
         e->low = smaller(smaller(q[0], q[1]), smaller(q[2], q[3]));
         e->high = larger(larger(q[0], q[1]), larger(q[2], q[3]));
@@ -134,7 +134,8 @@ static int check_root(struct dag *dag, struct expression *e)
     e->any_unit = a->any_unit;
     e->whole = 0;
     if (!dag_unit_root(&e->unit)) {
-        dag_error(dag, e->where, "%s has no root: an exponent of its unit is odd", described(dag, e->left));
+        dag_error(dag, e->where, "%s has no root: an exponent of its unit is odd",
+                  described(dag, e->left));
         return 0;
     }
     if (a->low < 0) {
@@ -226,7 +227,9 @@ int dag_check_expression(struct dag *dag, int expression)
     int right = e->right < 0 || dag_check_expression(dag, e->right);
     int ok = left && right;
     if (ok)
-        ok = e->left < 0 ? check_leaf(dag, e) : e->right < 0 ? check_unary(dag, e) : check_binary(dag, e);
+        ok = e->left < 0    ? check_leaf(dag, e)
+             : e->right < 0 ? check_unary(dag, e)
+                            : check_binary(dag, e);
     e->checked = 1;
     e->bad = !ok;
     return ok;

@@ -6,8 +6,8 @@
  * by where its first answer leads, when nothing forbids it. It depends on the graph alone, not
  * on where in the source a node stands.
  *
- * A branch is searched where it is used, in each copy. One that no oracle holds is searched as it is
- * written; a node in it that uses another branch has then an arc for each exit which that one
+ * A branch is searched where it is used, in each copy. One that no oracle holds is searched as it
+ * is written; a node in it that uses another branch has then an arc for each exit which that one
  * can come to.
  * SPDX-License-Identifier: MIT */
 #include "base/internal.h"
@@ -16,7 +16,8 @@ enum state { UNSEEN, OPEN, CLOSED };
 
 struct search {
     const struct node *nodes; /* the dag's nodes, or its drafts */
-    const unsigned char *exits; /* by answer: is it an exit that its branch comes to? NULL: no branches */
+    /* by answer: is it an exit that its branch comes to? NULL: no branches */
+    const unsigned char *exits;
     unsigned char *state; /* of every one of the nodes */
     int *stack;           /* the open nodes, from the root */
     int *next;            /* per open node: answers not yet followed */
@@ -32,8 +33,8 @@ static int is_known(const struct dag *dag, const struct arc *closing)
     const struct where *where = &closing->target.where;
     for (int i = 0; i < dag->diagnostic_count; i++) {
         const struct diagnostic *other = &dag->diagnostics[i];
-        if (other->use >= 0 && other->severity == SEVERITY_ERROR &&
-            other->where.source == where->source && other->where.offset == where->offset)
+        if (other->use >= 0 && other->severity == SEVERITY_ERROR
+            && other->where.source == where->source && other->where.offset == where->offset)
             return 1;
     }
     return 0;
@@ -61,10 +62,12 @@ static void report_cycle(struct dag *dag, const struct search *search, const str
             path = dag_format(&dag->arena, "%s... (%d more) ... -> ", path, left);
             i += left;
         }
-        path = dag_format(&dag->arena, "%s%s -> ", path, search->nodes[search->stack[first + i]].name);
+        path =
+            dag_format(&dag->arena, "%s%s -> ", path, search->nodes[search->stack[first + i]].name);
     }
     dag_error(dag, closing->target.where, "a cycle: %s%s", path, closing->target.name);
-    dag_note(dag, dag_nowhere, "a discussion would never end: every arc must lead nearer to a decision");
+    dag_note(dag, dag_nowhere,
+             "a discussion would never end: every arc must lead nearer to a decision");
     dag->use = -1;
 }
 
@@ -80,12 +83,14 @@ static int led_there(const struct dag *dag, const struct node *node, const struc
 }
 
 /* Does the arc lead anywhere? Not from an exit that is never come to. */
-static int leads_on(const struct dag *dag, const struct search *search, const struct node *node, const struct arc *arc)
+static int leads_on(const struct dag *dag, const struct search *search, const struct node *node,
+                    const struct arc *arc)
 {
     if (arc->target.kind != TARGET_NODE)
         return 0;
-    return search->exits == NULL || node->branch < 0 ||
-           search->exits[dag->branches[node->branch].exits.first + (int)(arc - &dag->arcs[node->arcs.first])];
+    return search->exits == NULL || node->branch < 0
+           || search->exits[dag->branches[node->branch].exits.first
+                            + (int)(arc - &dag->arcs[node->arcs.first])];
 }
 
 static void open_node(struct search *search, int node)
@@ -114,8 +119,8 @@ static void search_from(struct dag *dag, struct search *search, int root)
             continue;
         if (search->state[arc->target.index] == UNSEEN)
             open_node(search, arc->target.index);
-        else if (search->state[arc->target.index] == OPEN &&
-                 !led_there(dag, &search->nodes[node], arc))
+        else if (search->state[arc->target.index] == OPEN
+                 && !led_there(dag, &search->nodes[node], arc))
             report_cycle(dag, search, arc);
     }
 }
@@ -151,7 +156,8 @@ static struct search new_search(struct dag *dag, const struct node *nodes, int c
 
 /* Marks the exits that a path from the branch's start comes to; those within it first. (Recursion:
  * branches are nested at most BRANCH_DEPTH deep, and none uses itself.) */
-static void find_exits(struct dag *dag, int index, unsigned char *done, unsigned char *exits, unsigned char *seen, int *stack)
+static void find_exits(struct dag *dag, int index, unsigned char *done, unsigned char *exits,
+                       unsigned char *seen, int *stack)
 {
     const struct oracle_graph *branch = &dag->branches[index];
     struct span drafts = branch->drafts;

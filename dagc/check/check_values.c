@@ -23,7 +23,6 @@ static const char *range(struct dag *dag, double low, double high)
 /* Default and range of one parameter, of a tool or of an oracle. */
 static void check_parameter(struct dag *dag, struct parameter *parameter)
 {
-    char text[32];
     if (parameter->bad || parameter->type < 0) /* no type: the tool was lost to a syntax error */
         return;
     int integer = dag->types[parameter->type].base == BASE_INTEGER;
@@ -35,6 +34,7 @@ static void check_parameter(struct dag *dag, struct parameter *parameter)
     }
     if ((parameter->given & PARAMETER_VALUE) == 0)
         return;
+    char text[32];
     if (integer && !is_integer(parameter->value)) {
         dag_error(dag, parameter->value_where,
                   "'%s' is a whole number that a C int can hold, %s is none", parameter->name,
@@ -54,8 +54,9 @@ static void check_number(struct dag *dag, const struct expression *expression,
 {
     char text[32];
     if (dag->types[wanted->type].base == BASE_INTEGER && !is_integer(expression->number)) {
-        dag_error(dag, expression->where, "'%s' of %s is a whole number that a C int can hold, %s is none",
-                  wanted->name, tool, dag_number(expression->number, text));
+        dag_error(dag, expression->where,
+                  "'%s' of %s is a whole number that a C int can hold, %s is none", wanted->name,
+                  tool, dag_number(expression->number, text));
         dag_note(dag, wanted->where, "declared here, of type '%s'", wanted->type_name);
     } else if (!(expression->number >= wanted->low && expression->number <= wanted->high)) {
         dag_error(dag, expression->where, "%s is out of range: '%s' of %s takes %s",
@@ -99,8 +100,8 @@ static void check_computed(struct dag *dag, const struct expression *e,
     const struct type *to = &dag->types[wanted->type];
     const char *text = dag_expression_text(dag, (int)(e - dag->expressions));
     if (!e->any_unit && !dag_same_unit(&e->unit, &to->unit)) {
-        dag_error(dag, e->where, "'%s' of %s is of type %s (%s), but '%s' is %s", wanted->name, tool,
-                  to->name, dag_unit_name(to), text, dag_unit_text(dag, &e->unit));
+        dag_error(dag, e->where, "'%s' of %s is of type %s (%s), but '%s' is %s", wanted->name,
+                  tool, to->name, dag_unit_name(to), text, dag_unit_text(dag, &e->unit));
         dag_note(dag, wanted->where, "declared here");
     } else if (to->base == BASE_INTEGER && !e->whole) {
         dag_error(dag, e->where, "'%s' of %s is a whole number (%s), but '%s' may be none",
@@ -114,8 +115,9 @@ static void check_computed(struct dag *dag, const struct expression *e,
         }
         if (e->low >= low && e->high <= high)
             return;
-        dag_error(dag, e->where, "the argument may leave its range: '%s' lies in %s, '%s' of %s takes %s",
-                  text, range(dag, e->low, e->high), wanted->name, tool, range(dag, low, high));
+        dag_error(dag, e->where,
+                  "the argument may leave its range: '%s' lies in %s, '%s' of %s takes %s", text,
+                  range(dag, e->low, e->high), wanted->name, tool, range(dag, low, high));
         char a[32], b[32];
         if (e->low < low && e->high > high)
             dag_note(dag, dag_nowhere, "write: min(max(%s, %s), %s)", text, dag_number(low, a),
@@ -148,7 +150,8 @@ static void check_graph(struct dag *dag, const struct oracle_graph *graph)
     for (int i = graph->drafts.first; i < graph->drafts.first + graph->drafts.count; i++) {
         const struct node *node = &dag->drafts[i];
         const char *callee = node->branch >= 0 ? dag->branches[node->branch].name
-                           : node->tool >= 0 ? dag->tools[node->tool].name : "";
+                             : node->tool >= 0 ? dag->tools[node->tool].name
+                                               : "";
         for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
             if (dag->arguments[a].expression >= 0)
                 check_argument(dag, &dag->arguments[a], callee);

@@ -52,7 +52,8 @@ static void report_recursion(struct dag *dag, const struct search *search, const
         path = dag_format(&dag->arena, "%s%s -> ", path, dag->branches[search->stack[i]].name);
     }
     dag_error(dag, draft->tool_where, "a graph that uses itself: %s%s", path, draft->tool_name);
-    dag_note(dag, dag_nowhere, "a graph is put in place of each node that uses it: this would never end");
+    dag_note(dag, dag_nowhere,
+             "a graph is put in place of each node that uses it: this would never end");
     dag->recursive = 1;
 }
 
@@ -131,10 +132,13 @@ static void check_branches(struct dag *dag)
             uses |= draft->branch >= 0;
         }
         if (uses && size == NODES_MAX) {
-            dag_error(dag, oracle->where, "with its graphs in place, the oracle '%s' would have %d "
-                      "nodes or more", oracle->name, NODES_MAX - before);
+            dag_error(dag, oracle->where,
+                      "with its graphs in place, the oracle '%s' would have %d "
+                      "nodes or more",
+                      oracle->name, NODES_MAX - before);
             if (before > 0)
-                dag_note(dag, dag_nowhere, "those before it have %d, and %d are the most", before, NODES_MAX);
+                dag_note(dag, dag_nowhere, "those before it have %d, and %d are the most", before,
+                         NODES_MAX);
             dag->recursive = 1;
         } else if (!uses)
             size = before;
@@ -159,12 +163,14 @@ static int substitute(struct expansion *x, const struct instance *instance, int 
     e.left = left;
     e.right = right;
     int index = dag_add_expression(dag, &e);
-    if (dag->expressions[index].size <= EXPRESSION_SIZE &&
-        dag->expressions[index].depth <= EXPRESSION_DEPTH)
+    if (dag->expressions[index].size <= EXPRESSION_SIZE
+        && dag->expressions[index].depth <= EXPRESSION_DEPTH)
         return index;
     dag->use = instance->use;
-    dag_error(dag, e.where, "with the arguments of this use in place, the expression has more than "
-              "%d parts, or more than %d in each other", EXPRESSION_SIZE, EXPRESSION_DEPTH);
+    dag_error(dag, e.where,
+              "with the arguments of this use in place, the expression has more than "
+              "%d parts, or more than %d in each other",
+              EXPRESSION_SIZE, EXPRESSION_DEPTH);
     dag->use = -1;
     return expression;
 }

@@ -16,7 +16,8 @@ static void declare_nodes(struct dag *dag, struct scope *scope)
         const struct node *node = &dag->drafts[i];
         int exit = dag_find(&scope->exits, node->name);
         if (exit >= 0) {
-            dag_error(dag, node->where, "'%s' is an exit of this graph and cannot name a node", node->name);
+            dag_error(dag, node->where, "'%s' is an exit of this graph and cannot name a node",
+                      node->name);
             dag_note(dag, dag->answers[scope->graph->exits.first + exit].where, "declared here");
         }
         int decision = dag_find(&dag->decision_names, node->name);
@@ -248,7 +249,8 @@ static int unknown_answer(struct dag *dag, const struct callee *tool, const stru
         list = i == 0 ? name : i < 12 ? dag_format(&dag->arena, "%s, %s", list, name) : list;
     }
     dag_note_suggestion(dag, &suggestion);
-    dag_note(dag, dag_nowhere, "its answers are: %s%s", list, tool->answers.count > 12 ? ", ..." : "");
+    dag_note(dag, dag_nowhere, "its answers are: %s%s", list,
+             tool->answers.count > 12 ? ", ..." : "");
     return suggestion.best == NULL ? -1 : answer_of(dag, tool, suggestion.best);
 }
 
@@ -308,7 +310,8 @@ static void resolve_node(struct dag *dag, const struct scope *scope, struct node
     if (node->tool < 0 && node->branch < 0 && node->tool_name != NULL)
         unknown_tool(dag, node);
     /* A branch without exits lost them to a syntax error. */
-    int known = node->tool >= 0 || (node->branch >= 0 && dag->branches[node->branch].exits.count > 0);
+    int known =
+        node->tool >= 0 || (node->branch >= 0 && dag->branches[node->branch].exits.count > 0);
     if (known) {
         int answers = callee_of(dag, node).answers.count;
         resolve_arguments(dag, scope, node);
@@ -345,14 +348,15 @@ static void resolve_start(struct dag *dag, const struct scope *scope)
         if (graph->bad)
             return;
         dag_error(dag, graph->where, "the %s '%s' has no start", what, graph->name);
-        dag_note(dag, dag_nowhere, "add: start %s;", graph->drafts.count > 0
-                     ? dag->drafts[graph->drafts.first].name : "NODE");
+        dag_note(dag, dag_nowhere, "add: start %s;",
+                 graph->drafts.count > 0 ? dag->drafts[graph->drafts.first].name : "NODE");
         return;
     }
     resolve_target(dag, scope, &graph->start);
     if (graph->start.kind == TARGET_DECISION || graph->start.kind == TARGET_EXIT) {
         dag_error(dag, graph->start.where, "%s %s starts with a node, '%s' is %s",
-                  graph->branch ? "a" : "an", what, graph->start.name, graph->start.kind == TARGET_EXIT ? "an exit" : "a decision");
+                  graph->branch ? "a" : "an", what, graph->start.name,
+                  graph->start.kind == TARGET_EXIT ? "an exit" : "a decision");
         graph->start.kind = TARGET_NONE;
     }
 }
@@ -381,7 +385,8 @@ static void declare_branches(struct dag *dag)
             dag_note(dag, dag->tools[tool].where, "declared here");
         }
         if (first >= 0)
-            dag_resolve_twice(dag, "graph", branch->name, branch->where, dag->branches[first].where);
+            dag_resolve_twice(dag, "graph", branch->name, branch->where,
+                              dag->branches[first].where);
     }
 }
 
@@ -406,7 +411,8 @@ static void resolve_uses(struct dag *dag, const struct oracle_graph *graph, int 
 
 void dag_resolve(struct dag *dag)
 {
-    int *queue = dag_alloc(&dag->arena, ((size_t)dag->branch_count + 1) * sizeof *queue), queued = 0;
+    int *queue = dag_alloc(&dag->arena, ((size_t)dag->branch_count + 1) * sizeof *queue),
+        queued = 0;
     declare_branches(dag);
     for (int i = 0; i < dag->oracle_count; i++)
         resolve_uses(dag, &dag->oracles[i], queue, &queued);
@@ -419,7 +425,8 @@ void dag_resolve(struct dag *dag)
         struct oracle_graph *oracle = &dag->oracles[i];
         int first = dag_put(&dag->arena, &dag->oracle_names, oracle->name, i);
         if (first >= 0)
-            dag_resolve_twice(dag, "oracle", oracle->name, oracle->where, dag->oracles[first].where);
+            dag_resolve_twice(dag, "oracle", oracle->name, oracle->where,
+                              dag->oracles[first].where);
         resolve_graph(dag, oracle);
     }
     for (int i = 0; i < dag->branch_count; i++)

@@ -16,6 +16,7 @@ void dag_resolve_answers(struct dag *dag, struct span answers, const char *what)
 void dag_resolve_twice(struct dag *dag, const char *what, const char *name, struct where where,
                        struct where first);
 int dag_resolve_type(struct dag *dag, const char *name, struct where where);
-void dag_resolve_parameters(struct dag *dag, struct span span, int roles); /* may they have roles? */
+/* may they have roles? */
+void dag_resolve_parameters(struct dag *dag, struct span span, int roles);
 
 #endif

@@ -15,12 +15,12 @@ void dag_resolve_twice(struct dag *dag, const char *what, const char *name, stru
 }
 
 /* Declares the new items of one kind, `name` and `where` being its first two fields. */
-#define DECLARE(dag, table, list, count, what)                                                 \
-    for (int i = (dag)->resolved.list; i < (dag)->count; i++) {                                                 \
-        int first = dag_put(&(dag)->arena, &(dag)->table, (dag)->list[i].name, i);             \
-        if (first >= 0)                                                                        \
-            dag_resolve_twice(dag, what, (dag)->list[i].name, (dag)->list[i].where,                \
-                          (dag)->list[first].where);                                           \
+#define DECLARE(dag, table, list, count, what) \
+    for (int i = (dag)->resolved.list; i < (dag)->count; i++) { \
+        int first = dag_put(&(dag)->arena, &(dag)->table, (dag)->list[i].name, i); \
+        if (first >= 0) \
+            dag_resolve_twice(dag, what, (dag)->list[i].name, (dag)->list[i].where, \
+                              (dag)->list[first].where); \
     }
 
 int dag_resolve_type(struct dag *dag, const char *name, struct where where)
@@ -57,7 +57,8 @@ static void resolve_role(struct dag *dag, struct parameter *parameter)
     const struct type *type = &dag->types[parameter->type], *wanted = &dag->types[role->type];
     if (type->base == wanted->base && dag_same_unit(&type->unit, &wanted->unit))
         return;
-    dag_error(dag, parameter->role_where, "the role '%s' is for a parameter of type '%s'", role->name, role->type_name);
+    dag_error(dag, parameter->role_where, "the role '%s' is for a parameter of type '%s'",
+              role->name, role->type_name);
     dag_note(dag, parameter->type_where, "this one is of type '%s'", parameter->type_name);
 }
 
@@ -102,7 +103,8 @@ static void resolve_term(struct dag *dag, struct term *term)
         }
 }
 
-/* `decision`: it may read a term that is `absent`, which keeps what a path has without asking for it. */
+/* `decision`: it may read a term that is `absent`, which keeps what a path has without asking
+ * for it. */
 static void resolve_needs(struct dag *dag, struct span span, int decision)
 {
     for (int i = span.first; i < span.first + span.count; i++) {
@@ -167,8 +169,8 @@ static void resolve_fact(struct dag *dag, struct fact *fact)
 {
     const char *dot = strchr(fact->name, '.');
     fact->type = scalar_type(dag, fact->type_name, fact->type_where);
-    const char *first = dot == NULL ? fact->name
-                                    : dag_copy(&dag->arena, fact->name, (size_t)(dot - fact->name));
+    const char *first =
+        dot == NULL ? fact->name : dag_copy(&dag->arena, fact->name, (size_t)(dot - fact->name));
     int term = dag_find(&dag->term_names, first);
     if (term >= 0) {
         dag_error(dag, fact->where, "'%s' is a term and cannot %s a fact", first,
@@ -193,8 +195,9 @@ static void check_kept(struct dag *dag, const struct tool *tool)
     if (tool->keeps == KEEPS_COUNT && !is_kept_like(dag, tool, 1, BASE_INTEGER))
         dag_error(dag, tool->keeps_where, "a tool that counts has one parameter, a whole number");
     if (tool->keeps == KEEPS_RECORD && !is_kept_like(dag, tool, 2, BASE_REAL))
-        dag_error(dag, tool->keeps_where, "a tool that records has two parameters, a real number and the whole number"
-                                          " of its histogram");
+        dag_error(dag, tool->keeps_where,
+                  "a tool that records has two parameters, a real number and the whole number"
+                  " of its histogram");
 }
 
 static void resolve_tool(struct dag *dag, const struct tool *tool)
@@ -227,7 +230,8 @@ void dag_resolve_catalog(struct dag *dag)
         struct role *role = &dag->roles[i];
         role->type = scalar_type(dag, role->type_name, role->type_where);
         if (strcmp(role->name, "none") == 0) /* ROLE_NONE in C */
-            dag_error(dag, role->where, "'none' is what a parameter without a role has, and names none");
+            dag_error(dag, role->where,
+                      "'none' is what a parameter without a role has, and names none");
     }
     for (int i = dag->resolved.callbacks; i < dag->callback_count; i++) {
         struct callback *callback = &dag->callbacks[i];
@@ -248,8 +252,9 @@ void dag_resolve_catalog(struct dag *dag)
     if (dag->runtime_header == NULL && dag->error_count == 0) {
         struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */
         dag_error(dag, where, "the catalog names no runtime");
-        dag_note(dag, dag_nowhere, "add: runtime \"HEADER.h\" abi 1;  or, to extend the standard one: "
-                                   "import standard;");
+        dag_note(dag, dag_nowhere,
+                 "add: runtime \"HEADER.h\" abi 1;  or, to extend the standard one: "
+                 "import standard;");
     }
     if (dag->decision_count == 0 && dag->error_count == 0) {
         struct where where = {0, 0, 0}; /* the catalog is read first, then what it imports */

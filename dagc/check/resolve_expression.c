@@ -49,14 +49,16 @@ static int resolve_term(struct dag *dag, struct expression *e)
             dag_suggest(&suggestion, candidate);
         }
         if (level > term->levels.count) {
-            dag_error(dag, e->where, "the term '%s' has no level '%s'", term->name, suggestion.wanted);
+            dag_error(dag, e->where, "the term '%s' has no level '%s'", term->name,
+                      suggestion.wanted);
             dag_note_suggestion(dag, &suggestion);
             dag_note(dag, term->where, "declared here");
             return 1;
         }
     }
     if (term->type >= 0 && dag->types[term->type].length > 1) {
-        dag_error(dag, e->where, "'%s' is a vector: an expression is made of single numbers", term->name);
+        dag_error(dag, e->where, "'%s' is a vector: an expression is made of single numbers",
+                  term->name);
         dag_note(dag, term->where, "declared here");
         return 1;
     }

@@ -69,7 +69,7 @@ struct dag *dag_load_with(const char *path, const struct dag_options *options, F
         dag = NULL;
     } else {
         dag->warnings = NULL; /* they end with this function */
-        dag->folders = NULL; /* the caller's */
+        dag->folders = NULL;  /* the caller's */
         dag->folder_count = 0;
     }
     dag_input_close(&request.catalog);

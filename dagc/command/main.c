@@ -23,7 +23,8 @@ static void emit(struct dag *dag, struct job *job)
         if (job->c.standalone)
             dag_emit_standalone(dag, out, &job->outputs[OUTPUT_HEADER].text, name, &job->c);
         else
-            dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name, &job->c);
+            dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name,
+                       &job->c);
         break;
     case EMIT_DOT:
     case EMIT_SVG: /* run() has it drawn, outside of dag_protect */
@@ -137,7 +138,8 @@ int main(int count, char **arguments)
         fprintf(stderr, "dagc: error: out of memory\n");
         return diff ? 2 : 1;
     }
-    int status = diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
+    int status =
+        diff ? dag_parse_diff(&job, count, arguments) : dag_parse_arguments(&job, count, arguments);
     if (status == 0)
         status = fflush(stdout) != 0;
     else if (status < 0)

@@ -16,8 +16,8 @@ enum option {
 };
 
 enum group { GROUP_WRITES, GROUP_READS, GROUP_FINDS, GROUP_TELLS, GROUPS };
-static const char *const group_titles[GROUPS] = {"What it writes", "What it reads",
-                                                 "What it finds", "What it tells"};
+static const char *const group_titles[GROUPS] = {"What it writes", "What it reads", "What it finds",
+                                                 "What it tells"};
 
 static const struct {
     const char *spelling, *value, *help;
@@ -77,7 +77,8 @@ static const char lesson[] =
     "      node form   = form_factor() { done -> link; }\n"
     "    }\n"
     "\n"
-    "    dagc -o small.c --header small.h small.dag     small_defaults(), small_refine(), small_oracle\n"
+    "    dagc -o small.c --header small.h small.dag     small_defaults(), small_refine(), "
+    "small_oracle\n"
     "    dagc --emit=svg -o small.svg small.dag         a drawing of the graph\n"
     "    dagc --emit=none -Werror small.dag             only look for mistakes, and be strict\n"
     "    dagc --prove small.dag                         does the C text what the graph says?\n"
@@ -95,7 +96,10 @@ static void print_option(int option)
     const char *value = options[option].value;
     char left[64];
     snprintf(left, sizeof left, "%s%s%s", options[option].spelling,
-             *value == '\0' || strcmp(value, "+") == 0 ? "" : *value == '+' ? " " : options[option].spelling[1] == '-' ? "=" : " ",
+             *value == '\0' || strcmp(value, "+") == 0 ? ""
+             : *value == '+'                           ? " "
+             : options[option].spelling[1] == '-'      ? "="
+                                                       : " ",
              *value == '+' ? value + 1 : value);
     printf("  %-15s %s\n", left, options[option].help);
     for (int i = 0; option == OPTION_EMIT && i < EMITS; i++)
@@ -296,8 +300,8 @@ static int same_file(const char *a, const char *b)
         return 0;
     if (strcmp(a, b) == 0)
         return 1;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev &&
-           x.st_ino == y.st_ino;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev
+           && x.st_ino == y.st_ino;
 }
 
 static int is_standard(const char *path)
@@ -313,19 +317,19 @@ static const char *contradiction(const struct job *job)
     for (int i = 0; i < OUTPUTS; i++) {
         const char *path = job->outputs[i].path;
         for (int k = 0; k < i; k++)
-            if (same_file(path, job->outputs[k].path) ||
-                (is_standard(path) && is_standard(job->outputs[k].path)))
+            if (same_file(path, job->outputs[k].path)
+                || (is_standard(path) && is_standard(job->outputs[k].path)))
                 return "two outputs name the same file";
-        if ((!is_standard(job->input_path) && same_file(path, job->input_path)) ||
-            (job->catalog_path != NULL && same_file(path, job->catalog_path)))
+        if ((!is_standard(job->input_path) && same_file(path, job->input_path))
+            || (job->catalog_path != NULL && same_file(path, job->catalog_path)))
             return "an output would replace an input";
     }
     if (is_standard(job->input_path) && is_standard(job->catalog_path))
         return "the source and the catalog cannot both be standard input";
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
-    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove) &&
-        (job->emit != EMIT_C || job->stop != PASSES))
+    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove)
+        && (job->emit != EMIT_C || job->stop != PASSES))
         return "--instrument, --trace, --lines, --standalone and --prove belong to C text";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
         return "--prove writes nothing";
@@ -386,8 +390,9 @@ int dag_parse_diff(struct job *job, int count, char **arguments)
             only_files = 1;
         else {
             const char *value;
-            if (!matches(argument, OPTION_CATALOG, &value) && !matches(argument, OPTION_FOLDER, &value) &&
-                !matches(argument, OPTION_HELP, &value))
+            if (!matches(argument, OPTION_CATALOG, &value)
+                && !matches(argument, OPTION_FOLDER, &value)
+                && !matches(argument, OPTION_HELP, &value))
                 return wrong("diff does not know", argument);
             int status = parse_option(job, count, arguments, &i);
             if (status >= 0)

@@ -18,15 +18,15 @@ enum { OUTPUT_TEXT, OUTPUT_HEADER, OUTPUT_DEPFILE, OUTPUTS };
 struct job {
     const char *input_path, *catalog_path; /* catalog_path NULL: the standard catalog */
     enum emit emit;
-    enum pass stop;                        /* --dump; PASSES: none */
+    enum pass stop; /* --dump; PASSES: none */
     struct warnings warnings;
-    struct emit_options c;                 /* of C text */
-    int prove;                             /* --prove */
-    int proved;                            /* what it found */
+    struct emit_options c; /* of C text */
+    int prove;             /* --prove */
+    int proved;            /* what it found */
     struct input input, catalog;
-    const char **folders;                  /* of -I; room for as many as there are arguments */
+    const char **folders; /* of -I; room for as many as there are arguments */
     int folder_count;
-    const char *second_path;               /* of diff */
+    const char *second_path; /* of diff */
     struct output outputs[OUTPUTS];
 };
 

@@ -62,9 +62,12 @@ static struct c_token next_token(const char *begin, const char *at, const char *
         token.kind = C_NAME;
         while (p < end && is_name_byte(*p))
             p++;
-    } else if (isdigit((unsigned char)*at) || (*at == '.' && p < end && isdigit((unsigned char)*p))) {
+    } else if (isdigit((unsigned char)*at)
+               || (*at == '.' && p < end && isdigit((unsigned char)*p))) {
         token.kind = C_NUMBER;
-        while (p < end && (is_name_byte(*p) || *p == '.' || ((*p == '+' || *p == '-') && strchr("eEpP", p[-1]) != NULL)))
+        while (p < end
+               && (is_name_byte(*p) || *p == '.'
+                   || ((*p == '+' || *p == '-') && strchr("eEpP", p[-1]) != NULL)))
             p++;
     } else if (*at == '"' || *at == '\'') {
         token.kind = C_LITERAL;
@@ -97,8 +100,8 @@ static const char *directive(const struct c_token *token, const char *word)
     size_t length = strlen(word);
     while (at < end && (*at == ' ' || *at == '\t'))
         at++;
-    if ((size_t)(end - at) < length || memcmp(at, word, length) != 0 ||
-        (at + length < end && is_name_byte(at[length])))
+    if ((size_t)(end - at) < length || memcmp(at, word, length) != 0
+        || (at + length < end && is_name_byte(at[length])))
         return NULL;
     for (at += length; at < end && (*at == ' ' || *at == '\t'); at++)
         ;
@@ -154,12 +157,14 @@ static void declare_names(struct c_items *items, int item, const char *text, siz
             declare(items, &items->tags, before.text, item);
         if (mark == '{' && depth == 0)
             enumerators = is_word(&two_before, "enum") || is_word(&before, "enum");
-        if (depth == 1 && enumerators && before.kind == C_NAME && (mark == ',' || mark == '=' || mark == '}'))
+        if (depth == 1 && enumerators && before.kind == C_NAME
+            && (mark == ',' || mark == '=' || mark == '}'))
             declare(items, &items->names, before.text, item);
         if (depth == 1 && enumerators && mark == ',')
             enumerators = 1;
-        if (depth == 0 && !settled && before.kind == C_NAME && !is_tag_word(&two_before) &&
-            !is_word(&before, "__attribute__") && (mark == '(' || mark == '[' || mark == '=' || mark == ';')) {
+        if (depth == 0 && !settled && before.kind == C_NAME && !is_tag_word(&two_before)
+            && !is_word(&before, "__attribute__")
+            && (mark == '(' || mark == '[' || mark == '=' || mark == ';')) {
             declared = before.text;
             settled = 1;
         }
@@ -209,7 +214,9 @@ static const char *end_of_declaration(const char *begin, const char *at, const c
     }
     /* A comment on the same line belongs to it. */
     struct c_token blank = next_token(begin, at, end);
-    const char *after = blank.kind == C_SPACE && memchr(blank.text, '\n', blank.length) == NULL ? at + blank.length : at;
+    const char *after = blank.kind == C_SPACE && memchr(blank.text, '\n', blank.length) == NULL
+                            ? at + blank.length
+                            : at;
     struct c_token comment = next_token(begin, after, end);
     return comment.kind == C_COMMENT && after != at ? after + comment.length : at;
 }
@@ -223,7 +230,8 @@ static const char *end_of_condition(const char *begin, const char *at, const cha
         at += token.length;
         if (token.kind != C_DIRECTIVE)
             continue;
-        depth += directive(&token, "if") != NULL || directive(&token, "ifdef") != NULL || directive(&token, "ifndef") != NULL;
+        depth += directive(&token, "if") != NULL || directive(&token, "ifdef") != NULL
+                 || directive(&token, "ifndef") != NULL;
         depth -= directive(&token, "endif") != NULL;
         if (depth == 0)
             break;
@@ -245,41 +253,48 @@ static const char *idea_of(struct c_items *items, const struct c_token *comment)
     while (spdx > comment->text && (spdx[-1] == ' ' || spdx[-1] == '*' || spdx[-1] == '\n'))
         spdx--;
     const char *head = dag_copy(&items->dag->arena, comment->text, (size_t)(spdx - comment->text));
-    return *head == '\0' || strcmp(head, "/") == 0 ? NULL : dag_format(&items->dag->arena, "%s */", head);
+    return *head == '\0' || strcmp(head, "/") == 0 ? NULL
+                                                   : dag_format(&items->dag->arena, "%s */", head);
 }
 
 static void add_system(struct c_items *items, const char *text)
 {
     const char *close = strchr(text, '>');
-    const char *name = close == NULL ? "" : dag_copy(&items->dag->arena, text, (size_t)(close - text) + 1);
+    const char *name =
+        close == NULL ? "" : dag_copy(&items->dag->arena, text, (size_t)(close - text) + 1);
     for (int i = 0; i < items->system_count; i++)
         if (strcmp(items->system[i], name) == 0)
             return;
-    items->system = dag_grow(&items->dag->arena, items->system, items->system_count, sizeof *items->system);
+    items->system =
+        dag_grow(&items->dag->arena, items->system, items->system_count, sizeof *items->system);
     items->system[items->system_count++] = name;
 }
 
 void dag_items_add(struct c_items *items, const char *name, const char *text,
-                 void (*include)(struct c_items *items, const char *name, void *context), void *context)
+                   void (*include)(struct c_items *items, const char *name, void *context),
+                   void *context)
 {
     const char *end = text + strlen(text), *from = NULL, *at = text;
     const char *guard = NULL;
     int file = items->file_count, first = 1;
-    items->files = dag_grow(&items->dag->arena, items->files, items->file_count, sizeof *items->files);
+    items->files =
+        dag_grow(&items->dag->arena, items->files, items->file_count, sizeof *items->files);
     items->files[items->file_count++].name = name;
     while (at < end) {
         struct c_token token = next_token(text, at, end);
-        const char *what;
         if (token.kind == C_COMMENT && first) {
             items->files[file].idea = idea_of(items, &token);
             first = 0;
         } else if (token.kind == C_COMMENT && from == NULL)
             from = at;
         else if (token.kind == C_DIRECTIVE) {
+            const char *what;
             if ((what = directive(&token, "include")) != NULL && *what == '"') {
                 const char *close = strchr(what + 1, '"');
                 if (close != NULL)
-                    include(items, dag_copy(&items->dag->arena, what + 1, (size_t)(close - what - 1)), context);
+                    include(items,
+                            dag_copy(&items->dag->arena, what + 1, (size_t)(close - what - 1)),
+                            context);
                 from = NULL;
             } else if (what != NULL) {
                 add_system(items, what);
@@ -314,11 +329,13 @@ void dag_items_add(struct c_items *items, const char *name, const char *text,
 /* Is it a member's name, given what stands before it? */
 static int is_member(const struct c_token *before)
 {
-    return before->kind == C_MARK && (*before->text == '.' || (*before->text == '>' && before->text[-1] == '-'));
+    return before->kind == C_MARK
+           && (*before->text == '.' || (*before->text == '>' && before->text[-1] == '-'));
 }
 
 /* The item that declares the name at a token; -1: nobody does, or it is a member. */
-static int declared_by(const struct c_items *items, const struct c_token *token, const struct c_token *before)
+static int declared_by(const struct c_items *items, const struct c_token *token,
+                       const struct c_token *before)
 {
     char name[256];
     if (token->length >= sizeof name)
@@ -388,7 +405,8 @@ static void print_name(struct text *out, const struct c_token *token, const char
     dag_print(out, "%.*s", (int)token->length, token->text);
 }
 
-void dag_items_print(struct c_items *items, struct c_item *item, struct text *out, const char *prefix)
+void dag_items_print(struct c_items *items, struct c_item *item, struct text *out,
+                     const char *prefix)
 {
     const char *text = item->text, *end = text + item->length;
     struct c_token before = {C_MARK, " ", 1};

@@ -16,8 +16,8 @@ enum flavour {
  * nodes each: compilers take time that grows faster than a function's size. */
 enum { PART_NODES = 100 };
 
-/* Parts of a C file (emit_c.c): the head, the tools that some graph reaches, the macro KNOWN if it is
- * used, and of one oracle all but its `struct oracle`. */
+/* Parts of a C file (emit_c.c): the head, the tools that some graph reaches, the macro KNOWN if it
+ * is used, and of one oracle all but its `struct oracle`. */
 void dag_emit_banner(const struct dag *dag, struct text *out);
 unsigned char *dag_emit_reached_tools(struct dag *dag); /* by tool */
 void dag_emit_known_macro(struct dag *dag, struct text *out);
@@ -42,9 +42,11 @@ void dag_emit_counters_c(const struct dag *dag, struct text *out, const struct o
 void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enum flavour flavour);
 
 /* emit_expression.c: the constants that a node's arguments read (how many), then each argument
- * over them, *value counting on from 0; `at` is the discussion's address there; and what the C file must say of all this first. */
+ * over them, *value counting on from 0; `at` is the discussion's address there; and what the C file
+ * must say of all this first. */
 int dag_has_reads(const struct dag *dag, const struct node *node); /* there are such constants */
-int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node, const char *at);
+int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node,
+                   const char *at);
 void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
                          const char *at, int *value);
 void dag_emit_externs(struct dag *dag, struct text *out);   /* prototypes */

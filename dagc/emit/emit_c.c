@@ -19,8 +19,11 @@ static void print_base_quoted(const struct dag *dag, struct text *out)
 {
     const char *base = dag->sources[dag->oracles[0].where.source].base;
     for (; *base != '\0'; base++)
-        dag_print(out, "%c", *base == '"' || *base == '\\' || *base == '?' ||
-                                     (unsigned char)*base < ' ' || *base == 0x7f ? '_' : *base);
+        dag_print(out, "%c",
+                  *base == '"' || *base == '\\' || *base == '?' || (unsigned char)*base < ' '
+                          || *base == 0x7f
+                      ? '_'
+                      : *base);
 }
 
 void dag_emit_banner(const struct dag *dag, struct text *out)
@@ -33,7 +36,8 @@ void dag_emit_banner(const struct dag *dag, struct text *out)
         dag_fingerprint_text(&dag->oracles[i], fingerprint);
         dag_print(out, " * oracle %s, graph %s\n", dag->oracles[i].name, fingerprint);
     }
-    dag_print(out, " *\n * This text is generated from a file of yours and is yours: the authors of dagc claim\n"
+    dag_print(out, " *\n * This text is generated from a file of yours and is yours: the authors "
+                   "of dagc claim\n"
                    " * no rights in it and put no conditions on its use. */\n");
 }
 
@@ -85,9 +89,10 @@ void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct ora
     print_structure(dag, out, oracle);
     dag_print(out, "\n/* Fills in the defaults. */\n");
     dag_print(out, "void %s_defaults(struct %s_parameters *parameters);\n", name, name);
-    dag_print(out, "\n/* Discusses one pair and decides. Terms that some decision reads are taken"
-                   " from the\n * discussion: all zero when nothing is known yet. Afterwards it"
-                   " holds the terms that the\n * decision reads; the others are unspecified. */\n");
+    dag_print(out,
+              "\n/* Discusses one pair and decides. Terms that some decision reads are taken"
+              " from the\n * discussion: all zero when nothing is known yet. Afterwards it"
+              " holds the terms that the\n * decision reads; the others are unspecified. */\n");
     dag_emit_prototype(out, oracle, FLAVOUR_PLAIN);
     dag_print(out, ";\n");
     dag_emit_counters_h(dag, out, oracle, options);
@@ -219,8 +224,8 @@ static void print_parameter_table(const struct dag *dag, struct text *out,
         dag_print_number(out, parameter->low);
         dag_print(out, ", ");
         dag_print_number(out, parameter->high);
-        dag_print(out, ", %d, offsetof(struct %s_parameters, %s), ROLE_", is_integer(dag, parameter),
-                  oracle->name, parameter->name);
+        dag_print(out, ", %d, offsetof(struct %s_parameters, %s), ROLE_",
+                  is_integer(dag, parameter), oracle->name, parameter->name);
         dag_print_upper(out, parameter->role < 0 ? "none" : dag->roles[parameter->role].name);
         dag_print(out, "},\n");
     }
@@ -251,11 +256,14 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
     dag_fingerprint_text(oracle, fingerprint);
     print_parameter_table(dag, out, oracle);
     int reads = print_reads(dag, out, oracle);
-    dag_print(out, "\nstatic void %s_defaults_any(void *parameters)\n{\n"
-                   "    %s_defaults((struct %s_parameters *)parameters);\n}\n", name, name, name);
-    dag_print(out, "\nstatic enum decision %s_refine_any(const void *parameters,\n"
-                   "    struct discussion *discussion)\n{\n"
-                   "    return %s_refine((const struct %s_parameters *)parameters, discussion);\n}\n",
+    dag_print(out,
+              "\nstatic void %s_defaults_any(void *parameters)\n{\n"
+              "    %s_defaults((struct %s_parameters *)parameters);\n}\n",
+              name, name, name);
+    dag_print(out,
+              "\nstatic enum decision %s_refine_any(const void *parameters,\n"
+              "    struct discussion *discussion)\n{\n"
+              "    return %s_refine((const struct %s_parameters *)parameters, discussion);\n}\n",
               name, name, name);
     dag_print(out, "\nconst struct oracle %s_oracle = {\n    RUNTIME_ABI,\n    \"%s\",\n    ", name,
               name);

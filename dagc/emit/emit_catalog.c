@@ -85,11 +85,13 @@ static void print_levels(const struct dag *dag, struct text *out, const struct t
     dag_print(out, " };\n");
 }
 
-/* The numbers of facts and roles, by which `struct oracle` says what it reads and what its parameters are. */
+/* The numbers of facts and roles, by which `struct oracle` says what it reads and what its
+ * parameters are. */
 static void print_numbers(const struct dag *dag, struct text *out)
 {
     if (dag->fact_count > 0) {
-        dag_print(out, "\n/* What an oracle may read without asking a tool. */\nenum catalog_fact {\n");
+        dag_print(out,
+                  "\n/* What an oracle may read without asking a tool. */\nenum catalog_fact {\n");
         for (int i = 0; i < dag->fact_count; i++) {
             dag_print(out, "    ");
             dag_emit_fact_number(dag, out, i);
@@ -97,7 +99,9 @@ static void print_numbers(const struct dag *dag, struct text *out)
         }
         dag_print(out, "};\n");
     }
-    dag_print(out, "\n/* What a parameter of an oracle is to a program. */\nenum catalog_role {\n    ROLE_NONE%s\n",
+    dag_print(out,
+              "\n/* What a parameter of an oracle is to a program. */\nenum catalog_role {\n    "
+              "ROLE_NONE%s\n",
               dag->role_count > 0 ? "," : "");
     for (int i = 0; i < dag->role_count; i++) {
         dag_print(out, "    ");
@@ -111,8 +115,9 @@ static void print_numbers(const struct dag *dag, struct text *out)
 static void print_terms(const struct dag *dag, struct text *out, const unsigned char *terms)
 {
     int any = 0;
-    dag_print(out, "\n/* The data manager: every term and the level it is known at. All zero: nothing"
-                   " is known. */\nstruct terms {\n");
+    dag_print(out,
+              "\n/* The data manager: every term and the level it is known at. All zero: nothing"
+              " is known. */\nstruct terms {\n");
     for (int i = 0; i < dag->term_count; i++) {
         const struct term *term = &dag->terms[i];
         const struct type *type = &dag->types[term->type];
@@ -227,8 +232,8 @@ static void print_readers(const struct dag *dag, struct text *out)
     }
     dag_print(out, "\nconst struct term_entry term_table[] = {\n");
     for (int i = 0; i < dag->term_count; i++)
-        dag_print(out, "    {\"%s\", %d, read_%s},\n", dag->terms[i].name, dag->terms[i].levels.count,
-                  dag->terms[i].name);
+        dag_print(out, "    {\"%s\", %d, read_%s},\n", dag->terms[i].name,
+                  dag->terms[i].levels.count, dag->terms[i].name);
     if (dag->term_count == 0)
         dag_print(out, "    {\"\", 0, 0},\n");
     dag_print(out, "};\nconst int term_table_count = %d;\n", dag->term_count);
@@ -245,7 +250,8 @@ static void print_readers(const struct dag *dag, struct text *out)
 
 void dag_emit_catalog_c(const struct dag *dag, struct text *out)
 {
-    print_banner(dag, out, "The interpreter's way to the tools: one call each, by the tool's number.");
+    print_banner(dag, out,
+                 "The interpreter's way to the tools: one call each, by the tool's number.");
     dag_print(out, "#include \"%s\"\n", dag->runtime_header);
     dag_print(out, "#include \"tool_table.h\"\n");
     print_headers(dag, out);

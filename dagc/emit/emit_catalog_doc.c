@@ -1,8 +1,8 @@
 /* emit_catalog_doc.c - a catalog's documentation, in Markdown.
  *
  * A chapter each for decisions, tools, terms and types, in the order of the catalog: from what
- * an oracle is to decide to what things are measured in. What a tool or term computes, its formula, source and
- * failings, is said in one place, the comment that opens its header; it is quoted here.
+ * an oracle is to decide to what things are measured in. What a tool or term computes, its formula,
+ * source and failings, is said in one place, the comment that opens its header; it is quoted here.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
@@ -25,7 +25,8 @@ static void print_doc(struct text *out, const char *doc)
     }
 }
 
-/* The comment that opens a header, without its frame and its licence line; nothing when there is none. */
+/* The comment that opens a header, without its frame and its licence line; nothing when there is
+ * none. */
 static void print_comment(struct dag *dag, struct text *out, const char *header)
 {
     const char *text = dag_header_text(dag, header), *end;
@@ -84,9 +85,11 @@ static void print_parameters(struct dag *dag, struct text *out, struct span para
         const struct type *type = &dag->types[parameter->type];
         char value[32], low[32], high[32];
         dag_print(out, "| `%s` | %s | %s | %s | ", parameter->name, type->name, type->unit_text,
-                  (parameter->given & PARAMETER_VALUE) != 0 ? dag_number(parameter->value, value) : "none");
+                  (parameter->given & PARAMETER_VALUE) != 0 ? dag_number(parameter->value, value)
+                                                            : "none");
         if ((parameter->given & PARAMETER_RANGE) != 0)
-            dag_print(out, "%s to %s", dag_number(parameter->low, low), dag_number(parameter->high, high));
+            dag_print(out, "%s to %s", dag_number(parameter->low, low),
+                      dag_number(parameter->high, high));
         dag_print(out, " | ");
         print_escaped(out, parameter->doc);
         dag_print(out, " |\n");
@@ -102,14 +105,18 @@ static void print_tools(struct dag *dag, struct text *out)
         const struct tool *tool = &dag->tools[i];
         dag_print(out, "### %s(", tool->name);
         for (int p = 0; p < tool->parameters.count; p++)
-            dag_print(out, "%s%s", p > 0 ? ", " : "", dag->parameters[tool->parameters.first + p].name);
+            dag_print(out, "%s%s", p > 0 ? ", " : "",
+                      dag->parameters[tool->parameters.first + p].name);
         dag_print(out, ")\n\n");
         print_doc(out, tool->doc);
-        dag_print(out, "%s%s, in `%s`.\n\n", tool->kind == TOOL_COMMAND ? "A command" : "A question",
+        dag_print(out, "%s%s, in `%s`.\n\n",
+                  tool->kind == TOOL_COMMAND ? "A command" : "A question",
                   tool->guards ? " and a guard" : "", tool->header);
         if (tool->keeps != KEEPS_NOTHING)
-            dag_print(out, "Statistics keep %s.\n\n", tool->keeps == KEEPS_COUNT ? "how often its argument has each value"
-                                                       : "a histogram of its first argument, by the second");
+            dag_print(out, "Statistics keep %s.\n\n",
+                      tool->keeps == KEEPS_COUNT
+                          ? "how often its argument has each value"
+                          : "a histogram of its first argument, by the second");
         print_comment(dag, out, tool->header);
         print_parameters(dag, out, tool->parameters);
         dag_print(out, "| answer | kind |\n|---|---|\n");
@@ -152,7 +159,8 @@ static void print_terms(struct dag *dag, struct text *out)
 static void print_facts(const struct dag *dag, struct text *out)
 {
     if (dag->fact_count > 0)
-        dag_print(out, "## Facts\n\nNumbers that are there for the asking, in computed arguments.\n\n");
+        dag_print(out,
+                  "## Facts\n\nNumbers that are there for the asking, in computed arguments.\n\n");
     for (int i = 0; i < dag->fact_count; i++) {
         const struct fact *fact = &dag->facts[i];
         dag_print(out, "### %s\n\n", fact->name);
@@ -165,7 +173,9 @@ static void print_facts(const struct dag *dag, struct text *out)
 static void print_roles(const struct dag *dag, struct text *out)
 {
     if (dag->role_count > 0)
-        dag_print(out, "## Roles\n\nWhat a parameter of an oracle may be to the program that asks it.\n\n");
+        dag_print(
+            out,
+            "## Roles\n\nWhat a parameter of an oracle may be to the program that asks it.\n\n");
     for (int i = 0; i < dag->role_count; i++) {
         const struct role *role = &dag->roles[i];
         dag_print(out, "### %s\n\n", role->name);

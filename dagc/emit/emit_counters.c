@@ -11,8 +11,10 @@ void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enu
 {
     const char *name = oracle->name;
     static const char *const suffixes[] = {"", "_counted", "_traced"};
-    dag_print(out, "enum decision %s_refine%s(const struct %s_parameters *parameters,\n"
-                   "    struct discussion *discussion", name, suffixes[flavour], name);
+    dag_print(out,
+              "enum decision %s_refine%s(const struct %s_parameters *parameters,\n"
+              "    struct discussion *discussion",
+              name, suffixes[flavour], name);
     if (flavour == FLAVOUR_COUNTED)
         dag_print(out, ", struct %s_counters *counters", name);
     else if (flavour == FLAVOUR_TRACED)
@@ -21,7 +23,8 @@ void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enu
     dag_print(out, ")");
 }
 
-static const struct node *node_at(const struct dag *dag, const struct oracle_graph *oracle, int place)
+static const struct node *node_at(const struct dag *dag, const struct oracle_graph *oracle,
+                                  int place)
 {
     return &dag->nodes[dag->order[oracle->order.first + place]];
 }
@@ -35,37 +38,49 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
         return;
     for (int i = 0; i < oracle->order.count; i++)
         arcs += node_at(dag, oracle, i)->arcs.count;
-    dag_print(out, "\n/* Nodes and arcs by number: their names, how far an arc's answer can be trusted, and the node that it\n"
-                   " * leaves. */\n"
-                   "enum { %s_nodes = %d, %s_arcs = %d };\n"
-                   "extern const char *const %s_node_names[%d];\n"
-                   "extern const char *const %s_arc_names[%d];\n"
-                   "extern const char *const %s_arc_kinds[%d]; /* \"precise\", \"approximate\", \"other\" */\n"
-                   "extern const int %s_arc_nodes[%d];\n",
-              name, oracle->order.count, name, arcs, name, oracle->order.count, name, arcs, name, arcs, name, arcs);
+    dag_print(
+        out,
+        "\n/* Nodes and arcs by number: their names, how far an arc's answer can be trusted, and "
+        "the node that it\n"
+        " * leaves. */\n"
+        "enum { %s_nodes = %d, %s_arcs = %d };\n"
+        "extern const char *const %s_node_names[%d];\n"
+        "extern const char *const %s_arc_names[%d];\n"
+        "extern const char *const %s_arc_kinds[%d]; /* \"precise\", \"approximate\", \"other\" */\n"
+        "extern const int %s_arc_nodes[%d];\n",
+        name, oracle->order.count, name, arcs, name, oracle->order.count, name, arcs, name, arcs,
+        name, arcs);
     if (options->counted) {
-        dag_print(out, "\n/* All zero before the first use. One structure per thread: nothing is locked. */\n"
-                       "struct %s_counters {\n"
-                       "    double (*clock)(void *context); /* in seconds or whatever; NULL: no time is taken */\n"
-                       "    void *context;\n"
-                       "    double time[%d];              /* by node, in the unit of clock */\n"
-                       "    unsigned long long calls[%d]; /* by node */\n"
-                       "    unsigned long long arcs[%d];  /* by arc: how often the answer was given */\n"
-                       "};\n", name, oracle->order.count, oracle->order.count, arcs);
+        dag_print(
+            out,
+            "\n/* All zero before the first use. One structure per thread: nothing is locked. */\n"
+            "struct %s_counters {\n"
+            "    double (*clock)(void *context); /* in seconds or whatever; NULL: no time is taken "
+            "*/\n"
+            "    void *context;\n"
+            "    double time[%d];              /* by node, in the unit of clock */\n"
+            "    unsigned long long calls[%d]; /* by node */\n"
+            "    unsigned long long arcs[%d];  /* by arc: how often the answer was given */\n"
+            "};\n",
+            name, oracle->order.count, oracle->order.count, arcs);
         dag_print(out, "\n/* Decides as %s_refine does, and counts. */\n", name);
         dag_emit_prototype(out, oracle, FLAVOUR_COUNTED);
         dag_print(out, ";\n");
     }
     if (options->traced) {
-        dag_print(out, "\n/* Decides as %s_refine does, and calls trace after every node with its number and the\n"
-                       " * arc that its answer takes; the discussion is then as the node left it. */\n", name);
+        dag_print(out,
+                  "\n/* Decides as %s_refine does, and calls trace after every node with its "
+                  "number and the\n"
+                  " * arc that its answer takes; the discussion is then as the node left it. */\n",
+                  name);
         dag_emit_prototype(out, oracle, FLAVOUR_TRACED);
         dag_print(out, ";\n");
     }
 }
 
 /* One line per arc: its answer's name or kind. */
-static void print_answers(const struct dag *dag, struct text *out, const struct oracle_graph *oracle, int kinds)
+static void print_answers(const struct dag *dag, struct text *out,
+                          const struct oracle_graph *oracle, int kinds)
 {
     static const char *const words[] = {"precise", "approximate", "other"}; /* by enum kind */
     for (int i = 0; i < oracle->order.count; i++) {
@@ -102,10 +117,13 @@ void dag_emit_counters_c(const struct dag *dag, struct text *out, const struct o
     if (options->counted || options->traced)
         print_names(dag, out, oracle);
     if (options->counted)
-        dag_print(out, "\nstatic double %s_clock(const struct %s_counters *counters)\n{\n"
-                       "    return counters->clock != NULL ? counters->clock(counters->context) : 0.0;\n}\n"
-                       "\nstatic void %s_count(struct %s_counters *counters, int node, int arc, double began)\n{\n"
-                       "    counters->time[node] += %s_clock(counters) - began;\n"
-                       "    counters->calls[node]++;\n    counters->arcs[arc]++;\n}\n",
-                  name, name, name, name, name);
+        dag_print(
+            out,
+            "\nstatic double %s_clock(const struct %s_counters *counters)\n{\n"
+            "    return counters->clock != NULL ? counters->clock(counters->context) : 0.0;\n}\n"
+            "\nstatic void %s_count(struct %s_counters *counters, int node, int arc, double "
+            "began)\n{\n"
+            "    counters->time[node] += %s_clock(counters) - began;\n"
+            "    counters->calls[node]++;\n    counters->arcs[arc]++;\n}\n",
+            name, name, name, name, name);
 }

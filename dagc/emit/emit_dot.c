@@ -106,8 +106,8 @@ static void print_arc(const struct drawing *drawing, const struct node *node, in
               target->kind == TARGET_DECISION ? "." : "", dag_target_name(dag, target),
               line_styles[answers[answer].kind]);
     for (int a = answer; a < node->arcs.count; a++)
-        if (answers[a].kind == answers[answer].kind &&
-            same_target(&dag->arcs[node->arcs.first + a].target, target)) {
+        if (answers[a].kind == answers[answer].kind
+            && same_target(&dag->arcs[node->arcs.first + a].target, target)) {
             dag_print(out, "%s&#160;%s&#160;", a > answer ? "<br/>" : "", answers[a].name);
             done[a] = 1;
         }
@@ -117,9 +117,11 @@ static void print_arc(const struct drawing *drawing, const struct node *node, in
 static void print_leaf(const struct drawing *drawing, const struct node *node, int decision)
 {
     const struct decision_tool *leaf = &drawing->dag->decisions[decision];
-    dag_print(drawing->out, "  \"%d.%s.%s\" [label=\"%s\", shape=box, style=\"filled,rounded\", "
-                            "fillcolor=\"%s\", color=\"#999999\", fontsize=10, height=0.25, margin=\"0.1,0.03\"];\n",
-              drawing->oracle, node->name, leaf->name, leaf->name, leaf_colour(leaf));
+    dag_print(
+        drawing->out,
+        "  \"%d.%s.%s\" [label=\"%s\", shape=box, style=\"filled,rounded\", "
+        "fillcolor=\"%s\", color=\"#999999\", fontsize=10, height=0.25, margin=\"0.1,0.03\"];\n",
+        drawing->oracle, node->name, leaf->name, leaf->name, leaf_colour(leaf));
 }
 
 static void print_arcs(const struct drawing *drawing, const struct node *node)
@@ -151,11 +153,12 @@ static void print_parameter(const struct drawing *drawing, const struct paramete
     struct text *out = drawing->out;
     char value[32], low[32], high[32];
     dag_print(out, "<tr><td align=\"left\" valign=\"top\"><b>%s</b></td>", parameter->name);
-    dag_print(out, "<td align=\"left\" valign=\"top\">%s %s</td>", dag_number(parameter->value, value),
-              drawing->dag->types[parameter->type].unit_text);
+    dag_print(out, "<td align=\"left\" valign=\"top\">%s %s</td>",
+              dag_number(parameter->value, value), drawing->dag->types[parameter->type].unit_text);
     dag_print(out, "<td align=\"left\" valign=\"top\">");
     if ((parameter->given & PARAMETER_RANGE) != 0)
-        dag_print(out, "%s ... %s", dag_number(parameter->low, low), dag_number(parameter->high, high));
+        dag_print(out, "%s ... %s", dag_number(parameter->low, low),
+                  dag_number(parameter->high, high));
     dag_print(out, "</td><td align=\"left\" valign=\"top\" balign=\"left\">");
     print_wrapped(out, parameter->doc, 60);
     dag_print(out, "</td></tr>");
@@ -164,8 +167,10 @@ static void print_parameter(const struct drawing *drawing, const struct paramete
 static void print_caption(const struct drawing *drawing, const struct oracle_graph *oracle)
 {
     struct text *out = drawing->out;
-    dag_print(out, "  label=<<table border=\"0\" cellborder=\"0\" cellspacing=\"2\" cellpadding=\"1\">"
-                   "<tr><td height=\"16\"></td></tr><tr><td colspan=\"4\" align=\"left\"><font point-size=\"16\"><b>%s</b></font>",
+    dag_print(out,
+              "  label=<<table border=\"0\" cellborder=\"0\" cellspacing=\"2\" cellpadding=\"1\">"
+              "<tr><td height=\"16\"></td></tr><tr><td colspan=\"4\" align=\"left\"><font "
+              "point-size=\"16\"><b>%s</b></font>",
               oracle->name);
     dag_print(out, "</td></tr><tr><td colspan=\"4\" align=\"left\">");
     print_escaped(out, *oracle->doc != '\0' ? oracle->doc : " ");
@@ -174,8 +179,10 @@ static void print_caption(const struct drawing *drawing, const struct oracle_gra
         print_parameter(drawing, &drawing->dag->parameters[oracle->parameters.first + i]);
     dag_print(out, "<tr>");
     print_cell(out, " ");
-    dag_print(out, "</tr><tr><td colspan=\"4\" align=\"left\"><font color=\"#555555\">solid: precise answer; dashed: "
-                   "approximate; dotted: other; heavy frame: guard; tinted box: command</font></td></tr></table>>;\n");
+    dag_print(out, "</tr><tr><td colspan=\"4\" align=\"left\"><font color=\"#555555\">solid: "
+                   "precise answer; dashed: "
+                   "approximate; dotted: other; heavy frame: guard; tinted box: "
+                   "command</font></td></tr></table>>;\n");
 }
 
 /* Several oracles stand side by side, each in its own frame. */
@@ -186,8 +193,10 @@ static void print_oracle(struct dag *dag, struct text *out, int index)
     if (dag->oracle_count > 1)
         dag_print(out, "  subgraph \"cluster%d\" {\n  color=\"#cccccc\";\n", index);
     print_caption(&drawing, oracle);
-    dag_print(out, "  \"%d start\" [label=\"start\", shape=plain, fontcolor=\"#555555\"];\n"
-                   "  \"%d start\" -> \"%d.%s\";\n", index, index, index, oracle->start.name);
+    dag_print(out,
+              "  \"%d start\" [label=\"start\", shape=plain, fontcolor=\"#555555\"];\n"
+              "  \"%d start\" -> \"%d.%s\";\n",
+              index, index, index, oracle->start.name);
     for (int i = 0; i < oracle->order.count; i++) {
         print_node(&drawing, dag_node_at(dag, oracle, i));
         print_arcs(&drawing, dag_node_at(dag, oracle, i));
@@ -201,13 +210,15 @@ void dag_emit_dot(struct dag *dag, struct text *out)
     const struct source *source = &dag->sources[dag->oracles[0].where.source];
     dag_print(out, "/* Generated by dagc %s from ", DAGC_VERSION);
     dag_print_comment(out, source->base);
-    dag_print(out, " */\ndigraph dagc {\n"
-                   "  rankdir=TB; nodesep=0.2; ranksep=0.35; labelloc=b; labeljust=l; fontsize=11;\n"
-                   "  fontname=\"Helvetica,Arial,sans-serif\"; bgcolor=white; pad=0.3;\n"
-                   "  node [shape=box, style=\"filled\", fillcolor=white, color=\"#334466\", fontsize=12,\n"
-                   "        margin=\"0.14,0.06\", height=0.3, fontname=\"Helvetica,Arial,sans-serif\"];\n"
-                   "  edge [color=\"#334466\", fontsize=9, fontcolor=\"#334466\", arrowsize=0.6,\n"
-                   "        fontname=\"Helvetica,Arial,sans-serif\"];\n");
+    dag_print(
+        out,
+        " */\ndigraph dagc {\n"
+        "  rankdir=TB; nodesep=0.2; ranksep=0.35; labelloc=b; labeljust=l; fontsize=11;\n"
+        "  fontname=\"Helvetica,Arial,sans-serif\"; bgcolor=white; pad=0.3;\n"
+        "  node [shape=box, style=\"filled\", fillcolor=white, color=\"#334466\", fontsize=12,\n"
+        "        margin=\"0.14,0.06\", height=0.3, fontname=\"Helvetica,Arial,sans-serif\"];\n"
+        "  edge [color=\"#334466\", fontsize=9, fontcolor=\"#334466\", arrowsize=0.6,\n"
+        "        fontname=\"Helvetica,Arial,sans-serif\"];\n");
     for (int i = 0; i < dag->oracle_count; i++)
         print_oracle(dag, out, i);
     dag_print(out, "}\n");

@@ -23,9 +23,10 @@ static int precedence(enum expression_kind kind)
     }
 }
 
-/* `at` is the discussion's address, as the text around has it. Prints e where an operator of precedence `around` stands; *value counts the constants. */
-static void print(const struct dag *dag, struct text *out, int expression, int around, const char *at,
-                  int *value)
+/* `at` is the discussion's address, as the text around has it. Prints e where an operator of
+ * precedence `around` stands; *value counts the constants. */
+static void print(const struct dag *dag, struct text *out, int expression, int around,
+                  const char *at, int *value)
 {
     static const char *const operators[] = {" + ", " - ", " * ", " / "};
     static const char *const functions[] = {"sqrt(", "fabs("};
@@ -127,7 +128,8 @@ static void print_term(const struct dag *dag, struct text *out, int term, int le
     dag_print(out, ")");
 }
 
-static void print_reads(const struct dag *dag, struct text *out, int expression, const char *at, int *value)
+static void print_reads(const struct dag *dag, struct text *out, int expression, const char *at,
+                        int *value)
 {
     const struct expression *e = &dag->expressions[expression];
     if (e->kind == EXPRESSION_TERM) {
@@ -161,8 +163,9 @@ int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *n
 static int has_reads(const struct dag *dag, int expression)
 {
     const struct expression *e = &dag->expressions[expression];
-    return e->kind == EXPRESSION_TERM || e->kind == EXPRESSION_EXTERN ||
-           (e->left >= 0 && has_reads(dag, e->left)) || (e->right >= 0 && has_reads(dag, e->right));
+    return e->kind == EXPRESSION_TERM || e->kind == EXPRESSION_EXTERN
+           || (e->left >= 0 && has_reads(dag, e->left))
+           || (e->right >= 0 && has_reads(dag, e->right));
 }
 
 int dag_has_reads(const struct dag *dag, const struct node *node)

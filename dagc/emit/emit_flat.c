@@ -4,8 +4,8 @@
  * goto: the text is linear in the graph however its nodes are shared (nested ifs double a shared
  * node at each sharing). The discussion is a local copy; once the tools are inlined the compiler
  * keeps its terms in registers and sees, along each path, which of them are known. Terms that some
- * decision reads come with the discussion, as an earlier one about the same pair may have left them, and
- * go back with such a decision; all others start absent.
+ * decision reads come with the discussion, as an earlier one about the same pair may have left
+ * them, and go back with such a decision; all others start absent.
  *
  * Where paths meet, a compiler that has lost sight of a term is told what analyse_terms.c found;
  * what it cannot know is checked at run time, and a comment at the node says so. A graph of more
@@ -22,9 +22,10 @@ struct flat {
     enum flavour flavour;
     const unsigned char *terms; /* see emit_options; NULL: all */
     int lines;                  /* likewise */
-    int parts;                 /* how many functions; 1: all is in one */
-    const char *at, *of;       /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
-    unsigned char *sure;       /* by term and order (place_of): its level on every path to the node */
+    int parts;                  /* how many functions; 1: all is in one */
+    const char *at, *of;        /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
+    /* by term and order (place_of): its level on every path to the node */
+    unsigned char *sure;
     unsigned char *possible;   /* likewise: may it be there at all? */
     int *arcs_in;              /* by order: how many arcs lead to the node */
     int *first_arc;            /* by order: the number of the node's first arc */
@@ -56,8 +57,7 @@ static int decides_nothing(const struct flat *flat, const struct node *node)
 
 static int has_shared_leaf(const struct flat *flat, const struct target *target)
 {
-    return target->kind == TARGET_DECISION &&
-           flat->dag->decisions[target->index].reads.count > 0;
+    return target->kind == TARGET_DECISION && flat->dag->decisions[target->index].reads.count > 0;
 }
 
 static int part_of(const struct flat *flat, int place)
@@ -73,9 +73,10 @@ static int falls_through(const struct flat *flat, const struct node *node)
     if (!decides_nothing(flat, node))
         return 0;
     if (target->kind == TARGET_NODE)
-        return flat->dag->nodes[target->index].order == node->order + 1 &&
-               part_of(flat, node->order) == part_of(flat, node->order + 1);
-    return flat->parts == 1 && node->order == flat->oracle->order.count - 1 && target->index == flat->first_leaf;
+        return flat->dag->nodes[target->index].order == node->order + 1
+               && part_of(flat, node->order) == part_of(flat, node->order + 1);
+    return flat->parts == 1 && node->order == flat->oracle->order.count - 1
+           && target->index == flat->first_leaf;
 }
 
 static const struct node *node_at(const struct flat *flat, int place)
@@ -248,7 +249,8 @@ static void print_known(const struct flat *flat, const struct node *node)
                       level_name(dag, t, low), low < t->levels.count ? " or better" : "");
         else
             dag_print(flat->out, "    /* %s: %s */\n", t->name,
-                      !flat->possible[at] ? "absent on every path" : "checked: not every path has it");
+                      !flat->possible[at] ? "absent on every path"
+                                          : "checked: not every path has it");
         if (is_fact(flat, node, low)) {
             dag_print(flat->out, "    KNOWN(%sterms.%s_level >= ", flat->of, t->name);
             print_constant(flat->out, t->name, level_name(dag, t, low));
@@ -338,7 +340,8 @@ static void print_leaf(const struct flat *flat, const struct decision_tool *deci
             dag_print(flat->out, "    discussion->terms.%s[%d] = d.terms.%s[%d];\n", term->name, k,
                       term->name, k);
         if (length == 1)
-            dag_print(flat->out, "    discussion->terms.%s = d.terms.%s;\n", term->name, term->name);
+            dag_print(flat->out, "    discussion->terms.%s = d.terms.%s;\n", term->name,
+                      term->name);
         dag_print(flat->out, "    discussion->terms.%s_level = d.terms.%s_level;\n", term->name,
                   term->name);
     }
@@ -402,27 +405,29 @@ static void print_watch_parameters(const struct flat *flat)
     if (flat->flavour == FLAVOUR_COUNTED)
         dag_print(flat->out, ",\n    struct %s_counters *counters", flat->oracle->name);
     else if (flat->flavour == FLAVOUR_TRACED)
-        dag_print(flat->out, ",\n    void (*trace)(void *context, const struct discussion *discussion,"
-                             " int node, int arc),\n    void *context");
+        dag_print(flat->out,
+                  ",\n    void (*trace)(void *context, const struct discussion *discussion,"
+                  " int node, int arc),\n    void *context");
 }
 
 /* static int NAME_part_N(...): the nodes PART_NODES * N and on, from node `at`. */
 static void print_part(const struct flat *flat, int part)
 {
     struct text *out = flat->out;
-    int first = part * PART_NODES, end = first + PART_NODES, entries = 0, left;
+    int first = part * PART_NODES, end = first + PART_NODES, entries = 0;
     if (end > flat->oracle->order.count)
         end = flat->oracle->order.count;
-    dag_print(out, "\nstatic int %s_%s_%d(const struct %s_parameters *parameters,\n"
-                   "    struct discussion *d, int at", flat->oracle->name, part_suffix(flat), part,
-              flat->oracle->name);
+    dag_print(out,
+              "\nstatic int %s_%s_%d(const struct %s_parameters *parameters,\n"
+              "    struct discussion *d, int at",
+              flat->oracle->name, part_suffix(flat), part, flat->oracle->name);
     print_watch_parameters(flat);
     dag_print(out, ")\n{\n");
     print_watch_variables(flat);
     dag_print(out, "    (void)parameters;\n");
     for (int i = first; i < end; i++)
         entries += flat->entry[i];
-    left = entries;
+    int left = entries;
     dag_print(out, "    switch (at) {\n");
     for (int i = first; i < end; i++)
         if (flat->entry[i])
@@ -442,11 +447,14 @@ static void print_parts_loop(const struct flat *flat)
     print_absent(flat);
     dag_print(out, "    while (at >= 0) {\n        switch (at / %d) {\n", PART_NODES);
     for (int i = 0; i < flat->parts; i++) {
-        dag_print(out, "        case %d:\n%s            at = %s_%s_%d(parameters, &d, at%s);\n"
-                       "            break;\n", i, i == flat->parts - 1 ? "        default:\n" : "",
-                  flat->oracle->name, part_suffix(flat), i,
-                  flat->flavour == FLAVOUR_COUNTED ? ", counters"
-                  : flat->flavour == FLAVOUR_TRACED ? ", trace, context" : "");
+        dag_print(out,
+                  "        case %d:\n%s            at = %s_%s_%d(parameters, &d, at%s);\n"
+                  "            break;\n",
+                  i, i == flat->parts - 1 ? "        default:\n" : "", flat->oracle->name,
+                  part_suffix(flat), i,
+                  flat->flavour == FLAVOUR_COUNTED  ? ", counters"
+                  : flat->flavour == FLAVOUR_TRACED ? ", trace, context"
+                                                    : "");
     }
     dag_print(out, "        }\n    }\n");
     for (int i = 0; i < flat->dag->decision_count; i++)
@@ -537,14 +545,16 @@ void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned ch
         any |= dag->oracles[i].order.count > PART_NODES;
     if (!any)
         return;
-    dag_print(out, "\n#if defined __GNUC__\n#define CALLED static __attribute__((noinline, unused))\n"
-                   "#else\n#define CALLED static\n#endif\n");
+    dag_print(out,
+              "\n#if defined __GNUC__\n#define CALLED static __attribute__((noinline, unused))\n"
+              "#else\n#define CALLED static\n#endif\n");
     for (int i = 0; i < dag->tool_count; i++) {
         const struct tool *tool = &dag->tools[i];
         const struct parameter *parameters = &dag->parameters[tool->parameters.first];
         if (!reached[i])
             continue;
-        dag_print(out, "\nCALLED enum %s_answer ask_%s(struct discussion *d", tool->name, tool->name);
+        dag_print(out, "\nCALLED enum %s_answer ask_%s(struct discussion *d", tool->name,
+                  tool->name);
         for (int k = 0; k < tool->parameters.count; k++)
             dag_print(out, ", %s %s_",
                       dag->types[parameters[k].type].base == BASE_INTEGER ? "int" : "double",

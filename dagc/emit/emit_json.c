@@ -122,7 +122,8 @@ static struct used find_used(struct dag *dag)
     return used;
 }
 
-static void print_needs(const struct dag *dag, struct text *out, const char *name, struct span needs)
+static void print_needs(const struct dag *dag, struct text *out, const char *name,
+                        struct span needs)
 {
     dag_print(out, ", \"%s\": [", name);
     for (int i = 0; i < needs.count; i++) {
@@ -135,7 +136,8 @@ static void print_needs(const struct dag *dag, struct text *out, const char *nam
     dag_print(out, "]");
 }
 
-static void print_parameter(const struct dag *dag, struct text *out, const struct parameter *parameter)
+static void print_parameter(const struct dag *dag, struct text *out,
+                            const struct parameter *parameter)
 {
     print_field(out, "{", "name", parameter->name);
     print_field(out, ", ", "type", dag->types[parameter->type].name);
@@ -202,7 +204,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     dag_print(out, "}");
 }
 
-static void print_decision(const struct dag *dag, struct text *out, const struct decision_tool *decision)
+static void print_decision(const struct dag *dag, struct text *out,
+                           const struct decision_tool *decision)
 {
     print_field(out, "      {", "name", decision->name);
     print_needs(dag, out, "reads", decision->reads);
@@ -212,7 +215,8 @@ static void print_decision(const struct dag *dag, struct text *out, const struct
 }
 
 /* What a fact and an extern have alike. */
-static void print_value(const struct dag *dag, struct text *out, const char *name, int type, double low, double high)
+static void print_value(const struct dag *dag, struct text *out, const char *name, int type,
+                        double low, double high)
 {
     print_field(out, "      {", "name", name);
     print_field(out, ", ", "type", dag->types[type].name);
@@ -295,14 +299,15 @@ static void print_catalog(struct dag *dag, struct text *out)
  * infinite number is a string. */
 static void print_expression(struct dag *dag, struct text *out, int expression)
 {
-    static const char *const operators[] = {"negate", "sqrt", "abs", "add", "subtract", "multiply",
-                                            "divide", "min", "max"}; /* from EXPRESSION_NEGATE on */
+    static const char *const operators[] = {
+        "negate",   "sqrt",   "abs", "add", "subtract",
+        "multiply", "divide", "min", "max"}; /* from EXPRESSION_NEGATE on */
     const struct expression *e = &dag->expressions[expression];
-    char digits[32];
     if (e->kind == EXPRESSION_PARAMETER)
         print_field(out, "{", "parameter", dag->parameters[e->parameter].name);
     else if (e->kind == EXPRESSION_NUMBER) {
         const char *quote = isfinite(e->number) ? "" : "\"";
+        char digits[32];
         dag_print(out, "{\"number\": %s%s%s", quote, dag_number(e->number, digits), quote);
     } else if (e->kind == EXPRESSION_FACT)
         print_field(out, "{", "fact", dag->facts[e->index].name);
@@ -331,7 +336,8 @@ static void print_node(struct dag *dag, struct text *out, const struct node *nod
     const struct source *source = &dag->sources[node->where.source];
     print_field(out, "      {", "name", node->name);
     print_field(out, ", ", "tool", dag->tools[node->tool].name);
-    dag_print(out, ", \"line\": %d,\n       \"arguments\": [", dag_line(source, node->where.offset));
+    dag_print(out, ", \"line\": %d,\n       \"arguments\": [",
+              dag_line(source, node->where.offset));
     for (int i = 0; i < node->arguments.count; i++) {
         const struct argument *argument = &dag->arguments[node->arguments.first + i];
         print_field(out, i > 0 ? ", {" : "{", "name", dag->parameters[argument->parameter].name);

@@ -1,11 +1,11 @@
 /* emit_standalone.c - an oracle with all it needs: one .c and one .h, no other header but libc's.
  *
  * The texts of the runtime's header, of the tools' and of whatever they include (from the folders
- * of -I, else those built into the command, headers.c) and the generated catalog are taken apart into items
- * (c_items.c). Kept is what the oracles' functions need, no more: to know which terms that are, all is
- * done twice, at first without those that nothing but their own clearing names. What the prototypes
- * need goes to the header. Every name that is declared gets the prefix, so that the two files can be dropped into
- * any program, beside others of their kind.
+ * of -I, else those built into the command, headers.c) and the generated catalog are taken apart
+ * into items (c_items.c). Kept is what the oracles' functions need, no more: to know which terms
+ * that are, all is done twice, at first without those that nothing but their own clearing names.
+ * What the prototypes need goes to the header. Every name that is declared gets the prefix, so that
+ * the two files can be dropped into any program, beside others of their kind.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
@@ -50,7 +50,8 @@ static void include(struct c_items *items, const char *name, void *context)
 {
     struct standalone *s = context;
     if (!include_once(s, items, name))
-        dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I", name);
+        dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I",
+                  name);
 }
 
 /* The text in the arena; the buffer is freed. A text that was cut short must not go on. */
@@ -101,18 +102,21 @@ static void keep(struct c_items *items)
     dag_items_keep(items, "standalone.h", C_PUBLIC);
 }
 
-/* By term: does the text that is kept name it? The catalog says what a tool reads and writes of the data
- * manager, but its function may use more. */
+/* By term: does the text that is kept name it? The catalog says what a tool reads and writes of the
+ * data manager, but its function may use more. */
 static unsigned char *find_terms(struct dag *dag, const struct c_items *items)
 {
     unsigned char *found = dag_alloc(&dag->arena, (size_t)dag->term_count);
     for (int i = 0; i < dag->term_count; i++)
-        found[i] = dag_find(&items->members, dag->terms[i].name) >= 0 ||
-                   dag_find(&items->members, dag_format(&dag->arena, "%s_level", dag->terms[i].name)) >= 0;
+        found[i] =
+            dag_find(&items->members, dag->terms[i].name) >= 0
+            || dag_find(&items->members, dag_format(&dag->arena, "%s_level", dag->terms[i].name))
+                   >= 0;
     return found;
 }
 
-static void print_items(struct c_items *items, struct text *out, const char *prefix, int public_part)
+static void print_items(struct c_items *items, struct text *out, const char *prefix,
+                        int public_part)
 {
     for (int i = 0; i < items->item_count; i++) {
         struct c_item *item = &items->items[i];
@@ -126,15 +130,15 @@ static int is_prefix(const char *text)
     int letters = 0;
     for (const char *at = text; *at != '\0'; at++) {
         letters |= (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z');
-        if (!((*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || *at == '_' ||
-              (at != text && *at >= '0' && *at <= '9')))
+        if (!((*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || *at == '_'
+              || (at != text && *at >= '0' && *at <= '9')))
             return 0;
     }
     return letters && strlen(text) <= NAME_MAX_LENGTH;
 }
 
-void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, const char *header_name,
-                         const struct emit_options *options)
+void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
+                         const char *header_name, const struct emit_options *options)
 {
     const char *prefix = options->prefix != NULL ? options->prefix : dag->oracles[0].name;
     struct standalone s = {0};
@@ -145,7 +149,8 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header, c
     }
     s.dag = first.dag = items.dag = dag;
     s.options = *options;
-    s.options.terms = dag_alloc(&dag->arena, (size_t)dag->term_count); /* none: what is still named is needed */
+    /* none: what is still named is needed */
+    s.options.terms = dag_alloc(&dag->arena, (size_t)dag->term_count);
     collect(&s, &first);
     if (dag->error_count > 0)
         return;

@@ -50,8 +50,10 @@ static void print_includes(const struct dag *dag, struct text *out, const struct
 static void print_tool(const struct dag *dag, struct text *out, const struct tool *tool)
 {
     static const char *const kinds[] = {"precise", "approximate", "other"};
-    dag_print(out, "/* %s - %s: ", tool->header, tool->kind == TOOL_QUESTION ? "question" : "command");
-    dag_print_comment(out, *tool->doc != '\0' ? tool->doc : "what does it ask, and how far can it be trusted?");
+    dag_print(out, "/* %s - %s: ", tool->header,
+              tool->kind == TOOL_QUESTION ? "question" : "command");
+    dag_print_comment(out, *tool->doc != '\0' ? tool->doc
+                                              : "what does it ask, and how far can it be trusted?");
     dag_print(out, "\n *\n");
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
@@ -70,7 +72,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     dag_print(out, "\nTOOL enum %s_answer tool_%s(struct discussion *d", tool->name, tool->name);
     for (int i = 0; i < tool->parameters.count; i++) {
         const struct parameter *p = &dag->parameters[tool->parameters.first + i];
-        dag_print(out, ", %s %s", dag->types[p->type].base == BASE_INTEGER ? "int" : "double", p->name);
+        dag_print(out, ", %s %s", dag->types[p->type].base == BASE_INTEGER ? "int" : "double",
+                  p->name);
     }
     dag_print(out, ")\n{\n    (void)d;\n");
     for (int i = 0; i < tool->parameters.count; i++)
@@ -96,12 +99,15 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
     const struct type *type = &dag->types[term->type];
     const char *c = type->base == BASE_INTEGER ? "int" : "double";
     dag_print(out, "/* %s - term: ", term->header);
-    dag_print_comment(out, *term->doc != '\0' ? term->doc : "what is it, and how far can each level be trusted?");
-    dag_print(out, "\n * Its unit: %s. Computed when it is asked for and absent%s, else found. */\n",
+    dag_print_comment(
+        out, *term->doc != '\0' ? term->doc : "what is it, and how far can each level be trusted?");
+    dag_print(out,
+              "\n * Its unit: %s. Computed when it is asked for and absent%s, else found. */\n",
               dag_unit_name(type), term->levels.count > 0 ? " or coarser" : "");
     print_frame(out, "TERM", term->name);
-    dag_print(out, "#include \"%s\"\n\nTOOL %s%s%sterm_%s(struct discussion *d", dag->runtime_header,
-              type->length > 1 ? "const " : "", c, type->length > 1 ? " *" : " ", term->name);
+    dag_print(out, "#include \"%s\"\n\nTOOL %s%s%sterm_%s(struct discussion *d",
+              dag->runtime_header, type->length > 1 ? "const " : "", c,
+              type->length > 1 ? " *" : " ", term->name);
     if (term->levels.count > 0)
         dag_print(out, ", enum %s_level level", term->name);
     dag_print(out, ")\n{\n    if (d->terms.%s_level < ", term->name);

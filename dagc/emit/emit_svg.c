@@ -14,7 +14,6 @@ enum { NOT_RUN = 127 }; /* as a shell says it */
 /* The status of `dot -Tsvg` from one file to the other; -1: it did not end by itself. */
 static int run_dot(FILE *from, FILE *to)
 {
-    int status;
     pid_t child = fork();
     if (child == 0) {
         if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0)
@@ -23,6 +22,7 @@ static int run_dot(FILE *from, FILE *to)
     }
     if (child < 0)
         return -1;
+    int status;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             return -1;
@@ -31,10 +31,10 @@ static int run_dot(FILE *from, FILE *to)
 
 static void read_back(FILE *file, struct text *text)
 {
-    char bytes[4096];
-    size_t count;
     text->length = 0;
     rewind(file);
+    char bytes[4096];
+    size_t count;
     while ((count = fread(bytes, 1, sizeof bytes - 1, file)) > 0) {
         bytes[count] = '\0';
         dag_print(text, "%s", bytes);
@@ -56,8 +56,9 @@ int dag_draw_svg(struct text *text)
         rewind(from);
         status = run_dot(from, to);
         if (status == NOT_RUN)
-            fprintf(stderr, "dagc: error: cannot run 'dot': --emit=svg draws with Graphviz, which is not"
-                            " installed\n    note: --emit=dot gives the drawing's source without it\n");
+            fprintf(stderr,
+                    "dagc: error: cannot run 'dot': --emit=svg draws with Graphviz, which is not"
+                    " installed\n    note: --emit=dot gives the drawing's source without it\n");
         else if (status != 0)
             fprintf(stderr, "dagc: error: 'dot' could not draw the graph\n");
         else

@@ -34,7 +34,8 @@ static void print_rules(const struct listing *listing, const struct node *node)
         const struct rule *rule = &dag->rules[i];
         dag_print(listing->out, "    %s", rule->labels.count == 0 ? "otherwise" : "");
         for (int l = 0; l < rule->labels.count; l++)
-            dag_print(listing->out, "%s%s", l > 0 ? " | " : "", dag->labels[rule->labels.first + l].name);
+            dag_print(listing->out, "%s%s", l > 0 ? " | " : "",
+                      dag->labels[rule->labels.first + l].name);
         dag_print(listing->out, " -> %s;\n", rule->target.name);
     }
 }
@@ -130,7 +131,8 @@ static void analyse(struct listing *listing)
         const struct node *node = dag_node_at(dag, listing->oracle, i);
         for (int a = node->arcs.first; a < node->arcs.first + node->arcs.count; a++)
             if (dag->arcs[a].target.kind == TARGET_NODE && !dag->tools[node->tool].guards)
-                listing->guarded[dag->nodes[dag->arcs[a].target.index].order] &= listing->guarded[i];
+                listing->guarded[dag->nodes[dag->arcs[a].target.index].order] &=
+                    listing->guarded[i];
     }
 }
 
@@ -148,7 +150,8 @@ static void print_branch(const struct listing *listing, const struct oracle_grap
         const struct answer *exit = &dag->answers[branch->exits.first + i];
         dag_print(listing->out, "%s%s %s", i > 0 ? ", " : "", exit->name, kinds[exit->kind]);
     }
-    dag_print(listing->out, ") {\n  start %s;\n", branch->start.name != NULL ? branch->start.name : "?");
+    dag_print(listing->out, ") {\n  start %s;\n",
+              branch->start.name != NULL ? branch->start.name : "?");
     for (int i = 0; i < branch->drafts.count; i++)
         print_node(listing, &dag->drafts[branch->drafts.first + i]);
     dag_print(listing->out, "}\n\n");
@@ -166,17 +169,19 @@ void dag_emit_text(struct dag *dag, struct text *out, enum pass pass)
     for (int i = 0; i < dag->oracle_count; i++) {
         const struct oracle_graph *oracle = listing.oracle = &dag->oracles[i];
         dag_print(out, "%soracle %s {\n", i > 0 ? "\n" : "", oracle->name);
-        for (int p = oracle->parameters.first; p < oracle->parameters.first + oracle->parameters.count; p++)
+        for (int p = oracle->parameters.first;
+             p < oracle->parameters.first + oracle->parameters.count; p++)
             print_parameter(&listing, &dag->parameters[p]);
         dag_print(out, "  start %s;\n", oracle->start.name != NULL ? oracle->start.name : "?");
         if (pass == PASS_ANALYSE)
             analyse(&listing);
-        int count = pass == PASS_PARSE ? oracle->drafts.count
-                  : pass == PASS_RESOLVE ? oracle->nodes.count : oracle->order.count;
+        int count = pass == PASS_PARSE     ? oracle->drafts.count
+                    : pass == PASS_RESOLVE ? oracle->nodes.count
+                                           : oracle->order.count;
         for (int k = 0; k < count; k++)
-            print_node(&listing, pass == PASS_PARSE ? &dag->drafts[oracle->drafts.first + k]
-                               : pass == PASS_RESOLVE ? &dag->nodes[oracle->nodes.first + k]
-                                                      : dag_node_at(dag, oracle, k));
+            print_node(&listing, pass == PASS_PARSE     ? &dag->drafts[oracle->drafts.first + k]
+                                 : pass == PASS_RESOLVE ? &dag->nodes[oracle->nodes.first + k]
+                                                        : dag_node_at(dag, oracle, k));
         dag_print(out, "}\n");
     }
 }

@@ -1,5 +1,6 @@
-/* headers.c - the text of a runtime's header: from the first folder of -I that has it, else the one built into
- * the command. It becomes a source: what is made of it depends on it as on the graph (--depfile).
+/* headers.c - the text of a runtime's header: from the first folder of -I that has it, else the one
+ * built into the command. It becomes a source: what is made of it depends on it as on the graph
+ * (--depfile).
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
 #include <string.h>

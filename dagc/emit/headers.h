@@ -13,6 +13,7 @@ struct dag;
 /* A header's text, in the arena; NULL: there is none of this name. */
 const char *dag_header_text(struct dag *dag, const char *name);
 
-extern const struct dag_header dagc_headers[]; /* ends with a NULL name (dagc/emit/embed_headers.sh makes it) */
+/* ends with a NULL name (dagc/emit/embed_headers.sh makes it) */
+extern const struct dag_header dagc_headers[];
 
 #endif

@@ -1,4 +1,5 @@
-/* compile.c - a temporary folder, the compiler, dlopen; then the folder goes, a loaded library stays.
+/* compile.c - a temporary folder, the compiler, dlopen; then the folder goes, a loaded library
+ * stays.
  *
  * The flags keep the releases of an oracle equal to the bit. -Bsymbolic: an oracle may be called as
  * one that the program exports itself.
@@ -22,7 +23,11 @@
 
 extern char **environ;
 
-enum { PATH_SIZE = PATH_MAX + 64, FLAGS_MAX = 24, QUOTED = 2000 /* bytes of what the compiler says */ };
+enum {
+    PATH_SIZE = PATH_MAX + 64,
+    FLAGS_MAX = 24,
+    QUOTED = 2000 /* bytes of what the compiler says */
+};
 
 static const char library_name[] = "oracles.so", output_name[] = "output.txt";
 
@@ -72,14 +77,16 @@ static void remove_all(const char *folder, const struct c_file *files, int count
     rmdir(folder);
 }
 
-/* Runs a program, its output going to a file. Its status; -1 with errno when it did not end by itself. */
+/* Runs a program, its output going to a file. Its status; -1 with errno when it did not end by
+ * itself. */
 static int run(char *const arguments[], const char *output)
 {
     posix_spawn_file_actions_t actions;
     pid_t child = 0;
-    int status, error = posix_spawn_file_actions_init(&actions);
+    int error = posix_spawn_file_actions_init(&actions);
     if (error == 0) {
-        error = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        error = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output,
+                                                 O_WRONLY | O_CREAT | O_TRUNC, 0600);
         if (error == 0)
             error = posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
         if (error == 0)
@@ -90,6 +97,7 @@ static int run(char *const arguments[], const char *output)
         errno = error;
         return -1;
     }
+    int status;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             return -1;
@@ -114,12 +122,12 @@ static void quote(char *message, size_t size, const char *output)
     fclose(stream);
 }
 
-static int compile(const char *folder, const char *source, const char *library, const char *const *flags,
-                   const char *command, char *message, size_t size)
+static int compile(const char *folder, const char *source, const char *library,
+                   const char *const *flags, const char *command, char *message, size_t size)
 {
     char include[PATH_SIZE + 2], output[PATH_SIZE];
-    const char *arguments[FLAGS_MAX + 16] = {command, "-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic",
-                                             "-ffp-contract=off", include};
+    const char *arguments[FLAGS_MAX + 16] = {
+        command, "-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic", "-ffp-contract=off", include};
     int count = 7;
     for (; *flags != NULL && count < FLAGS_MAX; flags++)
         arguments[count++] = *flags;
@@ -134,7 +142,8 @@ static int compile(const char *folder, const char *source, const char *library, 
     if (status == 0)
         return 0;
     if (status < 0)
-        snprintf(message, size, "cannot run the C compiler '%s': %s; install it or set CC to another", command,
+        snprintf(message, size,
+                 "cannot run the C compiler '%s': %s; install it or set CC to another", command,
                  strerror(errno));
     else {
         snprintf(message, size, "the C compiler '%s' failed; set CC to another", command);
@@ -146,21 +155,24 @@ static int compile(const char *folder, const char *source, const char *library, 
 void *dag_compile(const struct c_file *files, int count, const char *const *flags,
                   const struct dag_compiler *compiler, char *message, size_t size)
 {
-    const char *parent = compiler != NULL && compiler->temporary != NULL ? compiler->temporary : "/tmp";
+    const char *parent =
+        compiler != NULL && compiler->temporary != NULL ? compiler->temporary : "/tmp";
     const char *command = compiler != NULL && compiler->command != NULL ? compiler->command : "cc";
     char folder[PATH_MAX], source[PATH_SIZE], library[PATH_SIZE];
     void *handle = NULL;
     int length = snprintf(folder, sizeof folder, "%s/dagc.XXXXXX", parent), bad = 0;
     errno = ENAMETOOLONG;
     if (length >= (int)sizeof folder || mkdtemp(folder) == NULL) {
-        snprintf(message, size, "cannot make a temporary folder in %s: %s; set TMPDIR to another place", parent,
+        snprintf(message, size,
+                 "cannot make a temporary folder in %s: %s; set TMPDIR to another place", parent,
                  strerror(errno));
         return NULL;
     }
     for (int i = 0; i < count && !bad; i++)
         bad = write_file(folder, &files[i]) < 0;
     if (bad || !path_of(source, folder, files[0].name) || !path_of(library, folder, library_name))
-        snprintf(message, size, "cannot write to %s: %s; set TMPDIR to another place", folder, strerror(errno));
+        snprintf(message, size, "cannot write to %s: %s; set TMPDIR to another place", folder,
+                 strerror(errno));
     else if (compile(folder, source, library, flags, command, message, size) == 0) {
         handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
         if (handle == NULL)
@@ -185,8 +197,9 @@ static void build(struct dag *dag, void *context)
     struct request *r = context;
     const struct source *source = &dag->sources[dag->oracles[0].where.source];
     const char *slash = source->is_file ? strrchr(source->name, '/') : NULL;
-    const char *beside = slash == NULL ? "-I." : /* headers of the user's own tools */
-                         dag_format(&dag->arena, "-I%.*s", (int)(slash - source->name) + 1, source->name);
+    const char *beside =
+        slash == NULL ? "-I." : /* headers of the user's own tools */
+            dag_format(&dag->arena, "-I%.*s", (int)(slash - source->name) + 1, source->name);
     const char *const flags[] = {"-O2", beside, NULL};
     int count = 0;
     while (dagc_headers[count].name != NULL)
@@ -199,11 +212,13 @@ static void build(struct dag *dag, void *context)
     files[0] = (struct c_file){"oracles.c", r->c.bytes, r->c.length};
     files[1] = (struct c_file){"catalog.h", r->catalog.bytes, r->catalog.length};
     for (int i = 0; i < count; i++)
-        files[i + 2] = (struct c_file){dagc_headers[i].name, dagc_headers[i].text, strlen(dagc_headers[i].text)};
+        files[i + 2] = (struct c_file){dagc_headers[i].name, dagc_headers[i].text,
+                                       strlen(dagc_headers[i].text)};
     r->library = dag_compile(files, count + 2, flags, r->compiler, r->message, r->size);
 }
 
-void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message, size_t size)
+void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
+                          size_t size)
 {
     struct request r = {compiler, message, size, {0}, {0}, NULL};
     struct protector *outer = dag->arena.protector;

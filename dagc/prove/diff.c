@@ -2,11 +2,11 @@
  *
  * A state is a node (or leaf) of each graph, what has been written to the data manager on either
  * side, and the answers given so far that one of the two may still come to ask about. A question is
- * a tool, its arguments (parameters by name, numbers by value) and the levels of the terms that it and
- * its arguments read, as its side has written them; whoever asks it again gets the answer it had. A state that was seen
- * is not walked again, and where both sides stand before the same subgraph with the same terms
- * nothing can differ, so the work is polynomial in all but the answers that stay relevant; it is
- * capped, and a walk that was cut short says so.
+ * a tool, its arguments (parameters by name, numbers by value) and the levels of the terms that it
+ * and its arguments read, as its side has written them; whoever asks it again gets the answer it
+ * had. A state that was seen is not walked again, and where both sides stand before the same
+ * subgraph with the same terms nothing can differ, so the work is polynomial in all but the answers
+ * that stay relevant; it is capped, and a walk that was cut short says so.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
@@ -34,12 +34,12 @@ struct side {
     struct dag *dag;
     const struct oracle_graph *oracle;
     const char *path;
-    int *base;                 /* by order: in bases */
-    unsigned char *reach;      /* [order][bases in bits]: may it still be asked from here? */
-    uint64_t *subgraph;        /* by order: a hash of all that follows */
-    unsigned char *levels;     /* by term: written so far */
+    int *base;             /* by order: in bases */
+    unsigned char *reach;  /* [order][bases in bits]: may it still be asked from here? */
+    uint64_t *subgraph;    /* by order: a hash of all that follows */
+    unsigned char *levels; /* by term: written so far */
     struct target at;
-    int last;                  /* the node that led to `at`; its order */
+    int last; /* the node that led to `at`; its order */
 };
 
 struct walk {
@@ -82,22 +82,25 @@ static int same_value(const struct dag *a, int i, const struct dag *b, int j)
     case EXPRESSION_EXTERN:
         return strcmp(a->callbacks[x->index].name, b->callbacks[y->index].name) == 0;
     default:
-        return same_value(a, x->left, b, y->left) && (x->right < 0 || same_value(a, x->right, b, y->right));
+        return same_value(a, x->left, b, y->left)
+               && (x->right < 0 || same_value(a, x->right, b, y->right));
     }
 }
 
-static int same_base(const struct side *a, const struct node *x, const struct side *b, const struct node *y)
+static int same_base(const struct side *a, const struct node *x, const struct side *b,
+                     const struct node *y)
 {
     if (x->tool != y->tool || x->reads.count != y->reads.count)
         return 0;
     for (int i = 0; i < x->reads.count; i++) { /* an extern may be declared otherwise */
-        const struct need *p = &a->dag->needs[x->reads.first + i], *q = &b->dag->needs[y->reads.first + i];
+        const struct need *p = &a->dag->needs[x->reads.first + i],
+                          *q = &b->dag->needs[y->reads.first + i];
         if (p->term != q->term || p->level != q->level)
             return 0;
     }
     for (int i = 0; i < x->arguments.count; i++)
-        if (!same_value(a->dag, a->dag->arguments[x->arguments.first + i].expression,
-                        b->dag, b->dag->arguments[y->arguments.first + i].expression))
+        if (!same_value(a->dag, a->dag->arguments[x->arguments.first + i].expression, b->dag,
+                        b->dag->arguments[y->arguments.first + i].expression))
             return 0;
     return 1;
 }
@@ -121,7 +124,8 @@ static unsigned char level_at(const struct side *side, const struct node *node, 
 static unsigned char level_read(const struct side *side, const struct node *node, int k)
 {
     const struct tool *tool = &side->dag->tools[node->tool];
-    int need = k < node->reads.count ? node->reads.first + k : tool->reads.first + k - node->reads.count;
+    int need =
+        k < node->reads.count ? node->reads.first + k : tool->reads.first + k - node->reads.count;
     return level_at(side, node, side->dag->needs[need].term);
 }
 
@@ -172,7 +176,8 @@ static void find_reach(struct walk *walk)
                 if (target->kind != TARGET_NODE)
                     continue;
                 const unsigned char *from =
-                    side->reach + (size_t)side->dag->nodes[target->index].order * (size_t)walk->bytes;
+                    side->reach
+                    + (size_t)side->dag->nodes[target->index].order * (size_t)walk->bytes;
                 for (int k = 0; k < walk->bytes; k++)
                     row[k] |= from[k];
             }
@@ -212,8 +217,8 @@ static void find_subgraphs(struct walk *walk)
 static int must_agree(const struct walk *walk)
 {
     const struct side *a = &walk->side[0], *b = &walk->side[1];
-    return subgraph_of(a, &a->at) == subgraph_of(b, &b->at) &&
-           memcmp(a->levels, b->levels, (size_t)a->dag->term_count) == 0;
+    return subgraph_of(a, &a->at) == subgraph_of(b, &b->at)
+           && memcmp(a->levels, b->levels, (size_t)a->dag->term_count) == 0;
 }
 
 static int place_of(const struct side *side)
@@ -224,7 +229,9 @@ static int place_of(const struct side *side)
 static int may_ask(const struct walk *walk, const struct side *side, int base)
 {
     int place = place_of(side);
-    return place >= 0 && (side->reach[(size_t)place * (size_t)walk->bytes + (size_t)(base / 8)] >> base % 8 & 1);
+    return place >= 0
+           && (side->reach[(size_t)place * (size_t)walk->bytes + (size_t)(base / 8)] >> base % 8
+               & 1);
 }
 
 /* The answer that the question of this side's node has had; -1: none yet. */
@@ -259,7 +266,8 @@ static uint64_t hash_state(const struct walk *walk)
     for (int i = 0; i < walk->trail_count; i++) {
         const struct asked *asked = &walk->trail[i];
         const struct question *base = &walk->bases[asked->base];
-        if (!may_ask(walk, &walk->side[0], asked->base) && !may_ask(walk, &walk->side[1], asked->base))
+        if (!may_ask(walk, &walk->side[0], asked->base)
+            && !may_ask(walk, &walk->side[1], asked->base))
             continue;
         const struct side *side = &walk->side[base->side];
         const struct node *node = node_at(side, base->node);
@@ -335,8 +343,8 @@ static void report(struct walk *walk)
 
 /* ---- the walk */
 
-/* One side takes the answer's arc; its arguments have then read their terms, and its tool has written
- * what it declares. */
+/* One side takes the answer's arc; its arguments have then read their terms, and its tool has
+ * written what it declares. */
 static void follow_arc(struct side *side, int answer)
 {
     const struct node *node = &side->dag->nodes[side->at.index];
@@ -419,16 +427,19 @@ static int compare_parameters(const struct walk *walk)
     for (int s = 0; s < SIDES; s++) {
         const struct side *side = &walk->side[s], *other = &walk->side[1 - s];
         for (int i = 0; i < side->oracle->parameters.count; i++) {
-            const struct parameter *a = &side->dag->parameters[side->oracle->parameters.first + i], *b = NULL;
+            const struct parameter *a = &side->dag->parameters[side->oracle->parameters.first + i],
+                                   *b = NULL;
             for (int k = 0; k < other->oracle->parameters.count && b == NULL; k++) {
-                const struct parameter *q = &other->dag->parameters[other->oracle->parameters.first + k];
+                const struct parameter *q =
+                    &other->dag->parameters[other->oracle->parameters.first + k];
                 b = strcmp(a->name, q->name) == 0 ? q : NULL;
             }
-            char x[32], y[32];
             if (b == NULL)
                 fprintf(walk->out, "%c parameter %s\n", s == 0 ? '-' : '+', a->name);
             else if (s == 0 && a->value != b->value) {
+                char x[32];
                 fprintf(walk->out, "- parameter %s = %s\n", a->name, dag_number(a->value, x));
+                char y[32];
                 fprintf(walk->out, "+ parameter %s = %s\n", a->name, dag_number(b->value, y));
                 different = 1;
             }
@@ -460,7 +471,8 @@ static void compare(struct dag *other, void *context)
         walk->side[s].levels = dag_alloc(walk->arena, (size_t)dag->term_count + 1);
         walk->side[s].at = walk->side[s].oracle->start;
     }
-    size_t most = (size_t)walk->side[0].oracle->order.count + (size_t)walk->side[1].oracle->order.count + 1;
+    size_t most =
+        (size_t)walk->side[0].oracle->order.count + (size_t)walk->side[1].oracle->order.count + 1;
     int reads = 0;
     for (int s = 0; s < SIDES; s++)
         for (int i = 0; i < walk->side[s].oracle->order.count; i++) {
@@ -475,10 +487,11 @@ static void compare(struct dag *other, void *context)
     request->result |= compare_parameters(walk);
     walk_on(walk);
     if (walk->group_count > SHOWN)
-        fprintf(walk->out, "\n%d ways to decide differ%s; the first %d are shown\n", walk->group_count,
-                walk->group_count == GROUPS_MAX ? " at least" : "", SHOWN);
+        fprintf(walk->out, "\n%d ways to decide differ%s; the first %d are shown\n",
+                walk->group_count, walk->group_count == GROUPS_MAX ? " at least" : "", SHOWN);
     else
-        fprintf(walk->out, "%s%d ways to decide differ\n", walk->group_count > 0 ? "\n" : "", walk->group_count);
+        fprintf(walk->out, "%s%d ways to decide differ\n", walk->group_count > 0 ? "\n" : "",
+                walk->group_count);
     if (walk->cut)
         fprintf(walk->out, "stopped after %d states: there may be more\n", walk->states);
     request->result |= (walk->group_count > 0 ? 1 : 0) | (walk->cut ? 2 : 0);
@@ -497,16 +510,20 @@ static void compare_protected(struct dag *dag, void *context)
 /* Do both files know the same tools, terms and decisions? They may declare some themselves. */
 static int same_catalog(const struct dag *a, const struct dag *b)
 {
-    int same = a->tool_count == b->tool_count && a->term_count == b->term_count && a->decision_count == b->decision_count;
+    int same = a->tool_count == b->tool_count && a->term_count == b->term_count
+               && a->decision_count == b->decision_count;
     for (int i = 0; same && i < a->tool_count; i++) {
         const struct tool *x = &a->tools[i], *y = &b->tools[i];
-        same = strcmp(x->name, y->name) == 0 && x->answers.count == y->answers.count &&
-               x->parameters.count == y->parameters.count && x->reads.count == y->reads.count;
+        same = strcmp(x->name, y->name) == 0 && x->answers.count == y->answers.count
+               && x->parameters.count == y->parameters.count && x->reads.count == y->reads.count;
         for (int k = 0; same && k < x->answers.count; k++)
-            same = strcmp(a->answers[x->answers.first + k].name, b->answers[y->answers.first + k].name) == 0;
+            same =
+                strcmp(a->answers[x->answers.first + k].name, b->answers[y->answers.first + k].name)
+                == 0;
     }
     for (int i = 0; same && i < a->term_count; i++)
-        same = strcmp(a->terms[i].name, b->terms[i].name) == 0 && a->terms[i].levels.count == b->terms[i].levels.count;
+        same = strcmp(a->terms[i].name, b->terms[i].name) == 0
+               && a->terms[i].levels.count == b->terms[i].levels.count;
     for (int i = 0; same && i < a->decision_count; i++)
         same = strcmp(a->decisions[i].name, b->decisions[i].name) == 0;
     return same;
@@ -516,7 +533,8 @@ static int same_catalog(const struct dag *a, const struct dag *b)
 static int pair_up(struct request *request, int index)
 {
     struct dag *a = request->side[0].dag, *b = request->side[1].dag;
-    int other = a->oracle_count == 1 && b->oracle_count == 1 ? 0 : dag_oracle(b, a->oracles[index].name);
+    int other =
+        a->oracle_count == 1 && b->oracle_count == 1 ? 0 : dag_oracle(b, a->oracles[index].name);
     if (other < 0) {
         fprintf(request->out, "- oracle %s\n", a->oracles[index].name);
         request->result |= 1;
@@ -544,13 +562,14 @@ int dag_diff(const char *a, const char *b, const struct dag_options *options, FI
         request.result = 2;
     }
     for (int i = 0; request.result < 2 && i < request.side[0].dag->oracle_count; i++)
-        if (pair_up(&request, i) && dag_protect(request.side[0].dag, compare_protected, &request) != 0) {
+        if (pair_up(&request, i)
+            && dag_protect(request.side[0].dag, compare_protected, &request) != 0) {
             fprintf(stderr, "dagc: error: out of memory\n");
             request.result = 2;
         }
     for (int i = 0; request.result < 2 && i < request.side[1].dag->oracle_count; i++)
-        if (!(request.side[0].dag->oracle_count == 1 && request.side[1].dag->oracle_count == 1) &&
-            dag_oracle(request.side[0].dag, request.side[1].dag->oracles[i].name) < 0) {
+        if (!(request.side[0].dag->oracle_count == 1 && request.side[1].dag->oracle_count == 1)
+            && dag_oracle(request.side[0].dag, request.side[1].dag->oracles[i].name) < 0) {
             fprintf(out, "+ oracle %s\n", request.side[1].dag->oracles[i].name);
             request.result |= 1;
         }

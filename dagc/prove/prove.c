@@ -5,8 +5,8 @@
  * with which arguments it must bring and which leaf it ends at; the compiled function must agree.
  * A graph of at most PATHS_MAX paths is walked on all of them; a larger one on paths that cover
  * every pair of an arc into a node and an arc out of it, and on random ones from a fixed seed.
- * Every parameter gets a value of its own, so that none can stand for another; so does every fact and
- * extern. A term that is read has a value that tells when and how well it was computed.
+ * Every parameter gets a value of its own, so that none can stand for another; so does every fact
+ * and extern. A term that is read has a value that tells when and how well it was computed.
  * SPDX-License-Identifier: MIT */
 #define _XOPEN_SOURCE 700
 
@@ -30,11 +30,12 @@ struct prove_record {
     double *terms;     /* the terms at the end */
     unsigned char *levels;
     const double *facts; /* by fact, then by extern: its value */
-    int watched;       /* calls that the counters or the trace have seen */
+    int watched;         /* calls that the counters or the trace have seen */
 };
-static const char record_text[] =
-    "struct prove_record {\n    const unsigned char *script;\n    int room, calls;\n    int *tools;\n"
-    "    double *arguments, *terms;\n    unsigned char *levels;\n    const double *facts;\n    int watched;\n};\n";
+static const char record_text[] = "struct prove_record {\n    const unsigned char *script;\n    "
+                                  "int room, calls;\n    int *tools;\n"
+                                  "    double *arguments, *terms;\n    unsigned char *levels;\n    "
+                                  "const double *facts;\n    int watched;\n};\n";
 
 struct proof {
     struct dag *dag;
@@ -43,11 +44,11 @@ struct proof {
     FILE *report;
     void *library;
     const struct oracle_graph *oracle;
-    int number;                /* of the oracle */
-    int width;                 /* arguments of the tool that has most */
-    int room;                  /* nodes of the oracle, plus some */
-    double *values;            /* of the oracle's parameters */
-    double *facts;             /* see prove_record */
+    int number;     /* of the oracle */
+    int width;      /* arguments of the tool that has most */
+    int room;       /* nodes of the oracle, plus some */
+    double *values; /* of the oracle's parameters */
+    double *facts;  /* see prove_record */
     unsigned char *script;
     struct prove_record wanted, got;
     int (*run)(int oracle, int flavour, const double *values, struct prove_record *record);
@@ -81,8 +82,8 @@ static void print_tool(const struct dag *dag, struct text *out, int number, int 
         }
         dag_print(out, "    d->terms.%s_level = %d;\n", term->name, need->level);
     }
-    dag_print(out, "    return (enum %s_answer)prove_ask(d, %d, given, %d);\n}\n", tool->name, number,
-              tool->answers.count);
+    dag_print(out, "    return (enum %s_answer)prove_ask(d, %d, given, %d);\n}\n", tool->name,
+              number, tool->answers.count);
 }
 
 /* The value of a term that an argument makes compute: READ_UNIT * level + the calls so far + 1. */
@@ -91,24 +92,30 @@ enum { READ_UNIT = 100000 };
 static void print_term(const struct dag *dag, struct text *out, const struct term *term)
 {
     const struct type *type = &dag->types[term->type];
-    const char *base = type->base == BASE_INTEGER ? "int" : "double", *value = type->length > 1 ? "[0]" : "";
+    const char *base = type->base == BASE_INTEGER ? "int" : "double",
+               *value = type->length > 1 ? "[0]" : "";
     int levels = term->levels.count;
-    dag_print(out, "TOOL %s%s%s term_%s(struct discussion *d", type->length > 1 ? "const " : "", base,
-              type->length > 1 ? " *" : "", term->name);
+    dag_print(out, "TOOL %s%s%s term_%s(struct discussion *d", type->length > 1 ? "const " : "",
+              base, type->length > 1 ? " *" : "", term->name);
     if (levels > 0)
         dag_print(out, ", enum %s_level level", term->name);
-    dag_print(out, ")\n{\n    if ((int)d->terms.%s_level < %s) {\n        d->terms.%s%s = %d * %s + d->record->calls + 1;\n"
-                   "        d->terms.%s_level = %s%s;\n    }\n    return d->terms.%s;\n}\n", term->name,
-              levels > 0 ? "(int)level" : "1", term->name, value, READ_UNIT, levels > 0 ? "(int)level" : "1", term->name,
-              levels > 0 ? "(unsigned char)" : "", levels > 0 ? "level" : "1", term->name);
+    dag_print(out,
+              ")\n{\n    if ((int)d->terms.%s_level < %s) {\n        d->terms.%s%s = %d * %s + "
+              "d->record->calls + 1;\n"
+              "        d->terms.%s_level = %s%s;\n    }\n    return d->terms.%s;\n}\n",
+              term->name, levels > 0 ? "(int)level" : "1", term->name, value, READ_UNIT,
+              levels > 0 ? "(int)level" : "1", term->name, levels > 0 ? "(unsigned char)" : "",
+              levels > 0 ? "level" : "1", term->name);
 }
 
 /* An extern gives its value and those of the terms that it reads. */
 static void print_callback(const struct dag *dag, struct text *out, int number)
 {
     const struct callback *callback = &dag->callbacks[number];
-    dag_print(out, "double %s(const struct discussion *d)\n{\n    double result = d->record->facts[%d];\n",
-              callback->name, dag->fact_count + number);
+    dag_print(
+        out,
+        "double %s(const struct discussion *d)\n{\n    double result = d->record->facts[%d];\n",
+        callback->name, dag->fact_count + number);
     for (int i = callback->reads.first; i < callback->reads.first + callback->reads.count; i++)
         dag_print(out, "    result += d->terms.%s%s;\n", dag->terms[dag->needs[i].term].name,
                   dag->types[dag->terms[dag->needs[i].term].type].length > 1 ? "[0]" : "");
@@ -117,17 +124,22 @@ static void print_callback(const struct dag *dag, struct text *out, int number)
 
 static void print_discussion(const struct dag *dag, struct text *out, int width)
 {
-    dag_print(out, "#ifndef DISCUSSION_H\n#define DISCUSSION_H\n#include <math.h>\n#include <stddef.h>\n"
-                   "#include <string.h>\n#define RUNTIME_ABI %d\n#include \"catalog.h\"\n%s"
-                   "#define TOOL static inline\n"
-                   "struct discussion {\n    struct terms terms;\n    struct prove_record *record;\n};\n",
-              dag->runtime_abi, record_text);
-    dag_print(out, "static inline int prove_ask(struct discussion *d, int tool, const double *given, int answers)\n{\n"
-                   "    struct prove_record *r = d->record;\n    int call = r->calls, answer = 0;\n"
-                   "    if (call < r->room) {\n        r->calls++;\n        r->tools[call] = tool;\n"
-                   "        memcpy(r->arguments + call * %d, given, %d * sizeof *given);\n"
-                   "        answer = r->script[call];\n    }\n"
-                   "    return answer < answers ? answer : 0;\n}\n", width, width);
+    dag_print(
+        out,
+        "#ifndef DISCUSSION_H\n#define DISCUSSION_H\n#include <math.h>\n#include <stddef.h>\n"
+        "#include <string.h>\n#define RUNTIME_ABI %d\n#include \"catalog.h\"\n%s"
+        "#define TOOL static inline\n"
+        "struct discussion {\n    struct terms terms;\n    struct prove_record *record;\n};\n",
+        dag->runtime_abi, record_text);
+    dag_print(out,
+              "static inline int prove_ask(struct discussion *d, int tool, const double *given, "
+              "int answers)\n{\n"
+              "    struct prove_record *r = d->record;\n    int call = r->calls, answer = 0;\n"
+              "    if (call < r->room) {\n        r->calls++;\n        r->tools[call] = tool;\n"
+              "        memcpy(r->arguments + call * %d, given, %d * sizeof *given);\n"
+              "        answer = r->script[call];\n    }\n"
+              "    return answer < answers ? answer : 0;\n}\n",
+              width, width);
     for (int i = 0; i < dag->tool_count; i++)
         print_tool(dag, out, i, width);
     for (int i = 0; i < dag->term_count; i++)
@@ -143,15 +155,19 @@ static void print_run(const struct dag *dag, struct text *out, const struct emit
     for (int i = 0; i < dag->callback_count; i++)
         print_callback(dag, out, i);
     if (options->traced)
-        dag_print(out, "static void prove_trace(void *context, const struct discussion *d, int node, int arc)\n{\n"
+        dag_print(out, "static void prove_trace(void *context, const struct discussion *d, int "
+                       "node, int arc)\n{\n"
                        "    (void)d;\n    (void)node;\n    (void)arc;\n"
                        "    ((struct prove_record *)context)->watched++;\n}\n");
     for (int i = 0; i < dag->oracle_count; i++) {
         const struct oracle_graph *oracle = &dag->oracles[i];
         const char *name = oracle->name;
-        dag_print(out, "static int prove_%d(int flavour, const double *values, struct discussion *d)\n{\n"
-                       "    struct %s_parameters p;\n    int result = -1;\n    %s_defaults(&p);\n"
-                       "    (void)values;\n", i, name, name);
+        dag_print(
+            out,
+            "static int prove_%d(int flavour, const double *values, struct discussion *d)\n{\n"
+            "    struct %s_parameters p;\n    int result = -1;\n    %s_defaults(&p);\n"
+            "    (void)values;\n",
+            i, name, name);
         for (int k = 0; k < oracle->parameters.count; k++) {
             const struct parameter *parameter = &dag->parameters[oracle->parameters.first + k];
             dag_print(out, "    p.%s = %svalues[%d];\n", parameter->name,
@@ -159,30 +175,40 @@ static void print_run(const struct dag *dag, struct text *out, const struct emit
         }
         dag_print(out, "    if (flavour == 0)\n        result = (int)%s_refine(&p, d);\n", name);
         if (options->counted)
-            dag_print(out, "    if (flavour == 1) {\n"
-                           "        static struct %s_counters c;\n"
-                           "        int calls = 0, arcs = 0, i;\n        memset(&c, 0, sizeof c);\n"
-                           "        result = (int)%s_refine_counted(&p, d, &c);\n"
-                           "        for (i = 0; i < %s_nodes; i++)\n            calls += (int)c.calls[i];\n"
-                           "        for (i = 0; i < %s_arcs; i++)\n"
-                           "            if (c.arcs[i] > 0 && c.calls[%s_arc_nodes[i]] > 0)\n                arcs += (int)c.arcs[i];\n"
-                           "        d->record->watched = calls == arcs ? calls : -1;\n    }\n",
-                      name, name, name, name, name);
+            dag_print(
+                out,
+                "    if (flavour == 1) {\n"
+                "        static struct %s_counters c;\n"
+                "        int calls = 0, arcs = 0, i;\n        memset(&c, 0, sizeof c);\n"
+                "        result = (int)%s_refine_counted(&p, d, &c);\n"
+                "        for (i = 0; i < %s_nodes; i++)\n            calls += (int)c.calls[i];\n"
+                "        for (i = 0; i < %s_arcs; i++)\n"
+                "            if (c.arcs[i] > 0 && c.calls[%s_arc_nodes[i]] > 0)\n                "
+                "arcs += (int)c.arcs[i];\n"
+                "        d->record->watched = calls == arcs ? calls : -1;\n    }\n",
+                name, name, name, name, name);
         if (options->traced)
-            dag_print(out, "    if (flavour == 2)\n        result = (int)%s_refine_traced(&p, d, prove_trace, d->record);\n",
+            dag_print(out,
+                      "    if (flavour == 2)\n        result = (int)%s_refine_traced(&p, d, "
+                      "prove_trace, d->record);\n",
                       name);
         dag_print(out, "    return result;\n}\n");
     }
-    dag_print(out, "\nint prove_run(int oracle, int flavour, const double *values, struct prove_record *record)\n{\n"
-                   "    static int (*const oracles[])(int, const double *, struct discussion *) = {\n");
+    dag_print(out,
+              "\nint prove_run(int oracle, int flavour, const double *values, struct prove_record "
+              "*record)\n{\n"
+              "    static int (*const oracles[])(int, const double *, struct discussion *) = {\n");
     for (int i = 0; i < dag->oracle_count; i++)
         dag_print(out, "        prove_%d,\n", i);
-    dag_print(out, "    };\n    struct discussion d;\n    int result;\n    memset(&d, 0, sizeof d);\n"
-                   "    d.record = record;\n    result = oracles[oracle](flavour, values, &d);\n");
+    dag_print(out,
+              "    };\n    struct discussion d;\n    int result;\n    memset(&d, 0, sizeof d);\n"
+              "    d.record = record;\n    result = oracles[oracle](flavour, values, &d);\n");
     for (int i = 0; i < dag->term_count; i++) {
         const char *name = dag->terms[i].name;
-        dag_print(out, "    record->terms[%d] = d.terms.%s%s;\n    record->levels[%d] = d.terms.%s_level;\n", i,
-                  name, dag->types[dag->terms[i].type].length > 1 ? "[0]" : "", i, name);
+        dag_print(
+            out,
+            "    record->terms[%d] = d.terms.%s%s;\n    record->levels[%d] = d.terms.%s_level;\n",
+            i, name, dag->types[dag->terms[i].type].length > 1 ? "[0]" : "", i, name);
     }
     dag_print(out, "    return result;\n}\n");
 }
@@ -200,10 +226,10 @@ static const char *embedded(const char *name)
 static int build(struct proof *proof)
 {
     enum { C, CATALOG, DISCUSSION, ORACLE, TOOLS, FILES };
-    static const char *const names[FILES] = {"oracles.c", "catalog.h", "discussion.h", "oracle.h", "tools.h"};
+    static const char *const names[FILES] = {"oracles.c", "catalog.h", "discussion.h", "oracle.h",
+                                             "tools.h"};
     struct dag *dag = proof->dag;
     struct text texts[FILES] = {{0}};
-    struct c_file files[FILES];
     char message[4096] = "out of memory";
     /* Much text is compiled without optimising, which would take minutes. */
     const char *const flags[] = {dag->order_count > OPTIMISED_NODES ? "-O0" : "-O1", NULL};
@@ -221,6 +247,7 @@ static int build(struct proof *proof)
     dag_print(&texts[TOOLS], "/* all are in discussion.h */\n");
     dag_emit_c(dag, &texts[C], NULL, NULL, proof->options);
     print_run(dag, &texts[C], proof->options);
+    struct c_file files[FILES];
     for (int i = 0; i < FILES; i++) {
         files[i] = (struct c_file){names[i], texts[i].bytes, texts[i].length};
         failed |= texts[i].failed;
@@ -312,7 +339,8 @@ static void note_call(const struct proof *proof, const struct node *node, struct
     double *arguments = r->arguments + r->calls * proof->width;
     memset(arguments, 0, (size_t)proof->width * sizeof *arguments);
     for (int i = 0; i < node->arguments.count; i++)
-        arguments[i] = value_of(proof, r, proof->dag->arguments[node->arguments.first + i].expression);
+        arguments[i] =
+            value_of(proof, r, proof->dag->arguments[node->arguments.first + i].expression);
     for (int i = 0; i < tool->writes.count; i++) {
         const struct need *need = &proof->dag->needs[tool->writes.first + i];
         r->terms[need->term] = r->calls + 1;
@@ -351,7 +379,8 @@ static void print_path(const struct proof *proof, int wanted, int got, const cha
     }
     fprintf(proof->report, "  the graph decides %s after %d calls, the function %s after %d\n",
             proof->dag->decisions[wanted].name, proof->wanted.calls,
-            got >= 0 && got < proof->dag->decision_count ? proof->dag->decisions[got].name : "nothing",
+            got >= 0 && got < proof->dag->decision_count ? proof->dag->decisions[got].name
+                                                         : "nothing",
             proof->got.calls);
 }
 
@@ -364,8 +393,8 @@ static const char *difference(const struct proof *proof, int flavour, int wanted
     if (a->calls != b->calls || memcmp(a->tools, b->tools, calls * sizeof *a->tools) != 0)
         return "the calls";
     for (size_t i = 0; i < calls * width; i++) /* one kind of not-a-number is as good as another */
-        if (memcmp(&a->arguments[i], &b->arguments[i], sizeof *a->arguments) != 0 &&
-            !(isnan(a->arguments[i]) && isnan(b->arguments[i])))
+        if (memcmp(&a->arguments[i], &b->arguments[i], sizeof *a->arguments) != 0
+            && !(isnan(a->arguments[i]) && isnan(b->arguments[i])))
             return "an argument";
     if (wanted != got)
         return "the decision";
@@ -462,16 +491,17 @@ static int walk_pairs(struct proof *proof, int *way_node, unsigned char *way_ans
     }
     for (int i = 0; i < count; i++) {
         const struct node *node = node_at(proof, i);
-        int depth = 0, at;
-        for (at = i; way_node[at] >= 0; at = way_node[at])
+        int depth = 0;
+        for (int at = i; way_node[at] >= 0; at = way_node[at])
             depth++;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &proof->dag->arcs[node->arcs.first + a].target;
-            const struct node *next = target->kind == TARGET_NODE ? &proof->dag->nodes[target->index] : NULL;
+            const struct node *next =
+                target->kind == TARGET_NODE ? &proof->dag->nodes[target->index] : NULL;
             int follow = next != NULL ? next->arcs.count : 1;
             for (int b = 0; b < follow && proof->different == 0; b++, pairs++) {
                 int k = depth;
-                for (at = i; way_node[at] >= 0; at = way_node[at])
+                for (int at = i; way_node[at] >= 0; at = way_node[at])
                     proof->script[--k] = way_answer[at];
                 proof->script[depth] = (unsigned char)a;
                 if (next != NULL) {
@@ -494,7 +524,8 @@ static double count_paths(const struct proof *proof, double *paths)
         paths[i] = 0;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &proof->dag->arcs[node->arcs.first + a].target;
-            paths[i] += target->kind == TARGET_NODE ? paths[proof->dag->nodes[target->index].order] : 1;
+            paths[i] +=
+                target->kind == TARGET_NODE ? paths[proof->dag->nodes[target->index].order] : 1;
         }
     }
     return paths[0];
@@ -522,11 +553,14 @@ static int prove_oracle(struct proof *proof)
     proof->room = oracle->order.count + 2;
     proof->script = dag_alloc(&dag->arena, (size_t)proof->room);
     proof->values = dag_alloc(&dag->arena, (size_t)oracle->parameters.count * sizeof(double) + 1);
-    proof->facts = dag_alloc(&dag->arena, (size_t)(dag->fact_count + dag->callback_count) * sizeof(double) + 1);
+    proof->facts = dag_alloc(&dag->arena,
+                             (size_t)(dag->fact_count + dag->callback_count) * sizeof(double) + 1);
     for (int i = 0; i < dag->fact_count; i++)
-        proof->facts[i] = dag->types[dag->facts[i].type].base == BASE_INTEGER ? 3 + i : 0.7 + 1.3 * i;
+        proof->facts[i] =
+            dag->types[dag->facts[i].type].base == BASE_INTEGER ? 3 + i : 0.7 + 1.3 * i;
     for (int i = 0; i < dag->callback_count; i++)
-        proof->facts[dag->fact_count + i] = dag->types[dag->callbacks[i].type].base == BASE_INTEGER ? 50 + i : 0.2 + 1.1 * i;
+        proof->facts[dag->fact_count + i] =
+            dag->types[dag->callbacks[i].type].base == BASE_INTEGER ? 50 + i : 0.2 + 1.1 * i;
     open_record(proof, &proof->wanted);
     open_record(proof, &proof->got);
     for (int i = 0; i < oracle->parameters.count; i++) {
@@ -547,7 +581,8 @@ static int prove_oracle(struct proof *proof)
             try_script(proof);
         }
         if (proof->different == 0)
-            fprintf(proof->report, "%s: proved on %d pairs of arcs and %d random paths (seed %d) of %.3g paths\n",
+            fprintf(proof->report,
+                    "%s: proved on %d pairs of arcs and %d random paths (seed %d) of %.3g paths\n",
                     oracle->name, pairs, RANDOM_PATHS, SEED, count);
     }
     if (count <= PATHS_MAX && proof->different == 0)
@@ -572,7 +607,8 @@ static void prove_all(struct dag *dag, void *context)
     }
 }
 
-int dag_prove(struct dag *dag, const struct emit_options *options, const struct dag_compiler *compiler, FILE *report)
+int dag_prove(struct dag *dag, const struct emit_options *options,
+              const struct dag_compiler *compiler, FILE *report)
 {
     struct request request = {0};
     struct protector *outer = dag->arena.protector;

@@ -10,23 +10,23 @@ int dag_is_fixed(const struct dag *dag, int expression)
     const struct expression *e = &dag->expressions[expression];
     if (e->kind == EXPRESSION_FACT || e->kind == EXPRESSION_TERM || e->kind == EXPRESSION_EXTERN)
         return 0;
-    return (e->left < 0 || dag_is_fixed(dag, e->left)) && (e->right < 0 || dag_is_fixed(dag, e->right));
+    return (e->left < 0 || dag_is_fixed(dag, e->left))
+           && (e->right < 0 || dag_is_fixed(dag, e->right));
 }
 
 int dag_reads_parameters(const struct dag *dag, int expression)
 {
     const struct expression *e = &dag->expressions[expression];
-    return e->kind == EXPRESSION_PARAMETER ||
-           (e->left >= 0 && dag_reads_parameters(dag, e->left)) ||
-           (e->right >= 0 && dag_reads_parameters(dag, e->right));
+    return e->kind == EXPRESSION_PARAMETER || (e->left >= 0 && dag_reads_parameters(dag, e->left))
+           || (e->right >= 0 && dag_reads_parameters(dag, e->right));
 }
 
 static int reads_fact(const struct dag *dag, int expression, int fact)
 {
     const struct expression *e = &dag->expressions[expression];
-    return (e->kind == EXPRESSION_FACT && e->index == fact) ||
-           (e->left >= 0 && reads_fact(dag, e->left, fact)) ||
-           (e->right >= 0 && reads_fact(dag, e->right, fact));
+    return (e->kind == EXPRESSION_FACT && e->index == fact)
+           || (e->left >= 0 && reads_fact(dag, e->left, fact))
+           || (e->right >= 0 && reads_fact(dag, e->right, fact));
 }
 
 int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact)
@@ -66,7 +66,8 @@ static void add_need(struct dag *dag, int term, int level, struct where where)
     need->term = term;
     need->level = level;
     need->term_name = t->name;
-    need->level_name = t->levels.count > 0 && level > 0 ? dag->levels[t->levels.first + level - 1].name : NULL;
+    need->level_name =
+        t->levels.count > 0 && level > 0 ? dag->levels[t->levels.first + level - 1].name : NULL;
     need->where = need->level_where = where;
 }
 
@@ -94,7 +95,8 @@ const char *dag_expression_text(struct dag *dag, int expression)
         return "";
     const char *text = dag->sources[e->where.source].text + e->where.offset;
     int length = e->where.length, end = 0;
-    while (end < length && end < SHOWN && text[end] != '\n' && text[end] != '\r' && text[end] != '#')
+    while (end < length && end < SHOWN && text[end] != '\n' && text[end] != '\r'
+           && text[end] != '#')
         end++;
     while (end > 0 && end < length && ((unsigned char)text[end] & 0xc0) == 0x80)
         end--;

@@ -14,8 +14,8 @@
 static int known(const struct dag *dag, const struct input *input)
 {
     for (int i = 0; i < dag->source_count; i++)
-        if (dag->sources[i].on_disk && dag->sources[i].device == input->device &&
-            dag->sources[i].inode == input->inode)
+        if (dag->sources[i].on_disk && dag->sources[i].device == input->device
+            && dag->sources[i].inode == input->inode)
             return i;
     return -1;
 }

@@ -35,10 +35,10 @@ static int is_mark(char c)
     return c != '\0' && strchr("{}()[];:,=|<>-+*/.", c) != NULL;
 }
 
-#define LEX_ERROR(lexer, ...)                        \
-    do {                                             \
-        if (!(lexer)->quiet)                         \
-            dag_error((lexer)->dag, __VA_ARGS__);    \
+#define LEX_ERROR(lexer, ...) \
+    do { \
+        if (!(lexer)->quiet) \
+            dag_error((lexer)->dag, __VA_ARGS__); \
     } while (0)
 
 /* What someone may take for a part of a name. */
@@ -177,8 +177,9 @@ static void skip_unknown(struct lexer *lexer, const char *text)
     struct where where = {lexer->source, lexer->offset, 0};
     const char *at = text + lexer->offset;
     int length = 1;
-    while (at[length] != '\0' && !is_space(at[length]) && !is_name(at[length]) &&
-           !is_foreign(at[length]) && !is_mark(at[length]) && at[length] != '"' && at[length] != '#')
+    while (at[length] != '\0' && !is_space(at[length]) && !is_name(at[length])
+           && !is_foreign(at[length]) && !is_mark(at[length]) && at[length] != '"'
+           && at[length] != '#')
         length++;
     where.length = length;
     LEX_ERROR(lexer, where, "this has no meaning here");

@@ -112,8 +112,8 @@ int dag_expect_string(struct parser *parser, const char *what, const char **stri
 
 int dag_at_number(const struct parser *parser)
 {
-    return parser->token.kind == TOKEN_NUMBER || dag_at_word(parser, "inf") ||
-           dag_at_mark(parser, '-');
+    return parser->token.kind == TOKEN_NUMBER || dag_at_word(parser, "inf")
+           || dag_at_mark(parser, '-');
 }
 
 /* number = [ "-" ] ( NUMBER | "inf" ) */
@@ -137,13 +137,13 @@ int dag_expect_number(struct parser *parser, double *number, struct where *where
 
 int dag_parse_range(struct parser *parser, double *low, double *high, struct where *where)
 {
-    struct where part;
     *where = parser->token.where;
     if (!dag_take_word(parser, "in"))
         return 0;
-    if (!dag_expect(parser, '[', "after 'in'") || !dag_expect_number(parser, low, &part) ||
-        !dag_expect(parser, ',', "between the ends of a range") ||
-        !dag_expect_number(parser, high, &part) || !dag_expect(parser, ']', "after a range"))
+    struct where part;
+    if (!dag_expect(parser, '[', "after 'in'") || !dag_expect_number(parser, low, &part)
+        || !dag_expect(parser, ',', "between the ends of a range")
+        || !dag_expect_number(parser, high, &part) || !dag_expect(parser, ']', "after a range"))
         return -1;
     where->length = parser->last.offset + parser->last.length - where->offset;
     return 1;
@@ -164,8 +164,8 @@ int dag_parse_parameter(struct parser *parser)
     struct parameter *p = &dag->parameters[index];
     *p = parameter;
     p->bad = 1; /* until all of it is read */
-    if (!dag_expect(parser, ':', "and a type after the parameter's name") ||
-        !dag_expect_name(parser, "the name of a type", &p->type_name, &p->type_where))
+    if (!dag_expect(parser, ':', "and a type after the parameter's name")
+        || !dag_expect_name(parser, "the name of a type", &p->type_name, &p->type_where))
         return 0;
     if (dag_take(parser, '=')) {
         if (!dag_expect_number(parser, &p->value, &p->value_where))
@@ -180,8 +180,8 @@ int dag_parse_parameter(struct parser *parser)
         p->range_where = range;
         p->given |= PARAMETER_RANGE;
     }
-    if (dag_take_word(parser, "role") &&
-        !dag_expect_name(parser, "the name of a role", &p->role_name, &p->role_where))
+    if (dag_take_word(parser, "role")
+        && !dag_expect_name(parser, "the name of a role", &p->role_name, &p->role_where))
         return 0;
     if (parser->token.kind == TOKEN_STRING) {
         p->doc = parser->token.text;
@@ -191,8 +191,8 @@ int dag_parse_parameter(struct parser *parser)
     return 1;
 }
 
-static const char *const item_words[] = {"import", "graph", "oracle", "runtime", "type", "term",
-                                         "fact", "role", "extern", "tool", "decision"};
+static const char *const item_words[] = {"import", "graph", "oracle", "runtime", "type",    "term",
+                                         "fact",   "role",  "extern", "tool",    "decision"};
 enum { ITEM_WORDS = 11, CATALOG_WORD = 3 /* the first of the catalog's */ };
 
 static int at_catalog_word(const struct parser *parser)
@@ -207,8 +207,8 @@ static int at_catalog_word(const struct parser *parser)
 static int at_item(const struct parser *parser)
 {
     int string = dag_at_word(parser, "runtime") || dag_at_word(parser, "import");
-    if (!dag_at_word(parser, "oracle") && !dag_at_word(parser, "graph") && !string &&
-        !at_catalog_word(parser))
+    if (!dag_at_word(parser, "oracle") && !dag_at_word(parser, "graph") && !string
+        && !at_catalog_word(parser))
         return 0;
     enum token_kind next = dag_peek(parser).kind;
     return next == TOKEN_NAME || (next == TOKEN_STRING && string);
@@ -235,8 +235,9 @@ static void unknown_item(struct parser *parser)
 {
     int catalog = parser->content == CONTENT_CATALOG;
     struct suggestion suggestion = {parser->token.text, NULL, 0};
-    dag_expected(parser, catalog ? "import, runtime, type, term, fact, extern, tool, decision or graph"
-                                 : "'oracle', 'graph', 'import' or a declaration");
+    dag_expected(parser, catalog
+                             ? "import, runtime, type, term, fact, extern, tool, decision or graph"
+                             : "'oracle', 'graph', 'import' or a declaration");
     if (parser->token.kind == TOKEN_NAME) {
         for (int i = 0; i < ITEM_WORDS; i++)
             dag_suggest(&suggestion, item_words[i]);
@@ -250,8 +251,8 @@ static int parse_import(struct parser *parser)
 {
     struct dag *dag = parser->dag;
     struct import import = {NULL, parser->token.where, -1, 0};
-    if (!dag_take_word(parser, "standard") &&
-        !dag_expect_string(parser, "a file's name, a string, or 'standard'", &import.path))
+    if (!dag_take_word(parser, "standard")
+        && !dag_expect_string(parser, "a file's name, a string, or 'standard'", &import.path))
         return 0;
     if (import.path != NULL && import.path[0] == '\0') {
         dag_error(dag, import.where, "an import names a file");
@@ -303,8 +304,9 @@ static void parse_file(struct dag *dag, int source, enum content content)
     if (main && dag->oracle_count == oracles && dag->error_count == errors) {
         struct where where = {source, 0, 0};
         dag_error(dag, where, "no oracle in this file");
-        dag_note(dag, dag_nowhere, "write: oracle NAME \"doc\" "
-                                   "{ start NODE; node NODE = TOOL() { ANSWER -> TARGET; } }");
+        dag_note(dag, dag_nowhere,
+                 "write: oracle NAME \"doc\" "
+                 "{ start NODE; node NODE = TOOL() { ANSWER -> TARGET; } }");
     }
 }
 

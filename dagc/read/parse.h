@@ -14,10 +14,10 @@
 struct parser {
     struct dag *dag;
     struct lexer lexer;
-    struct token token;  /* the one at hand */
-    struct where last;   /* the one before it */
-    int ended;           /* it was said that the file ends too early: once is enough */
-    int depth;           /* of parentheses in the expression at hand */
+    struct token token; /* the one at hand */
+    struct where last;  /* the one before it */
+    int ended;          /* it was said that the file ends too early: once is enough */
+    int depth;          /* of parentheses in the expression at hand */
     enum content content;
 };
 
@@ -33,7 +33,8 @@ int dag_expected(struct parser *parser, const char *what);
 /* Takes the mark, or says that it is missing after the last token. `after` ends the message. */
 int dag_expect(struct parser *parser, char mark, const char *after);
 /* Takes a name or a string, or says that `what` was expected. */
-int dag_expect_name(struct parser *parser, const char *what, const char **name, struct where *where);
+int dag_expect_name(struct parser *parser, const char *what, const char **name,
+                    struct where *where);
 int dag_expect_string(struct parser *parser, const char *what, const char **string);
 int dag_expect_number(struct parser *parser, double *number, struct where *where);
 /* number or inf, with its sign, is at hand */
@@ -46,8 +47,8 @@ int dag_parse_parameter(struct parser *parser);
 /* answers = "(" NAME [ kind ] { "," NAME [ kind ] } ")" */
 int dag_parse_answers(struct parser *parser, struct span *span);
 int dag_parse_expression(struct parser *parser, int *expression); /* parse_expression.c */
-int dag_parse_catalog_item(struct parser *parser); /* parse_catalog.c */
-int dag_parse_oracle(struct parser *parser);       /* parse_oracle.c */
+int dag_parse_catalog_item(struct parser *parser);                /* parse_catalog.c */
+int dag_parse_oracle(struct parser *parser);                      /* parse_oracle.c */
 int dag_parse_branch(struct parser *parser);
 
 #endif

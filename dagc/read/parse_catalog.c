@@ -5,13 +5,15 @@
 
 #include "read/parse.h"
 
-/* A catalog where an oracle is expected, with one already: one error, instead of one for each thing it declares again. */
+/* A catalog where an oracle is expected, with one already: one error, instead of one for each
+ * thing it declares again. */
 static int refuse_catalog(struct parser *parser, struct where where)
 {
     struct dag *dag = parser->dag;
     dag_error(dag, where, "this file is a catalog, not an oracle, and there is one already");
     dag_note(dag, dag->runtime_where, "that one begins here");
-    dag_note(dag, dag_nowhere, "--catalog=FILE takes it in place of that one; --emit=catalog documents it");
+    dag_note(dag, dag_nowhere,
+             "--catalog=FILE takes it in place of that one; --emit=catalog documents it");
     while (parser->token.kind != TOKEN_END)
         dag_advance(parser);
     return 1;
@@ -22,16 +24,17 @@ static int parse_runtime(struct parser *parser)
 {
     struct dag *dag = parser->dag;
     struct where where = parser->last;
-    const char *header;
-    double abi;
-    struct where abi_where;
     if (dag->runtime_header != NULL && parser->content == CONTENT_ORACLES
-        && dag->sources[where.source].importer.source < 0 && dag->runtime_where.source != where.source)
+        && dag->sources[where.source].importer.source < 0
+        && dag->runtime_where.source != where.source)
         return refuse_catalog(parser, where);
+    const char *header;
     if (!dag_expect_string(parser, "the runtime's header, a string", &header))
         return 0;
     if (!dag_take_word(parser, "abi"))
         return dag_expected(parser, "'abi' and its number");
+    double abi;
+    struct where abi_where;
     if (!dag_expect_number(parser, &abi, &abi_where))
         return 0;
     if (!(abi >= 0 && abi <= 1e9 && abi == (double)(int)abi))
@@ -52,7 +55,6 @@ static int parse_type(struct parser *parser)
 {
     struct dag *dag = parser->dag;
     struct type type = {0};
-    struct where where;
     type.length = 1;
     type.unit_text = "";
     if (!dag_expect_name(parser, "the name of a type", &type.name, &type.where)) {
@@ -68,6 +70,7 @@ static int parse_type(struct parser *parser)
         t->base = BASE_INTEGER;
     else if (!dag_take_word(parser, "real"))
         return dag_expected(parser, "'real' or 'integer'");
+    struct where where;
     if (t->base == BASE_REAL && dag_take(parser, '[')) {
         double length;
         if (!dag_expect_number(parser, &length, &where))
@@ -125,9 +128,9 @@ static int parse_term(struct parser *parser)
     struct term *t = &dag->terms[index];
     *t = term;
     t->levels.first = dag->level_count;
-    if (!dag_expect(parser, ':', "and a type after the term's name") ||
-        !dag_expect_name(parser, "the name of a type", &t->type_name, &t->type_where) ||
-        !parse_bounds(parser, &t->low, &t->high))
+    if (!dag_expect(parser, ':', "and a type after the term's name")
+        || !dag_expect_name(parser, "the name of a type", &t->type_name, &t->type_where)
+        || !parse_bounds(parser, &t->low, &t->high))
         return 0;
     if (dag_take_word(parser, "levels")) {
         if (!dag_expect(parser, '(', "after 'levels'"))
@@ -144,8 +147,8 @@ static int parse_term(struct parser *parser)
             return 0;
     }
     t->header = dag_format(&dag->arena, "terms/%s.h", t->name);
-    if (dag_take_word(parser, "header") &&
-        !dag_expect_string(parser, "the name of a C header, a string", &t->header))
+    if (dag_take_word(parser, "header")
+        && !dag_expect_string(parser, "the name of a C header, a string", &t->header))
         return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &t->doc))
         return 0;
@@ -157,14 +160,15 @@ static int parse_fact(struct parser *parser)
 {
     struct dag *dag = parser->dag;
     struct fact fact = {0};
-    const char *part;
-    struct where where;
     fact.doc = fact.c = "";
     fact.type = -1;
     fact.low = -INFINITY;
     fact.high = INFINITY;
-    if (!dag_expect_name(parser, "the name of a fact", &fact.name, &fact.where) ||
-        (dag_take(parser, '.') && !dag_expect_name(parser, "a name after the '.'", &part, &where))) {
+    const char *part;
+    struct where where;
+    if (!dag_expect_name(parser, "the name of a fact", &fact.name, &fact.where)
+        || (dag_take(parser, '.')
+            && !dag_expect_name(parser, "a name after the '.'", &part, &where))) {
         dag->lost = 1;
         return 0;
     }
@@ -175,11 +179,11 @@ static int parse_fact(struct parser *parser)
     int index = ADD(dag, facts, fact_count);
     struct fact *f = &dag->facts[index];
     *f = fact;
-    if (!dag_expect(parser, ':', "and a type after the fact's name") ||
-        !dag_expect_name(parser, "the name of a type", &f->type_name, &f->type_where) ||
-        !parse_bounds(parser, &f->low, &f->high) ||
-        !dag_expect(parser, '=', "and a C expression, a string") ||
-        !dag_expect_string(parser, "a C expression over d, a string", &f->c))
+    if (!dag_expect(parser, ':', "and a type after the fact's name")
+        || !dag_expect_name(parser, "the name of a type", &f->type_name, &f->type_where)
+        || !parse_bounds(parser, &f->low, &f->high)
+        || !dag_expect(parser, '=', "and a C expression, a string")
+        || !dag_expect_string(parser, "a C expression over d, a string", &f->c))
         return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &f->doc))
         return 0;
@@ -200,8 +204,8 @@ static int parse_role(struct parser *parser)
     int index = ADD(dag, roles, role_count);
     struct role *r = &dag->roles[index];
     *r = role;
-    if (!dag_expect(parser, ':', "and a type after the role's name") ||
-        !dag_expect_name(parser, "the name of a type", &r->type_name, &r->type_where))
+    if (!dag_expect(parser, ':', "and a type after the role's name")
+        || !dag_expect_name(parser, "the name of a type", &r->type_name, &r->type_where))
         return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &r->doc))
         return 0;
@@ -226,7 +230,8 @@ static int parse_needs(struct parser *parser, struct span *span)
             return 0;
         if (parser->token.kind == TOKEN_AT_LEAST) {
             dag_advance(parser);
-            if (!dag_expect_name(parser, "the name of a level", &need.level_name, &need.level_where))
+            if (!dag_expect_name(parser, "the name of a level", &need.level_name,
+                                 &need.level_where))
                 return 0;
         }
         int index = ADD(dag, needs, need_count);
@@ -265,7 +270,8 @@ int dag_parse_answers(struct parser *parser, struct span *span)
 
 /* tool = "tool" NAME "(" [ parameter { "," parameter } ] ")" ( "question" | "command" )
  *        "answers" answers
- *        { "reads" needs | "writes" needs | "guards" | "counts" | "records" | "header" STRING } [ STRING ] ";" */
+ *        { "reads" needs | "writes" needs | "guards" | "counts" | "records" | "header" STRING } [
+ *        STRING ] ";" */
 static int parse_tool(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -368,9 +374,9 @@ static int parse_extern(struct parser *parser)
         dag_advance(parser);
     } else if (!parse_needs(parser, &c->reads))
         return 0;
-    if (!dag_expect(parser, ':', "and a type after what the function reads") ||
-        !dag_expect_name(parser, "the name of a type", &c->type_name, &c->type_where) ||
-        !parse_bounds(parser, &c->low, &c->high))
+    if (!dag_expect(parser, ':', "and a type after what the function reads")
+        || !dag_expect_name(parser, "the name of a type", &c->type_name, &c->type_where)
+        || !parse_bounds(parser, &c->low, &c->high))
         return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &c->doc))
         return 0;
@@ -383,9 +389,9 @@ int dag_parse_catalog_item(struct parser *parser)
     static const struct {
         const char *word;
         int (*parse)(struct parser *parser);
-    } items[] = {{"runtime", parse_runtime}, {"type", parse_type}, {"term", parse_term},
-                 {"fact", parse_fact}, {"role", parse_role}, {"extern", parse_extern},
-                 {"tool", parse_tool}, {"decision", parse_decision}};
+    } items[] = {{"runtime", parse_runtime}, {"type", parse_type},        {"term", parse_term},
+                 {"fact", parse_fact},       {"role", parse_role},        {"extern", parse_extern},
+                 {"tool", parse_tool},       {"decision", parse_decision}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++)
         if (dag_take_word(parser, items[i].word))
             return items[i].parse(parser);

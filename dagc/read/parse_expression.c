@@ -27,8 +27,10 @@ static int add(struct parser *parser, struct expression *e, struct where first, 
     const struct expression *added = &dag->expressions[*expression];
     if (added->size <= EXPRESSION_SIZE && added->depth <= EXPRESSION_DEPTH)
         return 1;
-    dag_error(dag, parser->last, "this expression is too long: more than %d parts, or more than %d "
-              "in each other", EXPRESSION_SIZE, EXPRESSION_DEPTH);
+    dag_error(dag, parser->last,
+              "this expression is too long: more than %d parts, or more than %d "
+              "in each other",
+              EXPRESSION_SIZE, EXPRESSION_DEPTH);
     return 0;
 }
 
@@ -45,8 +47,10 @@ static const struct {
     enum expression_kind kind;
     int operands;
 } functions[] = {
-    {"min", EXPRESSION_MIN, 2}, {"max", EXPRESSION_MAX, 2},
-    {"sqrt", EXPRESSION_SQRT, 1}, {"abs", EXPRESSION_ABS, 1},
+    {"min", EXPRESSION_MIN, 2},
+    {"max", EXPRESSION_MAX, 2},
+    {"sqrt", EXPRESSION_SQRT, 1},
+    {"abs", EXPRESSION_ABS, 1},
 };
 enum { FUNCTIONS = 4 };
 
@@ -63,7 +67,8 @@ static int parse_call(struct parser *parser, int *expression)
         dag_error(parser->dag, first, "unknown function '%s'", parser->token.text);
         dag_note_suggestion(parser->dag, &suggestion);
         if (suggestion.best == NULL)
-            dag_note(parser->dag, dag_nowhere, "the functions are min(a, b), max(a, b), sqrt(x) and abs(x)");
+            dag_note(parser->dag, dag_nowhere,
+                     "the functions are min(a, b), max(a, b), sqrt(x) and abs(x)");
         return 0;
     }
     struct expression e = new_expression(functions[f].kind);
@@ -71,11 +76,12 @@ static int parse_call(struct parser *parser, int *expression)
     dag_advance(parser);
     if (!dag_parse_expression(parser, &e.left))
         return 0;
-    if (functions[f].operands == 2 &&
-        (!dag_expect(parser, ',', "and a second operand here") || !dag_parse_expression(parser, &e.right)))
+    if (functions[f].operands == 2
+        && (!dag_expect(parser, ',', "and a second operand here")
+            || !dag_parse_expression(parser, &e.right)))
         return 0;
-    return dag_expect(parser, ')', "after the operands of a function") &&
-           add(parser, &e, first, expression);
+    return dag_expect(parser, ')', "after the operands of a function")
+           && add(parser, &e, first, expression);
 }
 
 /* name = NAME [ "." NAME ] */
@@ -83,12 +89,12 @@ static int parse_name(struct parser *parser, int *expression)
 {
     struct expression e = new_expression(EXPRESSION_NAME);
     struct where first;
-    const char *part;
     if (!dag_expect_name(parser, "a number or the name of a parameter", &e.name, &first))
         return 0;
     if (dag_take(parser, '.')) {
-        struct where where;
         e.dot = (int)strlen(e.name);
+        const char *part;
+        struct where where;
         if (!dag_expect_name(parser, "a name after the '.'", &part, &where))
             return 0;
         e.name = dag_format(&parser->dag->arena, "%s.%s", e.name, part);
@@ -107,8 +113,8 @@ static int parse_primary(struct parser *parser, int *expression)
         return add(parser, &e, first, expression);
     }
     if (dag_take(parser, '('))
-        return dag_parse_expression(parser, expression) &&
-               dag_expect(parser, ')', "to close this part of the expression");
+        return dag_parse_expression(parser, expression)
+               && dag_expect(parser, ')', "to close this part of the expression");
     if (parser->token.kind == TOKEN_NAME && dag_peek(parser).mark == '(')
         return parse_call(parser, expression);
     return parse_name(parser, expression);
@@ -145,8 +151,8 @@ static int parse_product(struct parser *parser, int *expression)
     if (!parse_unary(parser, expression))
         return 0;
     while (dag_at_mark(parser, '*') || dag_at_mark(parser, '/')) {
-        struct expression e = new_expression(dag_at_mark(parser, '*') ? EXPRESSION_MULTIPLY
-                                                                      : EXPRESSION_DIVIDE);
+        struct expression e =
+            new_expression(dag_at_mark(parser, '*') ? EXPRESSION_MULTIPLY : EXPRESSION_DIVIDE);
         dag_advance(parser);
         e.left = *expression;
         if (!parse_unary(parser, &e.right) || !add(parser, &e, first, expression))
@@ -164,8 +170,8 @@ int dag_parse_expression(struct parser *parser, int *expression)
     parser->depth++;
     int ok = parse_product(parser, expression);
     while (ok && (dag_at_mark(parser, '+') || dag_at_mark(parser, '-'))) {
-        struct expression e = new_expression(dag_at_mark(parser, '+') ? EXPRESSION_ADD
-                                                                      : EXPRESSION_SUBTRACT);
+        struct expression e =
+            new_expression(dag_at_mark(parser, '+') ? EXPRESSION_ADD : EXPRESSION_SUBTRACT);
         dag_advance(parser);
         e.left = *expression;
         ok = parse_product(parser, &e.right) && add(parser, &e, first, expression);

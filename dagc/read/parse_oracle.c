@@ -6,22 +6,22 @@
 
 static int at_oracle_word(const struct parser *parser)
 {
-    return dag_at_word(parser, "param") || dag_at_word(parser, "start") ||
-           dag_at_word(parser, "node");
+    return dag_at_word(parser, "param") || dag_at_word(parser, "start")
+           || dag_at_word(parser, "node");
 }
 
 /* `node NAME`, `param NAME`, `start NAME` or the next graph: never the inside of a node, where
  * a name is followed by '|', '->', '=' or ';'. */
 static int at_item(const struct parser *parser)
 {
-    return (at_oracle_word(parser) || dag_at_word(parser, "oracle") || dag_at_word(parser, "graph")) &&
-           dag_peek(parser).kind == TOKEN_NAME;
+    return (at_oracle_word(parser) || dag_at_word(parser, "oracle") || dag_at_word(parser, "graph"))
+           && dag_peek(parser).kind == TOKEN_NAME;
 }
 
 static int at_graph(const struct parser *parser)
 {
-    return (dag_at_word(parser, "oracle") || dag_at_word(parser, "graph")) &&
-           dag_peek(parser).kind == TOKEN_NAME;
+    return (dag_at_word(parser, "oracle") || dag_at_word(parser, "graph"))
+           && dag_peek(parser).kind == TOKEN_NAME;
 }
 
 static int at_end(const struct parser *parser)
@@ -77,9 +77,9 @@ static int parse_arguments(struct parser *parser, struct span *span)
             dag_note(dag, dag_nowhere, "arguments are named: write NAME = value");
             return 0;
         }
-        if (!dag_expect_name(parser, "the name of an argument", &argument.name, &argument.where) ||
-            !dag_expect(parser, '=', "after the argument's name: write NAME = value") ||
-            !dag_parse_expression(parser, &argument.expression))
+        if (!dag_expect_name(parser, "the name of an argument", &argument.name, &argument.where)
+            || !dag_expect(parser, '=', "after the argument's name: write NAME = value")
+            || !dag_parse_expression(parser, &argument.expression))
             return 0;
         int index = ADD(dag, arguments, argument_count);
         dag->arguments[index] = argument;
@@ -97,8 +97,8 @@ static int parse_rules(struct parser *parser, struct span *span)
     span->first = parser->dag->rule_count;
     if (!dag_expect(parser, '{', "and the answers of the node")) {
         struct token next = dag_peek(parser);
-        int rule = parser->token.kind == TOKEN_NAME &&
-                   (next.kind == TOKEN_ARROW || next.mark == '|');
+        int rule =
+            parser->token.kind == TOKEN_NAME && (next.kind == TOKEN_ARROW || next.mark == '|');
         if (!rule) /* else only the '{' is missing */
             return 0;
     }
@@ -139,13 +139,13 @@ static int parse_node(struct parser *parser, struct oracle_graph *graph)
     int index = ADD(dag, drafts, draft_count);
     struct node *n = &dag->drafts[index];
     *n = node;
-    if (!dag_expect(parser, '=', "and a tool after the node's name") ||
-        !dag_expect_name(parser, "the name of a tool", &n->tool_name, &n->tool_where))
+    if (!dag_expect(parser, '=', "and a tool after the node's name")
+        || !dag_expect_name(parser, "the name of a tool", &n->tool_name, &n->tool_where))
         return 0;
     int ok = parse_arguments(parser, &n->written);
     if (!ok) {
-        while (!at_end(parser) && !dag_at_mark(parser, '{') && !dag_at_mark(parser, '}') &&
-               !dag_at_mark(parser, ';'))
+        while (!at_end(parser) && !dag_at_mark(parser, '{') && !dag_at_mark(parser, '}')
+               && !dag_at_mark(parser, ';'))
             dag_advance(parser);
         if (!dag_at_mark(parser, '{'))
             return 0;

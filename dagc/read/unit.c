@@ -11,16 +11,16 @@ static const struct {
     const char *symbol;
     struct unit unit; /* m kg s A K mol cd */
 } symbols[] = {
-    {"m", {{1, 0, 0, 0, 0, 0, 0}}},    {"kg", {{0, 1, 0, 0, 0, 0, 0}}},
-    {"s", {{0, 0, 1, 0, 0, 0, 0}}},    {"A", {{0, 0, 0, 1, 0, 0, 0}}},
-    {"K", {{0, 0, 0, 0, 1, 0, 0}}},    {"mol", {{0, 0, 0, 0, 0, 1, 0}}},
-    {"cd", {{0, 0, 0, 0, 0, 0, 1}}},   {"Hz", {{0, 0, -1, 0, 0, 0, 0}}},
-    {"N", {{1, 1, -2, 0, 0, 0, 0}}},   {"Pa", {{-1, 1, -2, 0, 0, 0, 0}}},
-    {"J", {{2, 1, -2, 0, 0, 0, 0}}},   {"W", {{2, 1, -3, 0, 0, 0, 0}}},
-    {"C", {{0, 0, 1, 1, 0, 0, 0}}},    {"V", {{2, 1, -3, -1, 0, 0, 0}}},
-    {"ohm", {{2, 1, -3, -2, 0, 0, 0}}},{"lm", {{0, 0, 0, 0, 0, 0, 1}}},
-    {"lx", {{-2, 0, 0, 0, 0, 0, 1}}},  {"rad", {{0, 0, 0, 0, 0, 0, 0}}},
-    {"sr", {{0, 0, 0, 0, 0, 0, 0}}},   {"1", {{0, 0, 0, 0, 0, 0, 0}}},
+    {"m", {{1, 0, 0, 0, 0, 0, 0}}},     {"kg", {{0, 1, 0, 0, 0, 0, 0}}},
+    {"s", {{0, 0, 1, 0, 0, 0, 0}}},     {"A", {{0, 0, 0, 1, 0, 0, 0}}},
+    {"K", {{0, 0, 0, 0, 1, 0, 0}}},     {"mol", {{0, 0, 0, 0, 0, 1, 0}}},
+    {"cd", {{0, 0, 0, 0, 0, 0, 1}}},    {"Hz", {{0, 0, -1, 0, 0, 0, 0}}},
+    {"N", {{1, 1, -2, 0, 0, 0, 0}}},    {"Pa", {{-1, 1, -2, 0, 0, 0, 0}}},
+    {"J", {{2, 1, -2, 0, 0, 0, 0}}},    {"W", {{2, 1, -3, 0, 0, 0, 0}}},
+    {"C", {{0, 0, 1, 1, 0, 0, 0}}},     {"V", {{2, 1, -3, -1, 0, 0, 0}}},
+    {"ohm", {{2, 1, -3, -2, 0, 0, 0}}}, {"lm", {{0, 0, 0, 0, 0, 0, 1}}},
+    {"lx", {{-2, 0, 0, 0, 0, 0, 1}}},   {"rad", {{0, 0, 0, 0, 0, 0, 0}}},
+    {"sr", {{0, 0, 0, 0, 0, 0, 0}}},    {"1", {{0, 0, 0, 0, 0, 0, 0}}},
 };
 
 enum { EXPONENT_MAX = 99 };
@@ -29,13 +29,13 @@ enum { EXPONENT_MAX = 99 };
 static int symbol_at(const char *text, int *length)
 {
     int letters = 0;
-    while ((text[letters] >= 'a' && text[letters] <= 'z') ||
-           (text[letters] >= 'A' && text[letters] <= 'Z'))
+    while ((text[letters] >= 'a' && text[letters] <= 'z')
+           || (text[letters] >= 'A' && text[letters] <= 'Z'))
         letters++;
     *length = letters == 0 && *text == '1' ? 1 : letters;
     for (int i = 0; i < (int)(sizeof symbols / sizeof *symbols); i++)
-        if ((int)strlen(symbols[i].symbol) == *length &&
-            memcmp(symbols[i].symbol, text, (size_t)*length) == 0)
+        if ((int)strlen(symbols[i].symbol) == *length
+            && memcmp(symbols[i].symbol, text, (size_t)*length) == 0)
             return i;
     return -1;
 }
@@ -47,7 +47,7 @@ int dag_parse_unit(const char *text, struct unit *unit)
     const char *at = text;
     *unit = (struct unit){{0}};
     while (*at != '\0') {
-        int sign = 1, length, power = 1;
+        int sign = 1, power = 1;
         while (*at == ' ' || (at != text && (*at == '.' || *at == '*')))
             at++;
         if (*at == '/') {
@@ -56,6 +56,7 @@ int dag_parse_unit(const char *text, struct unit *unit)
         }
         if (*at == '\0')
             return sign < 0 ? (int)(at - text) : -1;
+        int length;
         int symbol = symbol_at(at, &length);
         if (symbol < 0)
             return (int)(at - text);

@@ -1,4 +1,5 @@
-/* main.c - a program of its own that ships a refiner made by dagc: refiner.c and refiner.h, two files.
+/* main.c - a program of its own that ships a refiner made by dagc: refiner.c and refiner.h, two
+ * files.
  *
  * It refines every pair of patches of its room down to links and prints each decision. The
  * patches are its own; a refiner_element is filled in when a pair is asked about.
@@ -22,8 +23,10 @@ static struct refiner_element element_of(const struct patch *p)
     for (k = 0; k < 3; k++)
         e.centre[k] = 0.5 * (e.vertex[0][k] + e.vertex[2][k]);
     e.area = patch_area(p);
-    e.radius = 0.5 * sqrt(pow(e.vertex[2][0] - e.vertex[0][0], 2) + pow(e.vertex[2][1] - e.vertex[0][1], 2) +
-                          pow(e.vertex[2][2] - e.vertex[0][2], 2));
+    e.radius =
+        0.5
+        * sqrt(pow(e.vertex[2][0] - e.vertex[0][0], 2) + pow(e.vertex[2][1] - e.vertex[0][1], 2)
+               + pow(e.vertex[2][2] - e.vertex[0][2], 2));
     e.radiosity = p->light;
     e.cone = 1;
     e.vertices = 4;
@@ -33,7 +36,8 @@ static struct refiner_element element_of(const struct patch *p)
 }
 
 /* Bit i: something stands on segment i. */
-static uint64_t occluded(const struct refiner_host *host, int count, const struct refiner_segment *segments)
+static uint64_t occluded(const struct refiner_host *host, int count,
+                         const struct refiner_segment *segments)
 {
     uint64_t met = 0;
     int i;
@@ -65,7 +69,7 @@ struct job {
 
 static void refine(struct job *job, const struct patch *receiver, const struct patch *emitter)
 {
-    static const char *const names[] = { "link", "stop", "split receiver", "split emitter" };
+    static const char *const names[] = {"link", "stop", "split receiver", "split emitter"};
     struct refiner_element r = element_of(receiver), s = element_of(emitter);
     struct refiner_discussion d;
     enum refiner_decision decision;
@@ -102,6 +106,7 @@ int main(void)
         for (j = 0; j < ROOM_PATCHES; j++)
             if (i != j)
                 refine(&job, &room[i], &room[j]);
-    printf("links %ld, nothing %ld, splits %ld\n", job.decided[0], job.decided[1], job.decided[2] + job.decided[3]);
+    printf("links %ld, nothing %ld, splits %ld\n", job.decided[0], job.decided[1],
+           job.decided[2] + job.decided[3]);
     return 0;
 }

@@ -1,4 +1,5 @@
-/* mesh.h - this program's own scene: a room of rectangles, and a ray test that asks every one of them.
+/* mesh.h - this program's own scene: a room of rectangles, and a ray test that asks every one of
+ * them.
  * SPDX-License-Identifier: MIT */
 #ifndef MESH_H
 #define MESH_H

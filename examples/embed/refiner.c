@@ -38,18 +38,19 @@ static inline double refiner_height3(const double p[3], const double on[3], cons
     return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
 }
 
-/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they have heights h: what lies
- * above goes to `above`, what lies below to `below`, corners at height 0 to both; either may be NULL. Returns how many corners
- * are above, and below in *n_below. Each has room for `most`; rounding may make a bent polygon cross more than twice, then
- * corners are left out. [Sutherland and Hodgman 1974] */
+/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they
+ * have heights h: what lies above goes to `above`, what lies below to `below`, corners at height 0
+ * to both; either may be NULL. Returns how many corners are above, and below in *n_below. Each has
+ * room for `most`; rounding may make a bent polygon cross more than twice, then corners are left
+ * out. [Sutherland and Hodgman 1974] */
 static inline int refiner_polygon_divide(const double *v, int n, int size, const double *h, int most,
                                  double *above, double *below, int *n_below)
 {
-    int i, j, k, up = 0, down = 0;
+    int i, j, up = 0, down = 0;
     for (i = 0, j = n - 1; i < n; j = i++) {
         if ((h[j] > 0 && h[i] < 0) || (h[j] < 0 && h[i] > 0)) {
             const double t = h[j] / (h[j] - h[i]);
-            for (k = 0; k < size; k++) {
+            for (int k = 0; k < size; k++) {
                 const double x = v[j * size + k] + t * (v[i * size + k] - v[j * size + k]);
                 if (above && up < most)
                     above[up * size + k] = x;
@@ -60,12 +61,12 @@ static inline int refiner_polygon_divide(const double *v, int n, int size, const
             down += down < most;
         }
         if (above && h[i] >= 0 && up < most) {
-            for (k = 0; k < size; k++)
+            for (int k = 0; k < size; k++)
                 above[up * size + k] = v[i * size + k];
             up++;
         }
         if (below && h[i] <= 0 && down < most) {
-            for (k = 0; k < size; k++)
+            for (int k = 0; k < size; k++)
                 below[down * size + k] = v[i * size + k];
             down++;
         }
@@ -80,8 +81,7 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
                                 const double on[3], const double normal[3])
 {
     double h[REFINER_POLYGON_MAX];
-    int i;
-    for (i = 0; i < n; i++)
+    for (int i = 0; i < n; i++)
         h[i] = refiner_height3(v[i], on, normal);
     out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
     if (out->n < 3)
@@ -93,23 +93,23 @@ static inline double refiner_polygon_distance(const double p[3], const double (*
                                       const double normal[3])
 {
     double best = INFINITY;
-    int i, inside = 1;
-    for (i = 0; i < n; i++) {
+    int inside = 1;
+    for (int i = 0; i < n; i++) {
         const double *a = v[i], *b = v[i + 1 < n ? i + 1 : 0];
-        double e[3], w[3], side[3], t, q, ee;
+        double e[3], w[3], side[3];
         refiner_sub3(e, b, a);
         refiner_sub3(w, p, a);
         refiner_cross3(side, e, w);
         if (refiner_dot3(side, normal) >= 0)
             continue;
         inside = 0;
-        ee = refiner_dot3(e, e);
-        t = ee > 0 ? refiner_dot3(w, e) / ee : 0;
+        double ee = refiner_dot3(e, e);
+        double t = ee > 0 ? refiner_dot3(w, e) / ee : 0;
         t = t < 0 ? 0 : t > 1 ? 1 : t;
         w[0] -= t * e[0];
         w[1] -= t * e[1];
         w[2] -= t * e[2];
-        q = refiner_dot3(w, w);
+        double q = refiner_dot3(w, w);
         if (q < best)
             best = q;
     }
@@ -192,8 +192,8 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 #define REFINER_OUTLINE static
 #endif
 
-/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so that a pair opens the same
- * element both ways round. */
+/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so
+ * that a pair opens the same element both ways round. */
 
 static inline int refiner_wider(const struct refiner_element *a, const struct refiner_element *b)
 {
@@ -203,46 +203,44 @@ static inline int refiner_wider(const struct refiner_element *a, const struct re
 /* clusters.h - question: are both elements surfaces, and if not, which cluster is to be opened?
  *
  * apart is true only when no normal of the one, taken anywhere in its normal cone, makes an acute
- * angle with any direction from its box to the other's. For a normal at angle theta from the cone's axis a, and v
- * from one box to the other with a.v <= m, |v| <= l:  n.v <= m cos(theta) + sqrt(l^2 - m^2) sin(theta).
- * A surface is a cone of angle 0 and a box of its own. [D: derived here] */
+ * angle with any direction from its box to the other's. For a normal at angle theta from the cone's
+ * axis a, and v from one box to the other with a.v <= m, |v| <= l:  n.v <= m cos(theta) + sqrt(l^2
+ * - m^2) sin(theta). A surface is a cone of angle 0 and a box of its own. [D: derived here] */
 
 /* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
-static inline int refiner_clusters_turned(const struct refiner_element *e, const struct refiner_element *other, const double v[3],
-                                  double longest, double flat)
+static inline int refiner_clusters_turned(const struct refiner_element *e, const struct refiner_element *other,
+                                  const double v[3], double longest, double flat)
 {
     const double *a = e->normal;
-    double m, across, sine;
-    int k, i;
     if (e->cone <= 0)
         return 0;
-    m = refiner_dot3(a, v);
-    for (i = 0; i < 2; i++) {
+    double m = refiner_dot3(a, v);
+    for (int i = 0; i < 2; i++) {
         const struct refiner_element *b = i ? other : e;
         if (b->vertices) {
             if (b == other)
                 m += b->radius;
         } else {
-            for (k = 0; k < 3; k++)
+            for (int k = 0; k < 3; k++)
                 m += 0.5 * fabs(a[k]) * (b->vertex[1][k] - b->vertex[0][k]);
         }
     }
     if (m > flat)
         return 0;
-    across = longest * longest - m * m;
-    sine = 1 - e->cone * e->cone;
+    double across = longest * longest - m * m;
+    double sine = 1 - e->cone * e->cone;
     return m * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0) <= flat;
 }
 
 REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_discussion *d)
 {
     const struct refiner_element *r = d->receiver, *s = d->emitter;
-    double v[3], longest, flat;
+    double v[3];
     if (r->vertices && s->vertices)
         return REFINER_CLUSTERS_SURFACES;
     refiner_sub3(v, s->centre, r->centre);
-    longest = refiner_length3(v) + r->radius + s->radius;
-    flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double longest = refiner_length3(v) + r->radius + s->radius;
+    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
     if (refiner_clusters_turned(r, s, v, longest, flat))
         return REFINER_CLUSTERS_APART;
     v[0] = -v[0];
@@ -256,20 +254,24 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 }
 
 /* plane_side.h - how an element lies to another's support plane.
- * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get an exact answer. */
+ * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get
+ * an exact answer. */
 
-/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of the elements' corners. */
-static inline double refiner_plane_side_flat(const struct refiner_element *r, const struct refiner_element *s, const struct refiner_host *host)
+/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of
+ * the elements' corners. */
+static inline double refiner_plane_side_flat(const struct refiner_element *r, const struct refiner_element *s,
+                                     const struct refiner_host *host)
 {
     return host->flat + (1 / 65536.0) * (r->radius + s->radius);
 }
 
-/* The lowest and the highest signed distance of the surface e from the plane of the surface `plane` (m). */
-static inline void refiner_plane_side_heights(const struct refiner_element *e, const struct refiner_element *plane, double *low, double *high)
+/* The lowest and the highest signed distance of the surface e from the plane of the surface
+ * `plane` (m). */
+static inline void refiner_plane_side_heights(const struct refiner_element *e, const struct refiner_element *plane,
+                                      double *low, double *high)
 {
-    int i;
     *low = *high = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    for (i = 1; i < e->vertices; i++) {
+    for (int i = 1; i < e->vertices; i++) {
         double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
         if (h < *low)
             *low = h;
@@ -281,11 +283,13 @@ static inline void refiner_plane_side_heights(const struct refiner_element *e, c
 /* support_planes.h - question: how do two surfaces lie to each other's support planes?
  *
  * away when one has no part in front of the other: no light can pass. A corner nearer to a
- * plane than rounding puts it lies in the plane, so coplanar and adjoining surfaces get a precise answer.
+ * plane than rounding puts it lies in the plane, so coplanar and adjoining surfaces get a precise
+ * answer.
  * [Turbet & Sillion, section 3.1.3 and figure 2] */
 
 /* -1: e lies behind the plane of `plane`, 0: crosses it, 1: lies in front. */
-static inline int refiner_support_planes_side(const struct refiner_element *e, const struct refiner_element *plane, double flat)
+static inline int refiner_support_planes_side(const struct refiner_element *e, const struct refiner_element *plane,
+                                      double flat)
 {
     double low, high;
     refiner_plane_side_heights(e, plane, &low, &high);
@@ -296,11 +300,10 @@ REFINER_TOOL enum refiner_support_planes_answer refiner_tool_support_planes(stru
 {
     const struct refiner_element *r = d->receiver, *s = d->emitter;
     double flat = refiner_plane_side_flat(r, s, d->host);
-    int side_r, side_s;
-    side_r = refiner_support_planes_side(r, s, flat);
+    int side_r = refiner_support_planes_side(r, s, flat);
     if (side_r < 0)
         return REFINER_SUPPORT_PLANES_AWAY;
-    side_s = refiner_support_planes_side(s, r, flat);
+    int side_s = refiner_support_planes_side(s, r, flat);
     if (side_s < 0)
         return REFINER_SUPPORT_PLANES_AWAY;
     if (side_r == 0 && (side_s != 0 || r->area > s->area || (r->area == s->area && r->id <= s->id)))
@@ -320,24 +323,29 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
 }
 
 /* contour_factor.h - the exchange area of two flat convex polygons by the double contour integral,
- *     A_p F_pq = (1 / 2 pi) sum over edges e of p, f of q of  e.f / |e||f|  int int ln |x - y| ds dt    (m2),
+ *     A_p F_pq = (1 / 2 pi) sum over edges e of p, f of q of  e.f / |e||f|  int int ln |x - y| ds
+ *     dt    (m2),
  * nothing between them, each wholly in front of the other. [Sparrow 1963]
  *
- * Of parallel edges the double integral is closed: with offset u along them and h across, differences of
+ * Of parallel edges the double integral is closed: with offset u along them and h across,
+ * differences of
  *     G(u) = (u^2 - h^2)/4 ln(u^2 + h^2) + u h atan(u/h) - 3/4 u^2.
- * Of others the inner integral is closed and the outer one adaptive: five Gauss points on the whole against five on
- * either half. The integrand is smooth but for the points of the outer edge that are nearest to the inner edge's ends
- * and to its line. The edge is cut there first; bisection then closes in on them as on the ends of an interval.
+ * Of others the inner integral is closed and the outer one adaptive: five Gauss points on the whole
+ * against five on either half. The integrand is smooth but for the points of the outer edge that
+ * are nearest to the inner edge's ends and to its line. The edge is cut there first; bisection then
+ * closes in on them as on the ends of an interval.
  *
- * Measured against closed forms (tests/check_closed_forms.c), parallel and perpendicular rectangles with sides and
- * distances from .01 to 100 at random: F is wrong by 3e-10 at the most; 1e-6 relative for slivers 1 : 10,000.
- * Fails: rounding costs as many digits as the ratio of the longest side to the shortest has: 2e-6 at 1 : 1,000,000.
- * Not Schroeder and Hanrahan's closed form of the whole [1993]: this is as exact as doubles let it be. */
+ * Measured against closed forms (tests/check_closed_forms.c), parallel and perpendicular rectangles
+ * with sides and distances from .01 to 100 at random: F is wrong by 3e-10 at the most; 1e-6
+ * relative for slivers 1 : 10,000.
+ * Fails: rounding costs as many digits as the ratio of the longest side to the shortest has: 2e-6
+ * at 1 : 1,000,000. Not Schroeder and Hanrahan's closed form of the whole [1993]: this is as exact
+ * as doubles let it be. */
 
 #define REFINER_CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
 
-/* Aimed at: error of F by one pair of edges, of level contour and of polygon. What rounding leaves of an integral of
- * ln over a unit length. */
+/* Aimed at: error of F by one pair of edges, of level contour and of polygon. What rounding leaves
+ * of an integral of ln over a unit length. */
 #define REFINER_CONTOUR_FACTOR_EXACT 1e-11
 
 #define REFINER_CONTOUR_FACTOR_FAIR 1e-7
@@ -347,16 +355,17 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
 enum { REFINER_CONTOUR_FACTOR_DEPTH = 40 };
 
 /* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
-static inline double refiner_contour_factor_line(const double p[3], const double a[3], const double u[3], double length)
+static inline double refiner_contour_factor_line(const double p[3], const double a[3], const double u[3],
+                                         double length)
 {
-    double w[3], c[3], x, h, y, z, sum;
+    double w[3], c[3];
     refiner_sub3(w, p, a);
     refiner_cross3(c, w, u);
-    x = refiner_dot3(w, u);
-    h = refiner_length3(c);
-    y = length - x;
-    z = y * y + h * h;
-    sum = -length;
+    double x = refiner_dot3(w, u);
+    double h = refiner_length3(c);
+    double y = length - x;
+    double z = y * y + h * h;
+    double sum = -length;
     if (z > 0)
         sum += 0.5 * y * log(z);
     z = x * x + h * h;
@@ -373,13 +382,14 @@ struct refiner_contour_factor_edge {
     double e[3], u[3], length;
 };
 
-static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from, double to)
+static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from,
+                                          double to)
 {
-    static const double node[2] = { 0.53846931010568309104, 0.90617984593866399280 };
-    static const double weight[3] = { 0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751 };
+    static const double node[2] = {0.53846931010568309104, 0.90617984593866399280};
+    static const double weight[3] = {0.56888888888888888889, 0.47862867049936646804,
+                                     0.23692688505618908751};
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    int i;
-    for (i = -2; i <= 2; i++) {
+    for (int i = -2; i <= 2; i++) {
         double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
         p[0] = g->p[0] + s * g->e[0];
         p[1] = g->p[1] + s * g->e[1];
@@ -389,97 +399,105 @@ static inline double refiner_contour_factor_gauss(const struct refiner_contour_f
     return sum * half;
 }
 
-static inline double refiner_contour_factor_adapt(const struct refiner_contour_factor_edge *g, double from, double to,
-                                          double whole, double tolerance, int depth)
+static inline double refiner_contour_factor_adapt(const struct refiner_contour_factor_edge *g, double from,
+                                          double to, double whole, double tolerance, int depth)
 {
     double middle = 0.5 * (from + to);
-    double left = refiner_contour_factor_gauss(g, from, middle), right = refiner_contour_factor_gauss(g, middle, to);
+    double left = refiner_contour_factor_gauss(g, from, middle),
+           right = refiner_contour_factor_gauss(g, middle, to);
     if (depth == 0 || fabs(left + right - whole) <= tolerance)
         return left + right;
     return refiner_contour_factor_adapt(g, from, middle, left, tolerance, depth - 1)
-         + refiner_contour_factor_adapt(g, middle, to, right, tolerance, depth - 1);
+           + refiner_contour_factor_adapt(g, middle, to, right, tolerance, depth - 1);
 }
 
 static inline double refiner_contour_factor_second(double u, double h)
 {
     double z = u * u + h * h;
-    return (z > 0 ? 0.25 * (u * u - h * h) * log(z) : 0) + (h > 0 ? u * h * atan(u / h) : 0) - 0.75 * u * u;
+    return (z > 0 ? 0.25 * (u * u - h * h) * log(z) : 0) + (h > 0 ? u * h * atan(u / h) : 0)
+           - 0.75 * u * u;
 }
 
 /* int over the edge from p along e, 0 to 1, against the parallel edge (a, u, length). */
 static inline double refiner_contour_factor_parallel(const struct refiner_contour_factor_edge *g, double size)
 {
-    double w[3], c[3], along = refiner_dot3(g->e, g->u) > 0 ? size : -size, x, h;
+    double w[3], c[3], along = refiner_dot3(g->e, g->u) > 0 ? size : -size;
     refiner_sub3(w, g->p, g->a);
     refiner_cross3(c, w, g->u);
-    h = refiner_length3(c);
-    x = refiner_dot3(w, g->u);
+    double h = refiner_length3(c);
+    double x = refiner_dot3(w, g->u);
     return (refiner_contour_factor_second(x + along, h) - refiner_contour_factor_second(x, h)
-            - refiner_contour_factor_second(x + along - g->length, h) + refiner_contour_factor_second(x - g->length, h)) / along;
+            - refiner_contour_factor_second(x + along - g->length, h)
+            + refiner_contour_factor_second(x - g->length, h))
+           / along;
 }
 
-/* int over the edge from p along e, 0 to 1, against the skew edge (a, u, length); `cross`: the square of the sine. */
-static inline double refiner_contour_factor_skew(const struct refiner_contour_factor_edge *g, double size, double cross, double tolerance)
+/* int over the edge from p along e, 0 to 1, against the skew edge (a, u, length); `cross`: the
+ * square of the sine. */
+static inline double refiner_contour_factor_skew(const struct refiner_contour_factor_edge *g, double size,
+                                         double cross, double tolerance)
 {
-    double at[5], w[3], sum = 0, eu = refiner_dot3(g->e, g->u), ew, swap;
-    int i, j;
+    double at[5], w[3], sum = 0, eu = refiner_dot3(g->e, g->u);
     refiner_sub3(w, g->a, g->p);
-    ew = refiner_dot3(w, g->e);
+    double ew = refiner_dot3(w, g->e);
     at[0] = 0;
     at[1] = ew / (size * size);
     at[2] = (ew + g->length * eu) / (size * size);
     at[3] = (ew - eu * refiner_dot3(w, g->u)) / (size * size * cross);
     at[4] = 1;
-    for (i = 1; i < 4; i++) {
+    for (int i = 1; i < 4; i++) {
         at[i] = at[i] > 0 ? at[i] < 1 ? at[i] : 1 : 0;
-        for (j = i; j > 1 && at[j] < at[j - 1]; j--) {
-            swap = at[j];
+        for (int j = i; j > 1 && at[j] < at[j - 1]; j--) {
+            double swap = at[j];
             at[j] = at[j - 1];
             at[j - 1] = swap;
         }
     }
-    for (i = 0; i < 4; i++)
+    for (int i = 0; i < 4; i++)
         if (at[i + 1] > at[i])
-            sum += refiner_contour_factor_adapt(g, at[i], at[i + 1], refiner_contour_factor_gauss(g, at[i], at[i + 1]), tolerance,
-                                        REFINER_CONTOUR_FACTOR_DEPTH);
+            sum +=
+                refiner_contour_factor_adapt(g, at[i], at[i + 1], refiner_contour_factor_gauss(g, at[i], at[i + 1]),
+                                     tolerance, REFINER_CONTOUR_FACTOR_DEPTH);
     return sum;
 }
 
-/* A_p F_pq of polygons of a size about one; `area`: of the smaller; `error`: of F, by one pair of edges. The shorter edge of each pair is the outer one: along it
- * the inner integral varies least. */
-REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, const struct refiner_polygon *q, double area, double error)
+/* A_p F_pq of polygons of a size about one; `area`: of the smaller; `error`: of F, by one pair of
+ * edges. The shorter edge of each pair is the outer one: along it the inner integral varies
+ * least. */
+REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, const struct refiner_polygon *q, double area,
+                              double error)
 {
     double sum = 0;
-    int i, j, k;
-    for (i = 0; i < p->n; i++) {
+    for (int i = 0; i < p->n; i++) {
         const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
-        double e[3], le;
+        double e[3];
         refiner_sub3(e, p1, p0);
-        le = refiner_length3(e);
-        for (j = 0; j < q->n; j++) {
+        double le = refiner_length3(e);
+        for (int j = 0; j < q->n; j++) {
             const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            struct refiner_contour_factor_edge g;
-            double f[3], c[3], lf, aligned, least, size, cross;
+            double f[3], c[3];
             refiner_sub3(f, q1, q0);
-            lf = refiner_length3(f);
-            aligned = refiner_dot3(e, f);
+            double lf = refiner_length3(f);
+            double aligned = refiner_dot3(e, f);
             if (!(fabs(aligned) > 1e-16 * le * lf))
                 continue;
+            struct refiner_contour_factor_edge g;
             g.p = le <= lf ? p0 : q0;
             g.a = le <= lf ? q0 : p0;
             g.length = le <= lf ? lf : le;
-            size = le <= lf ? le : lf;
-            for (k = 0; k < 3; k++) {
+            double size = le <= lf ? le : lf;
+            for (int k = 0; k < 3; k++) {
                 g.e[k] = le <= lf ? e[k] : f[k];
                 g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
             }
             refiner_cross3(c, e, f);
-            cross = refiner_dot3(c, c) / (le * le * lf * lf);
-            least = error * REFINER_CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
+            double cross = refiner_dot3(c, c) / (le * le * lf * lf);
+            double least = error * REFINER_CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
             if (least < REFINER_CONTOUR_FACTOR_ROUNDING * g.length)
                 least = REFINER_CONTOUR_FACTOR_ROUNDING * g.length;
-            sum += aligned / g.length * (cross > 1e-26 ? refiner_contour_factor_skew(&g, size, cross, least)
-                                                       : refiner_contour_factor_parallel(&g, size));
+            sum += aligned / g.length
+                   * (cross > 1e-26 ? refiner_contour_factor_skew(&g, size, cross, least)
+                                    : refiner_contour_factor_parallel(&g, size));
         }
     }
     return sum / REFINER_CONTOUR_FACTOR_TWO_PI;
@@ -487,31 +505,36 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
 
 /* lambert.h - Lambert's kernel: what two pieces of surface exchange.
  *
- * Of points x, y with unit normals n, m, r = y - x, s = r.r, the kernel is (n.r)(-m.r) / (pi s^2), in 1/m2. Of faces, to second
- * order in their size over their distance, it is taken at the centroids and weighted with both faces' second moments M (m2):
- *     pi k = a b / s^2 + a b (12 r.Qr / s^4 - 2 tr Q / s^3) - 4 (a m.M_i r + b n.M_j r) / s^3,   Q = M_i + M_j,
- * a = n.r, b = m.r, m here the normal of j turned round; n M_i = 0 and m M_j = 0 because faces are flat. What that leaves out is of
- * fourth order.
+ * Of points x, y with unit normals n, m, r = y - x, s = r.r, the kernel is (n.r)(-m.r) / (pi s^2),
+ * in 1/m2. Of faces, to second order in their size over their distance, it is taken at the
+ * centroids and weighted with both faces' second moments M (m2):
+ *     pi k = a b / s^2 + a b (12 r.Qr / s^4 - 2 tr Q / s^3) - 4 (a m.M_i r + b n.M_j r) / s^3,   Q
+ *     = M_i + M_j,
+ * a = n.r, b = m.r, m here the normal of j turned round; n M_i = 0 and m M_j = 0 because faces are
+ * flat. What that leaves out is of fourth order.
  * [Taylor's formula for Lambert's kernel, derived here] */
 
 #define REFINER_LAMBERT_PI 3.14159265358979323846
 
-/* The kernel of points on front sides, else 0 (1/m2). `spread` (m2), a piece's area, bounds it where pieces touch: no more than
- * about 1 / spread is exchanged. */
-static inline double refiner_lambert_points(const double x[3], const double n[3], const double y[3], const double m[3], double spread)
+/* The kernel of points on front sides, else 0 (1/m2). `spread` (m2), a piece's area, bounds it
+ * where pieces touch: no more than about 1 / spread is exchanged. */
+static inline double refiner_lambert_points(const double x[3], const double n[3], const double y[3],
+                                    const double m[3], double spread)
 {
-    double w[3], cos_x, cos_y, square;
+    double w[3];
     refiner_sub3(w, y, x);
-    cos_x = refiner_dot3(n, w);
-    cos_y = -refiner_dot3(m, w);
-    square = refiner_dot3(w, w);
+    double cos_x = refiner_dot3(n, w);
+    double cos_y = -refiner_dot3(m, w);
+    double square = refiner_dot3(w, w);
     return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread)) : 0;
 }
 
-/* The form factor from the point x with normal n to a flat convex polygon v[count] in front of it, in (0, 1]; negative seen from its
- * back: -(1/2pi) sum theta_i Gamma_i.n over its edges, theta_i the angle that edge i subtends at x, Gamma_i the unit normal of the
- * plane through x and the edge. [Lambert 1760] */
-static inline double refiner_lambert_sum(const double x[3], const double n[3], const double (*v)[3], int count)
+/* The form factor from the point x with normal n to a flat convex polygon v[count] in front of it,
+ * in (0, 1]; negative seen from its back: -(1/2pi) sum theta_i Gamma_i.n over its edges, theta_i
+ * the angle that edge i subtends at x, Gamma_i the unit normal of the plane through x and the edge.
+ * [Lambert 1760] */
+static inline double refiner_lambert_sum(const double x[3], const double n[3], const double (*v)[3],
+                                 int count)
 {
     double sum = 0, a[3], b[3], c[3];
     if (count < 3)
@@ -542,10 +565,12 @@ static inline double refiner_lambert_sum(const double x[3], const double n[3], c
 
 #define REFINER_POLYGON_FACTOR_FAR 60.0
 
-/* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
+/* Below this the exact level integrates contours; beyond, they would lose digits and points are
+ * better. */
 #define REFINER_POLYGON_FACTOR_EXACT 60.0
 
-/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
+/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of
+ * the coordinates. */
 #define REFINER_POLYGON_FACTOR_FAINT 1e-6
 
 #define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
@@ -553,8 +578,7 @@ static inline double refiner_lambert_sum(const double x[3], const double n[3], c
 /* Multiply a polygon's corners by a power of two. */
 static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, double factor)
 {
-    int i;
-    for (i = 0; i < p->n; i++) {
+    for (int i = 0; i < p->n; i++) {
         p->v[i][0] *= factor;
         p->v[i][1] *= factor;
         p->v[i][2] *= factor;
@@ -566,23 +590,29 @@ static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, doubl
 static inline double refiner_polygon_factor_triangle(const double *a, const double *b, const double *c,
                                              const double n[3], const struct refiner_polygon *q, int order)
 {
-    static const double corner[3][2] = { { 1 / 3.0, 0 }, { 2 / 3.0, 0 },
-                                         { 0.81684757298045851308, 0.10810301816807022736 } };
-    static const double weight[3][2] = { { 1, 0 }, { 1 / 3.0, 0 },
-                                         { 0.10995174365532186764, 0.22338158967801146570 } };
+    static const double corner[3][2] = {
+        {1 / 3.0, 0}, {2 / 3.0, 0}, {0.81684757298045851308, 0.10810301816807022736}};
+    static const double weight[3][2] = {
+        {1, 0}, {1 / 3.0, 0}, {0.10995174365532186764, 0.22338158967801146570}};
     double x[3], y[3], z[3], sum = 0;
-    int group, i, k;
     refiner_sub3(x, b, a);
     refiner_sub3(y, c, a);
     refiner_cross3(z, x, y);
-    for (group = 0; group < (order == 2 ? 2 : 1); group++) {
+    for (int group = 0; group < (order == 2 ? 2 : 1); group++) {
         double w = corner[order][group], v = 0.5 * (1 - w), part = 0;
-        for (i = 0; i < (order == 0 ? 1 : 3); i++) {
-            const double *p0 = i == 0 ? a : i == 1 ? b : c, *p1 = i == 0 ? b : i == 1 ? c : a,
-                         *p2 = i == 0 ? c : i == 1 ? a : b;
-            for (k = 0; k < 3; k++)
+        for (int i = 0; i < (order == 0 ? 1 : 3); i++) {
+            const double *p0 = i == 0   ? a
+                               : i == 1 ? b
+                                        : c,
+                         *p1 = i == 0   ? b
+                               : i == 1 ? c
+                                        : a,
+                         *p2 = i == 0   ? c
+                               : i == 1 ? a
+                                        : b;
+            for (int k = 0; k < 3; k++)
                 x[k] = w * p0[k] + v * p1[k] + v * p2[k];
-            part += refiner_lambert_sum(x, n, (const double (*)[3])q->v, q->n);
+            part += refiner_lambert_sum(x, n, (const double(*)[3])q->v, q->n);
         }
         sum += weight[order][group] * part;
     }
@@ -590,34 +620,36 @@ static inline double refiner_polygon_factor_triangle(const double *a, const doub
 }
 
 /* The same over a quad: the bilinear map of a Gauss rule of 1, 2 x 2 or 3 x 3 points. */
-static inline double refiner_polygon_factor_quad(const double (*v)[3], const double n[3], const struct refiner_polygon *q, int order)
+static inline double refiner_polygon_factor_quad(const double (*v)[3], const double n[3],
+                                         const struct refiner_polygon *q, int order)
 {
-    static const double node[3][3] = { { 0.5, 0, 0 },
-                                       { 0.21132486540518711775, 0.78867513459481288225, 0 },
-                                       { 0.11270166537925831148, 0.5, 0.88729833462074168852 } };
-    static const double weight[3][3] = { { 1, 0, 0 }, { 0.5, 0.5, 0 },
-                                         { 5 / 18.0, 8 / 18.0, 5 / 18.0 } };
+    static const double node[3][3] = {{0.5, 0, 0},
+                                      {0.21132486540518711775, 0.78867513459481288225, 0},
+                                      {0.11270166537925831148, 0.5, 0.88729833462074168852}};
+    static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
     double sum = 0;
-    int i, j, k;
-    for (i = 0; i <= order; i++)
-        for (j = 0; j <= order; j++) {
+    for (int i = 0; i <= order; i++)
+        for (int j = 0; j <= order; j++) {
             double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
-            for (k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]), high = v[3][k] + s * (v[2][k] - v[3][k]);
+            for (int k = 0; k < 3; k++) {
+                double low = v[0][k] + s * (v[1][k] - v[0][k]),
+                       high = v[3][k] + s * (v[2][k] - v[3][k]);
                 p[k] = low + t * (high - low);
                 dt[k] = high - low;
                 ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
             }
             refiner_cross3(jacobian, ds, dt);
-            sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n) * refiner_lambert_sum(p, n, (const double (*)[3])q->v, q->n);
+            sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n)
+                   * refiner_lambert_sum(p, n, (const double(*)[3])q->v, q->n);
         }
     return sum;
 }
 
 /* The integral over a whole polygon, cut into quads and triangles (m2). */
-static inline double refiner_polygon_factor_rule(const struct refiner_polygon *p, const double n[3], const struct refiner_polygon *q, int order)
+static inline double refiner_polygon_factor_rule(const struct refiner_polygon *p, const double n[3],
+                                         const struct refiner_polygon *q, int order)
 {
-    const double (*v)[3] = (const double (*)[3])p->v;
+    const double(*v)[3] = (const double(*)[3])p->v;
     double sum = 0;
     if (p->n != 3)
         sum = refiner_polygon_factor_quad(v, n, q, order);
@@ -629,13 +661,13 @@ static inline double refiner_polygon_factor_rule(const struct refiner_polygon *p
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius, double area, double error)
+static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p, struct refiner_polygon *q, double radius,
+                                               double area, double error)
 {
-    double up, down;
     int e;
     (void)frexp(radius, &e);
-    up = ldexp(1, e);
-    down = 1 / up;
+    double up = ldexp(1, e);
+    double down = 1 / up;
     refiner_polygon_factor_scale(p, down);
     refiner_polygon_factor_scale(q, down);
     return refiner_contour_factor(p, q, area * down * down, error) * up * up;
@@ -645,30 +677,30 @@ static inline double refiner_polygon_factor_contour_at(struct refiner_polygon *p
 static inline double refiner_polygon_factor_height(const struct refiner_element *e, const struct refiner_element *plane)
 {
     double most = refiner_height3(e->vertex[0], plane->centre, plane->normal);
-    int i;
-    for (i = 1; i < e->vertices; i++) {
+    for (int i = 1; i < e->vertices; i++) {
         double h = refiner_height3(e->vertex[i], plane->centre, plane->normal);
         most = h > most ? h : most;
     }
     return most;
 }
 
-/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane, that F is 0, as for
- * coplanar elements, not what sums of nothing leave. A plane is known the worse the narrower its element and the
- * farther off the corner. */
-static inline int refiner_polygon_factor_hidden(const struct refiner_element *r, const struct refiner_element *s, double exchange)
+/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane,
+ * that F is 0, as for coplanar elements, not what sums of nothing leave. A plane is known the worse
+ * the narrower its element and the farther off the corner. */
+static inline int refiner_polygon_factor_hidden(const struct refiner_element *r, const struct refiner_element *s,
+                                        double exchange)
 {
-    double away[3], reach, size, width = r->area / r->radius, flat;
-    int k;
+    double away[3], width = r->area / r->radius;
     if (!(exchange < REFINER_POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
         return 0;
     refiner_sub3(away, s->centre, r->centre);
-    reach = size = refiner_length3(away) + r->radius + s->radius;
-    for (k = 0; k < 3; k++)
+    double size;
+    double reach = size = refiner_length3(away) + r->radius + s->radius;
+    for (int k = 0; k < 3; k++)
         size += fabs(r->centre[k]) + fabs(s->centre[k]);
     if (s->area / s->radius < width)
         width = s->area / s->radius;
-    flat = REFINER_POLYGON_FACTOR_FLAT * size * (1 + reach / width);
+    double flat = REFINER_POLYGON_FACTOR_FLAT * size * (1 + reach / width);
     return refiner_polygon_factor_height(r, s) <= flat || refiner_polygon_factor_height(s, r) <= flat;
 }
 
@@ -678,27 +710,34 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct refiner_element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct refiner_polygon p, q;
-    double away[3], distance, exchange, least;
+    double away[3];
     refiner_sub3(away, small->centre, large->centre);
-    distance = refiner_length3(away) - large->radius;
+    double distance = refiner_length3(away) - large->radius;
     if (!exact && distance > REFINER_POLYGON_FACTOR_FAR * large->radius) {
-        double cos_r = -refiner_dot3(small->normal, away), cos_s = refiner_dot3(large->normal, away), square = refiner_dot3(away, away);
+        double cos_r = -refiner_dot3(small->normal, away), cos_s = refiner_dot3(large->normal, away),
+               square = refiner_dot3(away, away);
         if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
             return cos_r * cos_s * s->area / (REFINER_LAMBERT_PI * square * square);
     }
-    refiner_polygon_clip(&p, (const double (*)[3])small->vertex, small->vertices, large->centre, large->normal);
-    refiner_polygon_clip(&q, (const double (*)[3])large->vertex, large->vertices, small->centre, small->normal);
+    refiner_polygon_clip(&p, (const double(*)[3])small->vertex, small->vertices, large->centre,
+                 large->normal);
+    refiner_polygon_clip(&q, (const double(*)[3])large->vertex, large->vertices, small->centre,
+                 small->normal);
     if (p.n == 0 || q.n == 0)
         return 0;
     if (distance < REFINER_POLYGON_FACTOR_FAR * small->radius)
-        distance = refiner_polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
-    least = r->area < s->area ? r->area : s->area;
+        distance = refiner_polygon_distance(small->centre, (const double(*)[3])q.v, q.n, large->normal);
+    double least = r->area < s->area ? r->area : s->area;
+    double exchange;
     if (distance <= (exact ? REFINER_POLYGON_FACTOR_EXACT : REFINER_POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least, exact ? REFINER_CONTOUR_FACTOR_EXACT : REFINER_CONTOUR_FACTOR_FAIR);
+        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least,
+                                             exact ? REFINER_CONTOUR_FACTOR_EXACT : REFINER_CONTOUR_FACTOR_FAIR);
     else
-        exchange = refiner_polygon_factor_rule(&p, small->normal, &q, exact || distance <= REFINER_POLYGON_FACTOR_MIDDLE * small->radius ? 2
-                                                              : distance <= REFINER_POLYGON_FACTOR_FAR * small->radius         ? 1
-                                                                                                                       : 0);
+        exchange =
+            refiner_polygon_factor_rule(&p, small->normal, &q,
+                                exact || distance <= REFINER_POLYGON_FACTOR_MIDDLE * small->radius ? 2
+                                : distance <= REFINER_POLYGON_FACTOR_FAR * small->radius           ? 1
+                                                                                           : 0);
     if (!(exchange > 0 && least > 0) || refiner_polygon_factor_hidden(r, s, exchange))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
@@ -706,27 +745,28 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
 
 /* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
  *
- * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i subtends at x,
- * Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et al. 1989]. The polygon is
- * clipped at the receiver's plane; a point behind the emitter's plane sees nothing of it: F = 0. Dimensionless.
+ * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i
+ * subtends at x, Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et
+ * al. 1989]. The polygon is clipped at the receiver's plane; a point behind the emitter's plane
+ * sees nothing of it: F = 0. Dimensionless.
  * Fails: at the polygon's own edges F jumps; there the edge is left out. */
 
 /* The part of s that the receiver's plane leaves in view; no corners: nothing. */
-static inline void refiner_point_factor_clip(struct refiner_polygon *q, const struct refiner_element *r, const struct refiner_element *s)
+static inline void refiner_point_factor_clip(struct refiner_polygon *q, const struct refiner_element *r,
+                                     const struct refiner_element *s)
 {
     q->n = 0;
     if (r->vertices && s->vertices)
-        refiner_polygon_clip(q, (const double (*)[3])s->vertex, s->vertices, r->centre, r->normal);
+        refiner_polygon_clip(q, (const double(*)[3])s->vertex, s->vertices, r->centre, r->normal);
 }
 
 /* F from the point x of r to q, the clipped s. */
-static inline double refiner_point_factor_at(const double x[3], const struct refiner_element *r, const struct refiner_element *s,
-                                     const struct refiner_polygon *q)
+static inline double refiner_point_factor_at(const double x[3], const struct refiner_element *r,
+                                     const struct refiner_element *s, const struct refiner_polygon *q)
 {
-    double f;
     if (q->n == 0 || !(refiner_height3(x, s->centre, s->normal) > 0))
         return 0;
-    f = refiner_lambert_sum(x, r->normal, (const double (*)[3])q->v, q->n);
+    double f = refiner_lambert_sum(x, r->normal, (const double(*)[3])q->v, q->n);
     return f > 0 ? f < 1 ? f : 1 : 0;
 }
 
@@ -734,9 +774,8 @@ static inline double refiner_point_factor_at(const double x[3], const struct ref
 REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, const struct refiner_element *s)
 {
     struct refiner_polygon q;
-    double f;
     refiner_point_factor_clip(&q, r, s);
-    f = refiner_point_factor_at(r->centre, r, s, &q);
+    double f = refiner_point_factor_at(r->centre, r, s, &q);
     return q.n == 0 || refiner_polygon_factor_hidden(r, s, f * r->area) ? 0 : f;
 }
 
@@ -744,21 +783,25 @@ REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, con
  * stood between, mean over r. Dimensionless, in [0, 1].
  *
  * disc     the emitter as a disc of its area seen from the receiver's centre,
- *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and more; a
- *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
- *          polygon is computed instead; elements that cross each other's planes.
+ *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and
+ *          more; a wall's strip beside a wide ceiling loses most), so where the bounding spheres
+ *          meet the polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
- * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the receiver's plane
- *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5 % for unit squares at
- *          right angles with a common edge, +33 % for parallel ones at half their side (tests/check_terms.c).
+ * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the
+ * receiver's plane
+ *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5
+ *          % for unit squares at right angles with a common edge, +33 % for parallel ones at half
+ *          their side (tests/check_terms.c).
  *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
- *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
- *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
- *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
- *          4e-4 at the most (far pairs); 1e-6 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
- * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9. */
+ *          by a rule of as many points as the distance asks for; where they are nearer than their
+ *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963],
+ *          closed for parallel edges, else its inner integral closed and the outer one adaptive
+ *          (contour_factor.h). Relative error about 1e-5, 4e-4 at the most (far pairs); 1e-6 by
+ *          contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond:
+ * F to 1e-9. */
 
 REFINER_TOOL double refiner_form_factor_disc(struct refiner_discussion *d)
 {
@@ -781,9 +824,11 @@ REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum 
             if (refiner_dot3(axis, axis) < reach * reach)
                 level = REFINER_FORM_FACTOR_POLYGON;
         }
-        d->terms.form_factor = level == REFINER_FORM_FACTOR_DISC    ? refiner_form_factor_disc(d)
-                               : level == REFINER_FORM_FACTOR_POINT ? refiner_point_factor(d->receiver, d->emitter)
-                                                            : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
+        d->terms.form_factor =
+            level == REFINER_FORM_FACTOR_DISC ? refiner_form_factor_disc(d)
+            : level == REFINER_FORM_FACTOR_POINT
+                ? refiner_point_factor(d->receiver, d->emitter)
+                : refiner_polygon_factor(d->receiver, d->emitter, level == REFINER_FORM_FACTOR_CONTOUR);
         d->terms.form_factor_level = (unsigned char)level;
     }
     return d->terms.form_factor;
@@ -802,7 +847,8 @@ REFINER_TOOL enum refiner_transfer_answer refiner_tool_transfer(struct refiner_d
         limit = absolute;
     if (!(d->emitter->radiosity > limit)) /* F <= 1 */
         return REFINER_TRANSFER_BELOW;
-    return d->emitter->radiosity * refiner_term_form_factor(d, REFINER_FORM_FACTOR_DISC) > limit ? REFINER_TRANSFER_ABOVE : REFINER_TRANSFER_BELOW;
+    return d->emitter->radiosity * refiner_term_form_factor(d, REFINER_FORM_FACTOR_DISC) > limit ? REFINER_TRANSFER_ABOVE
+                                                                                 : REFINER_TRANSFER_BELOW;
 }
 
 /* can_split.h - question: which of the two may still be split? The guard that makes refinement end:
@@ -816,24 +862,25 @@ enum { REFINER_CAN_SPLIT_DEPTH = 24 };
 REFINER_TOOL enum refiner_can_split_answer refiner_tool_can_split(struct refiner_discussion *d, double min_area, double min_share)
 {
     double least = min_share * d->host->area;
-    int r, s;
     least = 4 * (least > min_area ? least : min_area);
-    r = d->receiver->area >= least && d->receiver->depth < REFINER_CAN_SPLIT_DEPTH;
-    s = d->emitter->area >= least && d->emitter->depth < REFINER_CAN_SPLIT_DEPTH;
+    int r = d->receiver->area >= least && d->receiver->depth < REFINER_CAN_SPLIT_DEPTH;
+    int s = d->emitter->area >= least && d->emitter->depth < REFINER_CAN_SPLIT_DEPTH;
     return r ? s ? REFINER_CAN_SPLIT_BOTH : REFINER_CAN_SPLIT_RECEIVER : s ? REFINER_CAN_SPLIT_EMITTER : REFINER_CAN_SPLIT_NEITHER;
 }
 
-/* larger.h - question: which element has the larger area? Since A_r F_rs = A_s F_sr, splitting the larger
- * is splitting the target of the larger form factor. Equal areas are told apart by identity, so that a
- * pair splits the same element both ways round. [Hanrahan et al. 1991, section 4] */
+/* larger.h - question: which element has the larger area? Since A_r F_rs = A_s F_sr, splitting the
+ * larger is splitting the target of the larger form factor. Equal areas are told apart by identity,
+ * so that a pair splits the same element both ways round. [Hanrahan et al. 1991, section 4] */
 
 REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discussion *d)
 {
     const struct refiner_element *r = d->receiver, *s = d->emitter;
-    return r->area > s->area || (r->area == s->area && r->id <= s->id) ? REFINER_LARGER_RECEIVER : REFINER_LARGER_EMITTER;
+    return r->area > s->area || (r->area == s->area && r->id <= s->id) ? REFINER_LARGER_RECEIVER
+                                                                       : REFINER_LARGER_EMITTER;
 }
 
-/* hash.h - 64 bits that have nothing to do with each other for numbers that are neighbours: the finaliser of splitmix64.
+/* hash.h - 64 bits that have nothing to do with each other for numbers that are neighbours: the
+ * finaliser of splitmix64.
  * [Steele, Lea, Flood 2014] */
 
 static inline uint64_t refiner_hash64(uint64_t x)
@@ -843,21 +890,26 @@ static inline uint64_t refiner_hash64(uint64_t x)
     return x ^ x >> 31;
 }
 
-/* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In [0, 1].
+/* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In
+ * [0, 1].
  *
- * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see each other
- * and far parts do not, as along a corridor, most light passes though most segments are blocked. `a`, the
- * smaller area over the number of segments, bounds the weight of parts that touch.
+ * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see
+ * each other and far parts do not, as along a corridor, most light passes though most segments are
+ * blocked. `a`, the smaller area over the number of segments, bounds the weight of parts that
+ * touch.
  *
  * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
- * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes it. Who asks
+ * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
+ * it. Who asks
  *             for one of these two here gets four rays.
- * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually facing
- *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits are
- *             scrambled by a hash of both path identities: no shared random state, so the answer depends on
- *             the pair alone, and is the same both ways. Fails: a blocker that shades the fraction p of the
- *             segments is missed with probability (1-p)^N.
- * exact       from a shaft (tools/shaft.h) or an integral over the visible part (tools/exact_visibility.h), which alone
+ * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
+ * facing
+ *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits
+ *             are scrambled by a hash of both path identities: no shared random state, so the
+ *             answer depends on the pair alone, and is the same both ways. Fails: a blocker that
+ *             shades the fraction p of the segments is missed with probability (1-p)^N.
+ * exact       from a shaft (tools/shaft.h) or an integral over the visible part
+ * (tools/exact_visibility.h), which alone
  *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
 
 /* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
@@ -866,21 +918,23 @@ struct refiner_sampler {
     struct refiner_polygon p;
     int parallelogram;
     double right[3], up[3]; /* parallelogram: the sides from corner 0 */
-    double area[REFINER_POLYGON_MAX], whole; /* twice the areas of the fan's triangles (0, i - 1, i), and their sum */
+    /* twice the areas of the fan's triangles (0, i - 1, i), and their sum */
+    double area[REFINER_POLYGON_MAX], whole;
 };
 
 /* The part of e in front of the plane of `other`. */
-static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct refiner_element *e, const struct refiner_element *other)
+static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct refiner_element *e,
+                                const struct refiner_element *other)
 {
     const struct refiner_polygon *p = &q->p;
-    int i, k;
-    refiner_polygon_clip(&q->p, (const double (*)[3])e->vertex, e->vertices, other->centre, other->normal);
+    refiner_polygon_clip(&q->p, (const double(*)[3])e->vertex, e->vertices, other->centre, other->normal);
     q->whole = 0;
     q->parallelogram = 0;
     if (p->n == 4) {
         double gap = 0, size = 0;
-        for (k = 0; k < 3; k++) {
-            double x = p->v[0][k] - p->v[1][k] + p->v[2][k] - p->v[3][k], y = p->v[2][k] - p->v[0][k];
+        for (int k = 0; k < 3; k++) {
+            double x = p->v[0][k] - p->v[1][k] + p->v[2][k] - p->v[3][k],
+                   y = p->v[2][k] - p->v[0][k];
             gap += x * x;
             size += y * y;
         }
@@ -888,7 +942,7 @@ static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct 
         refiner_sub3(q->right, p->v[1], p->v[0]);
         refiner_sub3(q->up, p->v[3], p->v[0]);
     }
-    for (i = 2; i < p->n && !q->parallelogram; i++) {
+    for (int i = 2; i < p->n && !q->parallelogram; i++) {
         double a[3], b[3], c[3];
         refiner_sub3(a, p->v[i - 1], p->v[0]);
         refiner_sub3(b, p->v[i], p->v[0]);
@@ -901,8 +955,7 @@ static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct 
 /* Map (s, t) in the unit square to the polygon so that area is kept. */
 static inline void refiner_sampler_point(double out[3], const struct refiner_sampler *q, double s, double t)
 {
-    const double *a = q->p.v[0], *b, *c;
-    int i;
+    const double *a = q->p.v[0];
     if (q->parallelogram) {
         out[0] = a[0] + s * q->right[0] + t * q->up[0];
         out[1] = a[1] + s * q->right[1] + t * q->up[1];
@@ -910,61 +963,70 @@ static inline void refiner_sampler_point(double out[3], const struct refiner_sam
         return;
     }
     s *= q->whole;
+    int i;
     for (i = 2; i < q->p.n - 1 && s >= q->area[i]; i++)
         s -= q->area[i];
     s = q->area[i] > 0 && s < q->area[i] ? sqrt(s / q->area[i]) : 1;
-    b = q->p.v[i - 1];
-    c = q->p.v[i];
+    const double *b = q->p.v[i - 1];
+    const double *c = q->p.v[i];
     out[0] = a[0] + s * (b[0] - a[0]) + s * t * (c[0] - b[0]);
     out[1] = a[1] + s * (b[1] - a[1]) + s * t * (c[1] - b[1]);
     out[2] = a[2] + s * (b[2] - a[2]) + s * t * (c[2] - b[2]);
 }
 
-/* The visible fraction by `count` segments, a power of two up to VISIBILITY_MOST, cast in batches of SEGMENTS_MAX. */
+/* The visible fraction by `count` segments, a power of two up to VISIBILITY_MOST, cast in
+ * batches of SEGMENTS_MAX. */
 REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *receiver, const struct refiner_element *emitter,
                                const struct refiner_host *host, int count)
 {
-    /* Sobol' direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the index. */
+    /* Sobol' direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the
+     * index. */
     static const uint32_t direction[12][4] = {
-        { 0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u }, { 0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u },
-        { 0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u }, { 0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u },
-        { 0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u }, { 0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u },
-        { 0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u }, { 0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u },
-        { 0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u }, { 0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u },
-        { 0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u }, { 0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u },
+        {0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u},
+        {0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u},
+        {0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u},
+        {0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u},
+        {0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u},
+        {0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u},
+        {0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u},
+        {0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u},
+        {0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u},
+        {0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u},
+        {0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u},
+        {0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u},
     };
-    const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter, *s = r == receiver ? emitter : receiver;
-    struct refiner_segment segments[REFINER_SEGMENTS_MAX];
-    double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0, spread = (r->area < s->area ? r->area : s->area) / count;
+    const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter,
+                         *s = r == receiver ? emitter : receiver;
+    double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0,
+                                 spread = (r->area < s->area ? r->area : s->area) / count;
     struct refiner_sampler p, q;
     uint64_t hash = refiner_hash64(r->id + refiner_hash64(s->id));
-    uint32_t digit[4];
-    int first, i, k;
     refiner_sampler_clip(&p, r, s);
     refiner_sampler_clip(&q, s, r);
     if (p.p.n == 0 || q.p.n == 0)
         return 0;
-    for (k = 0; k < 4; k += 2) {
+    uint32_t digit[4];
+    for (int k = 0; k < 4; k += 2) {
         digit[k] = (uint32_t)(hash >> 32);
         digit[k + 1] = (uint32_t)hash;
         hash = refiner_hash64(hash);
     }
-    for (first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
+    struct refiner_segment segments[REFINER_SEGMENTS_MAX];
+    for (int first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
         int batch = count - first < REFINER_SEGMENTS_MAX ? count - first : REFINER_SEGMENTS_MAX;
-        uint64_t blocked;
-        for (i = 0; i < batch; i++) {
+        for (int i = 0; i < batch; i++) {
             struct refiner_segment *g = &segments[i];
             if (first + i > 0) { /* Gray code order: one digit changes from point to point */
                 const uint32_t *toggle = direction[0];
-                int bits;
-                for (bits = first + i; !(bits & 1); bits >>= 1)
+                for (int bits = first + i; !(bits & 1); bits >>= 1)
                     toggle += 4;
                 digit[0] ^= toggle[0];
                 digit[1] ^= toggle[1];
                 digit[2] ^= toggle[2];
                 digit[3] ^= toggle[3];
             }
-            refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0), digit[1] * (1 / 4294967296.0));
+            refiner_sampler_point(g->from, &p, digit[0] * (1 / 4294967296.0),
+                          digit[1] * (1 / 4294967296.0));
             refiner_sampler_point(g->to, &q, digit[2] * (1 / 4294967296.0), digit[3] * (1 / 4294967296.0));
             weight[i] = refiner_lambert_points(g->from, r->normal, g->to, s->normal, spread);
             g->from[0] += host->ray_offset * r->normal[0];
@@ -974,8 +1036,8 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
             g->to[1] += host->ray_offset * s->normal[1];
             g->to[2] += host->ray_offset * s->normal[2];
         }
-        blocked = host->occluded(host, batch, segments);
-        for (i = 0; i < batch; i++) {
+        uint64_t blocked = host->occluded(host, batch, segments);
+        for (int i = 0; i < batch; i++) {
             all += weight[i];
             if (!(blocked >> i & 1))
                 seen += weight[i];
@@ -987,13 +1049,18 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
 /* The level that `rays` rays or more reach, and how many a level casts. */
 static inline enum refiner_visibility_level refiner_visibility_level_of(int rays)
 {
-    return rays <= 4 ? REFINER_VISIBILITY_RAYS_4 : rays <= 16 ? REFINER_VISIBILITY_RAYS_16 : rays <= 64 ? REFINER_VISIBILITY_RAYS_64
-         : rays <= 256 ? REFINER_VISIBILITY_RAYS_256 : REFINER_VISIBILITY_RAYS_1024;
+    return rays <= 4     ? REFINER_VISIBILITY_RAYS_4
+           : rays <= 16  ? REFINER_VISIBILITY_RAYS_16
+           : rays <= 64  ? REFINER_VISIBILITY_RAYS_64
+           : rays <= 256 ? REFINER_VISIBILITY_RAYS_256
+                         : REFINER_VISIBILITY_RAYS_1024;
 }
 
 static inline int refiner_visibility_rays_of(enum refiner_visibility_level level)
 {
-    return level <= REFINER_VISIBILITY_RAYS_4 ? 4 : level >= REFINER_VISIBILITY_RAYS_1024 ? 1024 : 1 << 2 * (level - REFINER_VISIBILITY_RAYS_4 + 1);
+    return level <= REFINER_VISIBILITY_RAYS_4      ? 4
+           : level >= REFINER_VISIBILITY_RAYS_1024 ? 1024
+                                           : 1 << 2 * (level - REFINER_VISIBILITY_RAYS_4 + 1);
 }
 
 REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum refiner_visibility_level level)
@@ -1004,7 +1071,8 @@ REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum r
         if (level > REFINER_VISIBILITY_RAYS_1024)
             level = REFINER_VISIBILITY_RAYS_1024;
         if (d->terms.visibility_level < level) {
-            d->terms.visibility = refiner_visibility_rays(d->receiver, d->emitter, d->host, refiner_visibility_rays_of(level));
+            d->terms.visibility =
+                refiner_visibility_rays(d->receiver, d->emitter, d->host, refiner_visibility_rays_of(level));
             d->terms.visibility_level = (unsigned char)level;
         }
     }
@@ -1012,9 +1080,9 @@ REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum r
 }
 
 /* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
- * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of "partial";
- * "none" and "all" are the rays' opinion. What a shaft has
- * settled (level exact) casts none. [Turbet & Sillion, section 3.1.2] */
+ * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
+ * "partial"; "none" and "all" are the rays' opinion. What a shaft has settled (level exact) casts
+ * none. [Turbet & Sillion, section 3.1.2] */
 
 REFINER_TOOL enum refiner_visibility_answer refiner_tool_visibility(struct refiner_discussion *d, int rays)
 {
@@ -1022,7 +1090,8 @@ REFINER_TOOL enum refiner_visibility_answer refiner_tool_visibility(struct refin
     return v <= 0 ? REFINER_VISIBILITY_NONE : v < 1 ? REFINER_VISIBILITY_PARTIAL : REFINER_VISIBILITY_ALL;
 }
 
-/* form_factor.h - command: have the form factor at the level that a link deserves, the clipped polygon. */
+/* form_factor.h - command: have the form factor at the level that a link deserves, the clipped
+ * polygon. */
 
 REFINER_TOOL enum refiner_form_factor_answer refiner_tool_form_factor(struct refiner_discussion *d)
 {
@@ -1030,8 +1099,9 @@ REFINER_TOOL enum refiner_form_factor_answer refiner_tool_form_factor(struct ref
     return REFINER_FORM_FACTOR_DONE;
 }
 
-/* mark.h - command: mark the pair, so that its link can be counted among those that the graph treats apart.
- * By convention 1 says that the link was too large for the oracle and could not be split. [D: derived here] */
+/* mark.h - command: mark the pair, so that its link can be counted among those that the graph
+ * treats apart. By convention 1 says that the link was too large for the oracle and could not be
+ * split. [D: derived here] */
 
 REFINER_TOOL enum refiner_mark_answer refiner_tool_mark(struct refiner_discussion *d, int as)
 {

@@ -49,7 +49,8 @@ struct refiner_terms {
     unsigned char mark_level; /* enum mark_level */
 };
 
-/* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the host.
+/* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the
+ * host.
  *
  * A discussion is one run of an oracle over one pair (receiver, emitter). Tools are
  * `static inline` functions over a discussion, one file each under tools/; they share values
@@ -57,8 +58,9 @@ struct refiner_terms {
  * it was computed at. A tool that needs a term asks term_NAME(d, level) (terms/NAME.h), which
  * computes the term when it is absent or coarser. [Turbet & Sillion, sections 3 and 4.1]
  *
- * Invariant: a tool reads the pair and the host and writes nothing but terms (the list of term blockers among them). So pairs can be
- * discussed in any order and on any thread, and the result is the same.
+ * Invariant: a tool reads the pair and the host and writes nothing but terms (the list of term
+ * blockers among them). So pairs can be discussed in any order and on any thread, and the result is
+ * the same.
  *
  * This header is C11 and C++11, needs libm only, and allocates nothing. Units: metres, W/m2. */
 
@@ -79,13 +81,18 @@ struct refiner_element {
     double centre[3];    /* surface: area centroid; cluster: middle of the bounding box (m) */
     double vertex[4][3]; /* surface: corners (m); cluster: [0] and [1] are the box's corners */
     uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
-    double spread;       /* largest less smallest B below the element, W/m2. Constant during a round */
-    double reflectance;  /* rho, largest band; cluster: area mean */
-    double importance;   /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
-    double tolerance;    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
-    uint32_t parent;     /* index in the hierarchy; the root is its own parent */
-    uint32_t face;       /* surface: index of the face it is part of; of the first of a group's faces */
-    uint32_t group;      /* 1: a flat group of faces, given as the surface that is the rectangle around them */
+    /* largest less smallest B below the element, W/m2. Constant during a round */
+    double spread;
+    double reflectance; /* rho, largest band; cluster: area mean */
+    /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
+    double importance;
+    /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
+    double tolerance;
+    uint32_t parent; /* index in the hierarchy; the root is its own parent */
+    /* surface: index of the face it is part of; of the first of a group's faces */
+    uint32_t face;
+    /* 1: a flat group of faces, given as the surface that is the rectangle around them */
+    uint32_t group;
 };
 
 /* A straight line between two points, ends included. */
@@ -100,11 +107,13 @@ enum { REFINER_SHAFT_PLANES = 28 };
 
 struct refiner_shaft {
     int planes;
-    double normal[REFINER_SHAFT_PLANES][3], offset[REFINER_SHAFT_PLANES]; /* inside: normal . p <= offset, normals of length 1 */
+    /* inside: normal . p <= offset, normals of length 1 */
+    double normal[REFINER_SHAFT_PLANES][3], offset[REFINER_SHAFT_PLANES];
     double low[3], high[3]; /* box around it, `reach` included (m) */
-    double reach;           /* what is farther from it does not meet it, whatever the tolerances (m) */
+    /* what is farther from it does not meet it, whatever the tolerances (m) */
+    double reach;
     double margin, touch, slack, grow, flat, nests; /* tolerances (m) */
-    int points[2];   /* of the two ends: their corners, as far off the surface as rays start */
+    int points[2]; /* of the two ends: their corners, as far off the surface as rays start */
     double end[2][REFINER_POLYGON_MAX][3], facing[2][3]; /* and their normals */
 };
 
@@ -112,10 +121,11 @@ struct refiner_shaft {
 enum { REFINER_BLOCKERS_MAX = 8, REFINER_BLOCKERS_TOO_MANY = REFINER_BLOCKERS_MAX + 1 };
 
 struct refiner_blockers {
-    int count;             /* or BLOCKERS_TOO_MANY */
-    unsigned char known;   /* not at all; of a pair that holds this one; of this pair */
-    unsigned char handed;  /* own: good for the pairs below this one */
-    unsigned char covered; /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
+    int count;            /* or BLOCKERS_TOO_MANY */
+    unsigned char known;  /* not at all; of a pair that holds this one; of this pair */
+    unsigned char handed; /* own: good for the pairs below this one */
+    /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
+    unsigned char covered;
     uint32_t face[REFINER_BLOCKERS_MAX];
 };
 
@@ -124,59 +134,69 @@ struct refiner_host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */
     uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments);
-    double area;       /* of all faces, m2 */
-    double extent;     /* longest side of the scene's box (m) */
-    double exitance;   /* the largest E, W/m2 */
+    double area;        /* of all faces, m2 */
+    double extent;      /* longest side of the scene's box (m) */
+    double exitance;    /* the largest E, W/m2 */
     double reflectance; /* the largest rho */
-    double irradiance; /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
-    double radiosity;  /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
-    double importance; /* the largest Y; 1 where no view asks */
-    double faces;      /* how many */
-    const struct refiner_element *const *elements; /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
+    double irradiance;  /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
+    double radiosity;   /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
+    double importance;  /* the largest Y; 1 where no view asks */
+    double faces;       /* how many */
+    /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
+    const struct refiner_element *const *elements;
     double ray_offset; /* how far off its surface a ray must start (m) */
     double flat;       /* a point this near to a plane lies in it (m) */
 
-    /* For the tools that look into a shaft; NULL: the host has none of it, and they answer too_complex.
-     * Lists in `faces` up to `most` faces that may meet the shaft and returns how many; more than `most` when
-     * there may be more. It may list a face too many, never one too few; kernel/shaft.h helps. */
-    int (*candidates)(const struct refiner_host *host, const struct refiner_shaft *shaft, int most, uint32_t *faces);
+    /* For the tools that look into a shaft; NULL: the host has none of it, and they answer
+     * too_complex. Lists in `faces` up to `most` faces that may meet the shaft and returns how
+     * many; more than `most` when there may be more. It may list a face too many, never one too
+     * few; kernel/shaft.h helps. */
+    int (*candidates)(const struct refiner_host *host, const struct refiner_shaft *shaft, int most,
+                      uint32_t *faces);
     /* The corners of a face that `candidates` listed. */
     void (*corners)(const struct refiner_host *host, uint32_t face, struct refiner_polygon *polygon);
-    /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that hold one of two faces
-     * (tools/extinction.h). NULL: 0. */
-    double (*optical_depth)(const struct refiner_host *host, const struct refiner_segment *segment, uint32_t receiver, uint32_t emitter);
+    /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that
+     * hold one of two faces (tools/extinction.h). NULL: 0. */
+    double (*optical_depth)(const struct refiner_host *host, const struct refiner_segment *segment,
+                            uint32_t receiver, uint32_t emitter);
 };
 
 struct refiner_discussion {
     const struct refiner_element *receiver, *emitter;
     const struct refiner_host *host;
     struct refiner_terms terms; /* the data manager; all zero: nothing is known yet */
-    struct refiner_blockers *blockers; /* where term blockers keeps its list; may hold an inherited one. NULL: nothing is kept */
+    /* where term blockers keeps its list; may hold an inherited one. NULL: nothing is kept */
+    struct refiner_blockers *blockers;
 };
 
 /* standalone.h - the callbacks by which a program that ships a generated refiner describes itself.
- * dagc --standalone puts this into the generated header; within the project rays.c fills in the host.
+ * dagc --standalone puts this into the generated header; within the project rays.c fills in the
+ * host.
  *
- * Two are needed, those of host_open. The others may be left NULL; a graph that asks about shafts is
- * answered too_complex then, and extinction takes nothing away. To have them, set host.candidates and
- * host.corners (both or neither), and host.optical_depth, after host_open. candidates is given planes and a box: a face
- * may be left out when all its corners lie outside the box, or beyond one plane, normal . p > offset + reach;
- * the refiner looks at the others more closely itself. Let discussion.blockers point at a structure that lives as long as the
- * discussion; with `known` 0 nothing is inherited, and BLOCKERS_INHERITED says that it holds the list of a pair of which
- * these two elements are parts. */
+ * Two are needed, those of host_open. The others may be left NULL; a graph that asks about shafts
+ * is answered too_complex then, and extinction takes nothing away. To have them, set
+ * host.candidates and host.corners (both or neither), and host.optical_depth, after host_open.
+ * candidates is given planes and a box: a face may be left out when all its corners lie outside the
+ * box, or beyond one plane, normal . p > offset + reach; the refiner looks at the others more
+ * closely itself. Let discussion.blockers point at a structure that lives as long as the
+ * discussion; with `known` 0 nothing is inherited, and BLOCKERS_INHERITED says that it holds the
+ * list of a pair of which these two elements are parts. */
 
 /* The most segments that one call of `occluded` is given. */
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
 
 /* Makes a host of its callbacks. `totals` is called once, here, to fill in the scene's
- * totals (area to importance), ray_offset and flat; `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets something.
- * To give them data of your own, let `host` be the first member of a structure of yours. */
+ * totals (area to importance), ray_offset and flat; `occluded` whenever a tool casts rays: bit i of
+ * what it returns says that segment i meets something. To give them data of your own, let `host` be
+ * the first member of a structure of yours. */
 static inline void refiner_host_open(struct refiner_host *host,
-                             uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments),
+                             uint64_t (*occluded)(const struct refiner_host *host, int count,
+                                                  const struct refiner_segment *segments),
                              void (*totals)(struct refiner_host *host))
 {
     host->occluded = occluded;
-    host->area = host->extent = host->exitance = host->reflectance = host->irradiance = host->radiosity = 0;
+    host->area = host->extent = host->exitance = host->reflectance = host->irradiance =
+        host->radiosity = 0;
     host->importance = 1;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;

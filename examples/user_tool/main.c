@@ -18,7 +18,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
 /* A square of side `size` in the plane z, facing up or down. */
 static void make_square(struct element *e, double x, double z, double size, double up, uint64_t id)
 {
-    static const double corner[4][2] = { { -0.5, -0.5 }, { 0.5, -0.5 }, { 0.5, 0.5 }, { -0.5, 0.5 } };
+    static const double corner[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
     int i;
     memset(e, 0, sizeof *e);
     e->centre[0] = x;
@@ -39,12 +39,19 @@ static void make_square(struct element *e, double x, double z, double size, doub
 
 int main(int count, char **arguments)
 {
-    struct interpretation how = { 0 };
-    struct messages messages = { 0 };
+    struct interpretation how = {0};
+    struct messages messages = {0};
     struct refiner *dag, *flat = refiner_compiled(&near_first_oracle, "flat");
-    const struct host host = { .occluded = occluded, .area = 6, .extent = 1, .exitance = 1, .irradiance = 4, .radiosity = 1,
-                               .importance = 1, .ray_offset = 1e-6, .flat = 1e-9 };
-    int decided[DECISIONS] = { 0 }, i, wrong = 0;
+    const struct host host = {.occluded = occluded,
+                              .area = 6,
+                              .extent = 1,
+                              .exitance = 1,
+                              .irradiance = 4,
+                              .radiosity = 1,
+                              .importance = 1,
+                              .ray_offset = 1e-6,
+                              .flat = 1e-9};
+    int decided[DECISIONS] = {0}, i, wrong = 0;
     how.path = count > 1 ? arguments[1] : "near_first.dag";
     dag = refiner_interpret(&how, &messages);
     if (!dag || !flat)
@@ -67,9 +74,9 @@ int main(int count, char **arguments)
         if (one == DECISION_LINK && one == two)
             wrong += memcmp(&a.terms.form_factor, &b.terms.form_factor, sizeof(double)) != 0;
     }
-    printf("%d pairs: %d links, %d stops, %d splits; the releases differ in %d\n", i, decided[DECISION_LINK],
-           decided[DECISION_STOP], decided[DECISION_SUBDIVIDE_RECEIVER] + decided[DECISION_SUBDIVIDE_EMITTER],
-           wrong);
+    printf("%d pairs: %d links, %d stops, %d splits; the releases differ in %d\n", i,
+           decided[DECISION_LINK], decided[DECISION_STOP],
+           decided[DECISION_SUBDIVIDE_RECEIVER] + decided[DECISION_SUBDIVIDE_EMITTER], wrong);
     refiner_close(dag);
     refiner_close(flat);
     return wrong != 0;

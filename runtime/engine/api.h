@@ -1,7 +1,8 @@
 /* api.h - what stands behind the handles of radiosity.h.
  *
- * Every handle counts its holders and holds what it was made from: solution and exchange hold scene and oracle, those hold the
- * device. Only a device is shared by threads that call at the same time, so only it has a lock.
+ * Every handle counts its holders and holds what it was made from: solution and exchange hold scene
+ * and oracle, those hold the device. Only a device is shared by threads that call at the same time,
+ * so only it has a lock.
  * SPDX-License-Identifier: MIT */
 #ifndef API_H
 #define API_H
@@ -22,8 +23,8 @@ struct RadDeviceObject {
     atomic_int holders;
     int threads;
     char *compiler, *temporary; /* of the options; NULL: none given */
-    pthread_mutex_t lock; /* of all that follows */
-    enum RadError error;  /* the first since it was asked for */
+    pthread_mutex_t lock;       /* of all that follows */
+    enum RadError error;        /* the first since it was asked for */
     char message[MESSAGE_SIZE];
     RadMessageFunction tell;
     void *tell_user;
@@ -37,9 +38,10 @@ struct RadSceneObject {
     RadDevice device;
     struct RadMaterial *materials; /* [material_count]; NULL after the commit */
     uint32_t material_count;
-    struct RadPolygons polygons;   /* borrowed until the commit; zero before they are set and after it */
+    /* borrowed until the commit; zero before they are set and after it */
+    struct RadPolygons polygons;
     int polygons_set, committed;
-    struct scene scene;            /* empty before the commit */
+    struct scene scene; /* empty before the commit */
     struct RadSceneReport report;
 };
 
@@ -48,7 +50,8 @@ struct RadOracleObject {
     RadDevice device;
     struct refiner *refiner;
     int counting;
-    struct statistics counted; /* what radGetOracleStatistics shows, in the engine's form and the caller's */
+    /* what radGetOracleStatistics shows, in the engine's form and the caller's */
+    struct statistics counted;
     struct RadNodeCount *nodes;
     struct RadAnswerCount *answers;
     uint64_t (*bins)[RAD_BINS], zero[RAD_RECORDS];
@@ -64,14 +67,16 @@ struct RadSolutionObject {
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
 
-/* The device's first error becomes this one, unless there is one; its message function is told. Returns -1. */
+/* The device's first error becomes this one, unless there is one; its message function is told.
+ * Returns -1. */
 int api_fail(RadDevice device, enum RadError code, const char *format, ...) MESSAGE_LIKE(3, 4);
 void api_warn(RadDevice device, const char *format, ...) MESSAGE_LIKE(2, 3);
 
 /* Calls the progress function, if there is one. Returns what it says. */
 int api_progress(RadDevice device, const struct RadProgress *progress);
 
-/* A handle that takes the refiner over; NULL for a refiner is out of memory. Returns NULL after an error. */
+/* A handle that takes the refiner over; NULL for a refiner is out of memory. Returns NULL after
+ * an error. */
 RadOracle api_oracle(RadDevice device, struct refiner *refiner);
 
 /* The code of a cause that the engine gives as a constant string. */

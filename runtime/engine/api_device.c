@@ -25,7 +25,8 @@ RadDevice radNewDevice(const struct RadDeviceOptions *options)
 {
     int threads = options ? options->threads : 0;
     if (threads < 0 || threads > THREADS_MAX)
-        return refuse_device(RAD_ERROR_INVALID_ARGUMENT, "RadDeviceOptions.threads takes 1 to 1024, or 0 for all processors");
+        return refuse_device(RAD_ERROR_INVALID_ARGUMENT,
+                             "RadDeviceOptions.threads takes 1 to 1024, or 0 for all processors");
     RadDevice device = calloc(1, sizeof *device);
     if (!device)
         return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device");
@@ -36,13 +37,17 @@ RadDevice radNewDevice(const struct RadDeviceOptions *options)
     atomic_init(&device->holders, 1);
     device->compiler = options && options->compiler ? strdup(options->compiler) : NULL;
     device->temporary = options && options->temporary ? strdup(options->temporary) : NULL;
-    if (options && ((options->compiler && !device->compiler) || (options->temporary && !device->temporary))) {
+    if (options
+        && ((options->compiler && !device->compiler)
+            || (options->temporary && !device->temporary))) {
         radReleaseDevice(device);
         return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device");
     }
     device->sources.compiler = device->compiler;
     device->sources.temporary = device->temporary;
-    device->threads = threads ? threads : omp_get_num_procs() < THREADS_MAX ? omp_get_num_procs() : THREADS_MAX;
+    device->threads = threads                             ? threads
+                      : omp_get_num_procs() < THREADS_MAX ? omp_get_num_procs()
+                                                          : THREADS_MAX;
     return device;
 }
 
@@ -108,15 +113,13 @@ const char *radGetDeviceErrorMessage(RadDevice device)
 /* The message function is called without the lock, so that it may call the device. */
 static void tell(RadDevice device, enum RadError code, const char *message)
 {
-    RadMessageFunction function;
-    void *user;
     pthread_mutex_lock(&device->lock);
     if (code != RAD_ERROR_NONE && device->error == RAD_ERROR_NONE) {
         device->error = code;
         snprintf(device->message, sizeof device->message, "%s", message);
     }
-    function = device->tell;
-    user = device->tell_user;
+    RadMessageFunction function = device->tell;
+    void *user = device->tell_user;
     pthread_mutex_unlock(&device->lock);
     if (function)
         function(user, code, message);
@@ -124,9 +127,9 @@ static void tell(RadDevice device, enum RadError code, const char *message)
 
 int api_fail(RadDevice device, enum RadError code, const char *format, ...)
 {
-    char message[MESSAGE_SIZE];
     va_list list;
     va_start(list, format);
+    char message[MESSAGE_SIZE];
     vsnprintf(message, sizeof message, format, list);
     va_end(list);
     tell(device, code, message);
@@ -135,9 +138,9 @@ int api_fail(RadDevice device, enum RadError code, const char *format, ...)
 
 void api_warn(RadDevice device, const char *format, ...)
 {
-    char message[MESSAGE_SIZE];
     va_list list;
     va_start(list, format);
+    char message[MESSAGE_SIZE];
     vsnprintf(message, sizeof message, format, list);
     va_end(list);
     tell(device, RAD_ERROR_NONE, message);
@@ -145,18 +148,17 @@ void api_warn(RadDevice device, const char *format, ...)
 
 int api_progress(RadDevice device, const struct RadProgress *progress)
 {
-    RadProgressFunction function;
-    void *user;
     pthread_mutex_lock(&device->lock);
-    function = device->progress;
-    user = device->progress_user;
+    RadProgressFunction function = device->progress;
+    void *user = device->progress_user;
     pthread_mutex_unlock(&device->lock);
     return function ? function(user, progress) : 0;
 }
 
 enum RadError api_cause(const char *cause)
 {
-    return strncmp(cause, "Embree finds", 12) == 0 ? RAD_ERROR_UNSUPPORTED : RAD_ERROR_OUT_OF_MEMORY;
+    return strncmp(cause, "Embree finds", 12) == 0 ? RAD_ERROR_UNSUPPORTED
+                                                   : RAD_ERROR_OUT_OF_MEMORY;
 }
 
 int api_finite(const double *values, size_t count)

@@ -15,17 +15,23 @@ struct RadExchangeObject {
 static int watch(void *context, const struct exchange *x, const char *phase)
 {
     const struct refinement *r = &x->refinement;
-    const struct RadProgress progress = { phase, 1, r->rounds, r->pairs, r->queue_count, r->link_count, rays_count(x->tree.rays).rays, 0 };
+    const struct RadProgress progress = {
+        phase, 1, r->rounds, r->pairs, r->queue_count, r->link_count, rays_count(x->tree.rays).rays,
+        0};
     return api_progress(context, &progress);
 }
 
 static int check_options(RadDevice device, const struct RadExchangeOptions *o)
 {
     if (!(o->tolerance >= 0 && o->tolerance < 1))
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadExchangeOptions.tolerance is %g; it takes a number above 0 and below 1, or 0 for the default",
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadExchangeOptions.tolerance is %g; it takes a number above 0 and below "
+                        "1, or 0 for the default",
                         o->tolerance);
-    if (o->closure != RAD_CLOSURE_NONE && o->closure != RAD_CLOSURE_ROWS && o->closure != RAD_CLOSURE_RECIPROCAL)
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadExchangeOptions.closure takes one of enum RadClosure");
+    if (o->closure != RAD_CLOSURE_NONE && o->closure != RAD_CLOSURE_ROWS
+        && o->closure != RAD_CLOSURE_RECIPROCAL)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadExchangeOptions.closure takes one of enum RadClosure");
     return 0;
 }
 
@@ -42,7 +48,7 @@ RadOracle radNewExchangeOracle(RadDevice device, double tolerance)
 {
     if (!device)
         return NULL;
-    if (check_options(device, &(struct RadExchangeOptions){ .tolerance = tolerance }) < 0)
+    if (check_options(device, &(struct RadExchangeOptions){.tolerance = tolerance}) < 0)
         return NULL;
     return api_oracle(device, default_oracle(tolerance > 0 ? tolerance : EXCHANGE_TOLERANCE));
 }
@@ -50,7 +56,7 @@ RadOracle radNewExchangeOracle(RadDevice device, double tolerance)
 RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExchangeOptions *given)
 {
     static const struct RadExchangeOptions defaults;
-    static const enum closure closures[] = { CLOSURE_NONE, CLOSURE_ROWS, CLOSURE_RECIPROCAL };
+    static const enum closure closures[] = {CLOSURE_NONE, CLOSURE_ROWS, CLOSURE_RECIPROCAL};
     const struct RadExchangeOptions *o = given ? given : &defaults;
     const char *cause = "out of memory for exchange areas";
     if (!scene)
@@ -62,8 +68,12 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
     }
     if (check_options(device, o) < 0)
         return NULL;
-    struct exchange_options options = { .tolerance = o->tolerance > 0 ? o->tolerance : EXCHANGE_TOLERANCE, .closure = closures[o->closure],
-                                        .threads = device->threads, .progress = watch, .context = device };
+    struct exchange_options options = {.tolerance =
+                                           o->tolerance > 0 ? o->tolerance : EXCHANGE_TOLERANCE,
+                                       .closure = closures[o->closure],
+                                       .threads = device->threads,
+                                       .progress = watch,
+                                       .context = device};
     struct refiner *own = oracle ? NULL : default_oracle(options.tolerance);
     const struct refiner *refiner = oracle ? oracle->refiner : own;
     RadExchange x = refiner ? calloc(1, sizeof *x) : NULL;
@@ -104,9 +114,11 @@ double radGetExchangeRow(RadExchange x, uint32_t i, double *row)
         return -1;
     uint32_t count = x->exchange.areas.inputs;
     if (i >= count)
-        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT, "there is no row %u; there are %u, from 0", (unsigned)i, (unsigned)count);
+        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "there is no row %u; there are %u, from 0", (unsigned)i, (unsigned)count);
     if (!row)
-        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT, "row %u needs a place for %u values", (unsigned)i, (unsigned)count);
+        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "row %u needs a place for %u values", (unsigned)i, (unsigned)count);
     return exchange_row(&x->exchange, i, row);
 }
 
@@ -118,10 +130,19 @@ void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report
     if (!exchange)
         return;
     const struct exchange_report *r = &exchange->exchange.report;
-    *report = (struct RadExchangeReport){
-        .links = r->links, .pairs = r->pairs, .rays = r->rays, .low = r->low, .high = r->high,
-        .rows_closed = r->rows_closed, .rows_open = r->rows_open, .rows_covered = r->rows_covered,
-        .defect_most = r->defect_most, .defect_mean = r->defect_mean,
-        .environment_most = r->environment_most, .environment_mean = r->environment_mean,
-        .closure_change = r->closure_change, .closure_left = r->closure_left, .seconds = { r->seconds.refine, r->seconds.fill } };
+    *report = (struct RadExchangeReport){.links = r->links,
+                                         .pairs = r->pairs,
+                                         .rays = r->rays,
+                                         .low = r->low,
+                                         .high = r->high,
+                                         .rows_closed = r->rows_closed,
+                                         .rows_open = r->rows_open,
+                                         .rows_covered = r->rows_covered,
+                                         .defect_most = r->defect_most,
+                                         .defect_mean = r->defect_mean,
+                                         .environment_most = r->environment_most,
+                                         .environment_mean = r->environment_mean,
+                                         .closure_change = r->closure_change,
+                                         .closure_left = r->closure_left,
+                                         .seconds = {r->seconds.refine, r->seconds.fill}};
 }

@@ -1,4 +1,5 @@
-/* api_oracle.c - oracles: built in, from a file or a text, compiled into the program, or registered by hand.
+/* api_oracle.c - oracles: built in, from a file or a text, compiled into the program, or registered
+ * by hand.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -40,9 +41,12 @@ static const struct oracle *find_registered(RadDevice device, const char *name)
 static int check_compiled(RadDevice device, const struct oracle *oracle)
 {
     if (!oracle || !oracle->name || !oracle->refine || !oracle->defaults)
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a compiled oracle needs a name, defaults and a refine function");
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "a compiled oracle needs a name, defaults and a refine function");
     if (oracle->abi != RUNTIME_ABI)
-        return api_fail(device, RAD_ERROR_INVALID_ORACLE, "oracle %s was compiled against ABI %d, not %d; compile it anew with this version's headers",
+        return api_fail(device, RAD_ERROR_INVALID_ORACLE,
+                        "oracle %s was compiled against ABI %d, not %d; compile it anew with this "
+                        "version's headers",
                         oracle->name, oracle->abi, RUNTIME_ABI);
     return 0;
 }
@@ -54,15 +58,18 @@ int radRegisterOracle(RadDevice device, const struct oracle *oracle)
     pthread_mutex_lock(&device->lock);
     int status = oracle_register(&device->sources, oracle);
     pthread_mutex_unlock(&device->lock);
-    return status < 0 ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for oracle %s", oracle->name) : 0;
+    return status < 0 ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for oracle %s",
+                                 oracle->name)
+                      : 0;
 }
 
 int radHasOracle(RadDevice device, const char *name, enum RadRelease release)
 {
     if (!device || !name)
         return 0;
-    return release == RAD_RELEASE_HAND ? find_registered(device, name) != NULL
-                                       : (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG) && is_builtin(name);
+    return release == RAD_RELEASE_HAND
+               ? find_registered(device, name) != NULL
+               : (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG) && is_builtin(name);
 }
 
 RadOracle api_oracle(RadDevice device, struct refiner *refiner)
@@ -85,51 +92,66 @@ static int check_release(RadDevice device, enum RadRelease release)
 {
     if (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG)
         return 0;
-    return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "release %d: RAD_RELEASE_FLAT and RAD_RELEASE_DAG are there, and no other", (int)release);
+    return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                    "release %d: RAD_RELEASE_FLAT and RAD_RELEASE_DAG are there, and no other",
+                    (int)release);
 }
 
 /* The graph `text`, or of the file `path` when it is NULL. */
-static RadOracle load(RadDevice device, const char *path, const char *text, const char *name, enum RadRelease release)
+static RadOracle load(RadDevice device, const char *path, const char *text, const char *name,
+                      enum RadRelease release)
 {
-    static const enum RadError codes[] = { [MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY, [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
-                                           [MESSAGE_GRAPH] = RAD_ERROR_INVALID_ORACLE, [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
-                                           [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY };
-    const struct oracle_sources how = { .compiler = device->sources.compiler, .temporary = device->sources.temporary };
-    struct messages messages = { 0 };
+    static const enum RadError codes[] = {[MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY,
+                                          [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
+                                          [MESSAGE_GRAPH] = RAD_ERROR_INVALID_ORACLE,
+                                          [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
+                                          [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY};
+    const struct oracle_sources how = {.compiler = device->sources.compiler,
+                                       .temporary = device->sources.temporary};
+    struct messages messages = {0};
     if (check_release(device, release) < 0)
         return NULL;
-    struct refiner *refiner = oracle_load(&how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    struct refiner *refiner = oracle_load(
+        &how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
     RadOracle oracle = refiner ? api_oracle(device, refiner) : NULL;
     if (!refiner)
-        api_fail(device, codes[messages.cause], "%s", messages.cause == MESSAGE_NONE ? "out of memory for an oracle" : messages_text(&messages));
+        api_fail(device, codes[messages.cause], "%s",
+                 messages.cause == MESSAGE_NONE ? "out of memory for an oracle"
+                                                : messages_text(&messages));
     messages_free(&messages);
     return oracle;
 }
 
 RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release)
 {
-    struct messages messages = { 0 };
+    struct messages messages = {0};
     if (!device)
         return NULL;
     if (!name || (release != RAD_RELEASE_HAND && !is_builtin(name))) {
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "there is no built-in oracle '%s'; radGetOracleNames tells those that there are", name ? name : "");
+        api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                 "there is no built-in oracle '%s'; radGetOracleNames tells those that there are",
+                 name ? name : "");
         return NULL;
     }
     if (release == RAD_RELEASE_HAND) {
         const struct oracle *hand = find_registered(device, name);
         if (hand)
             return api_oracle(device, refiner_compiled(hand, "hand"));
-        api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "no hand-written release of oracle '%s' has been registered", name);
+        api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                 "no hand-written release of oracle '%s' has been registered", name);
         return NULL;
     }
     if (check_release(device, release) < 0)
         return NULL;
-    struct refiner *refiner = oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
-    messages_free(&messages); /* a built-in graph is right: there can have been no memory, and api_oracle says so */
+    struct refiner *refiner =
+        oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    /* a built-in graph is right: there can have been no memory, and api_oracle says so */
+    messages_free(&messages);
     return api_oracle(device, refiner);
 }
 
-RadOracle radLoadOracle(RadDevice device, const char *path, const char *name, enum RadRelease release)
+RadOracle radLoadOracle(RadDevice device, const char *path, const char *name,
+                        enum RadRelease release)
 {
     if (!device)
         return NULL;
@@ -139,7 +161,8 @@ RadOracle radLoadOracle(RadDevice device, const char *path, const char *name, en
     return NULL;
 }
 
-RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *name, enum RadRelease release)
+RadOracle radParseOracle(RadDevice device, const char *path, const char *text, const char *name,
+                         enum RadRelease release)
 {
     if (!device)
         return NULL;
@@ -187,7 +210,7 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
 {
     if (!report)
         return;
-    *report = (struct RadOracleReport){ .name = "", .release = "", .doc = "", .fingerprint = "" };
+    *report = (struct RadOracleReport){.name = "", .release = "", .doc = "", .fingerprint = ""};
     if (!oracle)
         return;
     const struct refiner *r = oracle->refiner;
@@ -203,7 +226,7 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
 
 int radSetOracleParameter(RadOracle oracle, const char *name, double value)
 {
-    struct messages messages = { 0 };
+    struct messages messages = {0};
     if (!oracle)
         return -1;
     int status = refiner_set(oracle->refiner, name ? name : "", value, &messages);
@@ -221,7 +244,8 @@ double radGetOracleParameter(RadOracle oracle, const char *name)
 
 enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)
 {
-    return oracle && discussion ? oracle->refiner->refine(oracle->refiner->state, discussion) : DECISION_STOP;
+    return oracle && discussion ? oracle->refiner->refine(oracle->refiner->state, discussion)
+                                : DECISION_STOP;
 }
 
 int radCountOracle(RadOracle oracle)
@@ -229,12 +253,16 @@ int radCountOracle(RadOracle oracle)
     if (!oracle)
         return -1;
     if (refiner_count(oracle->refiner) < 0)
-        return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION, "only interpreted graphs count; make oracle %s with RAD_RELEASE_DAG", oracle->refiner->oracle);
+        return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION,
+                        "only interpreted graphs count; make oracle %s with RAD_RELEASE_DAG",
+                        oracle->refiner->oracle);
     oracle->counting = 1;
     return 0;
 }
 
-_Static_assert((int)RAD_COUNTS == (int)STATISTICS_COUNTS && (int)RAD_RECORDS == (int)STATISTICS_SLOTS && (int)RAD_BINS == STATISTICS_HIGH - STATISTICS_LOW,
+_Static_assert((int)RAD_COUNTS == (int)STATISTICS_COUNTS
+                   && (int)RAD_RECORDS == (int)STATISTICS_SLOTS
+                   && (int)RAD_BINS == STATISTICS_HIGH - STATISTICS_LOW,
                "statistics have one size");
 
 /* The engine's statistics in the caller's form. Returns 0, or -1 when out of memory. */
@@ -252,9 +280,10 @@ static int show_statistics(RadOracle oracle)
     struct RadAnswerCount *to = oracle->answers;
     for (int i = 0; i < s->node_count; i++) {
         const struct node_statistics *n = &s->nodes[i];
-        oracle->nodes[i] = (struct RadNodeCount){ n->name, n->tool, n->calls, to, n->answer_count };
+        oracle->nodes[i] = (struct RadNodeCount){n->name, n->tool, n->calls, to, n->answer_count};
         for (int k = 0; k < n->answer_count; k++)
-            *to++ = (struct RadAnswerCount){ n->answers[k].name, n->answers[k].kind, n->answers[k].target, n->answers[k].count };
+            *to++ = (struct RadAnswerCount){n->answers[k].name, n->answers[k].kind,
+                                            n->answers[k].target, n->answers[k].count};
     }
     for (int i = 0; i < RAD_RECORDS; i++) {
         oracle->zero[i] = s->records[i].zero;
@@ -269,12 +298,15 @@ int radGetOracleStatistics(RadOracle oracle, struct RadStatistics *statistics)
         return -1;
     forget_statistics(oracle);
     if (!oracle->counting)
-        return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION, "nothing is counted; radCountOracle comes first");
+        return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION,
+                        "nothing is counted; radCountOracle comes first");
     if (statistics_take(&oracle->counted, oracle->refiner) < 0 || show_statistics(oracle) < 0) {
         forget_statistics(oracle);
-        return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for the statistics");
+        return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY,
+                        "out of memory for the statistics");
     }
-    *statistics = (struct RadStatistics){ oracle->nodes, oracle->counted.node_count, oracle->counted.counts,
-                                          (const uint64_t (*)[RAD_BINS])oracle->bins, oracle->zero };
+    *statistics =
+        (struct RadStatistics){oracle->nodes, oracle->counted.node_count, oracle->counted.counts,
+                               (const uint64_t(*)[RAD_BINS])oracle->bins, oracle->zero};
     return 0;
 }

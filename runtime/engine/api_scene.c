@@ -1,4 +1,5 @@
-/* api_scene.c - scenes: materials and polygons of the caller's, checked and made into faces by the commit.
+/* api_scene.c - scenes: materials and polygons of the caller's, checked and made into faces by the
+ * commit.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -6,11 +7,13 @@
 #include "engine/api.h"
 
 /* A RadFace is a struct face under the name that programs know. */
-_Static_assert(sizeof(struct RadFace) == sizeof(struct face) && offsetof(struct RadFace, vertices) == offsetof(struct face, vertices)
+_Static_assert(sizeof(struct RadFace) == sizeof(struct face)
+                   && offsetof(struct RadFace, vertices) == offsetof(struct face, vertices)
                    && offsetof(struct RadFace, material) == offsetof(struct face, material)
                    && offsetof(struct RadFace, input) == offsetof(struct face, input)
                    && offsetof(struct RadFace, back) == offsetof(struct face, back)
-                   && offsetof(struct RadFace, black) == offsetof(struct face, black), "RadFace is struct face");
+                   && offsetof(struct RadFace, black) == offsetof(struct face, black),
+               "RadFace is struct face");
 
 RadScene radNewScene(RadDevice device)
 {
@@ -47,7 +50,8 @@ static int not_after_commit(RadScene scene, const char *what)
 {
     if (!scene->committed)
         return 0;
-    return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "%s of a committed scene cannot be changed; make another scene", what);
+    return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION,
+                    "%s of a committed scene cannot be changed; make another scene", what);
 }
 
 int radSetSceneMaterials(RadScene scene, const struct RadMaterial *materials, uint32_t count)
@@ -55,10 +59,12 @@ int radSetSceneMaterials(RadScene scene, const struct RadMaterial *materials, ui
     if (!scene || not_after_commit(scene, "the materials") < 0)
         return -1;
     if (!materials || count == 0)
-        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT, "a scene needs one material at least");
+        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "a scene needs one material at least");
     struct RadMaterial *copy = malloc(count * sizeof *copy);
     if (!copy)
-        return api_fail(scene->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for %u materials", (unsigned)count);
+        return api_fail(scene->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for %u materials",
+                        (unsigned)count);
     memcpy(copy, materials, count * sizeof *copy);
     free(scene->materials);
     scene->materials = copy;
@@ -71,12 +77,16 @@ int radSetSceneSharedPolygons(RadScene scene, const struct RadPolygons *polygons
     if (!scene || not_after_commit(scene, "the polygons") < 0)
         return -1;
     if (!polygons || polygons->count == 0)
-        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT, "a scene needs one polygon at least");
+        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "a scene needs one polygon at least");
     if (!polygons->positions || !polygons->indices)
-        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT, "RadPolygons has no %s", polygons->positions ? "indices" : "positions");
+        return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT, "RadPolygons has no %s",
+                        polygons->positions ? "indices" : "positions");
     if (!polygons->sizes && polygons->size < 3)
         return api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT,
-                        "polygons of %u corners: RadPolygons.size must be 3 or more, or RadPolygons.sizes be given", (unsigned)polygons->size);
+                        "polygons of %u corners: RadPolygons.size must be 3 or more, or "
+                        "RadPolygons.sizes be given",
+                        (unsigned)polygons->size);
     scene->polygons = *polygons;
     scene->polygons_set = 1;
     return 0;
@@ -86,8 +96,13 @@ static void make_report(RadScene scene)
 {
     const struct scene *s = &scene->scene;
     struct RadSceneReport *r = &scene->report;
-    *r = (struct RadSceneReport){ .polygons = s->input_count, .dropped = s->dropped, .cut = s->cut, .parts = s->parts,
-                                  .faces = s->face_count, .materials = s->material_count, .bands = s->bands };
+    *r = (struct RadSceneReport){.polygons = s->input_count,
+                                 .dropped = s->dropped,
+                                 .cut = s->cut,
+                                 .parts = s->parts,
+                                 .faces = s->face_count,
+                                 .materials = s->material_count,
+                                 .bands = s->bands};
     for (int k = 0; k < 3; k++) {
         r->low[k] = INFINITY;
         r->high[k] = -INFINITY;
@@ -109,12 +124,15 @@ int radCommitScene(RadScene scene)
     if (!scene || not_after_commit(scene, "anything") < 0)
         return -1;
     if (!scene->materials || !scene->polygons_set)
-        return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "set %s before radCommitScene", scene->materials ? "polygons" : "materials");
+        return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "set %s before radCommitScene",
+                        scene->materials ? "polygons" : "materials");
     struct scene_error error;
-    if (scene_build(&scene->scene, &scene->polygons, scene->materials, scene->material_count, scene->device->threads, &error) < 0)
+    if (scene_build(&scene->scene, &scene->polygons, scene->materials, scene->material_count,
+                    scene->device->threads, &error)
+        < 0)
         return api_fail(scene->device, error.code, "%s", error.text);
     make_report(scene);
-    scene->polygons = (struct RadPolygons){ 0 };
+    scene->polygons = (struct RadPolygons){0};
     free(scene->materials);
     scene->materials = NULL; /* the engine has its own */
     scene->committed = 1;
@@ -126,14 +144,16 @@ int radGetSceneReport(RadScene scene, struct RadSceneReport *report)
     if (!scene || !report)
         return -1;
     if (!scene->committed)
-        return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "radCommitScene comes before radGetSceneReport");
+        return api_fail(scene->device, RAD_ERROR_INVALID_OPERATION,
+                        "radCommitScene comes before radGetSceneReport");
     *report = scene->report;
     return 0;
 }
 
 const struct RadFace *radGetSceneFaces(RadScene scene)
 {
-    return scene && scene->committed ? (const struct RadFace *)(const void *)scene->scene.faces : NULL;
+    return scene && scene->committed ? (const struct RadFace *)(const void *)scene->scene.faces
+                                     : NULL;
 }
 
 const double *radGetScenePolygonAreas(RadScene scene)

@@ -6,10 +6,13 @@
 #include "engine/api.h"
 
 /* What programs see is what the engine has, under other names. */
-_Static_assert(sizeof(struct RadLink) == sizeof(struct link) && offsetof(struct RadLink, form_factor) == offsetof(struct link, form_factor)
+_Static_assert(sizeof(struct RadLink) == sizeof(struct link)
+                   && offsetof(struct RadLink, form_factor) == offsetof(struct link, form_factor)
                    && offsetof(struct RadLink, visibility) == offsetof(struct link, visibility)
-                   && offsetof(struct RadLink, mark) == offsetof(struct link, mark) && (int)RAD_LINK_VISIBLE == (int)LINK_VISIBLE
-                   && (int)RAD_LINK_MARKS == (int)LINK_MARKS, "RadLink is struct link");
+                   && offsetof(struct RadLink, mark) == offsetof(struct link, mark)
+                   && (int)RAD_LINK_VISIBLE == (int)LINK_VISIBLE
+                   && (int)RAD_LINK_MARKS == (int)LINK_MARKS,
+               "RadLink is struct link");
 
 #define TOLERANCE 1e-4 /* relative L1 error of B; chosen */
 enum { ITERATIONS = 100000 };
@@ -20,8 +23,7 @@ const char *const *radGetClusteringNames(void)
 #define X(constant, name, help) #name,
         CLUSTERINGS(X)
 #undef X
-        NULL
-    };
+            NULL};
     return names;
 }
 
@@ -46,42 +48,69 @@ static int check_camera(RadDevice device, const struct RadCamera *c)
 {
     if (!api_finite(c->eye, 3))
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "the camera's eye is not finite");
-    if (!near(dot(c->right, c->right), 1) || !near(dot(c->up, c->up), 1) || !near(dot(c->ahead, c->ahead), 1)
-        || !near(dot(c->right, c->up), 0) || !near(dot(c->up, c->ahead), 0) || !near(dot(c->ahead, c->right), 0))
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "the camera's right, up and ahead must have length 1 and be at right angles to each other");
+    if (!near(dot(c->right, c->right), 1) || !near(dot(c->up, c->up), 1)
+        || !near(dot(c->ahead, c->ahead), 1) || !near(dot(c->right, c->up), 0)
+        || !near(dot(c->up, c->ahead), 0) || !near(dot(c->ahead, c->right), 0))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "the camera's right, up and ahead must have length 1 and be at right "
+                        "angles to each other");
     if (!(c->wide > 0 && isfinite(c->wide) && c->high > 0 && isfinite(c->high)))
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "the camera's angles of view are tangents %g and %g; both must be above 0 and finite", c->wide, c->high);
+        return api_fail(
+            device, RAD_ERROR_INVALID_ARGUMENT,
+            "the camera's angles of view are tangents %g and %g; both must be above 0 and finite",
+            c->wide, c->high);
     return 0;
 }
 
 static int check_options(RadDevice device, const struct RadSolveOptions *o)
 {
     if (!(o->tolerance >= 0 && o->tolerance < 1))
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadSolveOptions.tolerance is %g; it takes a number above 0 and below 1, or 0 for the default", o->tolerance);
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.tolerance is %g; it takes a number above 0 and below 1, "
+                        "or 0 for the default",
+                        o->tolerance);
     if (o->iterations < 0)
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadSolveOptions.iterations is %d; it takes 1 or more, or 0 for the default", o->iterations);
+        return api_fail(
+            device, RAD_ERROR_INVALID_ARGUMENT,
+            "RadSolveOptions.iterations is %d; it takes 1 or more, or 0 for the default",
+            o->iterations);
     if (o->closure != RAD_CLOSURE_NONE && o->closure != RAD_CLOSURE_ROWS)
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "RadSolveOptions.closure takes RAD_CLOSURE_NONE or RAD_CLOSURE_ROWS");
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.closure takes RAD_CLOSURE_NONE or RAD_CLOSURE_ROWS");
     if (o->clustering && clustering_of(o->clustering) < 0)
-        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "there is no clustering '%s'; radGetClusteringNames tells those that there are", o->clustering);
+        return api_fail(
+            device, RAD_ERROR_INVALID_ARGUMENT,
+            "there is no clustering '%s'; radGetClusteringNames tells those that there are",
+            o->clustering);
     return o->camera ? check_camera(device, o->camera) : 0;
 }
 
 static int watch(void *context, const struct solve *s, const char *phase)
 {
     const struct RadSolutionObject *solution = context;
-    const struct RadProgress progress = { phase, s->report.passes + 1, s->refinement.rounds, s->refinement.pairs, s->refinement.queue_count,
-                                          s->refinement.link_count, rays_count(s->problem.rays).rays, s->report.residual };
+    const struct RadProgress progress = {phase,
+                                         s->report.passes + 1,
+                                         s->refinement.rounds,
+                                         s->refinement.pairs,
+                                         s->refinement.queue_count,
+                                         s->refinement.link_count,
+                                         rays_count(s->problem.rays).rays,
+                                         s->report.residual};
     return api_progress(solution->scene->device, &progress);
 }
 
 static struct solve_options engine_options(RadSolution solution, const struct RadSolveOptions *o)
 {
-    struct solve_options options = { .tolerance = o->tolerance > 0 ? o->tolerance : TOLERANCE, .iterations = o->iterations ? o->iterations : ITERATIONS,
-                                     .jacobi = o->jacobi != 0, .threads = solution->scene->device->threads,
-                                     .closure = o->closure == RAD_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE,
-                                     .clusters = o->clustering ? 1 + clustering_of(o->clustering) : 0, .unit = o->unit != 0,
-                                     .progress = watch, .context = solution };
+    struct solve_options options = {
+        .tolerance = o->tolerance > 0 ? o->tolerance : TOLERANCE,
+        .iterations = o->iterations ? o->iterations : ITERATIONS,
+        .jacobi = o->jacobi != 0,
+        .threads = solution->scene->device->threads,
+        .closure = o->closure == RAD_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE,
+        .clusters = o->clustering ? 1 + clustering_of(o->clustering) : 0,
+        .unit = o->unit != 0,
+        .progress = watch,
+        .context = solution};
     if (o->camera) {
         const struct RadCamera *c = o->camera;
         struct camera *to = &solution->camera;
@@ -100,15 +129,17 @@ RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSol
 {
     static const struct RadSolveOptions defaults;
     const struct RadSolveOptions *o = given ? given : &defaults;
-    const char *cause;
     if (!scene)
         return NULL;
     if (!scene->committed) {
-        api_fail(scene->device, RAD_ERROR_INVALID_OPERATION, "radCommitScene comes before radNewSolution");
+        api_fail(scene->device, RAD_ERROR_INVALID_OPERATION,
+                 "radCommitScene comes before radNewSolution");
         return NULL;
     }
     if (!oracle) {
-        api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT, "a solution needs an oracle; radNewOracle(device, radGetDefaultOracle(), RAD_RELEASE_FLAT) makes one");
+        api_fail(scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                 "a solution needs an oracle; radNewOracle(device, radGetDefaultOracle(), "
+                 "RAD_RELEASE_FLAT) makes one");
         return NULL;
     }
     if (check_options(scene->device, o) < 0)
@@ -122,6 +153,7 @@ RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSol
     solution->scene = scene;
     solution->oracle = oracle;
     struct solve_options options = engine_options(solution, o);
+    const char *cause;
     if (solve_open(&solution->solve, &scene->scene, &options, &cause) < 0) {
         api_fail(scene->device, api_cause(cause), "%s", cause);
         free(solution);
@@ -163,7 +195,8 @@ static int not_dead(RadSolution solution)
     if (!solution)
         return -1;
     if (solution->dead)
-        return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION, "the solution was cancelled or has failed; release it and make another");
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION,
+                        "the solution was cancelled or has failed; release it and make another");
     return 0;
 }
 
@@ -175,11 +208,12 @@ static int is_refined(RadSolution solution)
 
 int radRefine(RadSolution solution)
 {
-    const char *cause;
     if (not_dead(solution) < 0)
         return -1;
     if (is_refined(solution))
-        return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION, "radRefine comes first and once; radStep refines further");
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION,
+                        "radRefine comes first and once; radStep refines further");
+    const char *cause;
     if (solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return give_up(solution, cause);
     return 0;
@@ -187,12 +221,13 @@ int radRefine(RadSolution solution)
 
 int radStep(RadSolution solution)
 {
-    const char *cause;
     if (not_dead(solution) < 0)
         return -1;
     if (solution->done)
         return 0;
-    if (!is_refined(solution) && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
+    const char *cause;
+    if (!is_refined(solution)
+        && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return give_up(solution, cause);
     int more = solve_step(&solution->solve, &cause);
     solution->done = more == 0;
@@ -201,9 +236,9 @@ int radStep(RadSolution solution)
 
 int radSolve(RadSolution solution)
 {
-    const char *cause;
     if (not_dead(solution) < 0)
         return -1;
+    const char *cause;
     if (!solution->done && solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return give_up(solution, cause);
     solution->done = 1;
@@ -218,10 +253,14 @@ int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, 
     const struct scene *scene = s->problem.scene;
     const uint32_t bands = s->problem.bands;
     if (band >= bands)
-        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT, "there is no band %u; there are %u, from 0", (unsigned)band, (unsigned)bands);
-    double *area = calloc(2 * (size_t)scene->input_count, sizeof *area), *bare = area ? area + scene->input_count : NULL;
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "there is no band %u; there are %u, from 0", (unsigned)band,
+                        (unsigned)bands);
+    double *area = calloc(2 * (size_t)scene->input_count, sizeof *area),
+           *bare = area ? area + scene->input_count : NULL;
     if (!area)
-        return api_fail(solution->scene->device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for values of %u polygons", (unsigned)scene->input_count);
+        return api_fail(solution->scene->device, RAD_ERROR_OUT_OF_MEMORY,
+                        "out of memory for values of %u polygons", (unsigned)scene->input_count);
     for (uint32_t i = 0; i < scene->input_count; i++) {
         if (radiosity)
             radiosity[i] = 0;
@@ -234,7 +273,8 @@ int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, 
         area[input] += a;
         bare[input] += a * s->operator.uncovered[e];
         if (radiosity)
-            radiosity[input] += a * s->operator.uncovered[e] * s->state.radiosity[(size_t)e * bands + band];
+            radiosity[input] +=
+                a * s->operator.uncovered[e] * s->state.radiosity[(size_t)e * bands + band];
         if (irradiance)
             irradiance[input] += a * s->state.irradiance[(size_t)e * bands + band];
     }
@@ -252,23 +292,25 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
 {
     if (!elements)
         return;
-    *elements = (struct RadElements){ 0 };
+    *elements = (struct RadElements){0};
     if (!solution || solution->dead)
         return;
     const struct solve *s = &solution->solve;
-    *elements = (struct RadElements){ s->hierarchy.elements, s->started, s->hierarchy.built, s->hierarchy.face_element, s->problem.bands,
-                                      s->state.radiosity, s->state.irradiance, s->operator.uncovered };
+    *elements = (struct RadElements){
+        s->hierarchy.elements, s->started, s->hierarchy.built, s->hierarchy.face_element,
+        s->problem.bands, s->state.radiosity, s->state.irradiance, s->operator.uncovered };
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)
 {
     if (!links)
         return;
-    *links = (struct RadLinks){ 0 };
+    *links = (struct RadLinks){0};
     if (!solution || solution->dead || !is_refined(solution))
         return;
     const struct refinement *r = &solution->solve.refinement;
-    *links = (struct RadLinks){ (const struct RadLink *)(const void *)r->links, r->link_count, r->first_link };
+    *links = (struct RadLinks){(const struct RadLink *)(const void *)r->links, r->link_count,
+                               r->first_link};
 }
 
 const struct host *radGetHost(RadSolution solution)
@@ -294,16 +336,29 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     const struct solve *s = &solution->solve;
     const struct row_report *rows = &s->report.rows;
     *report = (struct RadReport){
-        .elements = s->hierarchy.count, .leaves = count_leaves(&s->hierarchy), .bands = s->problem.bands, .links = s->refinement.link_count,
-        .pairs = s->refinement.pairs, .rounds = s->refinement.rounds, .rays = rays_count(s->problem.rays).rays,
-        .passes = s->report.passes, .iterations = s->report.sweeps, .converged = s->report.converged, .changing = s->report.changing,
-        .residual = s->report.residual, .emitted = s->report.emitted, .absorbed = s->report.absorbed,
-        .rows = { rows->low, rows->high, rows->defect_mean, rows->defect_most, rows->blind_area, rows->moved },
-        .closed = s->problem.options.closure == CLOSURE_NONE ? -1 : s->problem.closed, .closed_rays = s->problem.closed_rays,
-        .importance = { s->importance.sweeps, s->importance.largest, s->importance.mean, s->importance.seen },
-        .tolerance = { s->error.target, s->error.largest, s->error.area },
-        .seconds = { s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate, s->report.seconds.in_rays,
-                     s->report.seconds.clusters } };
+        .elements = s->hierarchy.count,
+        .leaves = count_leaves(&s->hierarchy),
+        .bands = s->problem.bands,
+        .links = s->refinement.link_count,
+        .pairs = s->refinement.pairs,
+        .rounds = s->refinement.rounds,
+        .rays = rays_count(s->problem.rays).rays,
+        .passes = s->report.passes,
+        .iterations = s->report.sweeps,
+        .converged = s->report.converged,
+        .changing = s->report.changing,
+        .residual = s->report.residual,
+        .emitted = s->report.emitted,
+        .absorbed = s->report.absorbed,
+        .rows = {rows->low, rows->high, rows->defect_mean, rows->defect_most, rows->blind_area,
+                 rows->moved},
+        .closed = s->problem.options.closure == CLOSURE_NONE ? -1 : s->problem.closed,
+        .closed_rays = s->problem.closed_rays,
+        .importance = {s->importance.sweeps, s->importance.largest, s->importance.mean,
+                       s->importance.seen},
+        .tolerance = {s->error.target, s->error.largest, s->error.area},
+        .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,
+                    s->report.seconds.in_rays, s->report.seconds.clusters}};
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

@@ -1,13 +1,17 @@
 /* closure.c - rows that sum to what they should.
  *
  * rows: each row by its own factor; A_i F_ij = A_j F_ji is lost.
- * reciprocal: the symmetric matrix nearest to the exchange areas E = A_i F_ij, in relative entropy, whose rows sum to A_i: it is
+ * reciprocal: the symmetric matrix nearest to the exchange areas E = A_i F_ij, in relative entropy,
+ * whose rows sum to A_i: it is
  *     E'_ij = d_i d_j E_ij,   d_i sum_j E_ij d_j = A_i,
- * found by d_i <- sqrt(d_i A_i / sum_j E_ij d_j). Zeros stay zeros, nothing gets negative, the two ways round stay one number, and
- * to first order it is the least-squares correction with weights E_ij of Larsen & Howell 1986 and Lawson 1995.
- * [van Leersum 1989 for view factors; scaling: Sinkhorn 1964, symmetric and by square roots Knight, Ruiz & Ucar 2014]
- * A row that may sum to less has d_i <= 1, and less only where its sum would be above its area.
- * Fails where no such matrix exists, as for two faces of different size that see only each other: `left` then says what is missing.
+ * found by d_i <- sqrt(d_i A_i / sum_j E_ij d_j). Zeros stay zeros, nothing gets negative, the two
+ * ways round stay one number, and to first order it is the least-squares correction with weights
+ * E_ij of Larsen & Howell 1986 and Lawson 1995.
+ * [van Leersum 1989 for view factors; scaling: Sinkhorn 1964, symmetric and by square roots Knight,
+ * Ruiz & Ucar 2014] A row that may sum to less has d_i <= 1, and less only where its sum would be
+ * above its area.
+ * Fails where no such matrix exists, as for two faces of different size that see only each other:
+ * `left` then says what is missing.
  * SPDX-License-Identifier: MIT */
 #include "engine/closure.h"
 
@@ -16,7 +20,7 @@
 #include "engine/exchange_areas.h"
 #include "kernel/constants.h"
 
-const char *const closure_names[CLOSURES] = { "none", "rows", "reciprocal" };
+const char *const closure_names[CLOSURES] = {"none", "rows", "reciprocal"};
 
 enum { ITERATIONS = 500 };
 
@@ -25,7 +29,8 @@ double closure_row_scale(double sum, double whole, int closed)
     return sum > 0 && (closed || sum > whole) ? whole / sum : 1;
 }
 
-static void close_rows(struct exchange_closure *c, const struct exchange_areas *m, const double *sums, const unsigned char *closed)
+static void close_rows(struct exchange_closure *c, const struct exchange_areas *m,
+                       const double *sums, const unsigned char *closed)
 {
     for (uint32_t i = 0; i < m->inputs; i++) {
         c->scale[i] = closure_row_scale(sums[i], m->area[i], closed[i]);
@@ -33,7 +38,8 @@ static void close_rows(struct exchange_closure *c, const struct exchange_areas *
     }
 }
 
-static int close_both_ways(struct exchange_closure *c, const struct exchange_areas *m, const unsigned char *closed)
+static int close_both_ways(struct exchange_closure *c, const struct exchange_areas *m,
+                           const unsigned char *closed)
 {
     double *sums = malloc((m->inputs + 1) * sizeof *sums), low = 1, high = 1;
     if (!sums)
@@ -64,10 +70,11 @@ static int close_both_ways(struct exchange_closure *c, const struct exchange_are
     return 0;
 }
 
-int exchange_closure_make(struct exchange_closure *c, enum closure kind, const struct exchange_areas *m, const double *sums,
+int exchange_closure_make(struct exchange_closure *c, enum closure kind,
+                          const struct exchange_areas *m, const double *sums,
                           const unsigned char *closed)
 {
-    *c = (struct exchange_closure){ 0 };
+    *c = (struct exchange_closure){0};
     if (kind == CLOSURE_NONE)
         return 0;
     c->scale = malloc((m->inputs + 1) * sizeof *c->scale);
@@ -88,5 +95,5 @@ int exchange_closure_make(struct exchange_closure *c, enum closure kind, const s
 void exchange_closure_free(struct exchange_closure *c)
 {
     free(c->scale);
-    *c = (struct exchange_closure){ 0 };
+    *c = (struct exchange_closure){0};
 }

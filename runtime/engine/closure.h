@@ -1,7 +1,7 @@
 /* closure.h - rows that sum to what they should.
  *
- * A row is what a surface gathers of all others, sum of F V, which is 1 when the surface sees nothing but surfaces, and less
- * where light comes in from outside the scene or from black backs.
+ * A row is what a surface gathers of all others, sum of F V, which is 1 when the surface sees
+ * nothing but surfaces, and less where light comes in from outside the scene or from black backs.
  * SPDX-License-Identifier: MIT */
 #ifndef CLOSURE_H
 #define CLOSURE_H
@@ -20,16 +20,20 @@ double closure_row_scale(double sum, double whole, int closed);
 /* What closure does to a matrix of exchange areas. */
 struct exchange_areas;
 struct exchange_closure {
-    double *scale;  /* [inputs]: F_ij is multiplied by scale[i] (rows), by scale[i] scale[j] (reciprocal); NULL: by 1 */
-    int both;       /* 1: by both */
+    /* [inputs]: F_ij is multiplied by scale[i] (rows), by scale[i] scale[j] (reciprocal); NULL:
+     * by 1 */
+    double *scale;
+    int both; /* 1: by both */
     int iterations;
-    double left;    /* reciprocal: the largest |1 - sum| that is left of rows that ought to sum to 1 */
-    double change;  /* the largest |factor - 1| that a view factor took */
+    /* reciprocal: the largest |1 - sum| that is left of rows that ought to sum to 1 */
+    double left;
+    double change; /* the largest |factor - 1| that a view factor took */
 };
 
-/* sums: row sums of A_i F_ij (m2). closed: by row, 1: it ought to sum to A_i; others are only kept from summing to more.
- * Returns 0, or -1 when out of memory. */
-int exchange_closure_make(struct exchange_closure *c, enum closure kind, const struct exchange_areas *m, const double *sums,
+/* sums: row sums of A_i F_ij (m2). closed: by row, 1: it ought to sum to A_i; others are only kept
+ * from summing to more. Returns 0, or -1 when out of memory. */
+int exchange_closure_make(struct exchange_closure *c, enum closure kind,
+                          const struct exchange_areas *m, const double *sums,
                           const unsigned char *closed);
 void exchange_closure_free(struct exchange_closure *c);
 

@@ -1,16 +1,19 @@
-/* error_control.c - the solver tells the oracle how large the error of one link may be at each receiver.
+/* error_control.c - the solver tells the oracle how large the error of one link may be at each
+ * receiver.
  *
- * A link's share in the error of a radiosity depends on how many others there are and on their signs, so no threshold
- * per link holds an error eps. So the error tolerance of every face starts at (1 - rho) eps, for what reflection makes
- * of a local error is at most 1 / (1 - rho) of it; after each solve the error of each leaf is estimated (residual.c);
- * where it is above eps the leaf's tolerance is divided by ERROR_STEP, an element's is the least of its children's, and
- * the links are discussed again: until no estimate is above eps, or nothing can be split.
+ * A link's share in the error of a radiosity depends on how many others there are and on their
+ * signs, so no threshold per link holds an error eps. So the error tolerance of every face starts
+ * at (1 - rho) eps, for what reflection makes of a local error is at most 1 / (1 - rho) of it;
+ * after each solve the error of each leaf is estimated (residual.c); where it is above eps the
+ * leaf's tolerance is divided by ERROR_STEP, an element's is the least of its children's, and the
+ * links are discussed again: until no estimate is above eps, or nothing can be split.
  *
- * A leaf is given up, and reported, when the links that a guard kept whole are above eps by themselves, as beside
- * an edge that elements share, where F has all values from 0 to 1/2 at every size: lowering its tolerance, and with it
- * its ancestors', would split everything else without end. Or when tolerance times links is far below eps (ERROR_ENOUGH):
- * then all links together are within eps by the oracle's own measure, and what is left is none that it knows.
- * Unreliable in half shadow, as its estimate is. [Bekaert and Willems 1996; the end: derived here]
+ * A leaf is given up, and reported, when the links that a guard kept whole are above eps by
+ * themselves, as beside an edge that elements share, where F has all values from 0 to 1/2 at every
+ * size: lowering its tolerance, and with it its ancestors', would split everything else without
+ * end. Or when tolerance times links is far below eps (ERROR_ENOUGH): then all links together are
+ * within eps by the oracle's own measure, and what is left is none that it knows. Unreliable in
+ * half shadow, as its estimate is. [Bekaert and Willems 1996; the end: derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +49,8 @@ static void lower_ancestors(struct hierarchy *h, struct oracle_inputs *in)
     }
 }
 
-void error_control_start(struct error_control *c, double target, struct hierarchy *h, struct oracle_inputs *in)
+void error_control_start(struct error_control *c, double target, struct hierarchy *h,
+                         struct oracle_inputs *in)
 {
     c->target = target;
     for (uint32_t i = 0; i < h->face_count; i++) {
@@ -57,13 +61,14 @@ void error_control_start(struct error_control *c, double target, struct hierarch
 }
 
 /* Leaves of which any part is uncovered: others have no light whose error could count. */
-static int counts(const struct operator *op, uint32_t e)
+static int counts(const struct operator* op, uint32_t e)
 {
     const struct element *x = &op->hierarchy->elements[e];
     return x->vertices && !x->children && op->uncovered[e] > 0;
 }
 
-int error_control_estimate(struct error_control *c, const struct operator *op, const double *radiosity)
+int error_control_estimate(struct error_control *c, const struct operator* op,
+                           const double *radiosity)
 {
     const struct hierarchy *h = op->hierarchy;
     if (h->count > c->room) {
@@ -88,8 +93,8 @@ int error_control_estimate(struct error_control *c, const struct operator *op, c
     return 0;
 }
 
-uint32_t error_control_tighten(const struct error_control *c, const struct operator *op, struct hierarchy *h,
-                               struct oracle_inputs *in)
+uint32_t error_control_tighten(const struct error_control *c, const struct operator* op,
+                               struct hierarchy *h, struct oracle_inputs *in)
 {
     uint32_t lowered = 0;
     for (uint32_t i = 0; i < h->count; i++) {

@@ -1,10 +1,11 @@
 /* exchange.c - the view factors of a scene.
  *
- * A tree of flat groups (exchange_tree.c) is refined by an oracle with B = 1 on every face; its links become exchange areas of
- * faces (exchange_areas.c). Faces count as in the input: one with two sides, or cut into parts, is one row, a mean over its
- * parts. A row lacks something where light leaves the scene, or by error; which of the two, rays say (visibility/environment.h).
- * Rows that sum to 1 within the tolerance need none, unless closure must know: what they lack is less than what they may be
- * wrong by.
+ * A tree of flat groups (exchange_tree.c) is refined by an oracle with B = 1 on every face; its
+ * links become exchange areas of faces (exchange_areas.c). Faces count as in the input: one with
+ * two sides, or cut into parts, is one row, a mean over its parts. A row lacks something where
+ * light leaves the scene, or by error; which of the two, rays say (visibility/environment.h). Rows
+ * that sum to 1 within the tolerance need none, unless closure must know: what they lack is less
+ * than what they may be wrong by.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,8 @@ struct way_out {
 void exchange_set_tolerance(struct refiner *refiner, double tolerance)
 {
     for (int i = -1; (i = refiner_find_role(refiner, ROLE_SHADOW_TOLERANCE, i)) >= 0;)
-        (void)refiner_set(refiner, refiner->parameters[i].name, refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
+        (void)refiner_set(refiner, refiner->parameters[i].name,
+                          refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
 }
 
 struct watcher {
@@ -47,7 +49,9 @@ static int watch_round(void *context, const struct refinement *refinement)
 
 static int refine(struct exchange *x, const struct refiner *refiner, struct watcher *watcher)
 {
-    if (refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner, watcher->options->threads) < 0)
+    if (refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner,
+                        watcher->options->threads)
+        < 0)
         return -1;
     x->refinement.watch = watch_round;
     x->refinement.watch_context = watcher;
@@ -66,11 +70,14 @@ static struct way_out ask_row(const struct exchange *x, uint32_t i)
         backs += ray * f.backs;
         covered += ray * f.covered;
     }
-    return (struct way_out){ (float)(leaves / m->area[i]), (float)(backs / m->area[i]), (float)(covered / m->area[i]) };
+    return (struct way_out){(float)(leaves / m->area[i]), (float)(backs / m->area[i]),
+                            (float)(covered / m->area[i])};
 }
 
-/* The account of rows: what they sum to, and what becomes of the light that they lack. closed[i]: row i ought to sum to 1. */
-static void account(struct exchange *x, const double *share, const struct way_out *ways, unsigned char *closed)
+/* The account of rows: what they sum to, and what becomes of the light that they lack.
+ * closed[i]: row i ought to sum to 1. */
+static void account(struct exchange *x, const double *share, const struct way_out *ways,
+                    unsigned char *closed)
 {
     struct exchange_report *r = &x->report;
     const struct exchange_areas *m = &x->areas;
@@ -106,7 +113,8 @@ static void account(struct exchange *x, const double *share, const struct way_ou
 static int close_rows(struct exchange *x, const struct exchange_options *o)
 {
     const struct exchange_areas *m = &x->areas;
-    double *share = malloc((m->inputs + 1) * sizeof *share), *sums = malloc((m->inputs + 1) * sizeof *sums);
+    double *share = malloc((m->inputs + 1) * sizeof *share),
+           *sums = malloc((m->inputs + 1) * sizeof *sums);
     struct way_out *ways = calloc(m->inputs + 1, sizeof *ways);
     unsigned char *closed = malloc(m->inputs + 1);
     int status = -1;
@@ -116,7 +124,8 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(o->threads)
         for (uint32_t i = 0; i < m->inputs; i++)
-            if (m->area[i] > 0 && (o->closure != CLOSURE_NONE || !(fabs(1 - share[i]) <= o->tolerance)))
+            if (m->area[i] > 0
+                && (o->closure != CLOSURE_NONE || !(fabs(1 - share[i]) <= o->tolerance)))
                 ways[i] = ask_row(x, i);
         account(x, share, ways, closed);
         status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
@@ -128,16 +137,19 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
     return status;
 }
 
-static int compute(struct exchange *x, const struct scene *scene, const struct refiner *refiner, const struct exchange_options *o)
+static int compute(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
+                   const struct exchange_options *o)
 {
-    struct watcher watcher = { x, o };
-    double near = fmax(EXCHANGE_NEAR * pow(EXCHANGE_TOLERANCE / o->tolerance, EXCHANGE_NEAR_FALL), EXCHANGE_NEAR_LEAST);
-    double start = seconds(), middle;
+    struct watcher watcher = {x, o};
+    double near = fmax(EXCHANGE_NEAR * pow(EXCHANGE_TOLERANCE / o->tolerance, EXCHANGE_NEAR_FALL),
+                       EXCHANGE_NEAR_LEAST);
+    double start = seconds();
     if (refine(x, refiner, &watcher) < 0)
         return -1;
-    middle = seconds();
+    double middle = seconds();
     x->report.seconds.refine = middle - start;
-    if (tell(&watcher, "factors") != 0 || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
+    if (tell(&watcher, "factors") != 0
+        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
         return -1;
     refinement_close(&x->refinement);
     if (close_rows(x, o) < 0)
@@ -151,15 +163,16 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     return 0;
 }
 
-int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner, const struct exchange_options *options,
-                  const char **cause)
+int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
+                  const struct exchange_options *options, const char **cause)
 {
     memset(x, 0, sizeof *x);
     if (exchange_tree_open(&x->tree, scene->faces, scene->face_count, options->threads, cause) < 0)
         return -1;
     if (compute(x, scene, refiner, options) == 0)
         return 0;
-    *cause = x->cancelled ? NULL : "out of memory for exchange areas; a larger tolerance needs less";
+    *cause =
+        x->cancelled ? NULL : "out of memory for exchange areas; a larger tolerance needs less";
     exchange_close(x);
     return -1;
 }

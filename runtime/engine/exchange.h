@@ -1,4 +1,5 @@
-/* exchange.h - the view factors of a scene: F_ij, the share of what leaves input face i evenly that meets input face j.
+/* exchange.h - the view factors of a scene: F_ij, the share of what leaves input face i evenly that
+ * meets input face j.
  * SPDX-License-Identifier: MIT */
 #ifndef EXCHANGE_H
 #define EXCHANGE_H
@@ -12,8 +13,8 @@ struct exchange_options {
     double tolerance; /* error of a row's sum to work for, > 0 (EXCHANGE_TOLERANCE) */
     enum closure closure;
     int threads;
-    /* Told from the calling thread after each round of refinement ("refine") and before values are computed ("factors"); anything but
-     * 0 cancels. NULL: nobody is. */
+    /* Told from the calling thread after each round of refinement ("refine") and before values are
+     * computed ("factors"); anything but 0 cancels. NULL: nobody is. */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
     void *context; /* of progress */
 };
@@ -21,11 +22,16 @@ struct exchange_options {
 struct exchange_report {
     uint64_t links, pairs, rays;
     double low, high; /* of all rows' sums, before closure */
-    uint32_t rows_closed, rows_open, rows_covered; /* that ought to sum to 1; see the environment, or a black back; are covered in part */
+    /* that ought to sum to 1; see the environment, or a black back; are covered in part */
+    uint32_t rows_closed, rows_open, rows_covered;
     double defect_most, defect_mean; /* |1 - sum| of the closed ones, before closure */
-    double environment_most, environment_mean; /* what the open ones lack: the most, and the mean over all area */
-    double closure_change, closure_left; /* largest |factor - 1| that a view factor took; largest |1 - sum| left */
-    struct { double refine, fill; } seconds;
+    /* what the open ones lack: the most, and the mean over all area */
+    double environment_most, environment_mean;
+    /* largest |factor - 1| that a view factor took; largest |1 - sum| left */
+    double closure_change, closure_left;
+    struct {
+        double refine, fill;
+    } seconds;
 };
 
 struct exchange {
@@ -37,18 +43,19 @@ struct exchange {
     int cancelled;
 };
 
-/* Parameters of the oracle viewfactors whose defaults are made for EXCHANGE_TOLERANCE become what this tolerance asks for. Before
- * any parameter is set by hand. */
+/* Parameters of the oracle viewfactors whose defaults are made for EXCHANGE_TOLERANCE become what
+ * this tolerance asks for. Before any parameter is set by hand. */
 void exchange_set_tolerance(struct refiner *refiner, double tolerance);
 
-/* Compute everything. The scene is borrowed and must outlive the exchange, the refiner need not. Returns 0; on failure -1 with
- * *cause set (a constant string) and nothing to free; *cause is NULL when the progress function has cancelled. */
-int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner, const struct exchange_options *options,
-                  const char **cause);
+/* Compute everything. The scene is borrowed and must outlive the exchange, the refiner need not.
+ * Returns 0; on failure -1 with *cause set (a constant string) and nothing to free; *cause is NULL
+ * when the progress function has cancelled. */
+int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
+                  const struct exchange_options *options, const char **cause);
 void exchange_close(struct exchange *x);
 
-/* Row i of F_ij, after closure, none above 1: row[areas.inputs]. Returns its sum; 0 of a face that was dropped. Safe from many
- * threads at once. */
+/* Row i of F_ij, after closure, none above 1: row[areas.inputs]. Returns its sum; 0 of a face that
+ * was dropped. Safe from many threads at once. */
 double exchange_row(const struct exchange *x, uint32_t i, double *row);
 
 #endif

@@ -1,6 +1,7 @@
 /* exchange_areas.c - from links to the exchange areas of all pairs of faces.
  *
- * A link of two groups stands for a block of pairs, cut into tiles; what stands in a tile is exchange_blocks.c's.
+ * A link of two groups stands for a block of pairs, cut into tiles; what stands in a tile is
+ * exchange_blocks.c's.
  * Invariant: one value per pair serves both rows, so A_i F_ij = A_j F_ji to rounding.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -8,10 +9,12 @@
 #include "engine/exchange_areas.h"
 #include "engine/exchange_blocks.h"
 
-/* Blocks are no larger, so that a column's values are in the cache while its neighbours' rows are written. */
+/* Blocks are no larger, so that a column's values are in the cache while its neighbours' rows
+ * are written. */
 enum { TILE = 64 };
 
-/* One of the two links between the same two elements: the one whose receiver stands later in the tree's order. */
+/* One of the two links between the same two elements: the one whose receiver stands later in the
+ * tree's order. */
 static int link_counts(const struct exchange_tree *t, const struct link *link)
 {
     return hierarchy_range(&t->h, link->receiver).from > hierarchy_range(&t->h, link->emitter).from;
@@ -20,11 +23,12 @@ static int link_counts(const struct exchange_tree *t, const struct link *link)
 /* The blocks of a link, with the link that each is of; NULL: count them only. */
 static void add_tiles(struct exchange_areas *m, const struct link *link, const struct link **links)
 {
-    struct face_range r = hierarchy_range(&m->tree->h, link->receiver), s = hierarchy_range(&m->tree->h, link->emitter);
-    uint32_t i, j;
-    for (i = r.from; i < r.to; i += TILE)
-        for (j = s.from; j < s.to; j += TILE) {
-            struct exchange_block b = { i, r.to - i < TILE ? r.to - i : TILE, j, s.to - j < TILE ? s.to - j : TILE, m->value_count };
+    struct face_range r = hierarchy_range(&m->tree->h, link->receiver),
+                      s = hierarchy_range(&m->tree->h, link->emitter);
+    for (uint32_t i = r.from; i < r.to; i += TILE)
+        for (uint32_t j = s.from; j < s.to; j += TILE) {
+            struct exchange_block b = {i, r.to - i < TILE ? r.to - i : TILE, j,
+                                       s.to - j < TILE ? s.to - j : TILE, m->value_count};
             if (links) {
                 m->blocks[m->block_count] = b;
                 links[m->block_count] = link;
@@ -37,19 +41,23 @@ static void add_tiles(struct exchange_areas *m, const struct link *link, const s
 static int fill(struct exchange_areas *m, const struct link **links, double near, int threads)
 {
     const struct element *elements = m->tree->h.elements;
-    struct exchange_faces faces = { .all = NULL };
+    struct exchange_faces faces = {.all = NULL};
     int failed = 0;
     if (exchange_faces_open(&faces, m->tree) < 0)
         return -1;
 #pragma omp parallel num_threads(threads) reduction(| : failed)
     {
-        struct exchange_scratch scratch = { .shift = { NULL } };
+        struct exchange_scratch scratch = {.shift = {NULL}};
         failed |= exchange_scratch_open(&scratch, TILE) < 0;
 #pragma omp for schedule(dynamic, 32)
         for (size_t i = 0; i < m->block_count; i++) {
             const struct exchange_block *b = &m->blocks[i];
-            const struct exchange_pair pair = { m->tree, &elements[links[i]->receiver], &elements[links[i]->emitter],
-                                                { b->row, b->row + b->rows }, { b->column, b->column + b->columns }, near };
+            const struct exchange_pair pair = {m->tree,
+                                               &elements[links[i]->receiver],
+                                               &elements[links[i]->emitter],
+                                               {b->row, b->row + b->rows},
+                                               {b->column, b->column + b->columns},
+                                               near};
             if (!failed)
                 exchange_block_fill(&faces, &pair, links[i], &scratch, m->values + b->at);
         }
@@ -62,28 +70,26 @@ static int fill(struct exchange_areas *m, const struct link **links, double near
 /* Which blocks hold a place. */
 static int make_index(struct exchange_areas *m)
 {
-    size_t i;
-    uint32_t k;
     m->entry = calloc(m->faces + 2, sizeof *m->entry);
     if (!m->entry)
         return -1;
-    for (i = 0; i < m->block_count; i++) {
+    for (size_t i = 0; i < m->block_count; i++) {
         const struct exchange_block *b = &m->blocks[i];
-        for (k = 0; k < b->rows; k++)
+        for (uint32_t k = 0; k < b->rows; k++)
             m->entry[b->row + k + 2]++;
-        for (k = 0; k < b->columns; k++)
+        for (uint32_t k = 0; k < b->columns; k++)
             m->entry[b->column + k + 2]++;
     }
-    for (k = 2; k < m->faces + 2; k++)
+    for (uint32_t k = 2; k < m->faces + 2; k++)
         m->entry[k] += m->entry[k - 1];
     m->index = malloc((m->entry[m->faces + 1] + 1) * sizeof *m->index);
     if (!m->index)
         return -1;
-    for (i = 0; i < m->block_count; i++) {
+    for (size_t i = 0; i < m->block_count; i++) {
         const struct exchange_block *b = &m->blocks[i];
-        for (k = 0; k < b->rows; k++)
+        for (uint32_t k = 0; k < b->rows; k++)
             m->index[m->entry[b->row + k + 1]++] = (uint32_t)(2 * i);
-        for (k = 0; k < b->columns; k++)
+        for (uint32_t k = 0; k < b->columns; k++)
             m->index[m->entry[b->column + k + 1]++] = (uint32_t)(2 * i + 1);
     }
     return 0;
@@ -92,7 +98,6 @@ static int make_index(struct exchange_areas *m)
 /* The rows: which faces are parts of which input face. */
 static int find_inputs(struct exchange_areas *m, const struct scene *scene)
 {
-    uint32_t p;
     m->input = malloc(m->faces * sizeof *m->input);
     m->area = calloc(m->inputs + 1, sizeof *m->area);
     m->first = malloc((m->inputs + 1) * sizeof *m->first);
@@ -100,7 +105,7 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
     if (!m->input || !m->area || !m->first || !m->next)
         return -1;
     memset(m->first, 0xff, (m->inputs + 1) * sizeof *m->first);
-    for (p = m->faces; p-- > 0;) {
+    for (uint32_t p = m->faces; p-- > 0;) {
         uint32_t face = m->tree->h.order[p], i = scene->faces[face].input;
         m->input[p] = i;
         m->next[p] = m->first[i];
@@ -110,24 +115,24 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
     return 0;
 }
 
-int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree, const struct scene *scene,
-                       const struct refinement *refinement, double near, int threads)
+int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
+                        const struct scene *scene, const struct refinement *refinement, double near,
+                        int threads)
 {
-    const struct link **links;
-    size_t i;
     memset(m, 0, sizeof *m);
     m->tree = tree;
     m->faces = tree->h.face_count;
     m->inputs = scene->input_count;
-    for (i = 0; i < refinement->link_count; i++)
+    for (size_t i = 0; i < refinement->link_count; i++)
         if (link_counts(tree, &refinement->links[i]))
             add_tiles(m, &refinement->links[i], NULL);
+    const struct link **links;
     links = malloc((m->block_count + 1) * sizeof *links);
     m->blocks = malloc((m->block_count + 1) * sizeof *m->blocks);
     if (!links || !m->blocks || m->block_count > UINT32_MAX / 2 || find_inputs(m, scene) < 0)
         goto fail;
     m->block_count = m->value_count = 0;
-    for (i = 0; i < refinement->link_count; i++)
+    for (size_t i = 0; i < refinement->link_count; i++)
         if (link_counts(tree, &refinement->links[i])) {
             m->link_count++;
             add_tiles(m, &refinement->links[i], links);
@@ -156,19 +161,19 @@ void exchange_areas_close(struct exchange_areas *m)
     memset(m, 0, sizeof *m);
 }
 
-double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const double *scale, double *row)
+double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const double *scale,
+                          double *row)
 {
     double sum = 0, own = scale ? scale[i] : 1;
-    uint32_t p, k;
-    size_t at;
-    for (p = m->first[i]; p != UINT32_MAX; p = m->next[p])
-        for (at = m->entry[p]; at < m->entry[p + 1]; at++) {
+    for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
+        for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {
             const struct exchange_block *b = &m->blocks[m->index[at] / 2];
             int column = m->index[at] & 1;
-            const double *v = m->values + b->at + (column ? p - b->column : (size_t)(p - b->row) * b->columns);
+            const double *v =
+                m->values + b->at + (column ? p - b->column : (size_t)(p - b->row) * b->columns);
             uint32_t n = column ? b->rows : b->columns, step = column ? b->columns : 1;
             const uint32_t *input = m->input + (column ? b->row : b->column);
-            for (k = 0; k < n; k++, v += step) {
+            for (uint32_t k = 0; k < n; k++, v += step) {
                 double e = scale ? *v * (own * scale[input[k]]) : *v;
                 row[input[k]] += e;
                 sum += e;
@@ -180,28 +185,26 @@ double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const doub
 void exchange_areas_sums(const struct exchange_areas *m, const double *scale, double *sums)
 {
     double column[TILE], times_row[TILE], times_column[TILE];
-    size_t b;
-    uint32_t i, j;
     memset(sums, 0, m->inputs * sizeof *sums);
-    for (b = 0; b < m->block_count; b++) {
+    for (size_t b = 0; b < m->block_count; b++) {
         const struct exchange_block *block = &m->blocks[b];
         const double *v = m->values + block->at;
-        for (i = 0; i < block->rows; i++)
+        for (uint32_t i = 0; i < block->rows; i++)
             times_row[i] = scale ? scale[m->input[block->row + i]] : 1;
-        for (j = 0; j < block->columns; j++) {
+        for (uint32_t j = 0; j < block->columns; j++) {
             times_column[j] = scale ? scale[m->input[block->column + j]] : 1;
             column[j] = 0;
         }
-        for (i = 0; i < block->rows; i++, v += block->columns) {
+        for (uint32_t i = 0; i < block->rows; i++, v += block->columns) {
             double sum = 0, own = times_row[i];
 #pragma omp simd reduction(+ : sum)
-            for (j = 0; j < block->columns; j++) {
+            for (uint32_t j = 0; j < block->columns; j++) {
                 sum += v[j] * times_column[j];
                 column[j] += v[j] * own;
             }
             sums[m->input[block->row + i]] += sum;
         }
-        for (j = 0; j < block->columns; j++)
+        for (uint32_t j = 0; j < block->columns; j++)
             sums[m->input[block->column + j]] += column[j];
     }
 }

@@ -1,9 +1,11 @@
 /* exchange_blocks.c - the exchange areas of a block of pairs.
  *
- * Each pair has its own, by Lambert's kernel and its second derivatives at the centroids (kernel/lambert.h). What that leaves out
- * is of fourth order in size over distance; pairs nearer than so many radii, by the tolerance, have the contour integral
- * (kernel/polygon_factor.h). In half shadow each value is multiplied by what its pair sees (exchange_shadow.h). Where more stands
- * between than a list holds, and where a part of a face is linked to a group, each pair is looked into by itself.
+ * Each pair has its own, by Lambert's kernel and its second derivatives at the centroids
+ * (kernel/lambert.h). What that leaves out is of fourth order in size over distance; pairs nearer
+ * than so many radii, by the tolerance, have the contour integral (kernel/polygon_factor.h). In
+ * half shadow each value is multiplied by what its pair sees (exchange_shadow.h). Where more stands
+ * between than a list holds, and where a part of a face is linked to a group, each pair is looked
+ * into by itself.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_blocks.h"
@@ -27,14 +29,15 @@ int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
         p->moment[k] = p->all + (size_t)(5 + k) * n;
     for (uint32_t i = 0; i < n; i++) {
         const struct element *e = exchange_tree_face(t, i);
-        double moment[MOMENTS] = { 0 };
-        for (int v = 2; v < e->vertices; v++) { /* triangle by triangle: (1/12) sum d d over its corners, and its own centroid's */
-            const double *corner[3] = { e->vertex[0], e->vertex[v - 1], e->vertex[v] };
-            double a[3], b[3], c[3], middle[3], share;
+        double moment[MOMENTS] = {0};
+        /* triangle by triangle: (1/12) sum d d over its corners, and its own centroid's */
+        for (int v = 2; v < e->vertices; v++) {
+            const double *corner[3] = {e->vertex[0], e->vertex[v - 1], e->vertex[v]};
+            double a[3], b[3], c[3], middle[3];
             sub3(a, corner[1], corner[0]);
             sub3(b, corner[2], corner[0]);
             cross3(c, a, b);
-            share = 0.5 * dot3(c, e->normal) / e->area;
+            double share = 0.5 * dot3(c, e->normal) / e->area;
             for (int k = 0; k < 3; k++)
                 middle[k] = (corner[0][k] + corner[1][k] + corner[2][k]) * (1 / 3.0);
             for (int j = 0; j < 4; j++) {
@@ -82,7 +85,8 @@ void exchange_scratch_close(struct exchange_scratch *s)
 }
 
 /* M_i v. */
-static void moment_times(const struct exchange_faces *p, uint32_t i, const double v[3], double out[3])
+static void moment_times(const struct exchange_faces *p, uint32_t i, const double v[3],
+                         double out[3])
 {
     out[0] = p->moment[0][i] * v[0] + p->moment[3][i] * v[1] + p->moment[4][i] * v[2];
     out[1] = p->moment[3][i] * v[0] + p->moment[1][i] * v[1] + p->moment[5][i] * v[2];
@@ -90,7 +94,8 @@ static void moment_times(const struct exchange_faces *p, uint32_t i, const doubl
 }
 
 /* M_j n for every face of a range. */
-static void moments_times(const struct exchange_faces *p, struct face_range range, const double n[3], struct exchange_scratch *scratch)
+static void moments_times(const struct exchange_faces *p, struct face_range range,
+                          const double n[3], struct exchange_scratch *scratch)
 {
     for (uint32_t j = range.from; j < range.to; j++) {
         double shift[3];
@@ -101,61 +106,79 @@ static void moments_times(const struct exchange_faces *p, struct face_range rang
 }
 
 /* The exchange areas of face i, normal n, with the faces of a range, normal -m. */
-static void second_order_row(const struct exchange_faces *p, uint32_t i, const double n[3], struct face_range range, const double m[3],
-                         const struct exchange_scratch *scratch, double *restrict out)
+static void second_order_row(const struct exchange_faces *p, uint32_t i, const double n[3],
+                             struct face_range range, const double m[3],
+                             const struct exchange_scratch *scratch, double *restrict out)
 {
-    const double *restrict x = p->c[0] + range.from, *restrict y = p->c[1] + range.from, *restrict z = p->c[2] + range.from;
-    const double *restrict area = p->area + range.from, *restrict xx = p->moment[0] + range.from, *restrict yy = p->moment[1] + range.from,
-                 *restrict zz = p->moment[2] + range.from, *restrict xy = p->moment[3] + range.from, *restrict xz = p->moment[4] + range.from,
-                 *restrict yz = p->moment[5] + range.from;
-    const double *restrict sx = scratch->shift[0], *restrict sy = scratch->shift[1], *restrict sz = scratch->shift[2];
-    const double cx = p->c[0][i], cy = p->c[1][i], cz = p->c[2][i], ai = p->area[i] * (1 / LAMBERT_PI);
-    const double ixx = p->moment[0][i], iyy = p->moment[1][i], izz = p->moment[2][i], ixy = p->moment[3][i], ixz = p->moment[4][i],
-                 iyz = p->moment[5][i], n0 = n[0], n1 = n[1], n2 = n[2], m0 = m[0], m1 = m[1], m2 = m[2];
+    const double *restrict x = p->c[0] + range.from, *restrict y = p->c[1] + range.from,
+                           *restrict z = p->c[2] + range.from;
+    const double *restrict area = p->area + range.from, *restrict xx = p->moment[0] + range.from,
+                           *restrict yy = p->moment[1] + range.from,
+                           *restrict zz = p->moment[2] + range.from,
+                           *restrict xy = p->moment[3] + range.from,
+                           *restrict xz = p->moment[4] + range.from,
+                           *restrict yz = p->moment[5] + range.from;
+    const double *restrict sx = scratch->shift[0], *restrict sy = scratch->shift[1],
+                           *restrict sz = scratch->shift[2];
+    const double cx = p->c[0][i], cy = p->c[1][i], cz = p->c[2][i],
+                 ai = p->area[i] * (1 / LAMBERT_PI);
+    const double ixx = p->moment[0][i], iyy = p->moment[1][i], izz = p->moment[2][i],
+                 ixy = p->moment[3][i], ixz = p->moment[4][i], iyz = p->moment[5][i], n0 = n[0],
+                 n1 = n[1], n2 = n[2], m0 = m[0], m1 = m[1], m2 = m[2];
     double own[3];
     int count = (int)(range.to - range.from);
     moment_times(p, i, m, own);
 #pragma omp simd
     for (int j = 0; j < count; j++) {
         double r0 = x[j] - cx, r1 = y[j] - cy, r2 = z[j] - cz;
-        double qxx = xx[j] + ixx, qyy = yy[j] + iyy, qzz = zz[j] + izz, qxy = xy[j] + ixy, qxz = xz[j] + ixz, qyz = yz[j] + iyz;
+        double qxx = xx[j] + ixx, qyy = yy[j] + iyy, qzz = zz[j] + izz, qxy = xy[j] + ixy,
+               qxz = xz[j] + ixz, qyz = yz[j] + iyz;
         double a = n0 * r0 + n1 * r1 + n2 * r2, b = m0 * r0 + m1 * r1 + m2 * r2;
         double t = 1 / (r0 * r0 + r1 * r1 + r2 * r2);
-        double quad = qxx * r0 * r0 + qyy * r1 * r1 + qzz * r2 * r2 + 2 * (qxy * r0 * r1 + qxz * r0 * r2 + qyz * r1 * r2);
-        double skew = a * (own[0] * r0 + own[1] * r1 + own[2] * r2) + b * (sx[j] * r0 + sy[j] * r1 + sz[j] * r2);
-        double e = ai * area[j] * lambert_second_order(a, b, t, quad, qxx + qyy + qzz, skew), least = p->area[i] < area[j] ? p->area[i] : area[j];
+        double quad = qxx * r0 * r0 + qyy * r1 * r1 + qzz * r2 * r2
+                      + 2 * (qxy * r0 * r1 + qxz * r0 * r2 + qyz * r1 * r2);
+        double skew = a * (own[0] * r0 + own[1] * r1 + own[2] * r2)
+                      + b * (sx[j] * r0 + sy[j] * r1 + sz[j] * r2);
+        double e = ai * area[j] * lambert_second_order(a, b, t, quad, qxx + qyy + qzz, skew),
+               least = p->area[i] < area[j] ? p->area[i] : area[j];
         out[j] = e > 0 ? e < least ? e : least : 0;
     }
 }
 
 /* A block as if all of its pairs saw each other. */
-static void clear_block(const struct exchange_faces *p, const struct exchange_pair *pair, struct exchange_scratch *scratch, double *out)
+static void clear_block(const struct exchange_faces *p, const struct exchange_pair *pair,
+                        struct exchange_scratch *scratch, double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
-    const double m[3] = { -s->normal[0], -s->normal[1], -s->normal[2] };
-    double away[3], gap;
+    const double m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
+    double away[3];
     moments_times(p, pair->columns, r->normal, scratch);
     sub3(away, s->centre, r->centre);
-    gap = length3(away) - r->radius - s->radius; /* a group's radius is above its faces' */
+    double gap = length3(away) - r->radius - s->radius; /* a group's radius is above its faces' */
     int near = gap < pair->near * 2 * (r->radius > s->radius ? r->radius : s->radius);
-    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++, out += pair->columns.to - pair->columns.from) {
+    for (uint32_t i = pair->rows.from; i < pair->rows.to;
+         i++, out += pair->columns.to - pair->columns.from) {
         second_order_row(p, i, r->normal, pair->columns, m, scratch, out);
         for (uint32_t j = pair->columns.from; near && j < pair->columns.to; j++) {
-            double v[3] = { p->c[0][j] - p->c[0][i], p->c[1][j] - p->c[1][i], p->c[2][j] - p->c[2][i] };
+            double v[3] = {p->c[0][j] - p->c[0][i], p->c[1][j] - p->c[1][i],
+                           p->c[2][j] - p->c[2][i]};
             double reach = pair->near * (p->radius[i] + p->radius[j]);
             if (dot3(v, v) < reach * reach) {
-                double e = p->area[i] * polygon_factor(exchange_tree_face(pair->tree, i), exchange_tree_face(pair->tree, j), 1);
+                double e = p->area[i]
+                           * polygon_factor(exchange_tree_face(pair->tree, i),
+                                            exchange_tree_face(pair->tree, j), 1);
                 out[j - pair->columns.from] = e < p->area[j] ? e : p->area[j];
             }
         }
     }
 }
 
-/* The exchange area of two faces or parts, looked into by itself. Rays where too many stand between, as the graphs do. */
+/* The exchange area of two faces or parts, looked into by itself. Rays where too many stand
+ * between, as the graphs do. */
 static double one_pair(const struct element *r, const struct element *s, const struct host *host)
 {
     double e = r->area * polygon_factor(r, s, 1), least = r->area < s->area ? r->area : s->area;
-    struct blockers list = { .known = BLOCKERS_UNKNOWN };
+    struct blockers list = {.known = BLOCKERS_UNKNOWN};
     if (!(e > 0))
         return 0;
     blockers_find(r, s, host, &list);
@@ -178,13 +201,14 @@ static void block_by_pairs(const struct exchange_pair *pair, double *out)
                               s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host);
 }
 
-void exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair, const struct link *link,
-                         struct exchange_scratch *scratch, double *out)
+void exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
+                         const struct link *link, struct exchange_scratch *scratch, double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
-    struct blockers list = { .known = BLOCKERS_UNKNOWN };
+    struct blockers list = {.known = BLOCKERS_UNKNOWN};
     if (!r->group && !s->group) {
-        double e = r->area * (double)link->form_factor * (link->visibility * (1.0 / LINK_VISIBLE)), least = r->area < s->area ? r->area : s->area;
+        double e = r->area * (double)link->form_factor * (link->visibility * (1.0 / LINK_VISIBLE)),
+               least = r->area < s->area ? r->area : s->area;
         *out = e < least ? e : least;
         return;
     }

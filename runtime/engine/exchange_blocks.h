@@ -1,4 +1,5 @@
-/* exchange_blocks.h - the exchange areas of a block of pairs of faces, from the link that stands for them.
+/* exchange_blocks.h - the exchange areas of a block of pairs of faces, from the link that stands
+ * for them.
  * SPDX-License-Identifier: MIT */
 #ifndef EXCHANGE_BLOCKS_H
 #define EXCHANGE_BLOCKS_H
@@ -28,7 +29,7 @@ int exchange_scratch_open(struct exchange_scratch *scratch, uint32_t most);
 void exchange_scratch_close(struct exchange_scratch *scratch);
 
 /* out[rows][columns]: A_i F_ij (m2), none above the smaller area. */
-void exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair, const struct link *link,
-                         struct exchange_scratch *scratch, double *out);
+void exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair,
+                         const struct link *link, struct exchange_scratch *scratch, double *out);
 
 #endif

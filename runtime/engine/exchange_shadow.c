@@ -1,8 +1,8 @@
 /* exchange_shadow.c - what pairs of faces of two flat groups see of each other past some blockers.
  *
- * Each pair is seen from four points of its one face: from there the blockers cast shadows on the plane of the other group, once for
- * all its faces, and what is left of each face is cut out exactly (kernel/outline.h). The points are on the side where a face's
- * size matters less.
+ * Each pair is seen from four points of its one face: from there the blockers cast shadows on the
+ * plane of the other group, once for all its faces, and what is left of each face is cut out
+ * exactly (kernel/outline.h). The points are on the side where a face's size matters less.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,8 @@ struct shadow_cell {
     int n;
 };
 
-/* From how many of the points a face was wholly hidden and wholly seen, and what each point sees of it. */
+/* From how many of the points a face was wholly hidden and wholly seen, and what each point sees
+ * of it. */
 struct shadow_sight {
     int hidden, clear;
     double part[OUTLINE_FEW], at[OUTLINE_FEW][2]; /* of its area (m2); the centroid */
@@ -50,9 +51,10 @@ void shadow_scratch_close(struct shadow_scratch *scratch)
     free(scratch->sights);
 }
 
-static void make_cell(struct shadow_cell *c, const struct element *e, const struct outline_frame *frame)
+static void make_cell(struct shadow_cell *c, const struct element *e,
+                      const struct outline_frame *frame)
 {
-    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     struct outline_cell cell;
     cell.n = c->n = e->vertices;
     for (int v = 0; v < c->n; v++) {
@@ -71,9 +73,10 @@ static void make_cell(struct shadow_cell *c, const struct element *e, const stru
     }
 }
 
-static void make_screen(struct screen *screen, const struct exchange_tree *t, const struct element *group, struct face_range faces)
+static void make_screen(struct screen *screen, const struct exchange_tree *t,
+                        const struct element *group, struct face_range faces)
 {
-    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     outline_frame_of(&screen->frame, group, t->host.ray_offset);
     screen->count = faces.to - faces.from;
     for (uint32_t j = 0; j < screen->count; j++) {
@@ -91,7 +94,8 @@ static void make_screen(struct screen *screen, const struct exchange_tree *t, co
 }
 
 /* What point k sees of a cell past the shadows, none of which covers all of the screen. */
-static void see_cell(const struct outline *shadows, int count, int k, const struct shadow_cell *c, struct shadow_sight *sight)
+static void see_cell(const struct outline *shadows, int count, int k, const struct shadow_cell *c,
+                     struct shadow_sight *sight)
 {
     int touched = 0, side = -1;
     for (int s = 0; s < count && side < 1; s++) {
@@ -102,12 +106,12 @@ static void see_cell(const struct outline *shadows, int count, int k, const stru
     side = side == 1 ? 0 : touched ? 1 : 2;
     if (side == 1) {
         struct outline_cell cell;
-        struct outline_sum seen;
         cell.n = c->n;
         for (int v = 0; v < c->n; v++) {
             cell.p[v][0] = c->p[v][0];
             cell.p[v][1] = c->p[v][1];
         }
+        struct outline_sum seen;
         side = outline_seen(shadows, count, &cell, &c->whole, &seen);
         sight->part[k] = seen.area;
         if (side == 1) {
@@ -122,8 +126,10 @@ static void see_cell(const struct outline *shadows, int count, int k, const stru
     sight->at[k][1] = c->whole.at[1] / c->whole.area;
 }
 
-/* What the points see of the screen's cells. Returns 1 when all see all of it; then sights are not set. */
-static int see_screen(const struct screen *screen, const struct points *points, const struct polygon *blockers, int blocker_count,
+/* What the points see of the screen's cells. Returns 1 when all see all of it; then sights are
+ * not set. */
+static int see_screen(const struct screen *screen, const struct points *points,
+                      const struct polygon *blockers, int blocker_count,
                       struct shadow_sight *sights)
 {
     int clear = 0;
@@ -134,7 +140,8 @@ static int see_screen(const struct screen *screen, const struct points *points, 
         double height = height3(points->x[k], screen->frame.origin, screen->frame.n);
         int count = 0, covered = 0;
         for (int b = 0; b < blocker_count && !covered; b++)
-            if (outline_cast(&shadows[count], &screen->frame, points->x[k], height, (const double (*)[3])blockers[b].v, blockers[b].n)) {
+            if (outline_cast(&shadows[count], &screen->frame, points->x[k], height,
+                             (const double(*)[3])blockers[b].v, blockers[b].n)) {
                 int side = outline_box(&shadows[count], screen->middle, screen->half);
                 covered = side == 1;
                 count += side == 0;
@@ -153,7 +160,8 @@ static int see_screen(const struct screen *screen, const struct points *points, 
 }
 
 /* The seen share of what the points, normal n, exchange with a cell. */
-static double seen_share(const struct shadow_sight *sight, const struct shadow_cell *c, const struct points *points, const double n[3],
+static double seen_share(const struct shadow_sight *sight, const struct shadow_cell *c,
+                         const struct points *points, const double n[3],
                          const struct outline_frame *frame)
 {
     double seen = 0, all = 0;
@@ -162,28 +170,33 @@ static double seen_share(const struct shadow_sight *sight, const struct shadow_c
     if (sight->clear == OUTLINE_FEW)
         return 1;
     for (int k = 0; k < OUTLINE_FEW; k++) {
-        const double uv[2] = { c->whole.at[0] / c->whole.area, c->whole.at[1] / c->whole.area };
+        const double uv[2] = {c->whole.at[0] / c->whole.area, c->whole.at[1] / c->whole.area};
         double y[3];
         outline_out(frame, uv, y);
         all += points->weight[k] * c->whole.area * lambert_points(points->x[k], n, y, frame->n, 0);
         outline_out(frame, sight->at[k], y);
-        seen += points->weight[k] * sight->part[k] * lambert_points(points->x[k], n, y, frame->n, 0);
+        seen +=
+            points->weight[k] * sight->part[k] * lambert_points(points->x[k], n, y, frame->n, 0);
     }
     return !(seen > 0) ? 0 : seen < all ? seen / all : 1;
 }
 
-/* How large a face of the group looks from the nearest blocker: seen from another point of it, shadows move by so much. */
-static double seen_from(const struct element *e, struct face_range range, const struct exchange_tree *t, const struct blockers *list)
+/* How large a face of the group looks from the nearest blocker: seen from another point of it,
+ * shadows move by so much. */
+static double seen_from(const struct element *e, struct face_range range,
+                        const struct exchange_tree *t, const struct blockers *list)
 {
     double least = INFINITY;
     for (int b = 0; b < list->count; b++) {
         const struct element *blocker = &t->h.elements[list->face[b]];
-        least = fmin(least, polygon_distance(e->centre, (const double (*)[3])blocker->vertex, blocker->vertices, blocker->normal));
+        least = fmin(least, polygon_distance(e->centre, (const double(*)[3])blocker->vertex,
+                                             blocker->vertices, blocker->normal));
     }
     return sqrt(e->area / (range.to - range.from)) / (least + e->radius);
 }
 
-void shadow_block(const struct exchange_pair *pair, const struct blockers *list, struct shadow_scratch *scratch, double *values)
+void shadow_block(const struct exchange_pair *pair, const struct blockers *list,
+                  struct shadow_scratch *scratch, double *values)
 {
     const struct exchange_tree *t = pair->tree;
     const struct element *r = pair->receiver, *s = pair->emitter;
@@ -191,17 +204,20 @@ void shadow_block(const struct exchange_pair *pair, const struct blockers *list,
     int swap = seen_from(s, pair->columns, t, list) < seen_from(r, pair->rows, t, list);
     struct face_range from = swap ? pair->columns : pair->rows;
     size_t step_i = swap ? 1 : across, step_j = swap ? across : 1;
-    struct screen screen = { .cells = scratch->cells };
-    struct polygon blockers[BLOCKERS_MAX];
+    struct screen screen = {.cells = scratch->cells};
     make_screen(&screen, t, swap ? r : s, swap ? pair->rows : pair->columns);
+    struct polygon blockers[BLOCKERS_MAX];
     for (int b = 0; b < list->count; b++)
         t->host.corners(&t->host, list->face[b], &blockers[b]);
     for (uint32_t i = from.from; i < from.to; i++) {
         struct points points;
-        outline_points(exchange_tree_face(t, i), t->host.ray_offset, OUTLINE_FEW, points.x, points.weight);
+        outline_points(exchange_tree_face(t, i), t->host.ray_offset, OUTLINE_FEW, points.x,
+                       points.weight);
         if (see_screen(&screen, &points, blockers, list->count, scratch->sights))
             continue;
         for (uint32_t j = 0; j < screen.count; j++)
-            values[(i - from.from) * step_i + j * step_j] *= seen_share(&scratch->sights[j], &screen.cells[j], &points, (swap ? s : r)->normal, &screen.frame);
+            values[(i - from.from) * step_i + j * step_j] *=
+                seen_share(&scratch->sights[j], &screen.cells[j], &points, (swap ? s : r)->normal,
+                           &screen.frame);
     }
 }

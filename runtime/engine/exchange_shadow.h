@@ -5,8 +5,8 @@
 
 #include "engine/exchange_tree.h"
 
-/* Two linked elements of the tree, and which of the receiver's faces (rows) and of the emitter's (columns) a block holds, by
- * place in the tree's order. */
+/* Two linked elements of the tree, and which of the receiver's faces (rows) and of the emitter's
+ * (columns) a block holds, by place in the tree's order. */
 struct exchange_pair {
     const struct exchange_tree *tree;
     const struct element *receiver, *emitter;
@@ -22,8 +22,9 @@ struct shadow_scratch {
 int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most);
 void shadow_scratch_close(struct shadow_scratch *scratch);
 
-/* values[rows][columns] are what pairs would exchange if nothing stood between; on return each is times what its pair sees
- * past the faces of the list. */
-void shadow_block(const struct exchange_pair *pair, const struct blockers *list, struct shadow_scratch *scratch, double *values);
+/* values[rows][columns] are what pairs would exchange if nothing stood between; on return each is
+ * times what its pair sees past the faces of the list. */
+void shadow_block(const struct exchange_pair *pair, const struct blockers *list,
+                  struct shadow_scratch *scratch, double *values);
 
 #endif

@@ -1,4 +1,5 @@
-/* exchange_tree.c - a hierarchy with flat groups, and a host over it: rays are the scene's, shafts are asked for groups.
+/* exchange_tree.c - a hierarchy with flat groups, and a host over it: rays are the scene's, shafts
+ * are asked for groups.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,8 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
     return rays->occluded(rays, count, segments);
 }
 
-static int candidates(const struct host *host, const struct shaft *shaft, int most, uint32_t *elements)
+static int candidates(const struct host *host, const struct shaft *shaft, int most,
+                      uint32_t *elements)
 {
     return candidates_find(&tree_of(host)->h, shaft, most, elements);
 }
@@ -26,13 +28,15 @@ static void corners(const struct host *host, uint32_t element, struct polygon *p
     candidates_corners(&tree_of(host)->h, element, polygon);
 }
 
-int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count, int threads, const char **cause)
+int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
+                       int threads, const char **cause)
 {
-    struct hierarchy plain = { 0 };
+    struct hierarchy plain = {0};
     double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black);
     memset(t, 0, sizeof *t);
     *cause = "out of memory";
-    if (!unit || !black || face_count > UINT32_MAX / 16 || hierarchy_build(&plain, faces, face_count) < 0)
+    if (!unit || !black || face_count > UINT32_MAX / 16
+        || hierarchy_build(&plain, faces, face_count) < 0)
         goto fail;
     for (uint32_t i = 0; i < face_count; i++)
         unit[i] = 1;

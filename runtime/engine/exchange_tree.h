@@ -1,4 +1,5 @@
-/* exchange_tree.h - the elements between which exchange areas are found: a hierarchy with flat groups, and a host over it.
+/* exchange_tree.h - the elements between which exchange areas are found: a hierarchy with flat
+ * groups, and a host over it.
  * SPDX-License-Identifier: MIT */
 #ifndef EXCHANGE_TREE_H
 #define EXCHANGE_TREE_H
@@ -7,18 +8,21 @@
 #include "visibility/rays.h"
 
 struct exchange_tree {
-    struct host host; /* first, so that a host is its tree: rays, and what stands in a shaft, by groups */
+    /* first, so that a host is its tree: rays, and what stands in a shaft, by groups */
+    struct host host;
     struct hierarchy h;
     struct rays *rays;
 };
 
 /* The faces are borrowed and must outlive the tree. Every face has B = 1 and reflects nothing.
  * Returns 0; on failure -1 with *cause set (a constant string) and nothing to free. */
-int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count, int threads, const char **cause);
+int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
+                       int threads, const char **cause);
 void exchange_tree_close(struct exchange_tree *t);
 
 /* The face at a place in the tree's order. */
-static inline const struct element *exchange_tree_face(const struct exchange_tree *t, uint32_t place)
+static inline const struct element *exchange_tree_face(const struct exchange_tree *t,
+                                                       uint32_t place)
 {
     return &t->h.elements[t->h.face_element[t->h.order[place]]];
 }

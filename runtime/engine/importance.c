@@ -1,15 +1,17 @@
 /* importance.c - the adjoint of light: Y = r + F V (rho Y), solved over the links that carry light.
  *
- * r is what a view asks for: 1 where a surface is in the picture, 0 where not; for a leaf the share of its points that
- * are. So Y of a place says how much of all that is seen changes with the light that leaves there: with areas as weights,
- * <r, B> = <Y, E>, as far as A_i F_ij = A_j F_ji holds. Z = rho Y obeys Z = rho r + rho F V Z, radiosity's own equation
- * with another source; so it is solved by the same sweeps (transport.c), and Y = r + what Z irradiates.
+ * r is what a view asks for: 1 where a surface is in the picture, 0 where not; for a leaf the share
+ * of its points that are. So Y of a place says how much of all that is seen changes with the light
+ * that leaves there: with areas as weights, <r, B> = <Y, E>, as far as A_i F_ij = A_j F_ji holds. Z
+ * = rho Y obeys Z = rho r + rho F V Z, radiosity's own equation with another source; so it is
+ * solved by the same sweeps (transport.c), and Y = r + what Z irradiates.
  *
- * Three bands are one here: rho is the largest. The oracles see Y as a share of its largest value (so scene.importance
- * is 1, with a view or without), at least IMPORTANCE_LEAST, and with the hysteresis of radiosity (oracle_inputs.c).
- * At first they see r itself: what the picture does not hold is linked coarsely, and refined once the first
- * solve has said what it means for the picture.
- * Fails: 64 points may all miss the part of a large leaf that is in the picture; r is then 0 until something splits it.
+ * Three bands are one here: rho is the largest. The oracles see Y as a share of its largest value
+ * (so scene.importance is 1, with a view or without), at least IMPORTANCE_LEAST, and with the
+ * hysteresis of radiosity (oracle_inputs.c). At first they see r itself: what the picture does not
+ * hold is linked coarsely, and refined once the first solve has said what it means for the picture.
+ * Fails: 64 points may all miss the part of a large leaf that is in the picture; r is then 0 until
+ * something splits it.
  * [Smits, Arvo and Salesin 1992, sections 3 and 4]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -20,23 +22,25 @@
 
 enum { SIDE = 8, POINTS = SIDE * SIDE };
 
-/* The share of e's points that are in the picture: in front of the camera, turned to it, and nothing between. */
-static double share_in_picture(const struct host *host, const struct camera *c, const struct element *e)
+/* The share of e's points that are in the picture: in front of the camera, turned to it, and
+ * nothing between. */
+static double share_in_picture(const struct host *host, const struct camera *c,
+                               const struct element *e)
 {
-    struct segment segments[POINTS];
-    uint64_t blocked;
     int count = 0, hits = 0;
     if (!(height3(c->eye, e->centre, e->normal) > 0))
         return 0;
+    struct segment segments[POINTS];
     for (int i = 0; i < POINTS; i++) {
         struct segment *g = &segments[count];
-        double v[3], depth;
+        double v[3];
         surface_point(g->from, e, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE);
         for (int k = 0; k < 3; k++)
             g->from[k] += host->ray_offset * e->normal[k];
         sub3(v, g->from, c->eye);
-        depth = dot3(v, c->ahead);
-        if (!(depth > 0) || fabs(dot3(v, c->right)) > c->wide * depth || fabs(dot3(v, c->up)) > c->high * depth)
+        double depth = dot3(v, c->ahead);
+        if (!(depth > 0) || fabs(dot3(v, c->right)) > c->wide * depth
+            || fabs(dot3(v, c->up)) > c->high * depth)
             continue;
         for (int k = 0; k < 3; k++)
             g->to[k] = c->eye[k];
@@ -44,7 +48,7 @@ static double share_in_picture(const struct host *host, const struct camera *c, 
     }
     if (count == 0)
         return 0;
-    blocked = host->occluded(host, count, segments);
+    uint64_t blocked = host->occluded(host, count, segments);
     for (int i = 0; i < count; i++)
         hits += !(blocked >> i & 1);
     return hits / (double)POINTS;
@@ -53,7 +57,7 @@ static double share_in_picture(const struct host *host, const struct camera *c, 
 /* Room for all elements. Returns 0 or -1. */
 static int enlarge(struct importance *y, uint32_t count)
 {
-    double **const lists[] = { &y->response, &y->source, &y->carried, &y->irradiance, &y->value };
+    double **const lists[] = {&y->response, &y->source, &y->carried, &y->irradiance, &y->value};
     size_t room = (size_t)count + count / 4;
     if (count <= y->room)
         return 0;
@@ -68,17 +72,21 @@ static int enlarge(struct importance *y, uint32_t count)
 }
 
 /* r of the surfaces made since the last call; what they carry starts as their parents'. */
-static void respond(struct importance *y, const struct operator *op)
+static void respond(struct importance *y, const struct operator* op)
 {
     const struct solve_options *o = &op->problem->options;
     const struct element *elements = op->hierarchy->elements;
     uint32_t count = op->hierarchy->count;
 #pragma omp parallel for schedule(dynamic, 64) num_threads(o->threads)
     for (uint32_t i = y->started; i < count; i++)
-        y->response[i] = elements[i].vertices ? share_in_picture(rays_host(op->problem->rays), o->camera, &elements[i]) : 0;
+        y->response[i] = elements[i].vertices ? share_in_picture(rays_host(op->problem->rays),
+                                                                 o->camera, &elements[i])
+                                              : 0;
     for (uint32_t i = y->started; i < count; i++) {
         y->source[i] = elements[i].reflectance * y->response[i];
-        y->carried[i] = !elements[i].vertices ? 0 : elements[i].depth > 0 ? y->carried[elements[i].parent] : y->source[i];
+        y->carried[i] = !elements[i].vertices   ? 0
+                        : elements[i].depth > 0 ? y->carried[elements[i].parent]
+                                                : y->source[i];
         y->value[i] = y->response[i];
         y->irradiance[i] = 0;
     }
@@ -86,7 +94,7 @@ static void respond(struct importance *y, const struct operator *op)
 }
 
 /* Means of what has children, and what the report says of the leaves. */
-static void average(struct importance *y, const struct operator *op)
+static void average(struct importance *y, const struct operator* op)
 {
     const struct element *elements = op->hierarchy->elements;
     double whole = 0;
@@ -123,7 +131,8 @@ static void mark_grown(const struct importance *y, struct hierarchy *h, struct o
     }
 }
 
-int importance_start(struct importance *y, const struct operator *op, struct hierarchy *h, struct oracle_inputs *in)
+int importance_start(struct importance *y, const struct operator* op, struct hierarchy *h,
+                     struct oracle_inputs *in)
 {
     if (enlarge(y, h->count) < 0)
         return -1;
@@ -133,22 +142,28 @@ int importance_start(struct importance *y, const struct operator *op, struct hie
     return 0;
 }
 
-int importance_open(struct importance *y, const struct operator *op, struct transport *carried)
+int importance_open(struct importance *y, const struct operator* op, struct transport *carried)
 {
     if (enlarge(y, op->hierarchy->count) < 0)
         return -1;
     respond(y, op);
-    *carried = (struct transport){ .bands = 1, .value = y->carried, .irradiance = y->irradiance, .source = y->source,
-                                   .by_element = 1, .reflectance = op->problem->whitest,
-                                   .tolerance = op->problem->options.tolerance };
+    *carried = (struct transport){.bands = 1,
+                                  .value = y->carried,
+                                  .irradiance = y->irradiance,
+                                  .source = y->source,
+                                  .by_element = 1,
+                                  .reflectance = op->problem->whitest,
+                                  .tolerance = op->problem->options.tolerance};
     return 0;
 }
 
-void importance_update(struct importance *y, const struct operator *op, struct hierarchy *h, struct oracle_inputs *in)
+void importance_update(struct importance *y, const struct operator* op, struct hierarchy *h,
+                       struct oracle_inputs *in)
 {
     for (uint32_t i = 0; i < h->count; i++)
         if (h->elements[i].vertices && !h->elements[i].children)
-            y->value[i] = y->response[i] + (op->uncovered[i] > 0 ? y->irradiance[i] / op->uncovered[i] : 0);
+            y->value[i] =
+                y->response[i] + (op->uncovered[i] > 0 ? y->irradiance[i] / op->uncovered[i] : 0);
     average(y, op);
     mark_grown(y, h, in);
 }

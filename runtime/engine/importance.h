@@ -8,23 +8,27 @@
 
 /* Arrays are [room], element by element. */
 struct importance {
-    double *response;   /* r, the share that is in the picture */
+    double *response;                      /* r, the share that is in the picture */
     double *source, *carried, *irradiance; /* rho r, Z = rho Y, and what Z irradiates */
-    double *value;      /* Y */
+    double *value;                         /* Y */
     uint32_t room, started;
-    int sweeps;         /* 0: no importance was asked for */
+    int sweeps;           /* 0: no importance was asked for */
     double largest, mean; /* of Y over the leaves, the mean by area */
-    double seen;        /* area in the picture (m2) */
+    double seen;          /* area in the picture (m2) */
 };
 
-/* Before the first refinement: what the view sees of every face is all that counts. Returns 0, or -1 when out of memory. */
-int importance_start(struct importance *y, const struct operator *op, struct hierarchy *h, struct oracle_inputs *in);
+/* Before the first refinement: what the view sees of every face is all that counts. Returns 0,
+ * or -1 when out of memory. */
+int importance_start(struct importance *y, const struct operator* op, struct hierarchy *h,
+                     struct oracle_inputs *in);
 
-/* Set *carried to importance's equation over the links as they are. Returns 0, or -1 when out of memory. */
-int importance_open(struct importance *y, const struct operator *op, struct transport *carried);
+/* Set *carried to importance's equation over the links as they are. Returns 0, or -1 when out of
+ * memory. */
+int importance_open(struct importance *y, const struct operator* op, struct transport *carried);
 
 /* From the solved equation, let the oracles see importance; changed[e] becomes 1 where it grew. */
-void importance_update(struct importance *y, const struct operator *op, struct hierarchy *h, struct oracle_inputs *in);
+void importance_update(struct importance *y, const struct operator* op, struct hierarchy *h,
+                       struct oracle_inputs *in);
 
 void importance_free(struct importance *y);
 

@@ -1,7 +1,8 @@
 /* operator.h - the linear operator K = rho F V that the links stand for: x = source + K x.
  *
- * Its parts: links between surfaces, separable links where a cluster is at one end, what is done about row sums, and
- * which share of each element a solid does not cover. Transport applies it, row_sums.c sets the row scales.
+ * Its parts: links between surfaces, separable links where a cluster is at one end, what is done
+ * about row sums, and which share of each element a solid does not cover. Transport applies it,
+ * row_sums.c sets the row scales.
  * SPDX-License-Identifier: MIT */
 #ifndef OPERATOR_H
 #define OPERATOR_H
@@ -10,22 +11,26 @@
 #include "engine/refine.h"
 #include "engine/separable_links.h"
 
-struct operator {
+struct operator
+{
     const struct problem *problem;
     const struct hierarchy *hierarchy;
     const struct refinement *refinement; /* its links, sorted by receiver */
     struct separable_links separable;
     double *uncovered; /* [element]: share of the area that no solid stands on */
     double *row_scale; /* [element]: of leaves only, the factor for what comes over its own links */
-    double *row_above; /* [element]: of leaves only, the factor for what comes over those of the elements above it */
-    double *row_share; /* [element]: of leaves only, per area (1/m2), its share of the power that the cap takes from its
-                          face, or, under closure, of its face's irradiance when it has no row of its own */
-    double *row;       /* [element]: of leaves only, the row once scaled, what it is shared included: the irradiance per
-                          uncovered area that a radiosity of 1 everywhere makes */
+    /* [element]: of leaves only, the factor for what comes over those of the elements above it */
+    double *row_above;
+    double *row_share; /* [element]: of leaves only, per area (1/m2), its share of the power that
+                          the cap takes from its face, or, under closure, of its face's irradiance
+                          when it has no row of its own */
+    double *row; /* [element]: of leaves only, the row once scaled, what it is shared included: the
+                    irradiance per uncovered area that a radiosity of 1 everywhere makes */
 };
 
-/* The weight of child j in the mean radiosity of e: its share of the uncovered area, or of all where none is. */
-static inline double operator_share(const struct operator *op, uint32_t j, uint32_t e)
+/* The weight of child j in the mean radiosity of e: its share of the uncovered area, or of all
+ * where none is. */
+static inline double operator_share(const struct operator* op, uint32_t j, uint32_t e)
 {
     double part = op->hierarchy->elements[j].area / op->hierarchy->elements[e].area;
     return op->uncovered[e] > 0 ? part * op->uncovered[j] / op->uncovered[e] : part;

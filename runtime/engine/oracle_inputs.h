@@ -6,15 +6,19 @@
 #include "engine/operator.h"
 
 struct oracle_inputs {
-    double *least, *most;   /* [element * bands + band]: smallest and largest radiosity of the uncovered leaves below */
-    unsigned char *changed; /* [element]: what the oracles see of it has grown since the links were discussed */
+    /* [element * bands + band]: smallest and largest radiosity of the uncovered leaves below */
+    double *least, *most;
+    /* [element]: what the oracles see of it has grown since the links were discussed */
+    unsigned char *changed;
 };
 
-/* Radiosity and spread of every element, from B [element * bands + band]. changed[e] becomes 1 where an oracle sees
- * one of them grow, else 0. */
-void oracle_inputs_update(struct oracle_inputs *in, const struct operator *op, const double *radiosity, struct hierarchy *h);
+/* Radiosity and spread of every element, from B [element * bands + band]. changed[e] becomes 1
+ * where an oracle sees one of them grow, else 0. */
+void oracle_inputs_update(struct oracle_inputs *in, const struct operator* op,
+                          const double *radiosity, struct hierarchy *h);
 
-/* Before the first solve the oracles see what the light is likely to be: E + rho H with the scene's mean irradiance. */
+/* Before the first solve the oracles see what the light is likely to be: E + rho H with the
+ * scene's mean irradiance. */
 void oracle_inputs_guess(const struct problem *p, struct hierarchy *h);
 
 #endif

@@ -18,11 +18,14 @@ struct solve_options {
     int iterations;   /* sweeps per solve at the most */
     int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
     int threads;
-    enum closure closure; /* none: rows above 1 are capped, each face keeping its power (row_sums.c); or rows */
+    /* none: rows above 1 are capped, each face keeping its power (row_sums.c); or rows */
+    enum closure closure;
     int clusters; /* 1 + the strategy that groups faces; 0: the default */
-    const struct camera *camera; /* whose picture counts, for oracles that read importance; NULL: all places alike */
-    int unit;     /* ignore the materials: every face has B = 1 and stays so (view factors) */
-    int (*progress)(void *context, const struct solve *solve, const char *phase); /* NULL: none; nonzero cancels */
+    /* whose picture counts, for oracles that read importance; NULL: all places alike */
+    const struct camera *camera;
+    int unit; /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    /* NULL: none; nonzero cancels */
+    int (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress */
 };
 

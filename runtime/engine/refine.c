@@ -1,16 +1,19 @@
 /* refine.c - refinement in rounds.
  *
- * A round takes up to ROUND pairs from the end of the queue and gives each to the refiner, both ways round, which only
- * reads the hierarchy; so the pairs of a round run in parallel. Then, in their order, links are
- * appended, elements split, and the children's pairs queued. Invariant: links, their order and the
- * element indices depend on the scene, the oracle and its parameters alone, never on threads,
- * timing or release. Taking from the end keeps the queue short: a few rounds' worth, not the square of the faces.
+ * A round takes up to ROUND pairs from the end of the queue and gives each to the refiner, both
+ * ways round, which only reads the hierarchy; so the pairs of a round run in parallel. Then, in
+ * their order, links are appended, elements split, and the children's pairs queued. Invariant:
+ * links, their order and the element indices depend on the scene, the oracle and its parameters
+ * alone, never on threads, timing or release. Taking from the end keeps the queue short: a few
+ * rounds' worth, not the square of the faces.
  *
- * Where the oracle looks into the shaft between two elements, the candidates it found are handed on to the pairs below: a
- * list stands once in a pool and counts the pairs that refer to it, which retain and release it. A pair whose discussion
- * made none hands on what it was given; a list that overflowed, or is not good for the pairs below, is released. Lists
- * spare work and change no answer (kernel/shaft.h).
- * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited candidates; rounds: derived here]
+ * Where the oracle looks into the shaft between two elements, the candidates it found are handed on
+ * to the pairs below: a list stands once in a pool and counts the pairs that refer to it, which
+ * retain and release it. A pair whose discussion made none hands on what it was given; a list that
+ * overflowed, or is not good for the pairs below, is released. Lists spare work and change no
+ * answer (kernel/shaft.h).
+ * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited
+ * candidates; rounds: derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +35,8 @@ void link_store(struct link *link, const struct terms *terms)
     if (link->visibility == 0 && terms->visibility > 0)
         link->visibility = 1;
     if (link->visibility == LINK_VISIBLE && terms->visibility < 1)
-        link->visibility = LINK_VISIBLE - 1; /* all and none stay what rays found, not what rounding makes */
+        link->visibility =
+            LINK_VISIBLE - 1; /* all and none stay what rays found, not what rounding makes */
 }
 
 void link_recall(const struct link *link, struct terms *terms)
@@ -48,13 +52,13 @@ void link_recall(const struct link *link, struct terms *terms)
 static int grow(void *list, size_t *capacity, size_t need, size_t size)
 {
     size_t more = need + need / 2 + 1024;
-    void *old, *moved;
     if (need <= *capacity)
         return 0;
     if (more > SIZE_MAX / size)
         return -1;
+    void *old;
     memcpy(&old, list, sizeof old);
-    moved = realloc(old, more * size);
+    void *moved = realloc(old, more * size);
     if (!moved)
         return -1;
     memcpy(list, &moved, sizeof moved);
@@ -96,7 +100,8 @@ static void release_list(struct refinement *r, uint32_t list)
     }
 }
 
-/* A place for the list, retained once; 0 when there is none: then the pairs below make theirs anew. */
+/* A place for the list, retained once; 0 when there is none: then the pairs below make theirs
+ * anew. */
 static uint32_t pool_list(struct refinement *r, const struct blockers *list)
 {
     uint32_t at = r->pool_free;
@@ -104,7 +109,8 @@ static uint32_t pool_list(struct refinement *r, const struct blockers *list)
         r->pool_free = r->pool[at].next;
     } else {
         at = r->pool_count ? r->pool_count : 1;
-        if (at >= UINT32_MAX / 2 || grow(&r->pool, &r->pool_capacity, (size_t)at + 1, sizeof *r->pool) < 0)
+        if (at >= UINT32_MAX / 2
+            || grow(&r->pool, &r->pool_capacity, (size_t)at + 1, sizeof *r->pool) < 0)
             return 0;
         r->pool_count = at + 1;
     }
@@ -114,7 +120,8 @@ static uint32_t pool_list(struct refinement *r, const struct blockers *list)
     return at;
 }
 
-/* The list that the pairs below pair i of the round are given, retained once more; `list`: what it was given itself. */
+/* The list that the pairs below pair i of the round are given, retained once more; `list`: what
+ * it was given itself. */
 static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 {
     const struct outcome *o = &r->outcomes[i];
@@ -133,13 +140,12 @@ static unsigned char discuss(const struct refinement *r, struct link *link, stru
 {
     const struct element *elements = r->hierarchy->elements;
     struct discussion d;
-    enum decision decision;
     d.receiver = &elements[link->receiver];
     d.emitter = &elements[link->emitter];
     d.host = r->host;
     d.blockers = list;
     link_recall(link, &d.terms);
-    decision = r->refiner->refine(r->refiner->state, &d);
+    enum decision decision = r->refiner->refine(r->refiner->state, &d);
     if (decision_links(decision))
         link_store(link, &d.terms);
     return (unsigned char)decision;
@@ -158,9 +164,11 @@ static void note_list(struct refinement *r, int i, const struct blockers *list, 
         r->found[i] = *list;
 }
 
-/* What the link `there` says of the link back: visibility is the same both ways, and so is the exchange A_r F_rs = A_s F_sr,
- * which is computed once and serves both: reciprocity holds to the rounding of a link's F. */
-static void reverse_link(struct link *back, const struct link *there, const struct element *elements)
+/* What the link `there` says of the link back: visibility is the same both ways, and so is the
+ * exchange A_r F_rs = A_s F_sr, which is computed once and serves both: reciprocity holds to the
+ * rounding of a link's F. */
+static void reverse_link(struct link *back, const struct link *there,
+                         const struct element *elements)
 {
     double areas = elements[there->receiver].area / elements[there->emitter].area;
     back->form_factor = (float)((double)there->form_factor * areas);
@@ -171,12 +179,12 @@ static void reverse_link(struct link *back, const struct link *there, const stru
 /* Discuss the pairs of the round, the second way round with what the first has found. */
 static void discuss_round(struct refinement *r, int count)
 {
-    int i;
 #pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
-    for (i = 0; i < count; i++) {
+    for (int i = 0; i < count; i++) {
         const struct pair *p = &r->round[i];
         struct outcome *o = &r->outcomes[i];
-        struct link there = { p->receiver, p->emitter, 0, 0, 0, 0 }, back = { p->emitter, p->receiver, 0, 0, 0, 0 };
+        struct link there = {p->receiver, p->emitter, 0, 0, 0, 0},
+                    back = {p->emitter, p->receiver, 0, 0, 0, 0};
         struct blockers list;
         list.known = BLOCKERS_UNKNOWN;
         if (p->list)
@@ -197,18 +205,18 @@ enum { SPLIT_RECEIVER = 1, SPLIT_EMITTER = 2 };
 
 /* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
  * itself gives the pairs of its children with each other and themselves. They retain `list`. */
-static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both, uint32_t list)
+static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both,
+                     uint32_t list)
 {
     struct hierarchy *h = r->hierarchy;
-    const struct element *e, *f;
-    struct pair *q;
-    uint32_t i, j, from_i = receiver, to_i = receiver + 1, from_j = emitter, to_j = emitter + 1;
+    uint32_t from_i = receiver, to_i = receiver + 1, from_j = emitter, to_j = emitter + 1;
     if (receiver == emitter)
         split = SPLIT_RECEIVER | SPLIT_EMITTER;
-    if ((split & SPLIT_RECEIVER && hierarchy_split(h, receiver) < 0) || (split & SPLIT_EMITTER && hierarchy_split(h, emitter) < 0))
+    if ((split & SPLIT_RECEIVER && hierarchy_split(h, receiver) < 0)
+        || (split & SPLIT_EMITTER && hierarchy_split(h, emitter) < 0))
         return -1;
-    e = &h->elements[receiver];
-    f = &h->elements[emitter];
+    const struct element *e = &h->elements[receiver];
+    const struct element *f = &h->elements[emitter];
     if (split & SPLIT_RECEIVER) {
         from_i = e->child;
         to_i = e->child + e->children;
@@ -217,25 +225,29 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
         from_j = f->child;
         to_j = f->child + f->children;
     }
-    if (grow(&r->queue, &r->queue_capacity, r->queue_count + (size_t)(to_i - from_i) * (to_j - from_j), sizeof *q) < 0)
+    struct pair *q;
+    if (grow(&r->queue, &r->queue_capacity,
+             r->queue_count + (size_t)(to_i - from_i) * (to_j - from_j), sizeof *q)
+        < 0)
         return -1;
     q = r->queue + r->queue_count;
-    for (i = from_i; i < to_i; i++) {
+    for (uint32_t i = from_i; i < to_i; i++) {
         if (receiver != emitter) {
-            for (j = from_j; j < to_j; j++)
-                *q++ = (struct pair){ i, j, (uint32_t)both & 1u, list & 0x7fffffffu };
+            for (uint32_t j = from_j; j < to_j; j++)
+                *q++ = (struct pair){i, j, (uint32_t)both & 1u, list & 0x7fffffffu};
             continue;
         }
-        *q++ = (struct pair){ i, i, 0, list & 0x7fffffffu };
-        for (j = from_j; j < i; j++)
-            *q++ = (struct pair){ i, j, 1, list & 0x7fffffffu };
+        *q++ = (struct pair){i, i, 0, list & 0x7fffffffu};
+        for (uint32_t j = from_j; j < i; j++)
+            *q++ = (struct pair){i, j, 1, list & 0x7fffffffu};
     }
     retain_list(r, list, (uint32_t)((size_t)(q - r->queue) - r->queue_count));
     r->queue_count = (size_t)(q - r->queue);
     return 0;
 }
 
-/* Which elements of the pair as it stands a decision splits; `turned`: it was taken the other way round. */
+/* Which elements of the pair as it stands a decision splits; `turned`: it was taken the other
+ * way round. */
 static int splits(enum decision decision, int turned)
 {
     switch (decision) {
@@ -254,7 +266,8 @@ static int splits(enum decision decision, int turned)
 }
 
 /* Carry out one decision about (receiver, emitter). */
-static int carry_out(struct refinement *r, const struct link *link, enum decision decision, uint32_t list)
+static int carry_out(struct refinement *r, const struct link *link, enum decision decision,
+                     uint32_t list)
 {
     int split = splits(decision, 0);
     r->decided[decision]++;
@@ -268,13 +281,17 @@ static int carry_out(struct refinement *r, const struct link *link, enum decisio
     return 0;
 }
 
-/* Carry out both decisions about a pair; when both split the same elements, the children stay paired both ways. */
+/* Carry out both decisions about a pair; when both split the same elements, the children stay
+ * paired both ways. */
 static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_t list)
 {
     enum decision there = (enum decision)o->decision[0], back = (enum decision)o->decision[1];
     int split = splits(there, 0);
     if (!split || split != splits(back, 1))
-        return carry_out(r, &o->link[0], there, list) < 0 || carry_out(r, &o->link[1], back, list) < 0 ? -1 : 0;
+        return carry_out(r, &o->link[0], there, list) < 0
+                       || carry_out(r, &o->link[1], back, list) < 0
+                   ? -1
+                   : 0;
     r->decided[there]++;
     r->decided[back]++;
     return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
@@ -291,16 +308,18 @@ static int end_round(struct refinement *r)
 static int drain(struct refinement *r)
 {
     while (r->queue_count > 0) {
-        int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND), i;
+        int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND);
         r->queue_count -= (size_t)count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
         discuss_round(r, count);
-        for (i = 0; i < count; i++) {
+        for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             int both = (int)r->round[i].both;
             uint32_t list = hand_on(r, i, r->round[i].list);
             r->pairs += both ? 2 : 1;
-            if ((both ? carry_out_both(r, o, list) : carry_out(r, &o->link[0], (enum decision)o->decision[0], list)) < 0)
+            if ((both ? carry_out_both(r, o, list)
+                      : carry_out(r, &o->link[0], (enum decision)o->decision[0], list))
+                < 0)
                 return -1;
             release_list(r, list);
             release_list(r, r->round[i].list);
@@ -313,7 +332,7 @@ static int drain(struct refinement *r)
 
 int refinement_start(struct refinement *r)
 {
-    struct pair root = { 0, 0, 0, 0 };
+    struct pair root = {0, 0, 0, 0};
     if (grow(&r->queue, &r->queue_capacity, 1, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
@@ -322,32 +341,34 @@ int refinement_start(struct refinement *r)
 
 int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 {
-    size_t all = r->link_count, from;
+    size_t all = r->link_count;
     int64_t moved = 0;
-    r->link_count = 0; /* links that stay are written back at or before the place they were read from */
-    for (from = 0; from < all; from += ROUND) {
-        int count = (int)(all - from < ROUND ? all - from : ROUND), i;
+    /* links that stay are written back at or before the place they were read from */
+    r->link_count = 0;
+    for (size_t from = 0; from < all; from += ROUND) {
+        int count = (int)(all - from < ROUND ? all - from : ROUND);
         const struct link *links = r->links + from;
 #pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
-        for (i = 0; i < count; i++) {
+        for (int i = 0; i < count; i++) {
             struct outcome *o = &r->outcomes[i];
             struct blockers list;
             list.known = BLOCKERS_UNKNOWN;
             o->link[0] = links[i];
             o->decision[1] = !changed || changed[links[i].receiver] || changed[links[i].emitter];
-            o->decision[0] = o->decision[1] ? discuss(r, &o->link[0], &list) : (unsigned char)DECISION_LINK;
+            o->decision[0] =
+                o->decision[1] ? discuss(r, &o->link[0], &list) : (unsigned char)DECISION_LINK;
             note_list(r, i, &list, divides(o->decision[0]));
         }
-        for (i = 0; i < count; i++) {
+        for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
-            uint32_t list;
             if (!o->decision[1]) {
                 r->links[r->link_count++] = o->link[0];
                 continue;
             }
             r->pairs++;
-            moved += !decision_links((enum decision)o->decision[0]) || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
-            list = hand_on(r, i, 0);
+            moved += !decision_links((enum decision)o->decision[0])
+                     || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            uint32_t list = hand_on(r, i, 0);
             if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
                 return -1;
             release_list(r, list);
@@ -360,7 +381,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 
 int refinement_sort(struct refinement *r)
 {
-    size_t elements = r->hierarchy->count, i;
+    size_t elements = r->hierarchy->count;
     size_t *first = calloc(elements + 2, sizeof *first);
     struct link *sorted = malloc((r->link_count + 1) * sizeof *sorted);
     if (!first || !sorted) {
@@ -369,13 +390,13 @@ int refinement_sort(struct refinement *r)
         return -1;
     }
     memset(r->marked, 0, sizeof r->marked);
-    for (i = 0; i < r->link_count; i++) {
+    for (size_t i = 0; i < r->link_count; i++) {
         first[r->links[i].receiver + 2]++;
         r->marked[r->links[i].mark]++;
     }
-    for (i = 2; i < elements + 2; i++)
+    for (size_t i = 2; i < elements + 2; i++)
         first[i] += first[i - 1];
-    for (i = 0; i < r->link_count; i++)
+    for (size_t i = 0; i < r->link_count; i++)
         sorted[first[r->links[i].receiver + 1]++] = r->links[i];
     free(r->links);
     free(r->first_link);

@@ -20,7 +20,8 @@ struct link {
 
 enum { LINK_VISIBLE = 1 << 14, LINK_MARKS = 8 };
 
-/* The mark by which graphs say that a link was too large and could not be split (runtime/tools/mark.h). */
+/* The mark by which graphs say that a link was too large and could not be split
+ * (runtime/tools/mark.h). */
 enum { LINK_GUARDED = 1 };
 
 /* A pair of elements still to be discussed. */
@@ -41,7 +42,7 @@ struct outcome {
 struct pooled {
     struct blockers list;
     uint32_t references; /* 0: free */
-    uint32_t next;    /* free: the next free one, 0: none */
+    uint32_t next;       /* free: the next free one, 0: none */
 };
 
 struct refinement;
@@ -59,7 +60,9 @@ struct refinement {
 
     struct link *links; /* [link_count]; sorted by receiver after refinement_sort */
     size_t link_count, link_capacity;
-    size_t *first_link; /* [hierarchy->count + 1] after refinement_sort: the links of element e are first_link[e] .. first_link[e + 1] - 1 */
+    /* [hierarchy->count + 1] after refinement_sort: the links of element e are first_link[e] ..
+     * first_link[e + 1] - 1 */
+    size_t *first_link;
 
     struct pair *queue; /* taken from the end */
     size_t queue_count, queue_capacity;
@@ -67,14 +70,15 @@ struct refinement {
     struct outcome *outcomes; /* and what came of them */
     struct blockers *found;   /* and the candidates, where outcome.listed */
 
-    struct pooled *pool; /* [pool_count], [0] unused: lists that pairs hand on to the pairs below them */
+    /* [pool_count], [0] unused: lists that pairs hand on to the pairs below them */
+    struct pooled *pool;
     uint32_t pool_count, pool_free; /* first free one, 0: none */
     size_t pool_capacity;
 
-    uint64_t pairs, rounds; /* discussions held, rounds gone */
-    uint64_t decided[8];    /* how often each decision was taken */
+    uint64_t pairs, rounds;      /* discussions held, rounds gone */
+    uint64_t decided[8];         /* how often each decision was taken */
     uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
-    int failed;             /* out of memory: the links are incomplete */
+    int failed;                  /* out of memory: the links are incomplete */
 };
 
 /* Prepare an empty refinement. Returns 0, or -1 when out of memory. */
@@ -84,9 +88,9 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
 /* Refine from the pair (root, root). Returns 0, or -1 when out of memory. */
 int refinement_start(struct refinement *r);
 
-/* Discuss the links again whose receiver or emitter is marked in changed[elements] (NULL: all of them), with
- * the radiosities as they now are: a link stays, is known better, or gives way to links below it.
- * Returns how many links changed, or -1 when out of memory. */
+/* Discuss the links again whose receiver or emitter is marked in changed[elements] (NULL: all of
+ * them), with the radiosities as they now are: a link stays, is known better, or gives way to links
+ * below it. Returns how many links changed, or -1 when out of memory. */
 int64_t refinement_again(struct refinement *r, const unsigned char *changed);
 
 /* Sort the links by receiver, keeping their order otherwise. Returns 0 or -1. */

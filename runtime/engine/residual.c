@@ -1,16 +1,20 @@
 /* residual.c - what constants cost: the discretization residual of a leaf.
  *
- * d = rho max_k |sum_l B_s V (F(x_k) - F)| over the leaf's own links l and its ancestors', x_k the leaf's corners and its
- * centre: the irradiance that the links would bring to the point, less what they bring to the whole leaf. Errors of
- * opposite sign cancel as they do in truth, so the sum is taken first and the modulus then.
- * [Bekaert and Willems 1996, equation 11; Arvo et al. 1994, section 5.2: what projection onto constants leaves]
+ * d = rho max_k |sum_l B_s V (F(x_k) - F)| over the leaf's own links l and its ancestors', x_k the
+ * leaf's corners and its centre: the irradiance that the links would bring to the point, less what
+ * they bring to the whole leaf. Errors of opposite sign cancel as they do in truth, so the sum is
+ * taken first and the modulus then.
+ * [Bekaert and Willems 1996, equation 11; Arvo et al. 1994, section 5.2: what projection onto
+ * constants leaves]
  *
- * Between the points F may range further; and V is the link's, so a shadow's edge that crosses the leaf does not
- * show. Exitance is the same all over a face and adds nothing. Corners are taken 2^-20 of the way to the centre,
- * as in terms/form_factor_range.h: where two elements touch, F has no value at the corner itself.
+ * Between the points F may range further; and V is the link's, so a shadow's edge that crosses the
+ * leaf does not show. Exitance is the same all over a face and adds nothing. Corners are taken
+ * 2^-20 of the way to the centre, as in terms/form_factor_range.h: where two elements touch, F has
+ * no value at the corner itself.
  *
- * Where a link has a cluster at one end, the emitter is the pivot that the link takes it for (separable_links.h), and
- * what its whole face takes is what the leaf does. The receiver's clusters count, too.
+ * Where a link has a cluster at one end, the emitter is the pivot that the link takes it for
+ * (separable_links.h), and what its whole face takes is what the leaf does. The receiver's clusters
+ * count, too.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
@@ -19,31 +23,36 @@
 
 enum { POINTS = 5 };
 
-/* The points of one leaf, and what links would bring to each less what they bring to the leaf (W/m2). */
+/* The points of one leaf, and what links would bring to each less what they bring to the leaf
+ * (W/m2). */
 struct points {
     double at[POINTS][3];
     int count;
     double sum[2][POINTS][3]; /* [band] of all links; [1]: of those that a guard kept whole */
 };
 
-static void add_link(struct points *p, const struct operator *op, const double *radiosity, const struct link *l,
-                     const struct element *leaf)
+static void add_link(struct points *p, const struct operator* op, const double *radiosity,
+                     const struct link *l, const struct element *leaf)
 {
     uint32_t bands = op->problem->bands;
     const struct element *emitter = &op->hierarchy->elements[l->emitter];
-    double visible = l->visibility * (1.0 / LINK_VISIBLE), (*sum)[3] = p->sum[l->mark == LINK_GUARDED];
+    double visible = l->visibility * (1.0 / LINK_VISIBLE),
+           (*sum)[3] = p->sum[l->mark == LINK_GUARDED];
     struct polygon q;
     point_factor_clip(&q, leaf, emitter);
     for (int i = 0; i < p->count; i++) {
-        double off = visible * (point_factor_at(p->at[i], leaf, emitter, &q) - (double)l->form_factor);
+        double off =
+            visible * (point_factor_at(p->at[i], leaf, emitter, &q) - (double)l->form_factor);
         for (uint32_t k = 0; k < bands; k++)
             sum[i][k] += radiosity[(size_t)l->emitter * bands + k] * off;
     }
 }
 
-/* The same for the separable links of element `up`, which is the leaf or holds it, and of which `taker` takes the light: the
- * whole face, or the part of it that has the links. Returns how many there are. */
-static uint32_t add_separable(struct points *p, const struct operator *op, uint32_t up, const struct element *taker)
+/* The same for the separable links of element `up`, which is the leaf or holds it, and of which
+ * `taker` takes the light: the whole face, or the part of it that has the links. Returns how many
+ * there are. */
+static uint32_t add_separable(struct points *p, const struct operator* op, uint32_t up,
+                              const struct element *taker)
 {
     const struct separable_links *s = &op->separable;
     uint32_t bands = op->problem->bands;
@@ -61,7 +70,8 @@ static uint32_t add_separable(struct points *p, const struct operator *op, uint3
 }
 
 /* rho times the largest modulus over points and bands. */
-static double largest(const struct points *p, const struct problem *problem, const struct element *e, double sum[POINTS][3])
+static double largest(const struct points *p, const struct problem *problem,
+                      const struct element *e, double sum[POINTS][3])
 {
     const double *rho = &problem->reflectance[(size_t)e->face * problem->bands];
     double most = 0;
@@ -71,12 +81,13 @@ static double largest(const struct points *p, const struct problem *problem, con
     return most;
 }
 
-struct leaf_residual residual_of_leaf(const struct operator *op, const double *radiosity, uint32_t leaf)
+struct leaf_residual residual_of_leaf(const struct operator* op, const double *radiosity,
+                                      uint32_t leaf)
 {
     const struct element *elements = op->hierarchy->elements, *e = &elements[leaf], *taker = e;
     const struct refinement *r = op->refinement;
-    struct leaf_residual result = { 0, 0, 0 };
-    struct points p = { .count = e->vertices + 1 };
+    struct leaf_residual result = {0, 0, 0};
+    struct points p = {.count = e->vertices + 1};
     for (int i = 0; i < e->vertices; i++)
         for (int c = 0; c < 3; c++)
             p.at[i][c] = e->vertex[i][c] + (1 / 1048576.0) * (e->centre[c] - e->vertex[i][c]);

@@ -1,4 +1,5 @@
-/* residual.h - how far the radiosity of a leaf is from what its links would give at single points of it.
+/* residual.h - how far the radiosity of a leaf is from what its links would give at single points
+ * of it.
  * SPDX-License-Identifier: MIT */
 #ifndef RESIDUAL_H
 #define RESIDUAL_H
@@ -12,7 +13,9 @@ struct leaf_residual {
     uint32_t links; /* how many it has */
 };
 
-/* With B = radiosity[element * bands + band], of which the separable links were last sent. Thread-safe. */
-struct leaf_residual residual_of_leaf(const struct operator *op, const double *radiosity, uint32_t leaf);
+/* With B = radiosity[element * bands + band], of which the separable links were last sent.
+ * Thread-safe. */
+struct leaf_residual residual_of_leaf(const struct operator* op, const double *radiosity,
+                                      uint32_t leaf);
 
 #endif

@@ -1,22 +1,25 @@
 /* row_sums.c - no point sees more than everything: what is done about rows that say otherwise.
  *
- * The row of a leaf is the sum of F V over its own links and its ancestors'. It counts per uncovered area, for what a
- * solid covers sees nothing, and is at most 1; yet a leaf near an edge, whose ancestors' links bring their mean, can
- * exceed that, and then a bright enough scene gains power in every reflection and the iteration diverges.
+ * The row of a leaf is the sum of F V over its own links and its ancestors'. It counts per
+ * uncovered area, for what a solid covers sees nothing, and is at most 1; yet a leaf near an edge,
+ * whose ancestors' links bring their mean, can exceed that, and then a bright enough scene gains
+ * power in every reflection and the iteration diverges.
  *
- * The cap (CLOSURE_NONE). A leaf above 1 is brought down to 1: what comes over its ancestors' links, which is their mean
- * and not its own, is scaled, and its own links only where they alone are above 1. (To scale both alike would take
- * strong light, which has fine links, for what is wrong with weak.) The power that takes away goes to the leaves of the
- * same face between ROW_SHADOW and 1, by the room they have. That moves power within a face and makes none; rows below
- * ROW_SHADOW are shadow, not error, and stay dark. Where the mean row of a whole face exceeds 1, by the noise of its
- * rays, the cap is that mean (cutting noise on one side would lose power), but at most 1 + (1 - rho) / 2: so
- * the iteration converges whatever the oracle does.
+ * The cap (CLOSURE_NONE). A leaf above 1 is brought down to 1: what comes over its ancestors'
+ * links, which is their mean and not its own, is scaled, and its own links only where they alone
+ * are above 1. (To scale both alike would take strong light, which has fine links, for what is
+ * wrong with weak.) The power that takes away goes to the leaves of the same face between
+ * ROW_SHADOW and 1, by the room they have. That moves power within a face and makes none; rows
+ * below ROW_SHADOW are shadow, not error, and stay dark. Where the mean row of a whole face exceeds
+ * 1, by the noise of its rays, the cap is that mean (cutting noise on one side would lose power),
+ * but at most 1 + (1 - rho) / 2: so the iteration converges whatever the oracle does.
  *
- * Closure (CLOSURE_ROWS). In a closed scene every row is 1, so every row is scaled to 1, up or down; a leaf that has
- * no link at all though it is uncovered takes the mean of its face. In an open scene what is missing may be the
- * environment: rows above 1 are scaled to 1 and others stay. Every row is at most 1 then, so no light is made. A
- * constant radiosity is reproduced exactly in a closed scene (white furnace). What is lost is reciprocity: A_i F_ij and
- * A_j F_ji are scaled by different factors, so that power is balanced only as well as the unscaled rows agree.
+ * Closure (CLOSURE_ROWS). In a closed scene every row is 1, so every row is scaled to 1, up or
+ * down; a leaf that has no link at all though it is uncovered takes the mean of its face. In an
+ * open scene what is missing may be the environment: rows above 1 are scaled to 1 and others stay.
+ * Every row is at most 1 then, so no light is made. A constant radiosity is reproduced exactly in a
+ * closed scene (white furnace). What is lost is reciprocity: A_i F_ij and A_j F_ji are scaled by
+ * different factors, so that power is balanced only as well as the unscaled rows agree.
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -28,12 +31,13 @@ struct face_rows {
     double cap, sum, area; /* sum: of A row */
     double seeing;         /* of A, leaves that have a row */
     double excess, room;   /* above the cap; between ROW_SHADOW of the cap and the cap */
-    struct operator *op;
+    struct operator* op;
     struct row_report *report;
 };
 
-/* Leave the row of every leaf below e where its scale will stand, and what its ancestors have of it where theirs will. */
-static void sum_links(struct operator *op, uint32_t e, double above)
+/* Leave the row of every leaf below e where its scale will stand, and what its ancestors have of
+ * it where theirs will. */
+static void sum_links(struct operator* op, uint32_t e, double above)
 {
     const struct element *x = &op->hierarchy->elements[e];
     const struct refinement *r = op->refinement;
@@ -50,7 +54,8 @@ static void sum_links(struct operator *op, uint32_t e, double above)
 }
 
 static void visit_leaves(struct face_rows *rows, uint32_t e,
-                         void (*visit)(struct face_rows *rows, uint32_t leaf, double row, double area))
+                         void (*visit)(struct face_rows *rows, uint32_t leaf, double row,
+                                       double area))
 {
     const struct element *x = &rows->op->hierarchy->elements[e];
     double uncovered = rows->op->uncovered[e];
@@ -89,29 +94,31 @@ static void weigh_row(struct face_rows *rows, uint32_t leaf, double row, double 
 
 static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct operator *op = rows->op;
+    struct operator* op = rows->op;
     double cap = rows->cap, most = fmax(rows->excess, rows->room), uncovered = op->uncovered[leaf];
     double above = uncovered > 0 ? op->row_above[leaf] / uncovered : 0, own = row - above;
     (void)area;
     op->row_scale[leaf] = own > cap ? cap / own : 1;
     op->row_above[leaf] = row <= cap ? 1 : own < cap ? (cap - own) / above : 0;
     op->row_share[leaf] = row > ROW_SHADOW * cap && row < cap ? uncovered * (cap - row) / most : 0;
-    op->row[leaf] = op->row_share[leaf] > 0 ? row + (cap - row) / most * rows->excess : fmin(row, cap);
+    op->row[leaf] =
+        op->row_share[leaf] > 0 ? row + (cap - row) / most * rows->excess : fmin(row, cap);
 }
 
 static void close_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct operator *op = rows->op;
+    struct operator* op = rows->op;
     int closed = op->problem->closed > 0;
     rows->excess += row > 1 ? area * (row - 1) : 0;
     op->row_scale[leaf] = !(area > 0) ? 0 : closure_row_scale(row, 1, closed);
     op->row_above[leaf] = op->row_scale[leaf];
-    op->row_share[leaf] = row > 0 || !closed || !(rows->seeing > 0) ? 0
-                        : (area > 0 ? op->uncovered[leaf] : 1) / rows->seeing;
+    op->row_share[leaf] = row > 0 || !closed || !(rows->seeing > 0)
+                              ? 0
+                              : (area > 0 ? op->uncovered[leaf] : 1) / rows->seeing;
     op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
-void row_sums_scale(struct operator *op, struct row_report *report)
+void row_sums_scale(struct operator* op, struct row_report *report)
 {
     const struct problem *p = op->problem;
     const struct hierarchy *h = op->hierarchy;
@@ -119,11 +126,11 @@ void row_sums_scale(struct operator *op, struct row_report *report)
 #pragma omp parallel for schedule(dynamic, 16) num_threads(p->options.threads)
     for (uint32_t i = 0; i < h->face_count; i++)
         sum_links(op, h->face_element[i], 0);
-    *report = (struct row_report){ .low = INFINITY };
+    *report = (struct row_report){.low = INFINITY};
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];
         double most = 1 + ROW_EXCESS * (1 - p->whitest[i]);
-        struct face_rows rows = { .cap = 1, .op = op, .report = report };
+        struct face_rows rows = {.cap = 1, .op = op, .report = report};
         visit_leaves(&rows, e, measure_row);
         uncovered += rows.area;
         if (p->options.closure == CLOSURE_ROWS) {

@@ -1,20 +1,23 @@
-/* row_sums.h - the row of a leaf: the sum of F V over its own links and its ancestors', and what it is scaled to.
+/* row_sums.h - the row of a leaf: the sum of F V over its own links and its ancestors', and what it
+ * is scaled to.
  * SPDX-License-Identifier: MIT */
 #ifndef ROW_SUMS_H
 #define ROW_SUMS_H
 
 #include "engine/operator.h"
 
-/* The rows of all leaves before the cap or closure, per uncovered area; 1 in a closed scene without error. */
+/* The rows of all leaves before the cap or closure, per uncovered area; 1 in a closed scene
+ * without error. */
 struct row_report {
     uint32_t leaves;
     double low, high;                /* smallest and largest row */
     double defect_mean, defect_most; /* |row - 1|, by uncovered area: mean and largest */
     double blind_area;               /* uncovered leaves without any link (m2) */
-    double moved;                    /* what the cap or closure took: sum A (row - 1) over rows above 1, over the scene's area */
+    /* what the cap or closure took: sum A (row - 1) over rows above 1, over the scene's area */
+    double moved;
 };
 
 /* Measure all rows and set the operator's row scales as options.closure says. */
-void row_sums_scale(struct operator *op, struct row_report *report);
+void row_sums_scale(struct operator* op, struct row_report *report);
 
 #endif

@@ -5,41 +5,41 @@
 
 void separable_faces_arrays(struct separable_faces *f, float *at, size_t count, int bands)
 {
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         f->centre[k] = at + (size_t)k * count;
         f->normal[k] = at + (size_t)(3 + k) * count;
         f->sent[k] = at + (size_t)(SEPARABLE_ARRAYS + (k < bands ? k : 0)) * count;
     }
-    for (k = 0; k < 6; k++)
+    for (int k = 0; k < 6; k++)
         f->across[k] = at + (size_t)(6 + k) * count;
     f->area = at + 12 * count;
     f->bright = at + 13 * count;
 }
 
-void separable_faces_set(struct separable_faces *f, size_t i, const struct element *e, const double low[3], double unit)
+void separable_faces_set(struct separable_faces *f, size_t i, const struct element *e,
+                         const double low[3], double unit)
 {
-    double along[3], other[3], square[3] = { 0, 0, 0 }, inverse = 1 / unit, p, q, r;
-    int k, v;
+    double along[3], other[3], square[3] = {0, 0, 0}, inverse = 1 / unit;
     sub3(along, e->vertex[1], e->vertex[0]);
-    p = length3(along);
-    for (k = 0; k < 3; k++)
+    double p = length3(along);
+    for (int k = 0; k < 3; k++)
         along[k] *= p > 0 ? 1 / p : 0;
     cross3(other, e->normal, along);
-    for (v = 0; v < e->vertices; v++) { /* a twelfth of the corners' sum is exact for triangles and parallelograms */
-        double w[3], x, y;
+    /* a twelfth of the corners' sum is exact for triangles and parallelograms */
+    for (int v = 0; v < e->vertices; v++) {
+        double w[3];
         sub3(w, e->vertex[v], e->centre);
-        x = dot3(w, along) * inverse;
-        y = dot3(w, other) * inverse;
+        double x = dot3(w, along) * inverse;
+        double y = dot3(w, other) * inverse;
         square[0] += x * x / 12;
         square[1] += x * y / 12;
         square[2] += y * y / 12;
     }
     p = sqrt(square[0]);
-    q = p > 0 ? square[1] / p : 0;
-    r = square[2] - q * q;
+    double q = p > 0 ? square[1] / p : 0;
+    double r = square[2] - q * q;
     r = r > 0 ? sqrt(r) : 0;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         f->centre[k][i] = (float)((e->centre[k] - low[k]) * inverse);
         f->normal[k][i] = (float)e->normal[k];
         f->across[k][i] = (float)(p * along[k] + q * other[k]);
@@ -49,14 +49,16 @@ void separable_faces_set(struct separable_faces *f, size_t i, const struct eleme
     f->bright[i] = f->area[i] * (float)e->radiosity;
 }
 
-void separable_side_whole(struct separable_side *side, const struct separable_faces *f, size_t from, size_t to)
+void separable_side_whole(struct separable_side *side, const struct separable_faces *f, size_t from,
+                          size_t to)
 {
     side->faces = *f;
     side->from = from;
     side->to = to;
 }
 
-void separable_side_part(struct separable_side *side, const struct element *e, const double low[3], double unit)
+void separable_side_part(struct separable_side *side, const struct element *e, const double low[3],
+                         double unit)
 {
     separable_faces_arrays(&side->faces, side->part, 1, 3);
     separable_faces_set(&side->faces, 0, e, low, unit);

@@ -1,5 +1,6 @@
-/* separable_links.c - see separable_links.h. Invariant: what a face gathers is summed in the order of its clusters' links
- * from the root down, then its own; so the result does not depend on threads.
+/* separable_links.c - see separable_links.h. Invariant: what a face gathers is summed in the order
+ * of its clusters' links from the root down, then its own; so the result does not depend on
+ * threads.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -25,44 +26,47 @@ static void side_open(const struct separable_links *c, struct separable_side *si
         separable_side_part(side, &h->elements[e], h->low, c->unit);
 }
 
-static void separate_link(const struct separable_links *c, struct separable_link *b, const struct link *l)
+static void separate_link(const struct separable_links *c, struct separable_link *b,
+                          const struct link *l)
 {
     const struct element *elements = c->hierarchy->elements;
     struct separable_side of_r, of_s;
-    float passes;
     memset(b, 0, sizeof *b);
     b->emitter = l->emitter;
     side_open(c, &of_r, l->receiver);
     side_open(c, &of_s, l->emitter);
-    passes = find_pivots(&b->r, &b->s, &elements[l->receiver], &elements[l->emitter], &of_r, &of_s);
+    float passes =
+        find_pivots(&b->r, &b->s, &elements[l->receiver], &elements[l->emitter], &of_r, &of_s);
     if (passes > 0)
         b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (double)passes);
 }
 
 /* J of the link in each band; of a radiosity of 1 when there is none. */
-static void send_link(const struct separable_links *c, const struct separable_link *b, int bands, const double *radiosity, float *to)
+static void send_link(const struct separable_links *c, const struct separable_link *b, int bands,
+                      const double *radiosity, float *to)
 {
     struct separable_side side;
-    float sum[3] = { 0, 0, 0 };
-    size_t i;
-    int k;
+    float sum[3] = {0, 0, 0};
     side_open(c, &side, b->emitter);
     if (c->hierarchy->elements[b->emitter].depth > 0) {
         float value = side.faces.area[0] * separable_kernel(&side.faces, 0, &b->r);
-        for (k = 0; k < bands; k++)
-            sum[k] = (float)(radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1) * value;
+        for (int k = 0; k < bands; k++)
+            sum[k] =
+                (float)(radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1)
+                * value;
     } else if (bands == 1) {
         const float *sent = radiosity ? side.faces.sent[0] : side.faces.area;
         float all = 0;
 #pragma omp simd reduction(+ : all)
-        for (i = side.from; i < side.to; i++)
+        for (size_t i = side.from; i < side.to; i++)
             all += sent[i] * separable_kernel(&side.faces, i, &b->r);
         sum[0] = all;
     } else {
-        const float *red = side.faces.sent[0], *green = side.faces.sent[1], *blue = side.faces.sent[2];
+        const float *red = side.faces.sent[0], *green = side.faces.sent[1],
+                    *blue = side.faces.sent[2];
         float x = 0, y = 0, z = 0;
 #pragma omp simd reduction(+ : x, y, z)
-        for (i = side.from; i < side.to; i++) {
+        for (size_t i = side.from; i < side.to; i++) {
             float value = separable_kernel(&side.faces, i, &b->r);
             x += red[i] * value;
             y += green[i] * value;
@@ -72,47 +76,47 @@ static void send_link(const struct separable_links *c, const struct separable_li
         sum[1] = y;
         sum[2] = z;
     }
-    for (k = 0; k < bands; k++)
+    for (int k = 0; k < bands; k++)
         to[k] = b->scale * sum[k];
 }
 
-/* Add to `received` what the links of e and of the elements below bring to the faces from .. to - 1. */
-static void receive_below(const struct separable_links *c, int bands, uint32_t e, size_t from, size_t to)
+/* Add to `received` what the links of e and of the elements below bring to the faces from .. to
+ * - 1. */
+static void receive_below(const struct separable_links *c, int bands, uint32_t e, size_t from,
+                          size_t to)
 {
     const struct hierarchy *h = c->hierarchy;
     const struct element *x = &h->elements[e];
-    size_t b, i, count = h->face_count;
-    int k;
+    size_t count = h->face_count;
     from = from > h->range[e].from ? from : h->range[e].from;
     to = to < h->range[e].to ? to : h->range[e].to;
     if (from >= to)
         return;
-    for (b = c->first[e]; b < c->first[e + 1]; b++) {
+    for (size_t b = c->first[e]; b < c->first[e + 1]; b++) {
         const struct separable_link *link = &c->links[b];
         const float *arrives = &c->arrives[b * (size_t)bands];
         float value[CHUNK];
 #pragma omp simd
-        for (i = from; i < to; i++)
+        for (size_t i = from; i < to; i++)
             value[i - from] = separable_kernel(&c->faces, i, &link->s);
-        for (k = 0; k < bands; k++) {
+        for (int k = 0; k < bands; k++) {
             float *received = &c->received[(size_t)k * count];
 #pragma omp simd
-            for (i = from; i < to; i++)
+            for (size_t i = from; i < to; i++)
                 received[i] += arrives[k] * value[i - from];
         }
     }
-    for (k = 0; k < x->children && !x->vertices; k++)
+    for (int k = 0; k < x->children && !x->vertices; k++)
         receive_below(c, bands, x->child + (uint32_t)k, from, to);
 }
 
 static void receive_all(const struct separable_links *c, int bands)
 {
-    size_t count = c->hierarchy->face_count, i;
+    size_t count = c->hierarchy->face_count;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(c->threads)
-    for (i = 0; i < count; i += CHUNK) {
+    for (size_t i = 0; i < count; i += CHUNK) {
         size_t to = i + CHUNK < count ? i + CHUNK : count;
-        int k;
-        for (k = 0; k < bands; k++)
+        for (int k = 0; k < bands; k++)
             memset(&c->received[(size_t)k * count + i], 0, (to - i) * sizeof *c->received);
         receive_below(c, bands, 0, i, to);
     }
@@ -122,20 +126,20 @@ static void receive_all(const struct separable_links *c, int bands)
 static double unit_of(const struct hierarchy *h)
 {
     double extent = 0;
-    int k, exponent;
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         extent = h->high[k] - h->low[k] > extent ? h->high[k] - h->low[k] : extent;
+    int exponent;
     frexp(extent, &exponent);
     return ldexp(1, exponent);
 }
 
-int separable_links_open(struct separable_links *c, const struct hierarchy *h, const struct refinement *r, int bands, int threads)
+int separable_links_open(struct separable_links *c, const struct hierarchy *h,
+                         const struct refinement *r, int bands, int threads)
 {
-    size_t i, n = 0, faces = h->face_count;
-    uint32_t e;
+    size_t n = 0, faces = h->face_count;
     memset(c, 0, sizeof *c);
     c->hierarchy = h;
-    for (i = 0; i < r->link_count; i++)
+    for (size_t i = 0; i < r->link_count; i++)
         n += (size_t)is_separable(h, &r->links[i]);
     if (n == 0)
         return 0;
@@ -154,21 +158,22 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h, c
         return -1;
     }
     separable_faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
-    for (e = 0; e < h->count; e++) {
+    for (uint32_t e = 0; e < h->count; e++) {
         c->first[e] = c->count;
-        for (i = r->first_link[e]; i < r->first_link[e + 1]; i++)
+        for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
             c->count += (size_t)is_separable(h, &r->links[i]);
     }
     c->first[h->count] = c->count;
 #pragma omp parallel for schedule(static) num_threads(threads)
-    for (i = 0; i < faces; i++) {
+    for (size_t i = 0; i < faces; i++) {
         c->place[h->order[i]] = (uint32_t)i;
-        separable_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low, c->unit);
+        separable_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low,
+                            c->unit);
     }
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-    for (e = 0; e < h->count; e++) {
-        size_t from, at = c->first[e];
-        for (from = r->first_link[e]; from < r->first_link[e + 1]; from++)
+    for (uint32_t e = 0; e < h->count; e++) {
+        size_t at = c->first[e];
+        for (size_t from = r->first_link[e]; from < r->first_link[e + 1]; from++)
             if (is_separable(h, &r->links[from])) {
                 separate_link(c, &c->links[at], &r->links[from]);
                 send_link(c, &c->links[at], 1, NULL, &c->arrives[at]);
@@ -182,20 +187,19 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h, c
 void separable_links_send(const struct separable_links *c, int bands, const double *radiosity)
 {
     const struct hierarchy *h = c->hierarchy;
-    size_t i;
     if (c->count == 0)
         return;
 #pragma omp parallel num_threads(c->threads)
     {
 #pragma omp for schedule(static)
-        for (i = 0; i < h->face_count; i++) {
+        for (size_t i = 0; i < h->face_count; i++) {
             uint32_t e = h->face_element[h->order[i]];
-            int k;
-            for (k = 0; k < bands; k++)
-                c->faces.sent[k][i] = c->faces.area[i] * (float)radiosity[(size_t)e * (size_t)bands + (size_t)k];
+            for (int k = 0; k < bands; k++)
+                c->faces.sent[k][i] =
+                    c->faces.area[i] * (float)radiosity[(size_t)e * (size_t)bands + (size_t)k];
         }
 #pragma omp for schedule(dynamic, 256)
-        for (i = 0; i < c->count; i++)
+        for (size_t i = 0; i < c->count; i++)
             send_link(c, &c->links[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
     }
     receive_all(c, bands);
@@ -204,20 +208,20 @@ void separable_links_send(const struct separable_links *c, int bands, const doub
 void separable_links_gather(const struct separable_links *c, int bands, uint32_t e, double *h)
 {
     const struct element *x = &c->hierarchy->elements[e];
-    size_t b, k, count = (size_t)bands;
+    size_t count = (size_t)bands;
     if (c->count == 0 || e >= c->elements)
         return;
     if (x->depth == 0) {
-        for (k = 0; k < count; k++)
+        for (size_t k = 0; k < count; k++)
             h[k] += (double)c->received[k * c->hierarchy->face_count + c->place[x->face]];
         return;
     }
     if (c->first[e] < c->first[e + 1]) {
         struct separable_side side;
         side_open(c, &side, e);
-        for (b = c->first[e]; b < c->first[e + 1]; b++) {
+        for (size_t b = c->first[e]; b < c->first[e + 1]; b++) {
             double value = (double)separable_kernel(&side.faces, 0, &c->links[b].s);
-            for (k = 0; k < count; k++)
+            for (size_t k = 0; k < count; k++)
                 h[k] += (double)c->arrives[b * count + k] * value;
         }
     }
@@ -230,16 +234,16 @@ double separable_links_row(const struct separable_links *c, uint32_t e)
     return row;
 }
 
-double separable_links_at(const struct separable_links *c, const struct separable_link *b, const double x[3], const double n[3])
+double separable_links_at(const struct separable_links *c, const struct separable_link *b,
+                          const double x[3], const double n[3])
 {
-    double v[3], near = 0, far = (double)b->s.shift, square;
-    int k;
-    for (k = 0; k < 3; k++) {
+    double v[3], near = 0, far = (double)b->s.shift;
+    for (int k = 0; k < 3; k++) {
         v[k] = (double)b->s.centre[k] - (x[k] - c->hierarchy->low[k]) / c->unit;
         near += n[k] * v[k];
         far -= (double)b->s.normal[k] * v[k];
     }
-    square = dot3(v, v);
+    double square = dot3(v, v);
     return near > 0 && far > 0 ? near * far / (square * square) : 0;
 }
 

@@ -1,13 +1,14 @@
-/* solve.c - Hanrahan's multigridding around the radiosity iteration: refine, solve, let the oracle see the new
- * radiosities, refine again, until no link changes.
+/* solve.c - Hanrahan's multigridding around the radiosity iteration: refine, solve, let the oracle
+ * see the new radiosities, refine again, until no link changes.
  *
- * Where groups are linked there are many links, and most passes change many of them. Those solve to ROUGH_TOLERANCE
- * only, less than what oracles notice (HYSTERESIS). Once so few links change, one in SETTLED, passes solve to the
- * tolerance. The solve has converged when such a pass changes no link: what the last links gave is then known to the
- * tolerance, and the oracle would leave them as they are.
+ * Where groups are linked there are many links, and most passes change many of them. Those solve to
+ * ROUGH_TOLERANCE only, less than what oracles notice (HYSTERESIS). Once so few links change, one
+ * in SETTLED, passes solve to the tolerance. The solve has converged when such a pass changes no
+ * link: what the last links gave is then known to the tolerance, and the oracle would leave them as
+ * they are.
  *
- * The equation is solved in transport.c; what is done about rows that sum to more or less than 1 stands in row_sums.c;
- * what the oracles see of a solution in oracle_inputs.c.
+ * The equation is solved in transport.c; what is done about rows that sum to more or less than 1
+ * stands in row_sums.c; what the oracles see of a solution in oracle_inputs.c.
  * [Hanrahan et al. 1991, sections 4 and 5]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -41,15 +42,18 @@ static int enlarge(double **list, size_t count)
     return 0;
 }
 
-/* Room for all elements, and for elements made since the last call their parent's radiosity. Returns 0 or -1. */
+/* Room for all elements, and for elements made since the last call their parent's radiosity.
+ * Returns 0 or -1. */
 static int make_room(struct solve *s)
 {
     struct state *state = &s->state;
-    struct operator *op = &s->operator;
+    struct operator* op = & s->operator;
     uint32_t count = s->hierarchy.count, b = s->problem.bands;
     if (count > s->room) {
-        double **const by_band[] = { &state->radiosity, &state->irradiance, &s->inputs.least, &s->inputs.most };
-        double **const single[] = { &op->uncovered, &op->row_scale, &op->row_above, &op->row_share, &op->row };
+        double **const by_band[] = {&state->radiosity, &state->irradiance, &s->inputs.least,
+                                    &s->inputs.most};
+        double **const single[] = {&op->uncovered, &op->row_scale, &op->row_above, &op->row_share,
+                                   &op->row};
         size_t room = (size_t)count + count / 4;
         for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
             if (enlarge(by_band[i], room * b) < 0)
@@ -76,8 +80,10 @@ static int make_room(struct solve *s)
     return 0;
 }
 
-/* Which share of each new leaf no solid stands on; from there up, means. `first`: the first new element. */
-static void measure_contact(double *uncovered, const struct hierarchy *h, const struct problem *p, uint32_t first)
+/* Which share of each new leaf no solid stands on; from there up, means. `first`: the first new
+ * element. */
+static void measure_contact(double *uncovered, const struct hierarchy *h, const struct problem *p,
+                            uint32_t first)
 {
     const struct element *elements = h->elements;
 #pragma omp parallel for schedule(dynamic, 64) num_threads(p->options.threads)
@@ -119,11 +125,16 @@ static int read_materials(struct problem *p)
 /* Radiosity, as an equation over the links. */
 static struct transport light(struct solve *s, double tolerance)
 {
-    return (struct transport){ .bands = s->problem.bands, .value = s->state.radiosity, .irradiance = s->state.irradiance,
-                               .source = s->problem.exitance, .reflectance = s->problem.reflectance, .tolerance = tolerance };
+    return (struct transport){.bands = s->problem.bands,
+                              .value = s->state.radiosity,
+                              .irradiance = s->state.irradiance,
+                              .source = s->problem.exitance,
+                              .reflectance = s->problem.reflectance,
+                              .tolerance = tolerance};
 }
 
-int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options, const char **cause)
+int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
+               const char **cause)
 {
     struct problem *p = &s->problem;
     struct hierarchy *h = &s->hierarchy;
@@ -133,25 +144,30 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     p->scene = scene;
     p->options = *options;
     p->bands = options->unit ? 1 : scene->bands;
-    s->operator = (struct operator){ .problem = p, .hierarchy = h, .refinement = &s->refinement };
+    s->operator=(struct operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
     if (hierarchy_build_by(h, scene->faces, scene->face_count,
-                           options->clusters ? (enum clustering)(options->clusters - 1) : CLUSTERING_DEFAULT, options->threads) < 0)
+                           options->clusters ? (enum clustering)(options->clusters - 1)
+                                             : CLUSTERING_DEFAULT,
+                           options->threads)
+        < 0)
         return -1;
     s->report.seconds.clusters = seconds() - start;
     brightest = malloc(scene->face_count * sizeof *brightest);
     if (!brightest || read_materials(p) < 0 || make_room(s) < 0)
         goto fail;
-    /* What emits nothing now or later may be left out of a row only while nobody asks what a row sums to. */
+    /* What emits nothing now or later may be left out of a row only while nobody asks what a row
+     * sums to. */
     for (uint32_t i = 0; (options->unit || options->closure != CLOSURE_NONE) && i < h->count; i++)
         h->elements[i].black = 0;
     for (uint32_t i = 0; i < scene->face_count; i++) {
         const double *exitance = &p->exitance[(size_t)i * p->bands];
         brightest[i] = largest(exitance, p->bands);
         h->elements[h->face_element[i]].reflectance = p->whitest[i];
-        memcpy(&s->state.radiosity[(size_t)h->face_element[i] * p->bands], exitance, p->bands * sizeof *exitance);
+        memcpy(&s->state.radiosity[(size_t)h->face_element[i] * p->bands], exitance,
+               p->bands * sizeof *exitance);
     }
     struct transport x = light(s, 0);
-    transport_average(&s->operator, &x);
+    transport_average(&s->operator, & x);
     oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h);
     p->rays = rays_open(h, brightest, p->whitest, options->threads, cause);
     if (!p->rays)
@@ -208,22 +224,26 @@ static int fail(const struct solve *s, const char *memory, const char **cause)
 
 /* ---- passes */
 
-static const char refining[] = "out of memory while refining; a coarser oracle parameter needs less";
+static const char refining[] =
+    "out of memory while refining; a coarser oracle parameter needs less";
 
 int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     const struct problem *p = &s->problem;
     double start = seconds(), error = error_control_target(refiner, rays_host(p->rays));
     if (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)
-        && importance_start(&s->importance, &s->operator, &s->hierarchy, &s->inputs) < 0)
+        && importance_start(&s->importance, &s->operator, & s->hierarchy, &s->inputs) < 0)
         return fail(s, "out of memory", cause);
     if (error > 0)
         error_control_start(&s->error, error, &s->hierarchy, &s->inputs);
-    if (refinement_open(&s->refinement, &s->hierarchy, rays_host(p->rays), refiner, p->options.threads) < 0)
+    if (refinement_open(&s->refinement, &s->hierarchy, rays_host(p->rays), refiner,
+                        p->options.threads)
+        < 0)
         return fail(s, refining, cause);
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
-    if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0 || make_room(s) < 0)
+    if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0
+        || make_room(s) < 0)
         return fail(s, refining, cause);
     if (!p->options.unit)
         measure_contact(s->operator.uncovered, &s->hierarchy, p, 0);
@@ -232,15 +252,17 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     return 0;
 }
 
-/* Solve for the radiosities over the links as they are, to `tolerance`, and for importance where it is asked for;
- * let the oracles see both. Returns 0 or -1. */
+/* Solve for the radiosities over the links as they are, to `tolerance`, and for importance where it
+ * is asked for; let the oracles see both. Returns 0 or -1. */
 static int iterate(struct solve *s, double tolerance, int rough)
 {
-    struct operator *op = &s->operator;
+    struct operator* op = & s->operator;
     struct transport x = light(s, tolerance), carried;
     x.rough = rough;
     separable_links_close(&op->separable);
-    if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)x.bands, s->problem.options.threads) < 0)
+    if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)x.bands,
+                             s->problem.options.threads)
+        < 0)
         return -1;
     row_sums_scale(op, &s->report.rows);
     x.watch = watch_light;
@@ -265,7 +287,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
 }
 
 /* The account of power. */
-static void sum_power(struct report *report, const struct operator *op, const double *irradiance)
+static void sum_power(struct report *report, const struct operator* op, const double *irradiance)
 {
     const struct problem *p = op->problem;
     report->emitted = report->absorbed = 0;
@@ -275,12 +297,14 @@ static void sum_power(struct report *report, const struct operator *op, const do
         for (uint32_t k = 0; k < p->bands; k++) {
             size_t at = (size_t)i * p->bands + k;
             report->emitted += area * op->uncovered[e] * p->exitance[at];
-            report->absorbed += area * (1 - p->reflectance[at]) * irradiance[(size_t)e * p->bands + k];
+            report->absorbed +=
+                area * (1 - p->reflectance[at]) * irradiance[(size_t)e * p->bands + k];
         }
     }
 }
 
-/* Discuss the links of changed elements again and make room for what comes of it. Returns how many changed, or -1. */
+/* Discuss the links of changed elements again and make room for what comes of it. Returns how
+ * many changed, or -1. */
 static int64_t refine_again(struct solve *s)
 {
     uint32_t first = s->hierarchy.count;
@@ -291,14 +315,15 @@ static int64_t refine_again(struct solve *s)
     return changed;
 }
 
-/* Under error control: lower error tolerances until some link changes for it, or nothing is left to be gained. Returns
- * how many links changed, or -1. */
+/* Under error control: lower error tolerances until some link changes for it, or nothing is left to
+ * be gained. Returns how many links changed, or -1. */
 static int64_t refine_for_error(struct solve *s)
 {
     if (error_control_estimate(&s->error, &s->operator, s->state.radiosity) < 0)
         return -1;
     for (;;) {
-        uint32_t lowered = error_control_tighten(&s->error, &s->operator, &s->hierarchy, &s->inputs);
+        uint32_t lowered =
+            error_control_tighten(&s->error, &s->operator, & s->hierarchy, &s->inputs);
         int64_t changed = refine_again(s);
         if (changed != 0 || lowered == 0)
             return changed;
@@ -309,15 +334,14 @@ static int64_t refine_for_error(struct solve *s)
 int solve_step(struct solve *s, const char **cause)
 {
     const struct problem *p = &s->problem;
-    double start = seconds(), middle, tolerance = p->options.tolerance;
+    double start = seconds(), tolerance = p->options.tolerance;
     int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
     int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
-    int64_t changed;
     rough = rough && !settled && tolerance < ROUGH_TOLERANCE;
     if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance, rough) < 0)
         return fail(s, "out of memory", cause);
-    middle = seconds();
-    changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);
+    double middle = seconds();
+    int64_t changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);
     if (changed < 0)
         return fail(s, refining, cause);
     s->report.passes++;
@@ -348,10 +372,10 @@ void solve_close(struct solve *s)
     hierarchy_free(&s->hierarchy);
     importance_free(&s->importance);
     error_control_free(&s->error);
-    double *const lists[] = { s->state.radiosity, s->state.irradiance, s->inputs.least, s->inputs.most,
-                              s->operator.uncovered, s->operator.row_scale, s->operator.row_above, s->operator.row_share,
-                              s->operator.row,
-                              s->problem.exitance, s->problem.reflectance, s->problem.whitest };
+    double *const lists[] = {s->state.radiosity,    s->state.irradiance,    s->inputs.least,
+                             s->inputs.most,        s->operator.uncovered,  s->operator.row_scale,
+                             s->operator.row_above, s->operator.row_share,  s->operator.row,
+                             s->problem.exitance,   s->problem.reflectance, s->problem.whitest};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]);
     free(s->inputs.changed);

@@ -18,23 +18,28 @@ struct state {
 
 /* What became of it, for people; nothing is computed from it. */
 struct report {
-    int passes, sweeps;        /* solves, and sweeps of all of them */
-    int converged;             /* the last solve reached the tolerance and no link changes any more */
-    uint64_t changing;         /* links that the last pass changed */
-    double residual;           /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
-    double emitted, absorbed;  /* W, all bands */
+    int passes, sweeps; /* solves, and sweeps of all of them */
+    /* the last solve reached the tolerance and no link changes any more */
+    int converged;
+    uint64_t changing; /* links that the last pass changed */
+    /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
+    double residual;
+    double emitted, absorbed; /* W, all bands */
     struct row_report rows;
-    /* By the clock; in_rays: inside Embree, mean over threads, part of refine; clusters: the tree above the faces, part of
-     * build. */
-    struct { double build, refine, iterate, in_rays, clusters; } seconds;
-    int cancelled;             /* by the progress function */
+    /* By the clock; in_rays: inside Embree, mean over threads, part of refine; clusters: the tree
+     * above the faces, part of build. */
+    struct {
+        double build, refine, iterate, in_rays, clusters;
+    } seconds;
+    int cancelled; /* by the progress function */
 };
 
-/* Who may write what stands in the signatures: functions take the parts they change, and the others const. The parts
- * point at each other, so a solve stays where it was opened. */
+/* Who may write what stands in the signatures: functions take the parts they change, and the others
+ * const. The parts point at each other, so a solve stays where it was opened. */
 struct solve {
-    struct problem problem;       /* fixed by solve_open */
-    struct hierarchy hierarchy;   /* grows with refinement; what oracles see of elements is set by what computes it */
+    struct problem problem; /* fixed by solve_open */
+    /* grows with refinement; what oracles see of elements is set by what computes it */
+    struct hierarchy hierarchy;
     struct refinement refinement; /* links and the queue of pairs */
     struct operator operator;
     struct state state;
@@ -42,21 +47,24 @@ struct solve {
     struct importance importance;
     struct error_control error;
     struct report report;
-    uint32_t room, started;       /* elements that the arrays have place for, and whose radiosity has a value */
+    /* elements that the arrays have place for, and whose radiosity has a value */
+    uint32_t room, started;
 };
 
-/* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set and nothing to free. */
-int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options, const char **cause);
+/* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set
+ * and nothing to free. */
+int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
+               const char **cause);
 
 /* Refine with `refiner` from the root, without solving. Returns 0, or -1 with *cause set. */
 int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause);
 
-/* One pass after solve_refine: solve over the links, show the oracles, discuss links again. Returns 1 while there is
- * more to do, 0 when done, -1 with *cause set. */
+/* One pass after solve_refine: solve over the links, show the oracles, discuss links again. Returns
+ * 1 while there is more to do, 0 when done, -1 with *cause set. */
 int solve_step(struct solve *s, const char **cause);
 
-/* Refine, unless that is done, and step until no link changes and iteration error is below tolerance, or passes run out.
- * Returns 0, or -1 with *cause set. */
+/* Refine, unless that is done, and step until no link changes and iteration error is below
+ * tolerance, or passes run out. Returns 0, or -1 with *cause set. */
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause);
 
 void solve_close(struct solve *s);

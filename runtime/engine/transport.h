@@ -8,25 +8,31 @@
 /* Radiosity (source: exitance) or whatever else travels as light does. */
 struct transport {
     uint32_t bands;
-    double *value, *irradiance; /* [element * bands + band]: start and result; clusters are left alone */
-    const double *source;       /* [face * bands + band], or [element * bands + band] (leaves are read) */
-    const double *reflectance;  /* [face * bands + band] */
-    int by_element;             /* which of the two the source is given by */
-    double tolerance;           /* what iteration may leave, relative */
-    int rough;                  /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance */
-    int (*watch)(void *context, const struct transport *x); /* after each sweep; NULL: none; nonzero stops */
+    /* [element * bands + band]: start and result; clusters are left alone */
+    double *value, *irradiance;
+    /* [face * bands + band], or [element * bands + band] (leaves are read) */
+    const double *source;
+    const double *reflectance; /* [face * bands + band] */
+    int by_element;            /* which of the two the source is given by */
+    double tolerance;          /* what iteration may leave, relative */
+    /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance */
+    int rough;
+    /* after each sweep; NULL: none; nonzero stops */
+    int (*watch)(void *context, const struct transport *x);
     void *watch_context;
 
-    int sweeps, converged;      /* of this solve */
-    double residual;            /* of the last sweep: sum A |dx| / sum A x over leaves */
-    double bound;               /* on what iteration has left: sum A |x - its limit| / sum A x; INFINITY where rows are too large for one */
+    int sweeps, converged; /* of this solve */
+    double residual;       /* of the last sweep: sum A |dx| / sum A x over leaves */
+    /* on what iteration has left: sum A |x - its limit| / sum A x; INFINITY where rows are too
+     * large for one */
+    double bound;
 };
 
 /* Sweep until what iteration leaves is within the tolerance; the row scales are set (row_sums.h).
  * Returns 0, or -1 when out of memory or stopped by `watch`. */
-int transport_solve(const struct operator *op, struct transport *x);
+int transport_solve(const struct operator* op, struct transport *x);
 
 /* Means of the clusters in value and irradiance, whose surfaces have theirs. */
-void transport_average(const struct operator *op, struct transport *x);
+void transport_average(const struct operator* op, struct transport *x);
 
 #endif

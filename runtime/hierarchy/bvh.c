@@ -1,8 +1,9 @@
 /* bvh.c - the driver of the strategies: levels of the tree, each divided.
  *
- * Nodes of a level are divided in parallel, or the few large ones at the top one after the other by all threads; then
- * their children get their places in order. Invariant: places depend on the answers alone, and a strategy's answer on the
- * part alone; so the tree is the same for any number of threads.
+ * Nodes of a level are divided in parallel, or the few large ones at the top one after the other by
+ * all threads; then their children get their places in order. Invariant: places depend on the
+ * answers alone, and a strategy's answer on the part alone; so the tree is the same for any number
+ * of threads.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -34,8 +35,7 @@ static const struct strategy *const strategies[] = {
 
 int clustering_of(const char *name)
 {
-    int i;
-    for (i = 0; i < CLUSTERING_COUNT; i++)
+    for (int i = 0; i < CLUSTERING_COUNT; i++)
         if (strcmp(name, clustering_names[i]) == 0)
             return i;
     return -1;
@@ -43,8 +43,7 @@ int clustering_of(const char *name)
 
 void bounds_empty(struct bounds *b)
 {
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         b->low[k] = INFINITY;
         b->high[k] = -INFINITY;
     }
@@ -52,8 +51,7 @@ void bounds_empty(struct bounds *b)
 
 void bounds_add(struct bounds *b, const struct bounds *other)
 {
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         b->low[k] = other->low[k] < b->low[k] ? other->low[k] : b->low[k];
         b->high[k] = other->high[k] > b->high[k] ? other->high[k] : b->high[k];
     }
@@ -65,35 +63,37 @@ double bounds_area(const struct bounds *b)
     return x < 0 ? 0 : x * y + y * z + z * x;
 }
 
-void build_sort(const struct build *b, const struct part *part, int kinds, build_kind *kind, const void *context, uint32_t *count)
+void build_sort(const struct build *b, const struct part *part, int kinds, build_kind *kind,
+                const void *context, uint32_t *count)
 {
-    uint32_t i, place[KINDS_MAX], from = part->from;
-    int k;
+    uint32_t place[KINDS_MAX], from = part->from;
     memset(count, 0, (size_t)kinds * sizeof *count);
-    for (i = part->from; i < part->to; i++)
+    for (uint32_t i = part->from; i < part->to; i++)
         count[kind(&b->items[i], context)]++;
-    for (k = 0; k < kinds; k++) {
+    for (int k = 0; k < kinds; k++) {
         place[k] = from;
         from += count[k];
     }
-    for (i = part->from; i < part->to; i++)
+    for (uint32_t i = part->from; i < part->to; i++)
         b->scratch[place[kind(&b->items[i], context)]++] = b->items[i];
-    memcpy(&b->items[part->from], &b->scratch[part->from], (part->to - part->from) * sizeof *b->items);
+    memcpy(&b->items[part->from], &b->scratch[part->from],
+           (part->to - part->from) * sizeof *b->items);
 }
 
-int build_cut_thrice(const struct build *b, const struct part *whole, struct part *parts, int threads, build_cutter *cut)
+int build_cut_thrice(const struct build *b, const struct part *whole, struct part *parts,
+                     int threads, build_cutter *cut)
 {
-    int n = 1, i;
+    int n = 1;
     parts[0] = *whole;
-    for (i = 0; i < 3; i++) {
-        struct part made[PARTS_MAX];
-        int most = 0, k, more;
-        for (k = 1; k < n; k++)
+    for (int i = 0; i < 3; i++) {
+        int most = 0;
+        for (int k = 1; k < n; k++)
             if (parts[k].to - parts[k].from > parts[most].to - parts[most].from)
                 most = k;
         if (parts[most].to - parts[most].from < 2)
             break;
-        more = cut(b, &parts[most], made, threads);
+        struct part made[PARTS_MAX];
+        int more = cut(b, &parts[most], made, threads);
         memmove(&parts[most + more], &parts[most + 1], (size_t)(n - most - 1) * sizeof *parts);
         memcpy(&parts[most], made, (size_t)more * sizeof *made);
         n += more - 1;
@@ -109,7 +109,8 @@ static int halve(const struct part *whole, struct part *parts)
     return 2;
 }
 
-static int divide(const struct build *b, const struct strategy *s, const struct part *whole, struct part *parts, uint32_t depth, int threads)
+static int divide(const struct build *b, const struct strategy *s, const struct part *whole,
+                  struct part *parts, uint32_t depth, int threads)
 {
     int n = depth < DEPTH_MAX ? s->divide(b, whole, parts, threads) : 0;
     return n < 2 ? halve(whole, parts) : n;
@@ -117,17 +118,14 @@ static int divide(const struct build *b, const struct strategy *s, const struct 
 
 static void take_items(struct build *b)
 {
-    uint32_t i;
 #pragma omp parallel for schedule(static) num_threads(b->threads)
-    for (i = 0; i < b->count; i++) {
+    for (uint32_t i = 0; i < b->count; i++) {
         const struct face *f = &b->faces[i];
         struct item *x = &b->items[i];
-        uint32_t j;
-        int k;
         memcpy(x->box.low, f->vertex[0], sizeof x->box.low);
         memcpy(x->box.high, f->vertex[0], sizeof x->box.high);
-        for (j = 1; j < f->vertices; j++)
-            for (k = 0; k < 3; k++) {
+        for (uint32_t j = 1; j < f->vertices; j++)
+            for (int k = 0; k < 3; k++) {
                 double p = f->vertex[j][k];
                 x->box.low[k] = p < x->box.low[k] ? p : x->box.low[k];
                 x->box.high[k] = p > x->box.high[k] ? p : x->box.high[k];
@@ -136,31 +134,31 @@ static void take_items(struct build *b)
     }
 }
 
-/* One level: nodes [first, first + count) are open[0 .. count). Their children are appended; those of two items and more are the
- * next level, written to `next`. Returns how many those are. */
-static uint32_t grow_level(struct bvh *t, const struct build *b, const struct strategy *s, const struct part *open,
-                           const uint32_t *node, uint32_t count, uint32_t depth, struct part (*parts)[PARTS_MAX], int *found,
+/* One level: nodes [first, first + count) are open[0 .. count). Their children are appended; those
+ * of two items and more are the next level, written to `next`. Returns how many those are. */
+static uint32_t grow_level(struct bvh *t, const struct build *b, const struct strategy *s,
+                           const struct part *open, const uint32_t *node, uint32_t count,
+                           uint32_t depth, struct part (*parts)[PARTS_MAX], int *found,
                            struct part *next, uint32_t *next_node)
 {
-    uint32_t from, i, after = 0;
-    for (from = 0; from < count; from += BLOCK) {
+    uint32_t after = 0;
+    for (uint32_t from = 0; from < count; from += BLOCK) {
         uint32_t n = count - from < BLOCK ? count - from : BLOCK;
-        for (i = 0; i < n; i++) {
+        for (uint32_t i = 0; i < n; i++) {
             const struct part *p = &open[from + i];
             found[i] = p->to - p->from > LARGE ? divide(b, s, p, parts[i], depth, b->threads) : 0;
         }
 #pragma omp parallel for schedule(dynamic, 16) num_threads(b->threads)
-        for (i = 0; i < n; i++)
+        for (uint32_t i = 0; i < n; i++)
             if (!found[i])
                 found[i] = divide(b, s, &open[from + i], parts[i], depth, 1);
-        for (i = 0; i < n; i++) {
+        for (uint32_t i = 0; i < n; i++) {
             struct bvh_node *parent = &t->nodes[node[from + i]];
-            int k;
             parent->child = t->count;
             parent->children = (uint32_t)found[i];
-            for (k = 0; k < found[i]; k++) {
+            for (int k = 0; k < found[i]; k++) {
                 const struct part *p = &parts[i][k];
-                t->nodes[t->count] = (struct bvh_node){ p->from, p->to, 0, 0 };
+                t->nodes[t->count] = (struct bvh_node){p->from, p->to, 0, 0};
                 if (p->to - p->from > 1) {
                     next[after] = *p;
                     next_node[after++] = t->count;
@@ -177,18 +175,18 @@ static int grow(struct bvh *t, const struct build *b, const struct strategy *s)
 {
     /* Open parts have two items at least, so there are no more than half as many. */
     size_t most = b->count / 2 + 1;
-    struct part *open[2] = { malloc(most * sizeof **open), malloc(most * sizeof **open) };
-    uint32_t *node[2] = { malloc(most * sizeof **node), malloc(most * sizeof **node) }, count = 1, i;
-    struct part (*parts)[PARTS_MAX] = malloc(BLOCK * sizeof *parts);
+    struct part *open[2] = {malloc(most * sizeof **open), malloc(most * sizeof **open)};
+    uint32_t *node[2] = {malloc(most * sizeof **node), malloc(most * sizeof **node)}, count = 1;
+    struct part(*parts)[PARTS_MAX] = malloc(BLOCK * sizeof *parts);
     int *found = malloc(BLOCK * sizeof *found), now = 0, result = -1;
     if (!open[0] || !open[1] || !node[0] || !node[1] || !parts || !found)
         goto done;
-    open[0][0] = (struct part){ .to = b->count };
+    open[0][0] = (struct part){.to = b->count};
     node[0][0] = 0;
     bounds_empty(&open[0][0].cell);
-    for (i = 0; i < b->count; i++)
+    for (uint32_t i = 0; i < b->count; i++)
         bounds_add(&open[0][0].cell, &b->items[i].box);
-    t->nodes[0] = (struct bvh_node){ 0, b->count, 0, 0 };
+    t->nodes[0] = (struct bvh_node){0, b->count, 0, 0};
     t->count = t->depth = 1;
     if (b->count == 1) { /* the root is a cluster, whatever it holds */
         t->nodes[1] = t->nodes[0];
@@ -197,7 +195,8 @@ static int grow(struct bvh *t, const struct build *b, const struct strategy *s)
         count = 0;
     }
     for (; count > 0; t->depth++) {
-        count = grow_level(t, b, s, open[now], node[now], count, t->depth, parts, found, open[!now], node[!now]);
+        count = grow_level(t, b, s, open[now], node[now], count, t->depth, parts, found, open[!now],
+                           node[!now]);
         now = !now;
     }
     result = 0;
@@ -214,24 +213,25 @@ done:
 /* Boxes from the leaves up. */
 static void take_boxes(struct bvh *t, const struct build *b)
 {
-    uint32_t i, k;
-    for (i = t->count; i-- > 0;) {
+    for (uint32_t i = t->count; i-- > 0;) {
         const struct bvh_node *n = &t->nodes[i];
         if (!n->children) {
             t->boxes[i] = b->items[n->from].box;
             continue;
         }
         t->boxes[i] = t->boxes[n->child];
-        for (k = 1; k < n->children; k++)
+        for (uint32_t k = 1; k < n->children; k++)
             bounds_add(&t->boxes[i], &t->boxes[n->child + k]);
     }
 }
 
-int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads)
+int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy,
+              int threads)
 {
-    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy : count < CLUSTERS_FACES ? CLUSTERING_HALVES : CLUSTERING_SAH];
-    struct build b = { .faces = faces, .count = count, .threads = threads };
-    uint32_t i;
+    const struct strategy *s = strategies[strategy != CLUSTERING_DEFAULT ? strategy
+                                          : count < CLUSTERS_FACES       ? CLUSTERING_HALVES
+                                                                         : CLUSTERING_SAH];
+    struct build b = {.faces = faces, .count = count, .threads = threads};
     int result = -1;
     memset(t, 0, sizeof *t);
     if (count == 0 || count > UINT32_MAX / 4)
@@ -255,7 +255,7 @@ int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clus
         result = -1;
     if (result < 0)
         goto done;
-    for (i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++)
         t->order[i] = b.items[i].face;
     take_boxes(t, &b);
 done:

@@ -1,7 +1,8 @@
 /* bvh.h - the tree of clusters over the faces, and the strategies that can build it.
  *
- * What a strategy is asked to do stands in bvh_strategy.h; whatever it answers, the tree is sound: each face is in it once, a node
- * has 2 to PARTS_MAX children, and no path is longer than DEPTH_MAX and what halving needs below that.
+ * What a strategy is asked to do stands in bvh_strategy.h; whatever it answers, the tree is sound:
+ * each face is in it once, a node has 2 to PARTS_MAX children, and no path is longer than DEPTH_MAX
+ * and what halving needs below that.
  * SPDX-License-Identifier: MIT */
 #ifndef CLUSTER_TREE_H
 #define CLUSTER_TREE_H
@@ -21,10 +22,11 @@ enum clustering {
 #define X(constant, name, help) CLUSTERING_##constant,
     CLUSTERINGS(X)
 #undef X
-    CLUSTERING_COUNT,
+        CLUSTERING_COUNT,
     CLUSTERING_DEFAULT = CLUSTERING_COUNT /* sah from CLUSTERS_FACES on, below halves */
 };
-extern const char *const clustering_names[CLUSTERING_COUNT], *const clustering_helps[CLUSTERING_COUNT];
+extern const char *const clustering_names[CLUSTERING_COUNT],
+    *const clustering_helps[CLUSTERING_COUNT];
 
 /* Returns the strategy's number, or -1. */
 int clustering_of(const char *name);
@@ -42,15 +44,18 @@ struct bvh_node {
 };
 
 struct bvh {
-    uint32_t *order;            /* [face_count]: faces */
-    struct bvh_node *nodes; /* [count], breadth first; [0] is the root, the only one that may have a single child */
-    struct bounds *boxes;       /* [count] */
+    uint32_t *order; /* [face_count]: faces */
+    /* [count], breadth first; [0] is the root, the only one that may have a single child */
+    struct bvh_node *nodes;
+    struct bounds *boxes; /* [count] */
     uint32_t count;
-    uint32_t depth;             /* nodes from the root to the farthest face, both ends included */
+    uint32_t depth; /* nodes from the root to the farthest face, both ends included */
 };
 
-/* Returns 0, or -1 when out of memory; then the tree is empty. The tree depends on faces and strategy alone. */
-int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy, int threads);
+/* Returns 0, or -1 when out of memory; then the tree is empty. The tree depends on faces and
+ * strategy alone. */
+int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clustering strategy,
+              int threads);
 void bvh_free(struct bvh *t);
 
 void bounds_empty(struct bounds *b);

@@ -1,11 +1,13 @@
-/* bvh_embree.c - clusters by Embree's builder in high quality: binned surface-area heuristic with spatial splits
+/* bvh_embree.c - clusters by Embree's builder in high quality: binned surface-area heuristic with
+ * spatial splits
  * [Stich, Friedrich and Dietrich 2009].
  *
- * A spatial split puts parts of one face on both sides. A face belongs to one cluster, so it stays where the part nearest to
- * its centre went, and nodes that lose all their faces go. Embree calls back from many threads and joins in any
- * order: children are sorted by the smallest face below them, so that the tree is what was cut, and not who cut it first.
- * Embree works in single precision: boxes are moved and scaled to a size of about one by a power of two, as in rays.c. Boxes of clusters
- * are made anew from the faces.
+ * A spatial split puts parts of one face on both sides. A face belongs to one cluster, so it stays
+ * where the part nearest to its centre went, and nodes that lose all their faces go. Embree calls
+ * back from many threads and joins in any order: children are sorted by the smallest face below
+ * them, so that the tree is what was cut, and not who cut it first. Embree works in single
+ * precision: boxes are moved and scaled to a size of about one by a power of two, as in rays.c.
+ * Boxes of clusters are made anew from the faces.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +16,8 @@
 #include "util/embree.h"
 #include "hierarchy/hierarchy.h"
 
-/* FANOUT: children of a node at the most. DEEPEST: Embree counts levels down to it and is done long before. */
+/* FANOUT: children of a node at the most. DEEPEST: Embree counts levels down to it and is done
+ * long before. */
 enum { FANOUT = 4, DEEPEST = 256 };
 static const double SPLITS = 0.2; /* parts made by splits, of the faces */
 
@@ -45,7 +48,7 @@ struct builder {
     struct own *own;
     struct item *sorted; /* [count] */
     uint32_t placed;
-    _Atomic int failed;  /* out of memory */
+    _Atomic int failed; /* out of memory */
 };
 
 static struct cut *create(RTCThreadLocalAllocator allocator, void *context)
@@ -70,9 +73,8 @@ static void *create_node(RTCThreadLocalAllocator allocator, unsigned children, v
 static void set_children(void *node, void **children, unsigned count, void *context)
 {
     struct cut *c = node;
-    unsigned i;
     (void)context;
-    for (i = 0; c && i < count; i++)
+    for (unsigned i = 0; c && i < count; i++)
         c->child[i] = children[i];
 }
 
@@ -81,14 +83,16 @@ static void set_bounds(void *node, const struct RTCBounds **bounds, unsigned cou
     (void)node, (void)bounds, (void)count, (void)context;
 }
 
-static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *p, size_t count, void *context)
+static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *p,
+                         size_t count, void *context)
 {
     struct cut *c = create(allocator, context);
     (void)count; /* 1, as asked for */
     if (!c)
         return NULL;
     c->face = p->primID;
-    c->box = (struct bounds){ { (double)p->lower_x, (double)p->lower_y, (double)p->lower_z }, { (double)p->upper_x, (double)p->upper_y, (double)p->upper_z } };
+    c->box = (struct bounds){{(double)p->lower_x, (double)p->lower_y, (double)p->lower_z},
+                             {(double)p->upper_x, (double)p->upper_y, (double)p->upper_z}};
     return c;
 }
 
@@ -102,27 +106,26 @@ static void set(struct RTCBounds *to, const struct bounds *from)
     to->upper_z = (float)from->high[2];
 }
 
-/* The boxes of what a face has on both sides of a plane, within the box of the part that is split. */
-static void split(const struct RTCBuildPrimitive *p, unsigned axis, float position, struct RTCBounds *left, struct RTCBounds *right, void *context)
+/* The boxes of what a face has on both sides of a plane, within the box of the part that is
+ * split. */
+static void split(const struct RTCBuildPrimitive *p, unsigned axis, float position,
+                  struct RTCBounds *left, struct RTCBounds *right, void *context)
 {
     const struct builder *a = context;
     const struct face *f = &a->b->faces[p->primID];
-    const double low[3] = { (double)p->lower_x, (double)p->lower_y, (double)p->lower_z };
-    const double high[3] = { (double)p->upper_x, (double)p->upper_y, (double)p->upper_z };
+    const double low[3] = {(double)p->lower_x, (double)p->lower_y, (double)p->lower_z};
+    const double high[3] = {(double)p->upper_x, (double)p->upper_y, (double)p->upper_z};
     struct bounds side[2], point;
-    uint32_t i, j;
-    int k, s;
     double at = (double)position, v[4][3];
     bounds_empty(&side[0]);
     bounds_empty(&side[1]);
-    for (i = 0; i < f->vertices; i++)
-        for (k = 0; k < 3; k++)
+    for (uint32_t i = 0; i < f->vertices; i++)
+        for (int k = 0; k < 3; k++)
             v[i][k] = (f->vertex[i][k] - a->origin[k]) * a->scale;
-    for (i = 0; i < f->vertices; i++) {
-        double here, there;
-        j = i + 1 < f->vertices ? i + 1 : 0;
-        here = v[i][axis] - at;
-        there = v[j][axis] - at;
+    for (uint32_t i = 0; i < f->vertices; i++) {
+        uint32_t j = i + 1 < f->vertices ? i + 1 : 0;
+        double here = v[i][axis] - at;
+        double there = v[j][axis] - at;
         memcpy(point.low, v[i], sizeof point.low);
         memcpy(point.high, v[i], sizeof point.high);
         if (here <= 0)
@@ -130,15 +133,16 @@ static void split(const struct RTCBuildPrimitive *p, unsigned axis, float positi
         if (here >= 0)
             bounds_add(&side[1], &point);
         if ((here < 0 && there > 0) || (here > 0 && there < 0)) {
-            for (k = 0; k < 3; k++)
-                point.low[k] = point.high[k] = v[i][k] + here / (here - there) * (v[j][k] - v[i][k]);
+            for (int k = 0; k < 3; k++)
+                point.low[k] = point.high[k] =
+                    v[i][k] + here / (here - there) * (v[j][k] - v[i][k]);
             point.low[axis] = point.high[axis] = at;
             bounds_add(&side[0], &point);
             bounds_add(&side[1], &point);
         }
     }
-    for (s = 0; s < 2; s++)
-        for (k = 0; k < 3; k++) {
+    for (int s = 0; s < 2; s++)
+        for (int k = 0; k < 3; k++) {
             side[s].low[k] = side[s].low[k] > low[k] ? side[s].low[k] : low[k];
             side[s].high[k] = side[s].high[k] < high[k] ? side[s].high[k] : high[k];
         }
@@ -150,20 +154,19 @@ static struct RTCBuildPrimitive *primitives(const struct builder *a, size_t room
 {
     const struct build *b = a->b;
     struct RTCBuildPrimitive *list = aligned_alloc(32, room * sizeof *list);
-    uint32_t i;
     if (!list)
         return NULL;
 #pragma omp parallel for schedule(static) num_threads(b->threads)
-    for (i = 0; i < b->count; i++) {
+    for (uint32_t i = 0; i < b->count; i++) {
         struct bounds box;
-        struct RTCBounds r;
-        int k;
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             box.low[k] = (b->items[i].box.low[k] - a->origin[k]) * a->scale;
             box.high[k] = (b->items[i].box.high[k] - a->origin[k]) * a->scale;
         }
+        struct RTCBounds r;
         set(&r, &box);
-        list[i] = (struct RTCBuildPrimitive){ r.lower_x, r.lower_y, r.lower_z, 0, r.upper_x, r.upper_y, r.upper_z, i };
+        list[i] = (struct RTCBuildPrimitive){r.lower_x, r.lower_y, r.lower_z, 0,
+                                             r.upper_x, r.upper_y, r.upper_z, i};
     }
     return list;
 }
@@ -173,23 +176,24 @@ static double outside(const struct builder *a, const struct cut *leaf)
 {
     const struct item *x = &a->b->items[leaf->face];
     double sum = 0;
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         double c = (item_centre(x, k) - a->origin[k]) * a->scale, d = 0;
-        d = c < leaf->box.low[k] ? leaf->box.low[k] - c : c > leaf->box.high[k] ? c - leaf->box.high[k] : 0;
+        d = c < leaf->box.low[k]    ? leaf->box.low[k] - c
+            : c > leaf->box.high[k] ? c - leaf->box.high[k]
+                                    : 0;
         sum += d * d;
     }
     return sum;
 }
 
-/* Is leaf c a better place for its face than leaf d? Ties go to the smaller box corner, so that no order of calls counts. */
+/* Is leaf c a better place for its face than leaf d? Ties go to the smaller box corner, so that
+ * no order of calls counts. */
 static int better(const struct builder *a, const struct cut *c, const struct cut *d)
 {
     double x = outside(a, c), y = outside(a, d);
-    int k;
     if (x < y || x > y)
         return x < y;
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         if (c->box.low[k] < d->box.low[k] || c->box.low[k] > d->box.low[k])
             return c->box.low[k] < d->box.low[k];
     return 0;
@@ -197,20 +201,21 @@ static int better(const struct builder *a, const struct cut *c, const struct cut
 
 static void choose_keepers(struct builder *a, const struct cut *c)
 {
-    uint32_t i;
     if (!c->children && (!a->keeper[c->face] || better(a, c, a->keeper[c->face])))
         a->keeper[c->face] = c;
-    for (i = 0; i < c->children; i++)
+    for (uint32_t i = 0; i < c->children; i++)
         choose_keepers(a, c->child[i]);
 }
 
-/* Drop what holds no face, skip what holds one child, sort. Returns the node that stands here now, NULL when there is none. */
+/* Drop what holds no face, skip what holds one child, sort. Returns the node that stands here
+ * now, NULL when there is none. */
 static struct cut *prune(const struct builder *a, struct cut *c)
 {
-    uint32_t i, j, n = 0;
+    uint32_t n = 0;
     if (!c->children)
         return a->keeper[c->face] == c ? c : NULL;
-    for (i = 0; i < c->children; i++) {
+    uint32_t j;
+    for (uint32_t i = 0; i < c->children; i++) {
         struct cut *x = prune(a, c->child[i]);
         if (!x)
             continue;
@@ -229,21 +234,21 @@ static struct cut *prune(const struct builder *a, struct cut *c)
 static void pack(struct builder *a, const struct cut *c, uint32_t at)
 {
     struct own *own = a->own;
-    uint32_t i, first = own->count;
+    uint32_t first = own->count;
     if (!c->children)
         a->sorted[a->placed++] = a->b->items[c->face];
     own->count += c->children;
     own->nodes[at].child = first;
     own->nodes[at].children = c->children;
-    for (i = 0; i < c->children; i++)
+    for (uint32_t i = 0; i < c->children; i++)
         pack(a, c->child[i], first + i);
     own->nodes[at].to = a->placed;
 }
 
-static struct cut *build(struct builder *a, RTCDevice device, RTCBVH bvh, struct RTCBuildPrimitive *list, size_t room)
+static struct cut *build(struct builder *a, RTCDevice device, RTCBVH bvh,
+                         struct RTCBuildPrimitive *list, size_t room)
 {
     struct RTCBuildArguments how = rtcDefaultBuildArguments();
-    struct cut *root;
     how.buildQuality = RTC_BUILD_QUALITY_HIGH;
     how.maxBranchingFactor = FANOUT;
     how.maxDepth = DEEPEST;
@@ -258,7 +263,7 @@ static struct cut *build(struct builder *a, RTCDevice device, RTCBVH bvh, struct
     how.createLeaf = create_leaf;
     how.splitPrimitive = split;
     how.userPtr = a;
-    root = rtcBuildBVH(&how);
+    struct cut *root = rtcBuildBVH(&how);
     return rtcGetDeviceError(device) == RTC_ERROR_NONE && !a->failed ? root : NULL;
 }
 
@@ -273,23 +278,22 @@ static void close(struct build *b)
 
 static int open(struct build *b)
 {
-    struct builder a = { .b = b, .sorted = b->scratch };
+    struct builder a = {.b = b, .sorted = b->scratch};
     size_t room = b->count + (size_t)(SPLITS * b->count) + 1;
     struct RTCBuildPrimitive *list = NULL;
-    struct bounds all;
     RTCDevice device = rtcNewDevice(b->threads == 1 ? "threads=1,set_affinity=0" : NULL);
     RTCBVH bvh = device ? rtcNewBVH(device) : NULL;
     struct cut *root = NULL;
     double size = 0;
-    uint32_t i;
-    int k, e;
+    struct bounds all;
     bounds_empty(&all);
-    for (i = 0; i < b->count; i++)
+    for (uint32_t i = 0; i < b->count; i++)
         bounds_add(&all, &b->items[i].box);
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         a.origin[k] = 0.5 * (all.low[k] + all.high[k]);
         size = fmax(size, all.high[k] - all.low[k]);
     }
+    int e;
     frexp(size, &e);
     a.scale = size > 0 ? ldexp(1, 1 - e) : 1;
     a.own = b->own = calloc(1, sizeof *a.own);
@@ -320,9 +324,8 @@ static int divide(const struct build *b, const struct part *whole, struct part *
 {
     const struct own *own = b->own;
     const struct packed *n = &own->nodes[whole->at];
-    uint32_t i;
     (void)threads;
-    for (i = 0; i < n->children; i++) {
+    for (uint32_t i = 0; i < n->children; i++) {
         parts[i] = *whole;
         parts[i].at = n->child + i;
         parts[i].from = i ? parts[i - 1].to : whole->from;
@@ -331,4 +334,4 @@ static int divide(const struct build *b, const struct part *whole, struct part *
     return (int)n->children;
 }
 
-const struct strategy build_embree = { open, divide, close };
+const struct strategy build_embree = {open, divide, close};

@@ -1,11 +1,12 @@
 /* bvh_kd.c - clusters by an overlapping k-d tree.
  *
- * A cell is cut where area times number, summed over its two sides, is least; the area is that of the side, not of what is in
- * it, and a face counts on each side that it reaches into [MacDonald and Booth 1990]. A face belongs to the side of its middle;
- * one that is longer across the plane than that side is wide belongs to neither and stays at the node, so that a wall
- * does not make a cell of small things large [overlapping k-d trees as clusters: Hasenfratz, Damez, Sillion and Drettakis 1999;
- * this rule: derived here]. Those that stay become a cluster beside the sides. Three cuts make a node, as in bvh_sah.c. A cell is never
- * larger than the box of what is in it.
+ * A cell is cut where area times number, summed over its two sides, is least; the area is that of
+ * the side, not of what is in it, and a face counts on each side that it reaches into [MacDonald
+ * and Booth 1990]. A face belongs to the side of its middle; one that is longer across the plane
+ * than that side is wide belongs to neither and stays at the node, so that a wall does not make a
+ * cell of small things large [overlapping k-d trees as clusters: Hasenfratz, Damez, Sillion and
+ * Drettakis 1999; this rule: derived here]. Those that stay become a cluster beside the sides.
+ * Three cuts make a node, as in bvh_sah.c. A cell is never larger than the box of what is in it.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stddef.h>
@@ -42,29 +43,29 @@ static struct bounds side_of(const struct plane *plane, int side)
 static int choose(const struct build *b, const struct part *p, struct plane *best)
 {
     double least = INFINITY;
-    uint32_t i;
-    int axis, j, found = 0;
-    for (axis = 0; axis < 3; axis++) {
+    int found = 0;
+    for (int axis = 0; axis < 3; axis++) {
         double low = INFINITY, high = -INFINITY;
-        uint32_t starts[PLANES + 1] = { 0 }, ends[PLANES + 1] = { 0 }, left = 0, right = p->to - p->from;
-        for (i = p->from; i < p->to; i++) {
+        uint32_t starts[PLANES + 1] = {0}, ends[PLANES + 1] = {0}, left = 0,
+                                 right = p->to - p->from;
+        for (uint32_t i = p->from; i < p->to; i++) {
             double c = item_centre(&b->items[i], axis);
             low = fmin(low, c);
             high = fmax(high, c);
         }
         if (!(high > low))
             continue;
-        for (i = p->from; i < p->to; i++) {
+        for (uint32_t i = p->from; i < p->to; i++) {
             starts[slice(b->items[i].box.low[axis], low, high - low)]++;
             ends[slice(b->items[i].box.high[axis], low, high - low)]++;
         }
-        for (j = 0; j < PLANES; j++) { /* the plane between slices j and j + 1 */
-            const struct plane plane = { best->cell, axis, low + (j + 1) * (high - low) / (PLANES + 1) };
+        for (int j = 0; j < PLANES; j++) { /* the plane between slices j and j + 1 */
+            const struct plane plane = {best->cell, axis,
+                                        low + (j + 1) * (high - low) / (PLANES + 1)};
             const struct bounds l = side_of(&plane, LEFT), r = side_of(&plane, RIGHT);
-            double cost;
             left += starts[j];
             right -= ends[j];
-            cost = bounds_area(&l) * left + bounds_area(&r) * right;
+            double cost = bounds_area(&l) * left + bounds_area(&r) * right;
             if (plane.at > low && cost < least) {
                 least = cost;
                 *best = plane;
@@ -86,13 +87,13 @@ static int kind(const struct item *x, const void *context)
 /* Cut a part in two or three. Returns how many. */
 static int cut(const struct build *b, const struct part *whole, struct part *parts, int threads)
 {
-    struct plane plane = { .cell = whole->cell };
-    struct bounds content;
-    uint32_t count[KINDS] = { 0 }, from = whole->from, i;
+    struct plane plane = {.cell = whole->cell};
+    uint32_t count[KINDS] = {0}, from = whole->from;
     int k, n = 0;
     if (whole->at == CELL) {
+        struct bounds content;
         bounds_empty(&content);
-        for (i = whole->from; i < whole->to; i++)
+        for (uint32_t i = whole->from; i < whole->to; i++)
             bounds_add(&content, &b->items[i].box);
         for (k = 0; k < 3; k++) {
             plane.cell.low[k] = fmax(plane.cell.low[k], content.low[k]);
@@ -112,7 +113,8 @@ static int cut(const struct build *b, const struct part *whole, struct part *par
     }
     for (n = 0, k = 0; k < KINDS; k++) {
         if (count[k])
-            parts[n++] = (struct part){ from, from + count[k], k == STAYS ? BOXES : CELL, k == STAYS ? plane.cell : side_of(&plane, k) };
+            parts[n++] = (struct part){from, from + count[k], k == STAYS ? BOXES : CELL,
+                                       k == STAYS ? plane.cell : side_of(&plane, k)};
         from += count[k];
     }
     return n;
@@ -123,4 +125,4 @@ static int divide(const struct build *b, const struct part *whole, struct part *
     return build_cut_thrice(b, whole, parts, threads, cut);
 }
 
-const struct strategy build_kd = { NULL, divide, NULL };
+const struct strategy build_kd = {NULL, divide, NULL};

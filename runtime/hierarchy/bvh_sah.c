@@ -1,9 +1,10 @@
 /* bvh_sah.c - clusters by a top-down binned surface-area heuristic [Wald 2007].
  *
- * Items fall into BINS slices of the range of their centres, on each axis; a range is cut at the border between slices
- * where area times number, summed over both sides, is least. Three such cuts of the largest part make four, as many
- * as a split surface has. Invariant: boxes are joined by least and largest, and counts are whole, so it is all the same in which
- * order and by how many threads.
+ * Items fall into BINS slices of the range of their centres, on each axis; a range is cut at the
+ * border between slices where area times number, summed over both sides, is least. Three such cuts
+ * of the largest part make four, as many as a split surface has. Invariant: boxes are joined by
+ * least and largest, and counts are whole, so it is all the same in which order and by how many
+ * threads.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
@@ -35,25 +36,22 @@ static void put(struct slices *s, int bin, uint32_t count, const struct bounds *
 
 static void centres(const struct build *b, uint32_t from, uint32_t to, struct bounds *range)
 {
-    uint32_t i;
-    int k;
     bounds_empty(range);
-    for (i = from; i < to; i++)
-        for (k = 0; k < 3; k++) {
+    for (uint32_t i = from; i < to; i++)
+        for (int k = 0; k < 3; k++) {
             double c = item_centre(&b->items[i], k);
             range->low[k] = c < range->low[k] ? c : range->low[k];
             range->high[k] = c > range->high[k] ? c : range->high[k];
         }
 }
 
-static void fill(const struct build *b, uint32_t from, uint32_t to, const struct bounds *range, struct slices slices[3])
+static void fill(const struct build *b, uint32_t from, uint32_t to, const struct bounds *range,
+                 struct slices slices[3])
 {
-    uint32_t i;
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         double low = range->low[k], size = range->high[k] - low;
         memset(slices[k].count, 0, sizeof slices[k].count);
-        for (i = from; i < to && size > 0; i++)
+        for (uint32_t i = from; i < to && size > 0; i++)
             put(&slices[k], slice_of(&b->items[i], k, low, size), 1, &b->items[i].box);
     }
 }
@@ -65,20 +63,21 @@ struct border {
 };
 
 /* The cheapest border; `full`: on axes without an empty slice. Returns 0 when there is none. */
-static int choose(const struct slices slices[3], const struct bounds *range, uint32_t count, int full, struct border *border)
+static int choose(const struct slices slices[3], const struct bounds *range, uint32_t count,
+                  int full, struct border *border)
 {
     double best = INFINITY;
-    int k, j;
-    for (k = 0; k < 3; k++) {
+    int j;
+    for (int k = 0; k < 3; k++) {
         const struct slices *s = &slices[k];
-        double from_right[BINS];
-        struct bounds side;
         uint32_t n = 0;
         for (j = 0; full && j < BINS && s->count[j]; j++)
             continue;
         if (full && j < BINS)
             continue;
+        struct bounds side;
         bounds_empty(&side);
+        double from_right[BINS];
         for (j = BINS - 1; j > 0; j--) {
             if (s->count[j])
                 bounds_add(&side, &s->box[j]);
@@ -87,15 +86,14 @@ static int choose(const struct slices slices[3], const struct bounds *range, uin
         }
         bounds_empty(&side);
         for (n = 0, j = 0; j < BINS - 1; j++) {
-            double cost;
             if (!s->count[j]) /* the border before it costs the same */
                 continue;
             bounds_add(&side, &s->box[j]);
             n += s->count[j];
-            cost = bounds_area(&side) * n + from_right[j + 1];
+            double cost = bounds_area(&side) * n + from_right[j + 1];
             if (n < count && cost < best) {
                 best = cost;
-                *border = (struct border){ range->low[k], range->high[k] - range->low[k], k, j + 1 };
+                *border = (struct border){range->low[k], range->high[k] - range->low[k], k, j + 1};
             }
         }
     }
@@ -107,19 +105,20 @@ static int left_of(const struct item *x, const struct border *c)
     return slice_of(x, c->axis, c->low, c->size) < c->at;
 }
 
-static uint32_t count_left(const struct build *b, uint32_t from, uint32_t to, const struct border *c)
+static uint32_t count_left(const struct build *b, uint32_t from, uint32_t to,
+                           const struct border *c)
 {
-    uint32_t i, n = 0;
-    for (i = from; i < to; i++)
+    uint32_t n = 0;
+    for (uint32_t i = from; i < to; i++)
         n += (uint32_t)left_of(&b->items[i], c);
     return n;
 }
 
 /* Items [from, to) go to scratch, from `left` and `right` on. */
-static void part_items(const struct build *b, uint32_t from, uint32_t to, const struct border *c, uint32_t left, uint32_t right)
+static void part_items(const struct build *b, uint32_t from, uint32_t to, const struct border *c,
+                       uint32_t left, uint32_t right)
 {
-    uint32_t i;
-    for (i = from; i < to; i++)
+    for (uint32_t i = from; i < to; i++)
         b->scratch[left_of(&b->items[i], c) ? left++ : right++] = b->items[i];
 }
 
@@ -128,11 +127,11 @@ static void take_back(const struct build *b, uint32_t from, uint32_t to)
     memcpy(&b->items[from], &b->scratch[from], (to - from) * sizeof *b->items);
 }
 
-/* Two items are told apart on the first axis on which they can be: all borders between them cost the same. */
+/* Two items are told apart on the first axis on which they can be: all borders between them cost
+ * the same. */
 static void order_two(struct item *x)
 {
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         double first = item_centre(&x[0], k), second = item_centre(&x[1], k);
         if (first > second) {
             struct item swap = x[0];
@@ -146,46 +145,45 @@ static void order_two(struct item *x)
 
 static uint32_t cut_alone(const struct build *b, uint32_t from, uint32_t to, int full)
 {
-    struct bounds range;
-    struct slices slices[3];
-    struct border c;
-    uint32_t left;
     if (full && to - from < BINS)
         return from + (to - from) / 2;
     if (to - from == 2) {
         order_two(&b->items[from]);
         return from + 1;
     }
+    struct bounds range;
     centres(b, from, to, &range);
+    struct slices slices[3];
     fill(b, from, to, &range, slices);
+    struct border c;
     if (!choose(slices, &range, to - from, full, &c))
         return from + (to - from) / 2;
-    left = count_left(b, from, to, &c);
+    uint32_t left = count_left(b, from, to, &c);
     part_items(b, from, to, &c, from, from + left);
     take_back(b, from, to);
     return from + left;
 }
 
 /* The same by many threads, each step in shares. */
-static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, int full, int threads)
+static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, int full,
+                             int threads)
 {
     struct bounds range, share_range[SHARES];
-    struct slices slices[3];
-    struct border c;
     uint32_t first[SHARES + 1], left[SHARES], middle = from;
-    int s, k, j;
-    for (s = 0; s <= SHARES; s++)
+    int k, j;
+    for (int s = 0; s <= SHARES; s++)
         first[s] = from + (uint32_t)((uint64_t)(to - from) * (uint64_t)s / SHARES);
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (s = 0; s < SHARES; s++)
+    for (int s = 0; s < SHARES; s++)
         centres(b, first[s], first[s + 1], &share_range[s]);
     range = share_range[0];
-    for (s = 1; s < SHARES; s++)
+    for (int s = 1; s < SHARES; s++)
         bounds_add(&range, &share_range[s]);
+    struct slices slices[3];
     for (k = 0; k < 3; k++)
         memset(slices[k].count, 0, sizeof slices[k].count);
 #pragma omp parallel for schedule(dynamic) num_threads(threads) private(k, j)
-    for (s = 0; s < SHARES; s++) {
+    for (int s = 0; s < SHARES; s++) {
         struct slices mine[3];
         fill(b, first[s], first[s + 1], &range, mine);
 #pragma omp critical(build_sah)
@@ -194,29 +192,31 @@ static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, 
                 if (mine[k].count[j])
                     put(&slices[k], j, mine[k].count[j], &mine[k].box[j]);
     }
+    struct border c;
     if (!choose(slices, &range, to - from, full, &c))
         return from + (to - from) / 2;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (s = 0; s < SHARES; s++)
+    for (int s = 0; s < SHARES; s++)
         left[s] = count_left(b, first[s], first[s + 1], &c);
-    for (s = 0; s < SHARES; s++)
+    for (int s = 0; s < SHARES; s++)
         middle += left[s];
 #pragma omp parallel for schedule(dynamic) num_threads(threads) private(j)
-    for (s = 0; s < SHARES; s++) {
+    for (int s = 0; s < SHARES; s++) {
         uint32_t l = from;
         for (j = 0; j < s; j++)
             l += left[j];
         part_items(b, first[s], first[s + 1], &c, l, middle + (first[s] - l));
     }
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (s = 0; s < SHARES; s++)
+    for (int s = 0; s < SHARES; s++)
         take_back(b, first[s], first[s + 1]);
     return middle;
 }
 
 static uint32_t cut(const struct build *b, uint32_t from, uint32_t to, int full, int threads)
 {
-    return threads > 1 && to - from > ALONE ? cut_together(b, from, to, full, threads) : cut_alone(b, from, to, full);
+    return threads > 1 && to - from > ALONE ? cut_together(b, from, to, full, threads)
+                                            : cut_alone(b, from, to, full);
 }
 
 uint32_t build_cut(const struct build *b, uint32_t from, uint32_t to, int threads)
@@ -224,14 +224,16 @@ uint32_t build_cut(const struct build *b, uint32_t from, uint32_t to, int thread
     return cut(b, from, to, 0, threads);
 }
 
-static int cut_in_two(const struct build *b, const struct part *whole, struct part *parts, int threads)
+static int cut_in_two(const struct build *b, const struct part *whole, struct part *parts,
+                      int threads)
 {
     parts[0] = parts[1] = *whole;
     parts[0].to = parts[1].from = cut(b, whole->from, whole->to, 0, threads);
     return 2;
 }
 
-static int cut_if_full(const struct build *b, const struct part *whole, struct part *parts, int threads)
+static int cut_if_full(const struct build *b, const struct part *whole, struct part *parts,
+                       int threads)
 {
     parts[0] = parts[1] = *whole;
     parts[0].to = parts[1].from = cut(b, whole->from, whole->to, 1, threads);
@@ -243,12 +245,14 @@ static int divide(const struct build *b, const struct part *whole, struct part *
     return build_cut_thrice(b, whole, parts, threads, cut_in_two);
 }
 
-static int divide_if_full(const struct build *b, const struct part *whole, struct part *parts, int threads)
+static int divide_if_full(const struct build *b, const struct part *whole, struct part *parts,
+                          int threads)
 {
     return build_cut_thrice(b, whole, parts, threads, cut_if_full);
 }
 
-const struct strategy build_sah = { NULL, divide, NULL };
+const struct strategy build_sah = {NULL, divide, NULL};
 
-/* The same, but where every axis has an empty slice, as with less than BINS items, halves of the order at hand: at the bottom, the file's. */
-const struct strategy build_halves = { NULL, divide_if_full, NULL };
+/* The same, but where every axis has an empty slice, as with less than BINS items, halves of the
+ * order at hand: at the bottom, the file's. */
+const struct strategy build_halves = {NULL, divide_if_full, NULL};

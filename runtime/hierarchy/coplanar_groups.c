@@ -1,8 +1,9 @@
 /* coplanar_groups.c - which faces lie in one plane.
  *
- * Faces are sorted by one coordinate of their normals after the other, then by the height of their planes, and parted wherever
- * neighbours in that order stand apart. What is left together is a group when it lies in the plane of its largest face; when it does
- * not, as where a slowly bent wall has no gap anywhere, its faces stay alone.
+ * Faces are sorted by one coordinate of their normals after the other, then by the height of their
+ * planes, and parted wherever neighbours in that order stand apart. What is left together is a
+ * group when it lies in the plane of its largest face; when it does not, as where a slowly bent
+ * wall has no gap anywhere, its faces stay alone.
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -17,8 +18,8 @@ struct placed_face {
 
 struct finder {
     const struct hierarchy *plain;
-    double flat;                /* m */
-    struct placed_face *items;  /* [faces] */
+    double flat;               /* m */
+    struct placed_face *items; /* [faces] */
 };
 
 static const struct element *face_of(const struct finder *b, uint32_t face)
@@ -28,13 +29,28 @@ static const struct element *face_of(const struct finder *b, uint32_t face)
 
 static int compare_key(const struct placed_face *a, const struct placed_face *b, int k)
 {
-    return a->key[k] < b->key[k] ? -1 : a->key[k] > b->key[k] ? 1 : a->face < b->face ? -1 : a->face > b->face;
+    return a->key[k] < b->key[k]   ? -1
+           : a->key[k] > b->key[k] ? 1
+           : a->face < b->face     ? -1
+                                   : a->face > b->face;
 }
 
-static int by_x(const void *a, const void *b) { return compare_key(a, b, 0); }
-static int by_y(const void *a, const void *b) { return compare_key(a, b, 1); }
-static int by_z(const void *a, const void *b) { return compare_key(a, b, 2); }
-static int by_height(const void *a, const void *b) { return compare_key(a, b, 3); }
+static int by_x(const void *a, const void *b)
+{
+    return compare_key(a, b, 0);
+}
+static int by_y(const void *a, const void *b)
+{
+    return compare_key(a, b, 1);
+}
+static int by_z(const void *a, const void *b)
+{
+    return compare_key(a, b, 2);
+}
+static int by_height(const void *a, const void *b)
+{
+    return compare_key(a, b, 3);
+}
 
 static int by_face(const void *a, const void *b)
 {
@@ -46,29 +62,28 @@ static int by_face(const void *a, const void *b)
 static int one_plane(const struct finder *b, const struct placed_face *items, uint32_t count)
 {
     const struct element *plane = face_of(b, items[0].face);
-    uint32_t i;
-    int k;
-    for (i = 1; i < count; i++)
+    for (uint32_t i = 1; i < count; i++)
         if (face_of(b, items[i].face)->area > plane->area)
             plane = face_of(b, items[i].face);
-    for (i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const struct element *e = face_of(b, items[i].face);
-        if (!(dot3(e->normal, plane->normal) > GROUP_COSINE) || b->plain->faces[e->face].back != b->plain->faces[plane->face].back)
+        if (!(dot3(e->normal, plane->normal) > GROUP_COSINE)
+            || b->plain->faces[e->face].back != b->plain->faces[plane->face].back)
             return 0;
-        for (k = 0; k < e->vertices; k++)
+        for (int k = 0; k < e->vertices; k++)
             if (!(fabs(height3(e->vertex[k], plane->centre, plane->normal)) <= b->flat))
                 return 0;
     }
     return 1;
 }
 
-/* Part a run of items where key k leaves a gap, each part by the next key, until they are planes; a run that is none is left as
- * single faces. Writes where each plane begins. */
+/* Part a run of items where key k leaves a gap, each part by the next key, until they are planes; a
+ * run that is none is left as single faces. Writes where each plane begins. */
 static void part_by_key(struct finder *b, uint32_t from, uint32_t to, int k, unsigned char *begins)
 {
-    static int (*const order[4])(const void *, const void *) = { by_x, by_y, by_z, by_height };
+    static int (*const order[4])(const void *, const void *) = {by_x, by_y, by_z, by_height};
     double gap = k < 3 ? GROUP_NORMAL_GAP : GROUP_HEIGHT_GAP * b->flat;
-    uint32_t i, start;
+    uint32_t i;
     if (k == 4) {
         int flat = one_plane(b, b->items + from, to - from);
         qsort(b->items + from, to - from, sizeof *b->items, by_face);
@@ -78,6 +93,7 @@ static void part_by_key(struct finder *b, uint32_t from, uint32_t to, int k, uns
         return;
     }
     qsort(b->items + from, to - from, sizeof *b->items, order[k]);
+    uint32_t start;
     for (start = from, i = from + 1; i <= to; i++)
         if (i == to || b->items[i].key[k] - b->items[i - 1].key[k] > gap) {
             part_by_key(b, start, i, k + 1, begins);
@@ -101,7 +117,8 @@ static int place_faces(struct finder *b)
         for (int k = 0; k < 3; k++)
             x->key[k] = e->normal[k];
         x->key[3] = 0;
-        for (int k = 0; k < 3; k++) /* about the scene's middle, where rounding is least; far sides apart from fronts */
+        /* about the scene's middle, where rounding is least; far sides apart from fronts */
+        for (int k = 0; k < 3; k++)
             x->key[3] += e->normal[k] * (e->centre[k] - 0.5 * (h->low[k] + h->high[k]));
         x->key[3] += h->faces[i].back * 4 * size;
     }
@@ -110,10 +127,11 @@ static int place_faces(struct finder *b)
 
 int coplanar_groups_find(struct coplanar_groups *g, const struct hierarchy *plain, double flat)
 {
-    struct finder b = { .plain = plain, .flat = flat };
+    struct finder b = {.plain = plain, .flat = flat};
     uint32_t n = plain->face_count;
     unsigned char *begins = calloc(n, 1);
-    *g = (struct coplanar_groups){ .order = malloc(n * sizeof *g->order), .groups = malloc(n * sizeof *g->groups) };
+    *g = (struct coplanar_groups){.order = malloc(n * sizeof *g->order),
+                                  .groups = malloc(n * sizeof *g->groups)};
     if (!begins || !g->order || !g->groups || place_faces(&b) < 0) {
         free(begins);
         coplanar_groups_free(g);
@@ -135,5 +153,5 @@ void coplanar_groups_free(struct coplanar_groups *g)
 {
     free(g->order);
     free(g->groups);
-    *g = (struct coplanar_groups){ 0 };
+    *g = (struct coplanar_groups){0};
 }

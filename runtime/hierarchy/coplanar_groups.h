@@ -11,8 +11,8 @@ struct coplanar_groups {
     uint32_t count;
 };
 
-/* Group the faces of a hierarchy: within a group all corners lie in one plane to `flat` (m), and all fronts look the same way.
- * Returns 0, or -1 when out of memory. */
+/* Group the faces of a hierarchy: within a group all corners lie in one plane to `flat` (m), and
+ * all fronts look the same way. Returns 0, or -1 when out of memory. */
 int coplanar_groups_find(struct coplanar_groups *g, const struct hierarchy *plain, double flat);
 void coplanar_groups_free(struct coplanar_groups *g);
 

@@ -1,6 +1,7 @@
 /* cut_contacts.c - see cut_contacts.h.
  *
- * Invariant: the contacts of a face depend on it and the faces that touch it, not on where these stand in the tree.
+ * Invariant: the contacts of a face depend on it and the faces that touch it, not on where these
+ * stand in the tree.
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/cut_contacts.h"
 
@@ -14,12 +15,14 @@
 
 static const double PI = 3.14159265358979323846;
 
-int cut_frame_of(struct cut_frame *c, const struct face *faces, uint32_t index, int two_sided, double precision)
+int cut_frame_of(struct cut_frame *c, const struct face *faces, uint32_t index, int two_sided,
+                 double precision)
 {
     struct face f = faces[index];
     if (polygon_degenerate(f.vertex, f.vertices, precision))
         return 0;
-    *c = (struct cut_frame){.face = &faces[index], .index = index, .two_sided = two_sided, .precision = precision};
+    *c = (struct cut_frame){
+        .face = &faces[index], .index = index, .two_sided = two_sided, .precision = precision};
     c->size = polygon_size(f.vertex, f.vertices);
     polygon_normal(f.vertex, f.vertices, c->normal);
     double largest = 0, longest = 0;
@@ -55,7 +58,8 @@ double cut_distance(const struct cut_frame *c, const double p[3], const double d
     return dot3(d, direction);
 }
 
-int cut_parts_polygon(const struct cut_frame *c, const double (*v)[3], uint32_t n, const double across[3], double offset)
+int cut_parts_polygon(const struct cut_frame *c, const double (*v)[3], uint32_t n,
+                      const double across[3], double offset)
 {
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < n; i++) {
@@ -66,8 +70,9 @@ int cut_parts_polygon(const struct cut_frame *c, const double (*v)[3], uint32_t 
     return low < -CUT_SLIVER * c->size && high > CUT_SLIVER * c->size;
 }
 
-/* The points of a face in the plane of the frame: corners that touch it, and where edges cross it. Returns how many; 0 when the
- * face lies on one side, or where the framed face gets no light from it. */
+/* The points of a face in the plane of the frame: corners that touch it, and where edges cross it.
+ * Returns how many; 0 when the face lies on one side, or where the framed face gets no light from
+ * it. */
 static int plane_points(const struct cut_frame *c, const struct face *f, double point[8][3])
 {
     double h[4], low = INFINITY, high = -INFINITY;
@@ -88,7 +93,8 @@ static int plane_points(const struct cut_frame *c, const struct face *f, double 
             memcpy(point[points++], f->vertex[i], sizeof point[0]);
         if ((h[i] < 0 && h[j] > 0) || (h[i] > 0 && h[j] < 0)) {
             for (int k = 0; k < 3; k++)
-                point[points][k] = f->vertex[i][k] + h[i] / (h[i] - h[j]) * (f->vertex[j][k] - f->vertex[i][k]);
+                point[points][k] =
+                    f->vertex[i][k] + h[i] / (h[i] - h[j]) * (f->vertex[j][k] - f->vertex[i][k]);
             points++;
         }
     }
@@ -96,7 +102,8 @@ static int plane_points(const struct cut_frame *c, const struct face *f, double 
 }
 
 /* The contact of a face with the framed one. Returns 1 when there is one, its line inside. */
-static int find_contact(const struct cut_frame *c, const struct face *faces, uint32_t face, struct contact *found)
+static int find_contact(const struct cut_frame *c, const struct face *faces, uint32_t face,
+                        struct contact *found)
 {
     double normal[3], direction[3], across[3], corner[4][3], point[8][3];
     int points = plane_points(c, &faces[face], point), from = 0, to = 0;
@@ -124,11 +131,16 @@ static int find_contact(const struct cut_frame *c, const struct face *faces, uin
         if (t > cut_distance(c, point[to], direction))
             to = i;
     }
-    *found = (struct contact){.angle = angle, .face = face,
-                              .from = cut_distance(c, point[from], direction), .to = cut_distance(c, point[to], direction),
-                              .offset = 0.5 * (cut_distance(c, point[from], across) + cut_distance(c, point[to], across))};
+    *found = (struct contact){
+        .angle = angle,
+        .face = face,
+        .from = cut_distance(c, point[from], direction),
+        .to = cut_distance(c, point[to], direction),
+        .offset =
+            0.5 * (cut_distance(c, point[from], across) + cut_distance(c, point[to], across))};
     return found->to - found->from > c->touch
-        && cut_parts_polygon(c, (const double (*)[3])c->face->vertex, c->face->vertices, across, found->offset);
+           && cut_parts_polygon(c, (const double(*)[3])c->face->vertex, c->face->vertices, across,
+                                found->offset);
 }
 
 /* Could something in this box touch the framed face? */
@@ -144,8 +156,8 @@ static int box_reaches(const struct cut_frame *c, const double low[3], const dou
     return fabs(height) <= half * (1 + 1e-9); /* rounding of the sums */
 }
 
-static int collect_below(struct contact_list *list, const struct cut_frame *c, const struct face *faces,
-                         const struct bvh *tree, uint32_t node)
+static int collect_below(struct contact_list *list, const struct cut_frame *c,
+                         const struct face *faces, const struct bvh *tree, uint32_t node)
 {
     const struct bvh_node *n = &tree->nodes[node];
     if (!box_reaches(c, tree->boxes[node].low, tree->boxes[node].high))
@@ -164,7 +176,8 @@ static int collect_below(struct contact_list *list, const struct cut_frame *c, c
     return 0;
 }
 
-int contacts_collect(struct contact_list *list, const struct cut_frame *frame, const struct face *faces, const struct bvh *tree)
+int contacts_collect(struct contact_list *list, const struct cut_frame *frame,
+                     const struct face *faces, const struct bvh *tree)
 {
     list->count = 0;
     return collect_below(list, frame, faces, tree, 0);

@@ -9,17 +9,18 @@
 struct cut_frame {
     const struct face *face;
     uint32_t index;
-    int two_sided;     /* its far side is the face behind it */
-    double size;       /* its longest diagonal (m) */
-    double touch;      /* nearer than that is the same place (m) */
-    double precision;  /* of its coordinates, relative (scene.h) */
+    int two_sided;                           /* its far side is the face behind it */
+    double size;                             /* its longest diagonal (m) */
+    double touch;                            /* nearer than that is the same place (m) */
+    double precision;                        /* of its coordinates, relative (scene.h) */
     double centre[3], normal[3], u[3], v[3]; /* u along the longest edge */
     double low[3], high[3];
 };
 
 struct contact {
-    double angle, offset; /* of its line: direction about the normal from u, in [0, pi); distance from the centre (m) */
-    double from, to;      /* along the direction (m) */
+    /* of its line: direction about the normal from u, in [0, pi); distance from the centre (m) */
+    double angle, offset;
+    double from, to; /* along the direction (m) */
     uint32_t face;
 };
 
@@ -29,15 +30,19 @@ struct contact_list {
 };
 
 /* The frame of faces[index]. Returns 0 when the face has no area to cut. */
-int cut_frame_of(struct cut_frame *frame, const struct face *faces, uint32_t index, int two_sided, double precision);
+int cut_frame_of(struct cut_frame *frame, const struct face *faces, uint32_t index, int two_sided,
+                 double precision);
 
 /* Distance of a point from the centre along a direction (m). */
 double cut_distance(const struct cut_frame *frame, const double p[3], const double direction[3]);
 
 /* Does a line leave more than a sliver of the polygon on both sides? */
-int cut_parts_polygon(const struct cut_frame *frame, const double (*v)[3], uint32_t n, const double across[3], double offset);
+int cut_parts_polygon(const struct cut_frame *frame, const double (*v)[3], uint32_t n,
+                      const double across[3], double offset);
 
-/* Make the list hold the contacts of all faces in the tree with the frame's. Returns 0, or -1 when out of memory. */
-int contacts_collect(struct contact_list *list, const struct cut_frame *frame, const struct face *faces, const struct bvh *tree);
+/* Make the list hold the contacts of all faces in the tree with the frame's. Returns 0, or -1
+ * when out of memory. */
+int contacts_collect(struct contact_list *list, const struct cut_frame *frame,
+                     const struct face *faces, const struct bvh *tree);
 
 #endif

@@ -1,19 +1,23 @@
 /* cut_faces.c - see cut_faces.h.
  *
- * A wall that stands in the middle of a floor divides it in two that share no light. Refinement halves faces at midpoints
- * and never quite comes to the wall: there are always parts on both sides of it, and light leaks along them.
- * So the floor is cut at the wall before anything is built on it, as discontinuity meshing does with the
- * discontinuities of degree 0 [Heckbert 1992; Lischinski, Tampieri and Greenberg 1992].
+ * A wall that stands in the middle of a floor divides it in two that share no light. Refinement
+ * halves faces at midpoints and never quite comes to the wall: there are always parts on both sides
+ * of it, and light leaks along them. So the floor is cut at the wall before anything is built on
+ * it, as discontinuity meshing does with the discontinuities of degree 0 [Heckbert 1992;
+ * Lischinski, Tampieri and Greenberg 1992].
  *
- * A contact is the segment in which another face meets or crosses a face's plane (cut_contacts.h). Contacts on one line are
- * taken together (cut_lines.h). A part of the face is cut along the whole of a line when contacts cover at least half of the
- * line's chord in it: so a wall with a door cuts, the leg of a table does not. The parts are looked at again, for their chords are
- * shorter; the longest covered chord is first, so that the limit on parts leaves out the shortest.
+ * A contact is the segment in which another face meets or crosses a face's plane (cut_contacts.h).
+ * Contacts on one line are taken together (cut_lines.h). A part of the face is cut along the whole
+ * of a line when contacts cover at least half of the line's chord in it: so a wall with a door
+ * cuts, the leg of a table does not. The parts are looked at again, for their chords are shorter;
+ * the longest covered chord is first, so that the limit on parts leaves out the shortest.
  *
- * Invariants: parts are convex, have 3 or 4 corners, the face's orientation, and its area in sum; contacts are those of the
- * faces as they were given, so neither the order of the faces decides anything nor who cuts which; all tolerances are relative
- * to the face that is cut, and lengths times 2^k give the same cuts; what is equal within the tolerance of contacts counts as
- * equal, so that the last bits of coordinates decide nothing; a far side is cut like its front and stays behind it.
+ * Invariants: parts are convex, have 3 or 4 corners, the face's orientation, and its area in sum;
+ * contacts are those of the faces as they were given, so neither the order of the faces decides
+ * anything nor who cuts which; all tolerances are relative to the face that is cut, and lengths
+ * times 2^k give the same cuts; what is equal within the tolerance of contacts counts as equal, so
+ * that the last bits of coordinates decide nothing; a far side is cut like its front and stays
+ * behind it.
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/cut_faces.h"
 
@@ -31,7 +35,8 @@
 #include "util/array.h"
 
 enum { FEW = 2048 }; /* faces for which one thread does */
-enum { PARTS = 256, CORNERS = 12 }; /* of one face at the most, before polygons become quads; of one part */
+/* of one face at the most, before polygons become quads; of one part */
+enum { PARTS = 256, CORNERS = 12 };
 
 struct part {
     double vertex[CORNERS][3];
@@ -68,11 +73,13 @@ struct cutter {
 static int is_pair(const struct scene *s, uint32_t front)
 {
     const struct face *f = &s->faces[front];
-    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input && f[1].vertices == f->vertices;
+    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input
+           && f[1].vertices == f->vertices;
 }
 
 /* Heights of a part's corners over a line (m); corners that near to it are on it. */
-static void heights_over(const struct cut_frame *c, const struct part *p, const struct cut_line *l, double h[CORNERS])
+static void heights_over(const struct cut_frame *c, const struct part *p, const struct cut_line *l,
+                         double h[CORNERS])
 {
     for (uint32_t i = 0; i < p->n; i++) {
         h[i] = cut_distance(c, p->vertex[i], l->across) - l->offset;
@@ -86,26 +93,32 @@ static int crosses(double a, double b)
     return (a < 0 && b > 0) || (a > 0 && b < 0);
 }
 
-/* The length of contacts on the line's chord in a part whose corners have these heights over it (m); 0 when they do not cover enough. */
-static double covered_length(const struct cutter *c, const struct part *p, const struct cut_line *l, const double h[CORNERS])
+/* The length of contacts on the line's chord in a part whose corners have these heights over it
+ * (m); 0 when they do not cover enough. */
+static double covered_length(const struct cutter *c, const struct part *p, const struct cut_line *l,
+                             const double h[CORNERS])
 {
     double from = INFINITY, to = -INFINITY, covered = 0;
     for (uint32_t i = 0; i < p->n; i++) {
         uint32_t j = (i + 1) % p->n;
         double a = cut_distance(&c->frame, p->vertex[i], l->direction), t = a;
         if (crosses(h[i], h[j]))
-            t = a + h[i] / (h[i] - h[j]) * (cut_distance(&c->frame, p->vertex[j], l->direction) - a);
+            t = a
+                + h[i] / (h[i] - h[j]) * (cut_distance(&c->frame, p->vertex[j], l->direction) - a);
         else if (h[i] < 0 || h[i] > 0)
             continue;
         from = fmin(from, t);
         to = fmax(to, t);
     }
     for (size_t i = l->first; i < l->first + l->count; i++)
-        covered += fmax(0, fmin(to, c->contacts.contacts[i].to) - fmax(from, c->contacts.contacts[i].from));
-    return covered > c->frame.touch && covered >= CUT_COVER * (to - from) - c->frame.touch ? covered : 0;
+        covered += fmax(0, fmin(to, c->contacts.contacts[i].to)
+                               - fmax(from, c->contacts.contacts[i].from));
+    return covered > c->frame.touch && covered >= CUT_COVER * (to - from) - c->frame.touch ? covered
+                                                                                           : 0;
 }
 
-/* A part becomes quads and at most one triangle, cut off where the cut is shortest. Returns how many. */
+/* A part becomes quads and at most one triangle, cut off where the cut is shortest. Returns how
+ * many. */
 static uint32_t make_pieces(const struct cutter *c, const struct part *p, struct piece *piece)
 {
     uint32_t ring[CORNERS], rest[CORNERS], n = p->n, count = 0;
@@ -137,9 +150,9 @@ static uint32_t make_pieces(const struct cutter *c, const struct part *p, struct
 /* Do all of a part's pieces have an area to speak of? */
 static int has_sound_pieces(const struct cutter *c, const struct part *p)
 {
-    struct piece piece[CORNERS / 2];
     if (p->n < 3)
         return 0;
+    struct piece piece[CORNERS / 2];
     uint32_t count = make_pieces(c, p, piece);
     for (uint32_t i = 0; i < count; i++) {
         double v[4][3];
@@ -152,12 +165,14 @@ static int has_sound_pieces(const struct cutter *c, const struct part *p)
 }
 
 /* Cut p along a line at heights h. Returns 0 when a side would not be sound. */
-static int divide(const struct cutter *c, const struct part *p, const double h[CORNERS], struct part side[2])
+static int divide(const struct cutter *c, const struct part *p, const double h[CORNERS],
+                  struct part side[2])
 {
-    int below;
     if (p->n + 1 > CORNERS)
         return 0;
-    side[0].n = (uint32_t)polygon_divide(&p->vertex[0][0], (int)p->n, 3, h, CORNERS, &side[0].vertex[0][0], &side[1].vertex[0][0], &below);
+    int below;
+    side[0].n = (uint32_t)polygon_divide(&p->vertex[0][0], (int)p->n, 3, h, CORNERS,
+                                         &side[0].vertex[0][0], &side[1].vertex[0][0], &below);
     side[1].n = (uint32_t)below;
     /* Sides begin with the first corner of p that they have, not with the crossing before it. */
     for (int q = 0; q < 2 && crosses(h[p->n - 1], h[0]); q++) {
@@ -175,12 +190,13 @@ static void find_cut(const struct cutter *c, struct part *p)
     p->covered = 0;
     for (size_t i = 0; i < c->lines.count; i++) {
         const struct cut_line *l = &c->lines.lines[i];
-        struct part side[2];
-        double h[CORNERS];
-        if (!cut_parts_polygon(&c->frame, (const double (*)[3])p->vertex, p->n, l->across, l->offset))
+        if (!cut_parts_polygon(&c->frame, (const double(*)[3])p->vertex, p->n, l->across,
+                               l->offset))
             continue;
+        double h[CORNERS];
         heights_over(&c->frame, p, l, h);
         double covered = covered_length(c, p, l, h);
+        struct part side[2];
         if (covered > p->covered + c->frame.touch && divide(c, p, h, side)) {
             p->covered = covered;
             p->line = i;
@@ -197,7 +213,8 @@ static int emit_piece(struct cutter *c, const struct part *p, const struct piece
         if (array_reserve(&c->out, c->out_count, &c->out_capacity, sizeof *c->out) < 0)
             return -1;
         for (uint32_t i = 0; i < piece->n; i++)
-            memcpy(f.vertex[i], p->vertex[piece->corner[back ? piece->n - 1 - i : i]], sizeof f.vertex[i]);
+            memcpy(f.vertex[i], p->vertex[piece->corner[back ? piece->n - 1 - i : i]],
+                   sizeof f.vertex[i]);
         f.back = (uint8_t)(c->frame.face->back | back);
         c->out[c->out_count++] = f;
     }
@@ -247,11 +264,13 @@ static int cut_face(struct cutter *c, uint32_t i)
         return 0;
     if (contacts_collect(&c->contacts, &c->frame, s->faces, c->tree) < 0)
         return -1;
-    if (c->contacts.count && (lines_of_contacts(&c->lines, &c->frame, &c->contacts) < 0 || cut_along_lines(c) < 0))
+    if (c->contacts.count
+        && (lines_of_contacts(&c->lines, &c->frame, &c->contacts) < 0 || cut_along_lines(c) < 0))
         return -1;
     if (c->out_count == before)
         return 0;
-    if (array_reserve(&c->cuttings, c->cutting_count, &c->cutting_capacity, sizeof *c->cuttings) < 0)
+    if (array_reserve(&c->cuttings, c->cutting_count, &c->cutting_capacity, sizeof *c->cuttings)
+        < 0)
         return -1;
     c->cuttings[c->cutting_count++] = (struct cutting){i, before, c->out_count - before, c};
     return 0;
@@ -313,7 +332,8 @@ int scene_cut(struct scene *scene, int threads)
     threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : omp_get_max_threads();
     struct bvh tree;
     struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
-    if (!cutters || bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0) {
+    if (!cutters
+        || bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0) {
         free(cutters);
         return -1;
     }

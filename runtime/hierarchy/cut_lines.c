@@ -1,7 +1,8 @@
 /* cut_lines.c - see cut_lines.h.
  *
- * Contacts whose angles form a chain with no gap above CUT_SAME_LINE are parallel; of these, those whose offsets do are on one
- * line. It is where the longest of them is. Every order here is total (ties go by face), so that it does not depend on the tree.
+ * Contacts whose angles form a chain with no gap above CUT_SAME_LINE are parallel; of these, those
+ * whose offsets do are on one line. It is where the longest of them is. Every order here is total
+ * (ties go by face), so that it does not depend on the tree.
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/cut_lines.h"
 
@@ -44,7 +45,8 @@ static int by_start(const void *a, const void *b)
 }
 
 /* Contacts [first, end) lie on one line: that of the longest, of those as long the first face's. */
-static int add_line(struct line_list *lines, const struct cut_frame *c, struct contact *x, size_t first, size_t end)
+static int add_line(struct line_list *lines, const struct cut_frame *c, struct contact *x,
+                    size_t first, size_t end)
 {
     if (array_reserve(&lines->lines, lines->count, &lines->capacity, sizeof *lines->lines) < 0)
         return -1;
@@ -71,7 +73,8 @@ static int add_line(struct line_list *lines, const struct cut_frame *c, struct c
     return 0;
 }
 
-int lines_of_contacts(struct line_list *lines, const struct cut_frame *frame, struct contact_list *contacts)
+int lines_of_contacts(struct line_list *lines, const struct cut_frame *frame,
+                      struct contact_list *contacts)
 {
     struct contact *x = contacts->contacts;
     size_t n = contacts->count;
@@ -83,7 +86,8 @@ int lines_of_contacts(struct line_list *lines, const struct cut_frame *frame, st
             continue;
         qsort(x + i, j - i, sizeof *x, by_offset);
         for (size_t a = i, b; a < j; a = b) {
-            for (b = a + 1; b < j && x[b].offset - x[b - 1].offset <= CUT_SAME_LINE * frame->size; b++)
+            for (b = a + 1; b < j && x[b].offset - x[b - 1].offset <= CUT_SAME_LINE * frame->size;
+                 b++)
                 continue;
             if (add_line(lines, frame, x, a, b) < 0)
                 return -1;

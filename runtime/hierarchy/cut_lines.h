@@ -16,7 +16,9 @@ struct line_list {
     size_t count, capacity;
 };
 
-/* Make `lines` hold the lines of the contacts, which are sorted and joined. Returns 0, or -1 when out of memory. */
-int lines_of_contacts(struct line_list *lines, const struct cut_frame *frame, struct contact_list *contacts);
+/* Make `lines` hold the lines of the contacts, which are sorted and joined. Returns 0, or -1
+ * when out of memory. */
+int lines_of_contacts(struct line_list *lines, const struct cut_frame *frame,
+                      struct contact_list *contacts);
 
 #endif

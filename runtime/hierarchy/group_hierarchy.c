@@ -1,16 +1,18 @@
 /* group_hierarchy.c - a hierarchy with flat groups of faces between clusters and faces.
  *
- * A matrix needs every pair of faces, so what a hierarchy can save is not links but questions: whether anything stands
- * between, how near, who turns to whom. These have one answer for all pairs of two walls' patches. Clusters by the surface-area
- * heuristic mix a wall with the strip of floor beside it, and nothing is true of such a group. So here
- * faces are first gathered by plane (coplanar_groups.h); each plane's faces make a tree of rectangles, each of which is a surface that shafts,
- * distances and planes can be asked about; above the planes stand clusters.
+ * A matrix needs every pair of faces, so what a hierarchy can save is not links but questions:
+ * whether anything stands between, how near, who turns to whom. These have one answer for all pairs
+ * of two walls' patches. Clusters by the surface-area heuristic mix a wall with the strip of floor
+ * beside it, and nothing is true of such a group. So here faces are first gathered by plane
+ * (coplanar_groups.h); each plane's faces make a tree of rectangles, each of which is a surface
+ * that shafts, distances and planes can be asked about; above the planes stand clusters.
  *
- * What blocks light is as few as possible: the largest groups whose faces tile their rectangle stand in shafts as one
- * face each. They do when every edge that no neighbour cancels lies on the rectangle's sides, so that all of it is covered
- * equally often, and the areas say once.
+ * What blocks light is as few as possible: the largest groups whose faces tile their rectangle
+ * stand in shafts as one face each. They do when every edge that no neighbour cancels lies on the
+ * rectangle's sides, so that all of it is covered equally often, and the areas say once.
  *
- * Invariant: a group's faces lie in its plane, to h.flat, and within its rectangle, to rounding; the tree depends on the faces alone.
+ * Invariant: a group's faces lie in its plane, to h.flat, and within its rectangle, to rounding;
+ * the tree depends on the faces alone.
  * [derived here; the cancelling of edges is that of winding numbers]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -31,10 +33,11 @@ struct builder {
     const struct hierarchy *plain; /* measured face elements, and the scene's box */
     double flat, size;             /* m */
     struct coplanar_groups planes;
-    double (*at)[2];               /* [face_count]: by face, the middle of its rectangle in its plane's frame */
-    double (*centre)[3];           /* [planes]: the middle of the plane's box */
-    struct directed *edges;        /* [8 * face_count] */
-    struct face_share *shares;     /* [face_count]: by place in the tree's order */
+    /* [face_count]: by face, the middle of its rectangle in its plane's frame */
+    double (*at)[2];
+    double (*centre)[3];       /* [planes]: the middle of the plane's box */
+    struct directed *edges;    /* [8 * face_count] */
+    struct face_share *shares; /* [face_count]: by place in the tree's order */
 };
 
 /* The frame of a plane. */
@@ -50,7 +53,7 @@ static const struct element *face_of(const struct builder *b, uint32_t face)
 static void find_centres(struct builder *b)
 {
     for (uint32_t i = 0; i < b->planes.count; i++) {
-        double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
         for (uint32_t j = b->planes.groups[i].from; j < b->planes.groups[i].to; j++) {
             const struct element *e = face_of(b, b->planes.order[j]);
             for (int c = 0; c < e->vertices; c++)
@@ -69,11 +72,11 @@ static void find_centres(struct builder *b)
 static uint32_t add_children(struct builder *b, uint32_t parent, int count)
 {
     struct hierarchy *h = b->h;
-    uint32_t first = h->count, i;
+    uint32_t first = h->count;
     h->elements[parent].child = first;
     h->elements[parent].children = (uint8_t)count;
     h->count += (uint32_t)count;
-    for (i = first; i < h->count; i++) {
+    for (uint32_t i = first; i < h->count; i++) {
         memset(&h->elements[i], 0, sizeof *h->elements);
         h->elements[i].parent = parent;
         h->elements[i].id = hash64(i + HASH_STEP);
@@ -94,7 +97,7 @@ static void make_face(struct builder *b, uint32_t index, uint32_t at)
     e->reflectance = 0;
     e->black = 0;
     h->face_element[face] = index;
-    h->range[index] = (struct face_range){ at, at + 1 };
+    h->range[index] = (struct face_range){at, at + 1};
     b->h->solid[index] = 1;
 }
 
@@ -103,26 +106,24 @@ static void make_frame(const struct builder *b, struct face_range range, struct 
 {
     const struct element *e = face_of(b, b->h->order[range.from]);
     double best = 0;
-    uint32_t i;
-    int c, k;
-    for (i = range.from; i < range.to; i++)
+    for (uint32_t i = range.from; i < range.to; i++)
         if (face_of(b, b->h->order[i])->area > e->area * (1 + 1e-9))
             e = face_of(b, b->h->order[i]);
     memcpy(f->n, e->normal, sizeof f->n);
     memcpy(f->origin, e->centre, sizeof f->origin);
-    for (c = 0; c < e->vertices; c++) {
-        double edge[3], size;
+    for (int c = 0; c < e->vertices; c++) {
+        double edge[3];
         sub3(edge, e->vertex[c + 1 < e->vertices ? c + 1 : 0], e->vertex[c]);
-        size = length3(edge);
+        double size = length3(edge);
         if (size <= best * (1 + 1e-9))
             continue;
         best = size;
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             f->u[k] = edge[k] / size;
     }
     cross3(f->v, f->n, f->u);
     best = length3(f->v);
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         f->v[k] /= best;
     cross3(f->u, f->v, f->n);
 }
@@ -135,18 +136,17 @@ static void in_frame(const struct frame *f, const double p[3], double uv[2])
     uv[1] = dot3(w, f->v);
 }
 
-static void bounds(const struct builder *b, const struct frame *f, struct face_range range, double low[2], double high[2])
+static void bounds(const struct builder *b, const struct frame *f, struct face_range range,
+                   double low[2], double high[2])
 {
-    uint32_t i;
-    int c, k;
     low[0] = low[1] = INFINITY;
     high[0] = high[1] = -INFINITY;
-    for (i = range.from; i < range.to; i++) {
+    for (uint32_t i = range.from; i < range.to; i++) {
         const struct element *e = face_of(b, b->h->order[i]);
-        for (c = 0; c < e->vertices; c++) {
+        for (int c = 0; c < e->vertices; c++) {
             double uv[2];
             in_frame(f, e->vertex[c], uv);
-            for (k = 0; k < 2; k++) {
+            for (int k = 0; k < 2; k++) {
                 low[k] = uv[k] < low[k] ? uv[k] : low[k];
                 high[k] = uv[k] > high[k] ? uv[k] : high[k];
             }
@@ -159,67 +159,67 @@ static int compare_edges(const void *a, const void *b)
     return memcmp(a, b, sizeof(struct directed));
 }
 
-/* Do the faces tile the rectangle? Edges run both ways between neighbours: written from the smaller end, with which way in the
- * list's half. */
-static int tiles(const struct builder *b, const struct frame *f, struct face_range range, const double low[2], const double high[2])
+/* Do the faces tile the rectangle? Edges run both ways between neighbours: written from the smaller
+ * end, with which way in the list's half. */
+static int tiles(const struct builder *b, const struct frame *f, struct face_range range,
+                 const double low[2], const double high[2])
 {
     double area = 0, whole = (high[0] - low[0]) * (high[1] - low[1]), near = b->flat;
-    size_t count[2] = { 0, 0 }, i, j;
+    size_t count[2] = {0, 0};
     struct directed *half[2];
-    uint32_t r;
     half[0] = b->edges;
     half[1] = b->edges + 4 * (size_t)b->h->face_count;
-    for (r = range.from; r < range.to; r++) {
+    for (uint32_t r = range.from; r < range.to; r++) {
         const struct element *e = face_of(b, b->h->order[r]);
-        int c, k;
         area += e->area;
-        for (c = 0; c < e->vertices; c++) {
+        for (int c = 0; c < e->vertices; c++) {
             double end[2][2];
-            int side = 0, turned;
-            struct directed *g;
+            int side = 0;
             in_frame(f, e->vertex[c], end[0]);
             in_frame(f, e->vertex[c + 1 < e->vertices ? c + 1 : 0], end[1]);
-            for (k = 0; k < 2; k++)
+            for (int k = 0; k < 2; k++)
                 side |= (end[0][k] < low[k] + near && end[1][k] < low[k] + near)
-                     || (end[0][k] > high[k] - near && end[1][k] > high[k] - near);
+                        || (end[0][k] > high[k] - near && end[1][k] > high[k] - near);
             if (side)
                 continue;
-            for (k = 0; k < 4; k++) { /* corners that are one in the file are one here */
+            for (int k = 0; k < 4; k++) { /* corners that are one in the file are one here */
                 end[k / 2][k % 2] = floor(end[k / 2][k % 2] / near * 0.125 + 0.5);
                 end[k / 2][k % 2] += 0.0; /* no negative zero */
             }
-            turned = end[0][0] > end[1][0] || (end[0][0] >= end[1][0] && end[0][1] > end[1][1]);
-            g = &half[turned][count[turned]++];
+            int turned = end[0][0] > end[1][0] || (end[0][0] >= end[1][0] && end[0][1] > end[1][1]);
+            struct directed *g = &half[turned][count[turned]++];
             memcpy(g->a, end[turned], sizeof g->a);
             memcpy(g->b, end[!turned], sizeof g->b);
         }
     }
     if (count[0] != count[1] || fabs(area - whole) > GROUP_GAPS * whole)
         return 0;
-    for (i = 0; i < 2; i++)
+    for (size_t i = 0; i < 2; i++)
         qsort(half[i], count[i], sizeof **half, compare_edges);
-    for (j = 0; j < count[0]; j++)
+    for (size_t j = 0; j < count[0]; j++)
         if (compare_edges(&half[0][j], &half[1][j]) != 0)
             return 0;
     return 1;
 }
 
-static void make_rectangle(struct builder *b, uint32_t index, const struct frame *f, struct face_range range, int within_solid)
+static void make_rectangle(struct builder *b, uint32_t index, const struct frame *f,
+                           struct face_range range, int within_solid)
 {
     struct element *e = &b->h->elements[index];
     double low[2], high[2];
-    uint32_t i;
-    int c, k;
     bounds(b, f, range, low, high);
-    for (c = 0; c < 4; c++)
-        for (k = 0; k < 3; k++)
-            e->vertex[c][k] = f->origin[k] + (c == 1 || c == 2 ? high[0] : low[0]) * f->u[k] + (c >= 2 ? high[1] : low[1]) * f->v[k];
-    for (k = 0; k < 3; k++) {
+    for (int c = 0; c < 4; c++)
+        for (int k = 0; k < 3; k++)
+            e->vertex[c][k] = f->origin[k] + (c == 1 || c == 2 ? high[0] : low[0]) * f->u[k]
+                              + (c >= 2 ? high[1] : low[1]) * f->v[k];
+    for (int k = 0; k < 3; k++) {
         e->centre[k] = 0.5 * (e->vertex[0][k] + e->vertex[2][k]);
         e->normal[k] = f->n[k];
     }
-    e->radius = 0.5 * sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]));
-    for (i = range.from; i < range.to; i++)
+    e->radius =
+        0.5
+        * sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]));
+    for (uint32_t i = range.from; i < range.to; i++)
         e->area += face_of(b, b->h->order[i])->area;
     e->cone = 1;
     e->vertices = 4;
@@ -242,12 +242,14 @@ static int compare_along(const void *a, const void *b)
     return x->at < y->at ? -1 : x->at > y->at ? 1 : x->what < y->what ? -1 : x->what > y->what;
 }
 
-/* The place nearest to the middle of a sorted list where neighbours differ; the middle when none do. */
+/* The place nearest to the middle of a sorted list where neighbours differ; the middle when none
+ * do. */
 static uint32_t middle(const struct along *list, uint32_t count, double near)
 {
-    uint32_t step, half = count / 2;
-    for (step = 0; step < half; step++) {
-        if (list[half + step < count ? half + step : count - 1].at - list[half + step - 1].at > near)
+    uint32_t half = count / 2;
+    for (uint32_t step = 0; step < half; step++) {
+        if (list[half + step < count ? half + step : count - 1].at - list[half + step - 1].at
+            > near)
             return half + step;
         if (half > step + 1 && list[half - step].at - list[half - step - 1].at > near)
             return half - step;
@@ -255,38 +257,38 @@ static uint32_t middle(const struct along *list, uint32_t count, double near)
     return half;
 }
 
-/* Parts of a range, each halved across its longer side. `centre`: by what order or items hold. Returns how many, up to FANOUT. */
-static int halve(const struct builder *b, uint32_t *list, struct face_range range, const double *centre, size_t stride, int axes,
-                 struct along *scratch, struct face_range part[FANOUT], uint32_t least)
+/* Parts of a range, each halved across its longer side. `centre`: by what order or items hold.
+ * Returns how many, up to FANOUT. */
+static int halve(const struct builder *b, uint32_t *list, struct face_range range,
+                 const double *centre, size_t stride, int axes, struct along *scratch,
+                 struct face_range part[FANOUT], uint32_t least)
 {
-    int parts = 1, k;
-    uint32_t i;
+    int parts = 1;
     part[0] = range;
     while (parts < FANOUT) {
-        double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
         int widest = 0, axis = 0;
-        uint32_t n, cut, *own;
-        for (k = 1; k < parts; k++)
+        for (int k = 1; k < parts; k++)
             if (part[k].to - part[k].from > part[widest].to - part[widest].from)
                 widest = k;
-        n = part[widest].to - part[widest].from;
+        uint32_t n = part[widest].to - part[widest].from;
         if (n < 2 || (n <= least && parts > 1))
             break;
-        own = list + part[widest].from;
-        for (i = 0; i < n; i++)
-            for (k = 0; k < axes; k++) {
+        uint32_t *own = list + part[widest].from;
+        for (uint32_t i = 0; i < n; i++)
+            for (int k = 0; k < axes; k++) {
                 double x = centre[stride * own[i] + (size_t)k];
                 low[k] = x < low[k] ? x : low[k];
                 high[k] = x > high[k] ? x : high[k];
             }
-        for (k = 1; k < axes; k++)
+        for (int k = 1; k < axes; k++)
             if (high[k] - low[k] > (high[axis] - low[axis]) * (1 + 1e-6))
                 axis = k;
-        for (i = 0; i < n; i++)
-            scratch[i] = (struct along){ centre[stride * own[i] + (size_t)axis], own[i] };
+        for (uint32_t i = 0; i < n; i++)
+            scratch[i] = (struct along){centre[stride * own[i] + (size_t)axis], own[i]};
         qsort(scratch, n, sizeof *scratch, compare_along);
-        cut = middle(scratch, n, GROUP_SAME_PLACE * b->size);
-        for (i = 0; i < n; i++)
+        uint32_t cut = middle(scratch, n, GROUP_SAME_PLACE * b->size);
+        for (uint32_t i = 0; i < n; i++)
             own[i] = scratch[i].what;
         memmove(&part[widest + 1], &part[widest], (size_t)(parts - widest) * sizeof *part);
         part[widest].to = part[widest + 1].from = part[widest].from + cut;
@@ -296,26 +298,27 @@ static int halve(const struct builder *b, uint32_t *list, struct face_range rang
 }
 
 /* Element `index` becomes the group of the faces in the range, or the one face. */
-static void make_group(struct builder *b, struct along *scratch, uint32_t index, const struct frame *f, struct face_range range, int within_solid)
+static void make_group(struct builder *b, struct along *scratch, uint32_t index,
+                       const struct frame *f, struct face_range range, int within_solid)
 {
-    struct face_range part[FANOUT];
-    uint32_t n = range.to - range.from, first, i;
-    int parts, k;
+    uint32_t n = range.to - range.from;
     if (n == 1) {
         make_face(b, index, range.from);
         return;
     }
     make_rectangle(b, index, f, range, within_solid);
     within_solid |= b->h->solid[index];
+    uint32_t first;
     if (n <= LOWEST_GROUP) {
         first = add_children(b, index, (int)n);
-        for (i = 0; i < n; i++)
+        for (uint32_t i = 0; i < n; i++)
             make_face(b, first + i, range.from + i);
         return;
     }
-    parts = halve(b, b->h->order, range, b->at[0], 2, 2, scratch, part, LOWEST_GROUP);
+    struct face_range part[FANOUT];
+    int parts = halve(b, b->h->order, range, b->at[0], 2, 2, scratch, part, LOWEST_GROUP);
     first = add_children(b, index, parts);
-    for (k = 0; k < parts; k++)
+    for (int k = 0; k < parts; k++)
         make_group(b, scratch, first + (uint32_t)k, f, part[k], within_solid);
 }
 
@@ -335,42 +338,42 @@ static void make_cluster_element(struct builder *b, uint32_t index)
                 own.high[k] = s->vertex[c][k] > own.high[k] ? s->vertex[c][k] : own.high[k];
             }
         bounds_add(&box, &own);
-        b->shares[i] = (struct face_share){ { s->normal[0], s->normal[1], s->normal[2] }, s->area, 0 };
+        b->shares[i] = (struct face_share){{s->normal[0], s->normal[1], s->normal[2]}, s->area, 0};
     }
     element_measure_cluster(&b->h->elements[index], b->shares, &box, range);
 }
 
-/* Element `index` becomes the cluster of the planes list[range], or the one plane's group. Orders the faces as it goes:
- * `at` is where the first one's stand. */
-static void make_cluster(struct builder *b, struct along *scratch, uint32_t *list, uint32_t *order, uint32_t index, struct face_range range, uint32_t at)
+/* Element `index` becomes the cluster of the planes list[range], or the one plane's group. Orders
+ * the faces as it goes: `at` is where the first one's stand. */
+static void make_cluster(struct builder *b, struct along *scratch, uint32_t *list, uint32_t *order,
+                         uint32_t index, struct face_range range, uint32_t at)
 {
-    struct face_range part[FANOUT];
-    uint32_t first, i;
-    int parts, k;
     if (range.to - range.from == 1 && index != 0) {
         const struct face_range *plane = &b->planes.groups[list[range.from]];
-        struct face_range faces = { at, at + plane->to - plane->from };
-        struct frame f;
+        struct face_range faces = {at, at + plane->to - plane->from};
         memcpy(b->h->order + at, order + plane->from, (plane->to - plane->from) * sizeof *order);
+        struct frame f;
         if (faces.to - faces.from > 1) {
             make_frame(b, faces, &f);
-            for (i = faces.from; i < faces.to; i++) {
+            for (uint32_t i = faces.from; i < faces.to; i++) {
                 double low[2], high[2];
-                struct face_range one = { i, i + 1 };
+                struct face_range one = {i, i + 1};
                 bounds(b, &f, one, low, high);
-                for (k = 0; k < 2; k++)
+                for (int k = 0; k < 2; k++)
                     b->at[b->h->order[i]][k] = 0.5 * (low[k] + high[k]);
             }
         }
         make_group(b, scratch, index, &f, faces, 0);
         return;
     }
-    parts = range.to - range.from > 1 ? halve(b, list, range, b->centre[0], 3, 3, scratch, part, 1) : 1;
+    struct face_range part[FANOUT];
+    int parts =
+        range.to - range.from > 1 ? halve(b, list, range, b->centre[0], 3, 3, scratch, part, 1) : 1;
     if (parts == 1)
         part[0] = range;
-    first = add_children(b, index, parts);
+    uint32_t first = add_children(b, index, parts);
     b->h->range[index].from = at;
-    for (k = 0; k < parts; k++) {
+    for (int k = 0; k < parts; k++) {
         make_cluster(b, scratch, list, order, first + (uint32_t)k, part[k], at);
         at = b->h->range[first + (uint32_t)k].to;
     }
@@ -382,7 +385,7 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
 {
     uint32_t n = plain->face_count, most = 2 * n + 2, *list = malloc(n * sizeof *list);
     struct along *scratch = malloc(n * sizeof *scratch);
-    struct builder b = { .h = h, .plain = plain, .flat = flat };
+    struct builder b = {.h = h, .plain = plain, .flat = flat};
     int result = -1;
     memset(h, 0, sizeof *h);
     h->faces = plain->faces;
@@ -398,8 +401,9 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
     h->order = malloc(n * sizeof *h->order);
     h->range = malloc(most * sizeof *h->range);
     h->solid = calloc(most, 1);
-    if (!list || !scratch || !b.at || !b.centre || !b.edges || !b.shares || !h->elements || !h->face_element || !h->order || !h->range
-        || !h->solid || coplanar_groups_find(&b.planes, plain, flat) < 0)
+    if (!list || !scratch || !b.at || !b.centre || !b.edges || !b.shares || !h->elements
+        || !h->face_element || !h->order || !h->range || !h->solid
+        || coplanar_groups_find(&b.planes, plain, flat) < 0)
         goto done;
     for (int k = 0; k < 3; k++) {
         double side = plain->high[k] - plain->low[k];
@@ -415,7 +419,7 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
     h->elements[0].id = hash64(HASH_STEP);
     element_reset(&h->elements[0]);
     h->elements[0].radiosity = 1;
-    make_cluster(&b, scratch, list, b.planes.order, 0, (struct face_range){ 0, b.planes.count }, 0);
+    make_cluster(&b, scratch, list, b.planes.order, 0, (struct face_range){0, b.planes.count}, 0);
     h->built = h->count;
     result = 0;
 done:

@@ -1,9 +1,9 @@
 /* hierarchy.c - elements from the tree of clusters, and split surfaces below the faces.
  *
- * The tree is a strategy's (bvh.h); here its nodes become elements, in the same places, with boxes, areas and cones of
- * normals. Cones are as tight as the faces allow: each cluster looks at all its faces, not at its children's
- * cones. Invariant: indices depend on the order of splits, identities (`id`) only on the path from the root, and those of faces
- * and their parts on the face alone.
+ * The tree is a strategy's (bvh.h); here its nodes become elements, in the same places, with boxes,
+ * areas and cones of normals. Cones are as tight as the faces allow: each cluster looks at all its
+ * faces, not at its children's cones. Invariant: indices depend on the order of splits, identities
+ * (`id`) only on the path from the root, and those of faces and their parts on the face alone.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -40,30 +40,29 @@ static void make_face(struct hierarchy *h, uint32_t index, uint32_t face)
     element_reset(e);
 }
 
-void element_measure_cluster(struct element *e, const struct face_share *share, const struct bounds *box, struct face_range range)
+void element_measure_cluster(struct element *e, const struct face_share *share,
+                             const struct bounds *box, struct face_range range)
 {
-    double axis[3] = { 0, 0, 0 }, size;
-    uint32_t i;
-    int k;
+    double axis[3] = {0, 0, 0};
     element_reset(e);
     e->black = 1;
-    for (i = range.from; i < range.to; i++) {
+    for (uint32_t i = range.from; i < range.to; i++) {
         const struct face_share *s = &share[i];
         e->area += s->area;
         e->black = e->black && s->black;
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             axis[k] += s->area * s->normal[k];
     }
-    size = length3(axis);
+    double size = length3(axis);
     e->cone = size > CONE_LEAST * e->area ? 1 : -1;
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         e->normal[k] = size > 0 ? axis[k] / size : 0;
-    for (i = range.from; i < range.to && e->cone > -1; i++) {
+    for (uint32_t i = range.from; i < range.to && e->cone > -1; i++) {
         double c = dot3(share[i].normal, e->normal);
         if (c < 1 - CONE_EQUAL && c < e->cone)
             e->cone = c;
     }
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         e->centre[k] = 0.5 * (box->low[k] + box->high[k]);
         e->vertex[0][k] = box->low[k];
         e->vertex[1][k] = box->high[k];
@@ -75,7 +74,6 @@ void element_measure_cluster(struct element *e, const struct face_share *share, 
 static int reserve(struct hierarchy *h, uint32_t more)
 {
     uint64_t need = (uint64_t)h->count + more, capacity = h->capacity;
-    struct element *moved;
     if (need <= capacity)
         return 0;
     capacity = need + need / 2;
@@ -83,6 +81,7 @@ static int reserve(struct hierarchy *h, uint32_t more)
         capacity = UINT32_MAX;
     if (need > capacity)
         return -1;
+    struct element *moved;
     moved = realloc(h->elements, (size_t)capacity * sizeof *moved);
     if (!moved)
         return -1;
@@ -94,29 +93,28 @@ static int reserve(struct hierarchy *h, uint32_t more)
 /* Parents, children, identities: from the root down. */
 static void place_elements(struct hierarchy *h, const struct bvh *t)
 {
-    uint32_t i, k;
     memset(h->elements, 0, t->count * sizeof *h->elements);
     h->elements[0].id = child_id(0, 0);
-    for (i = 0; i < t->count; i++) {
+    for (uint32_t i = 0; i < t->count; i++) {
         const struct bvh_node *n = &t->nodes[i];
         struct element *e = &h->elements[i];
-        h->range[i] = (struct face_range){ n->from, n->to };
+        h->range[i] = (struct face_range){n->from, n->to};
         e->child = n->child;
         e->children = (uint8_t)n->children;
-        for (k = 0; k < n->children; k++) {
+        for (uint32_t k = 0; k < n->children; k++) {
             h->elements[n->child + k].parent = i;
             h->elements[n->child + k].id = child_id(e->id, k);
         }
     }
 }
 
-int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count, enum clustering strategy, int threads)
+int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count,
+                       enum clustering strategy, int threads)
 {
-    struct bvh t;
     struct face_share *share = NULL;
-    uint32_t i;
     int result = -1;
     memset(h, 0, sizeof *h);
+    struct bvh t;
     if (bvh_build(&t, faces, face_count, strategy, threads) < 0)
         return -1;
     h->faces = faces;
@@ -131,7 +129,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     memcpy(h->high, t.boxes[0].high, sizeof h->high);
     place_elements(h, &t);
 #pragma omp parallel for schedule(static) num_threads(threads)
-    for (i = 0; i < t.count; i++) {
+    for (uint32_t i = 0; i < t.count; i++) {
         const struct element *e = &h->elements[i];
         struct face_share *s = &share[t.nodes[i].from];
         if (t.nodes[i].children)
@@ -142,7 +140,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
         s->black = e->black;
     }
 #pragma omp parallel for schedule(dynamic, 64) num_threads(threads)
-    for (i = 0; i < t.count; i++)
+    for (uint32_t i = 0; i < t.count; i++)
         if (t.nodes[i].children)
             element_measure_cluster(&h->elements[i], share, &t.boxes[i], h->range[i]);
     h->order = t.order;

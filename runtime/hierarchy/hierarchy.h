@@ -14,34 +14,43 @@ struct face {
     uint32_t vertices;   /* 3 or 4 */
     uint32_t material;   /* the caller's */
     uint32_t input;      /* index of the face in the scene file it came from */
-    uint8_t back;        /* 1: the far side of a two-sided face that is also listed; casts no shadow of its own */
-    uint8_t black;       /* 1: neither emits nor reflects in any band */
+    /* 1: the far side of a two-sided face that is also listed; casts no shadow of its own */
+    uint8_t back;
+    uint8_t black; /* 1: neither emits nor reflects in any band */
 };
 
 struct hierarchy {
-    struct element *elements; /* [count]; element 0 is the root; children of one element are neighbours */
+    /* [count]; element 0 is the root; children of one element are neighbours */
+    struct element *elements;
     uint32_t count, capacity;
     const struct face *faces; /* [face_count], borrowed */
     uint32_t face_count;
     uint32_t *face_element; /* [face_count]: the element that is the whole face */
-    uint32_t *order;        /* [face_count]: the faces in the tree's order, so that each cluster's are neighbours */
+    /* [face_count]: the faces in the tree's order, so that each cluster's are neighbours */
+    uint32_t *order;
     struct face_range {
         uint32_t from, to;
-    } *range;               /* [built]: the part of `order` below each element made by hierarchy_build */
+        /* [built]: the part of `order` below each element made by hierarchy_build */
+    } * range;
     uint32_t built;         /* elements made by hierarchy_build: clusters and faces */
     double low[3], high[3]; /* bounding box of the faces (m) */
-    unsigned char *solid;   /* [built]: 1: what stands in shafts: faces, and groups that are as good as one. NULL: faces alone */
-    double flat;            /* with groups: how far from their planes their faces may reach (m) */
+    /* [built]: 1: what stands in shafts: faces, and groups that are as good as one. NULL: faces
+     * alone */
+    unsigned char *solid;
+    double flat; /* with groups: how far from their planes their faces may reach (m) */
 };
 
 enum { NO_ELEMENT = 0 }; /* as a child index: not split */
 
-/* Build the clusters and one element per face (deterministic, independent of threads), by the default strategy and one thread.
- * The faces are borrowed and must outlive the hierarchy. Returns 0, or -1 when out of memory. */
+/* Build the clusters and one element per face (deterministic, independent of threads), by the
+ * default strategy and one thread. The faces are borrowed and must outlive the hierarchy. Returns
+ * 0, or -1 when out of memory. */
 int hierarchy_build(struct hierarchy *h, const struct face *faces, uint32_t face_count);
 
-/* The same by a strategy and a number of threads. The elements of faces, but for their places, do not depend on the strategy. */
-int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count, enum clustering strategy, int threads);
+/* The same by a strategy and a number of threads. The elements of faces, but for their places,
+ * do not depend on the strategy. */
+int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count,
+                       enum clustering strategy, int threads);
 
 /* Split a surface in four, unless it is split. Pointers into `elements` may move.
  * Returns 0, or -1 when out of memory or out of indices; then nothing has changed. */
@@ -64,7 +73,9 @@ struct face_share {
     int black;
 };
 
-/* and a cluster's area, box and cone of normals, from shares in the tree's order. Exactly equal normals give a cone of angle 0. */
-void element_measure_cluster(struct element *e, const struct face_share *share, const struct bounds *box, struct face_range range);
+/* and a cluster's area, box and cone of normals, from shares in the tree's order. Exactly equal
+ * normals give a cone of angle 0. */
+void element_measure_cluster(struct element *e, const struct face_share *share,
+                             const struct bounds *box, struct face_range range);
 
 #endif

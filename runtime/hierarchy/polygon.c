@@ -62,7 +62,8 @@ int polygon_degenerate(double (*vertex)[3], uint32_t count, double precision)
         for (int k = 0; k < 3; k++)
             largest = fmax(largest, fabs(vertex[i][k]));
     double area = polygon_normal(vertex, count, normal);
-    return !(area > SCENE_THIN * size * size && area > SCENE_THIN_ROUNDINGS * precision * largest * size);
+    return !(area > SCENE_THIN * size * size
+             && area > SCENE_THIN_ROUNDINGS * precision * largest * size);
 }
 
 int polygon_flat(double (*vertex)[3], uint32_t count, double tolerance)
@@ -106,15 +107,18 @@ static double side(const double a[3], const double b[3], const double c[3], cons
 }
 
 /* Is the triangle at place i of the remaining ring an ear? */
-static int ear(double (*vertex)[3], const uint32_t *ring, uint32_t count, uint32_t i, const double normal[3])
+static int ear(double (*vertex)[3], const uint32_t *ring, uint32_t count, uint32_t i,
+               const double normal[3])
 {
-    const double *a = vertex[ring[(i + count - 1) % count]], *b = vertex[ring[i]], *c = vertex[ring[(i + 1) % count]];
+    const double *a = vertex[ring[(i + count - 1) % count]], *b = vertex[ring[i]],
+                 *c = vertex[ring[(i + 1) % count]];
     if (side(a, b, c, normal) <= 0)
         return 0;
     for (uint32_t step = 2; step < count - 1; step++) {
         const double *p = vertex[ring[(i + step) % count]];
         /* A ring joined to a hole visits a point twice: that is no obstacle. */
-        if ((p[0] == a[0] && p[1] == a[1] && p[2] == a[2]) || (p[0] == c[0] && p[1] == c[1] && p[2] == c[2]))
+        if ((p[0] == a[0] && p[1] == a[1] && p[2] == a[2])
+            || (p[0] == c[0] && p[1] == c[1] && p[2] == c[2]))
             continue;
         if (side(a, b, p, normal) >= 0 && side(b, c, p, normal) >= 0 && side(c, a, p, normal) >= 0)
             return 0;
@@ -122,7 +126,8 @@ static int ear(double (*vertex)[3], const uint32_t *ring, uint32_t count, uint32
     return 1;
 }
 
-uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3], uint32_t *scratch)
+uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
+                             uint32_t *scratch)
 {
     double normal[3];
     uint32_t *ring = scratch, triangles = 0, start = 0;

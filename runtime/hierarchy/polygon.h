@@ -12,8 +12,8 @@ double polygon_normal(double (*vertex)[3], uint32_t count, double normal[3]);
 /* The longest distance between two corners. */
 double polygon_size(double (*vertex)[3], uint32_t count);
 
-/* 1 when there is no area to speak of: thinner than SCENE_THIN, or than the rounding of its coordinates, which is `precision` times the
- * largest of them. */
+/* 1 when there is no area to speak of: thinner than SCENE_THIN, or than the rounding of its
+ * coordinates, which is `precision` times the largest of them. */
 int polygon_degenerate(double (*vertex)[3], uint32_t count, double precision);
 
 /* 1 when every corner lies within `tolerance` (m) of the mean plane. */
@@ -25,6 +25,7 @@ int polygon_convex_quad(double (*vertex)[3]);
 /* Cut into count - 2 triangles or fewer by ear clipping, in the plane of the mean normal; concave
  * polygons are cut right. Triangles are corner indices in the polygon's own sense of rotation,
  * `scratch` holds `count` numbers. Returns the number of triangles. */
-uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3], uint32_t *scratch);
+uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
+                             uint32_t *scratch);
 
 #endif

@@ -1,7 +1,8 @@
 /* scene.c - polygons and materials to flat convex faces.
  *
- * Invariant: faces stand in the order of their polygons, whatever becomes of these; every face is flat and convex, has
- * an area, and names its polygon. Faces in which others stand are cut there (cut_faces.h).
+ * Invariant: faces stand in the order of their polygons, whatever becomes of these; every face is
+ * flat and convex, has an area, and names its polygon. Faces in which others stand are cut there
+ * (cut_faces.h).
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/scene.h"
 
@@ -32,7 +33,8 @@ struct builder {
 #if defined __GNUC__
 __attribute__((__format__(__printf__, 3, 4)))
 #endif
-static int fail(struct scene_error *error, enum RadError code, const char *format, ...)
+static int
+fail(struct scene_error *error, enum RadError code, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -44,7 +46,8 @@ static int fail(struct scene_error *error, enum RadError code, const char *forma
 
 static int out_of_memory(struct scene_error *error)
 {
-    return fail(error, RAD_ERROR_OUT_OF_MEMORY, "out of memory; use a smaller scene or a larger machine");
+    return fail(error, RAD_ERROR_OUT_OF_MEMORY,
+                "out of memory; use a smaller scene or a larger machine");
 }
 
 /* Materials that no polygon has may be anything. */
@@ -54,10 +57,12 @@ static int check_materials(const struct builder *b)
         const struct RadMaterial *m = &b->scene->materials[i];
         for (int k = 0; k < 3 && b->used[i]; k++) {
             if (!(m->reflectance[k] >= 0 && m->reflectance[k] < 1))
-                return fail(b->error, RAD_ERROR_INVALID_SCENE, "material %u has reflectance %g; it must be 0 or more and below 1",
+                return fail(b->error, RAD_ERROR_INVALID_SCENE,
+                            "material %u has reflectance %g; it must be 0 or more and below 1",
                             (unsigned)i, m->reflectance[k]);
             if (!(m->exitance[k] >= 0 && isfinite(m->exitance[k])))
-                return fail(b->error, RAD_ERROR_INVALID_SCENE, "material %u has exitance %g W/m2; it must be 0 or more and finite",
+                return fail(b->error, RAD_ERROR_INVALID_SCENE,
+                            "material %u has exitance %g W/m2; it must be 0 or more and finite",
                             (unsigned)i, m->exitance[k]);
         }
     }
@@ -74,7 +79,8 @@ static uint32_t material_of(const struct RadPolygons *polygons, uint32_t i)
     return polygons->materials ? polygons->materials[i] : 0;
 }
 
-/* Check what the arrays refer to, mark the materials named, and find the largest polygon and how many faces there may be. */
+/* Check what the arrays refer to, mark the materials named, and find the largest polygon and how
+ * many faces there may be. */
 static int check_polygons(struct builder *b, uint32_t *largest, size_t *most)
 {
     const struct RadPolygons *polygons = b->polygons;
@@ -85,22 +91,28 @@ static int check_polygons(struct builder *b, uint32_t *largest, size_t *most)
     if (!polygons->count)
         return fail(b->error, invalid, "there is no face in it; a scene needs one face at least");
     if (!polygons->positions || !polygons->indices)
-        return fail(b->error, invalid, "faces without positions or without indices; give both arrays");
+        return fail(b->error, invalid,
+                    "faces without positions or without indices; give both arrays");
     for (uint32_t i = 0; i < polygons->count; i++) {
         uint32_t n = size_of(polygons, i), material = material_of(polygons, i);
         if (material >= b->scene->material_count)
-            return fail(b->error, invalid, "polygon %u has material %u, but there are %u; correct the index or set more materials",
+            return fail(b->error, invalid,
+                        "polygon %u has material %u, but there are %u; correct the index or set "
+                        "more materials",
                         (unsigned)i, (unsigned)material, (unsigned)b->scene->material_count);
         b->used[material] = NAMED;
         for (uint32_t j = 0; j < n; j++) {
             uint32_t index = polygons->indices[at + j];
             if (index >= polygons->position_count)
-                return fail(b->error, invalid, "corner %u of polygon %u is position %u, but there are %zu; correct the index",
-                            (unsigned)j, (unsigned)i, (unsigned)index, polygons->position_count);
+                return fail(
+                    b->error, invalid,
+                    "corner %u of polygon %u is position %u, but there are %zu; correct the index",
+                    (unsigned)j, (unsigned)i, (unsigned)index, polygons->position_count);
             const double *p = &polygons->positions[3 * (size_t)index];
             for (int k = 0; k < 3; k++) {
                 if (!(fabs(p[k]) <= (double)FLT_MAX))
-                    return fail(b->error, invalid, "corner %u of polygon %u is not finite (%g); correct position %u",
+                    return fail(b->error, invalid,
+                                "corner %u of polygon %u is not finite (%g); correct position %u",
                                 (unsigned)j, (unsigned)i, p[k], (unsigned)index);
                 b->low[k] = fmin(b->low[k], p[k]);
                 b->high[k] = fmax(b->high[k], p[k]);
@@ -108,12 +120,16 @@ static int check_polygons(struct builder *b, uint32_t *largest, size_t *most)
         }
         at += n;
         *largest = n > *largest ? n : *largest;
-        *most += (size_t)(n > 4 ? n - 2 : n > 3 ? 2 : 1) << !!b->scene->materials[material].two_sided;
+        *most += (size_t)(n > 4   ? n - 2
+                          : n > 3 ? 2
+                                  : 1)
+                 << !!b->scene->materials[material].two_sided;
     }
     return 0;
 }
 
-static void add_face(struct builder *b, const uint32_t *corners, uint32_t count, uint32_t material, uint32_t input)
+static void add_face(struct builder *b, const uint32_t *corners, uint32_t count, uint32_t material,
+                     uint32_t input)
 {
     const struct RadMaterial *m = &b->scene->materials[material];
     int black = 1;
@@ -121,7 +137,11 @@ static void add_face(struct builder *b, const uint32_t *corners, uint32_t count,
         black &= m->reflectance[k] <= 0 && m->exitance[k] <= 0;
     for (int back = 0; back <= !!m->two_sided; back++) {
         struct face *f = &b->scene->faces[b->scene->face_count++];
-        *f = (struct face){.vertices = count, .material = material, .input = input, .back = (uint8_t)back, .black = (uint8_t)black};
+        *f = (struct face){.vertices = count,
+                           .material = material,
+                           .input = input,
+                           .back = (uint8_t)back,
+                           .black = (uint8_t)black};
         for (uint32_t i = 0; i < count; i++)
             memcpy(f->vertex[i], b->corner[corners[back ? count - 1 - i : i]], sizeof f->vertex[i]);
     }
@@ -137,7 +157,8 @@ static uint32_t gather_corners(struct builder *b, const uint32_t *indices, uint3
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < n; i++) {
-        memcpy(b->corner[count], &b->polygons->positions[3 * (size_t)indices[i]], sizeof b->corner[0]);
+        memcpy(b->corner[count], &b->polygons->positions[3 * (size_t)indices[i]],
+               sizeof b->corner[0]);
         count += !count || !same_place(b->corner[count], b->corner[count - 1]);
     }
     while (count > 1 && same_place(b->corner[0], b->corner[count - 1]))
@@ -158,7 +179,9 @@ static void add_polygon(struct builder *b, uint32_t input, const uint32_t *indic
     }
     b->used[material] = SEEN;
     if (count == 3 || (count == 4 && b->polygons->as_given)
-        || (count == 4 && polygon_flat(b->corner, 4, fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(b->corner, 4)))
+        || (count == 4
+            && polygon_flat(b->corner, 4,
+                            fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(b->corner, 4)))
             && polygon_convex_quad(b->corner))) {
         *area = polygon_normal(b->corner, count, normal);
         add_face(b, whole, count, material, input);
@@ -181,7 +204,8 @@ static void add_polygon(struct builder *b, uint32_t input, const uint32_t *indic
 static uint32_t bands(const struct builder *b)
 {
     for (uint32_t i = 0; i < b->scene->material_count; i++) {
-        const double *rho = b->scene->materials[i].reflectance, *e = b->scene->materials[i].exitance;
+        const double *rho = b->scene->materials[i].reflectance,
+                     *e = b->scene->materials[i].exitance;
         for (int k = 1; k < 3 && b->used[i] == SEEN; k++)
             if (rho[k] < rho[0] || rho[k] > rho[0] || e[k] < e[0] || e[k] > e[0])
                 return RAD_COLOUR;
@@ -192,11 +216,12 @@ static uint32_t bands(const struct builder *b)
 static int build(struct builder *b, int threads)
 {
     struct scene *scene = b->scene;
-    uint32_t largest;
-    size_t most, at = 0;
+    size_t at = 0;
     b->used = calloc((size_t)scene->material_count + 1, 1);
     if (!b->used)
         return out_of_memory(b->error);
+    uint32_t largest;
+    size_t most;
     if (check_polygons(b, &largest, &most) || check_materials(b))
         return -1;
     scene->faces = most <= UINT32_MAX ? malloc((most + 1) * sizeof *scene->faces) : NULL;
@@ -208,14 +233,16 @@ static int build(struct builder *b, int threads)
         return out_of_memory(b->error);
     scene->input_count = b->polygons->count;
     scene->precision = b->polygons->single_precision ? SCENE_SINGLE : SCENE_DOUBLE;
-    double extent = fmax(fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]);
+    double extent =
+        fmax(fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]);
     b->flat = b->polygons->single_precision ? SCENE_FLAT_ROUNDED * extent : INFINITY;
     for (uint32_t i = 0; i < scene->input_count; i++) {
         add_polygon(b, i, &b->polygons->indices[at], size_of(b->polygons, i));
         at += size_of(b->polygons, i);
     }
     if (!scene->face_count)
-        return fail(b->error, RAD_ERROR_INVALID_SCENE, "all of its %u faces are degenerate; give one face with an area",
+        return fail(b->error, RAD_ERROR_INVALID_SCENE,
+                    "all of its %u faces are degenerate; give one face with an area",
                     (unsigned)scene->dropped);
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
@@ -223,12 +250,17 @@ static int build(struct builder *b, int threads)
     return !b->polygons->as_given && scene_cut(scene, threads) < 0 ? out_of_memory(b->error) : 0;
 }
 
-int scene_build(struct scene *scene, const struct RadPolygons *polygons, const struct RadMaterial *materials,
-                uint32_t material_count, int threads, struct scene_error *error)
+int scene_build(struct scene *scene, const struct RadPolygons *polygons,
+                const struct RadMaterial *materials, uint32_t material_count, int threads,
+                struct scene_error *error)
 {
-    struct builder b = {.scene = scene, .polygons = polygons, .error = error,
-                        .low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
-    *scene = (struct scene){.materials = malloc(((size_t)material_count + 1) * sizeof *materials), .material_count = material_count};
+    struct builder b = {.scene = scene,
+                        .polygons = polygons,
+                        .error = error,
+                        .low = {INFINITY, INFINITY, INFINITY},
+                        .high = {-INFINITY, -INFINITY, -INFINITY}};
+    *scene = (struct scene){.materials = malloc(((size_t)material_count + 1) * sizeof *materials),
+                            .material_count = material_count};
     *error = (struct scene_error){0};
     int result;
     if (scene->materials) {

@@ -1,4 +1,5 @@
-/* scene.h - what solutions are made over: flat convex faces with the materials of the polygons they come from.
+/* scene.h - what solutions are made over: flat convex faces with the materials of the polygons they
+ * come from.
  * SPDX-License-Identifier: MIT */
 #ifndef SCENE_H
 #define SCENE_H
@@ -8,17 +9,23 @@
 #include "radiosity.h"
 
 struct scene {
-    struct face *faces; /* [face_count], by polygon: bent and concave polygons are several, cut ones too, two-sided ones two (front, then `back`) */
+    /* [face_count], by polygon: bent and concave polygons are several, cut ones too, two-sided
+     * ones two (front, then `back`) */
+    struct face *faces;
     uint32_t face_count;
     struct RadMaterial *materials;
     uint32_t material_count;
-    double *areas; /* [input_count]: one side's area of each polygon (m2), 0 of those that were dropped */
+    /* [input_count]: one side's area of each polygon (m2), 0 of those that were dropped */
+    double *areas;
     uint32_t input_count; /* polygons */
-    double precision; /* relative rounding of coordinates: half a unit in the last place of what they have been; 0: exact */
+    /* relative rounding of coordinates: half a unit in the last place of what they have been; 0:
+     * exact */
+    double precision;
     uint32_t bands;   /* 1 when every material that is used is grey, else 3 */
     uint32_t dropped; /* polygons without area */
-    uint32_t cut;     /* faces cut where others stand in them (cut_faces.h), far sides not counted */
-    uint32_t parts;   /* into so many, which share their face's polygon */
+    /* faces cut where others stand in them (cut_faces.h), far sides not counted */
+    uint32_t cut;
+    uint32_t parts; /* into so many, which share their face's polygon */
     /* Of a scene read by scene_read, for the tables; else NULL. */
     char **names;              /* [material_count] */
     uint32_t *input_materials; /* [input_count] */
@@ -30,11 +37,12 @@ struct scene_error {
     char text[256]; /* a sentence that names the polygon or the material, counted from 0 */
 };
 
-/* Make a scene of polygons and materials, which are borrowed for the call alone, on so many threads (0: as many as there
- * are processors). Polygons without area, or with fewer than three corners, are dropped and counted.
- * Returns 0, or -1; then *scene is empty and *error says why. */
-int scene_build(struct scene *scene, const struct RadPolygons *polygons, const struct RadMaterial *materials,
-                uint32_t material_count, int threads, struct scene_error *error);
+/* Make a scene of polygons and materials, which are borrowed for the call alone, on so many threads
+ * (0: as many as there are processors). Polygons without area, or with fewer than three corners,
+ * are dropped and counted. Returns 0, or -1; then *scene is empty and *error says why. */
+int scene_build(struct scene *scene, const struct RadPolygons *polygons,
+                const struct RadMaterial *materials, uint32_t material_count, int threads,
+                struct scene_error *error);
 void scene_free(struct scene *scene);
 
 #endif

@@ -1,7 +1,8 @@
 /* cut.h - convex polygons of many corners, cut by planes.
  *
- * struct polygon (geometry.h) has room for one cut of a quad; these have room for many. A cut adds at most one
- * corner; where there is no room left, the result is too large by a corner, never too small.
+ * struct polygon (geometry.h) has room for one cut of a quad; these have room for many. A cut adds
+ * at most one corner; where there is no room left, the result is too large by a corner, never too
+ * small.
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_CUT_H
 #define KERNEL_CUT_H
@@ -17,19 +18,20 @@ struct cut {
 
 static inline void cut_from(struct cut *out, const double (*v)[3], int n)
 {
-    int i, k;
     out->n = n;
-    for (i = 0; i < n; i++)
-        for (k = 0; k < 3; k++)
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
             out->v[i][k] = v[i][k];
 }
 
-/* The part of a polygon where normal . (p - on) <= limit. Returns 1 when that is all of it; `out` is then not written. */
-static inline int cut_below(struct cut *out, const struct cut *in, const double on[3], const double normal[3], double limit)
+/* The part of a polygon where normal . (p - on) <= limit. Returns 1 when that is all of it;
+ * `out` is then not written. */
+static inline int cut_below(struct cut *out, const struct cut *in, const double on[3],
+                            const double normal[3], double limit)
 {
     double height[CUT_MAX];
-    int i, above = 0;
-    for (i = 0; i < in->n; i++) {
+    int above = 0;
+    for (int i = 0; i < in->n; i++) {
         height[i] = height3(in->v[i], on, normal) - limit;
         above += height[i] > 0;
     }

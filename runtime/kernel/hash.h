@@ -1,4 +1,5 @@
-/* hash.h - 64 bits that have nothing to do with each other for numbers that are neighbours: the finaliser of splitmix64.
+/* hash.h - 64 bits that have nothing to do with each other for numbers that are neighbours: the
+ * finaliser of splitmix64.
  * [Steele, Lea, Flood 2014]
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_HASH_H

@@ -1,23 +1,27 @@
 /* plane_side.h - how an element lies to another's support plane.
- * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get an exact answer.
+ * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get
+ * an exact answer.
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_PLANE_SIDE_H
 #define KERNEL_PLANE_SIDE_H
 
 #include "discussion.h"
 
-/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of the elements' corners. */
-static inline double plane_side_flat(const struct element *r, const struct element *s, const struct host *host)
+/* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of
+ * the elements' corners. */
+static inline double plane_side_flat(const struct element *r, const struct element *s,
+                                     const struct host *host)
 {
     return host->flat + (1 / 65536.0) * (r->radius + s->radius);
 }
 
-/* The lowest and the highest signed distance of the surface e from the plane of the surface `plane` (m). */
-static inline void plane_side_heights(const struct element *e, const struct element *plane, double *low, double *high)
+/* The lowest and the highest signed distance of the surface e from the plane of the surface
+ * `plane` (m). */
+static inline void plane_side_heights(const struct element *e, const struct element *plane,
+                                      double *low, double *high)
 {
-    int i;
     *low = *high = height3(e->vertex[0], plane->centre, plane->normal);
-    for (i = 1; i < e->vertices; i++) {
+    for (int i = 1; i < e->vertices; i++) {
         double h = height3(e->vertex[i], plane->centre, plane->normal);
         if (h < *low)
             *low = h;
@@ -26,18 +30,19 @@ static inline void plane_side_heights(const struct element *e, const struct elem
     }
 }
 
-/* 1: e, or the box of the cluster e, has parts on both sides of the plane of `plane`. A cluster has no plane. */
-static inline int plane_side_crosses(const struct element *e, const struct element *plane, double flat)
+/* 1: e, or the box of the cluster e, has parts on both sides of the plane of `plane`. A cluster
+ * has no plane. */
+static inline int plane_side_crosses(const struct element *e, const struct element *plane,
+                                     double flat)
 {
-    double low, high;
     if (plane->vertices == 0)
         return 0;
+    double low, high;
     if (e->vertices) {
         plane_side_heights(e, plane, &low, &high);
     } else {
         double half = 0;
-        int k;
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             half += 0.5 * fabs(plane->normal[k]) * (e->vertex[1][k] - e->vertex[0][k]);
         low = high = height3(e->centre, plane->centre, plane->normal);
         low -= half;

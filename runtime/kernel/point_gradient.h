@@ -1,11 +1,12 @@
 /* point_gradient.h - how the form factor from a point x to a polygon changes with x (1/m).
  *
- * Lambert's sum (point_factor.h), derived edge by edge: with a, b from x to the edge's ends, c = a x b, s = |c|,
- * t = a.b and D = c.n,
+ * Lambert's sum (point_factor.h), derived edge by edge: with a, b from x to the edge's ends, c = a
+ * x b, s = |c|, t = a.b and D = c.n,
  *     d(theta D / s) = theta/s dD + (t/(s^2+t^2) - theta/s) D/s ds - D/(s^2+t^2) dt,
  *     dD = dx.((a-b) x n),    ds = dx.((a-b) x c)/s,    dt = -dx.(a+b).
- * The clip at the horizon moves with x, but what it adds or takes lies on the horizon, where the integrand is
- * zero: to first order it does nothing. [Arvo 1994, "The irradiance Jacobian"; Holzschuch and Sillion 1998]
+ * The clip at the horizon moves with x, but what it adds or takes lies on the horizon, where the
+ * integrand is zero: to first order it does nothing. [Arvo 1994, "The irradiance Jacobian";
+ * Holzschuch and Sillion 1998]
  * Fails: at the polygon's own edges the gradient has no bound; there the edge is left out.
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_POINT_GRADIENT_H
@@ -24,34 +25,38 @@ static inline double point_factor_lag(double t)
 }
 
 /* F from the point x with normal n to q, negative behind its plane, and its gradient (1/m). */
-static inline double point_factor_gradient(const double x[3], const double n[3], const struct polygon *q, double gradient[3])
+static inline double point_factor_gradient(const double x[3], const double n[3],
+                                           const struct polygon *q, double gradient[3])
 {
     double sum = 0, a[3], b[3];
-    int i, k;
     gradient[0] = gradient[1] = gradient[2] = 0;
     sub3(a, q->v[q->n - 1], x);
-    for (i = 0; i < q->n; i++) {
-        double c[3], e[3], along[3], across[3], s, t, angle, height, whole, lag;
+    for (int i = 0; i < q->n; i++) {
+        double c[3];
         sub3(b, q->v[i], x);
         cross3(c, a, b);
-        s = length3(c);
-        t = dot3(a, b);
+        double s = length3(c);
+        double t = dot3(a, b);
         if (s > 0) {
-            angle = atan2(s, t);
-            height = dot3(c, n) / s;
+            double angle = atan2(s, t);
+            double height = dot3(c, n) / s;
             sum += angle * height;
+            double e[3];
             sub3(e, a, b);
+            double along[3];
             cross3(along, e, n);
+            double across[3];
             cross3(across, e, c);
-            whole = dot3(a, a) * dot3(b, b);
-            lag = point_factor_lag(angle) * height / s / s;
-            for (k = 0; k < 3; k++)
-                gradient[k] += angle / s * along[k] + lag * across[k] + height * s / whole * (a[k] + b[k]);
+            double whole = dot3(a, a) * dot3(b, b);
+            double lag = point_factor_lag(angle) * height / s / s;
+            for (int k = 0; k < 3; k++)
+                gradient[k] +=
+                    angle / s * along[k] + lag * across[k] + height * s / whole * (a[k] + b[k]);
         }
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             a[k] = b[k];
     }
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         gradient[k] *= -0.5 / LAMBERT_PI;
     return sum * (-0.5 / LAMBERT_PI);
 }

@@ -15,17 +15,18 @@
 #define POLYGON_FACTOR_NEAR 3.0
 #define POLYGON_FACTOR_MIDDLE 8.0
 #define POLYGON_FACTOR_FAR 60.0
-/* Below this the exact level integrates contours; beyond, they would lose digits and points are better. */
+/* Below this the exact level integrates contours; beyond, they would lose digits and points are
+ * better. */
 #define POLYGON_FACTOR_EXACT 60.0
-/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of the coordinates. */
+/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of
+ * the coordinates. */
 #define POLYGON_FACTOR_FAINT 1e-6
 #define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void polygon_factor_scale(struct polygon *p, double factor)
 {
-    int i;
-    for (i = 0; i < p->n; i++) {
+    for (int i = 0; i < p->n; i++) {
         p->v[i][0] *= factor;
         p->v[i][1] *= factor;
         p->v[i][2] *= factor;
@@ -37,23 +38,29 @@ static inline void polygon_factor_scale(struct polygon *p, double factor)
 static inline double polygon_factor_triangle(const double *a, const double *b, const double *c,
                                              const double n[3], const struct polygon *q, int order)
 {
-    static const double corner[3][2] = { { 1 / 3.0, 0 }, { 2 / 3.0, 0 },
-                                         { 0.81684757298045851308, 0.10810301816807022736 } };
-    static const double weight[3][2] = { { 1, 0 }, { 1 / 3.0, 0 },
-                                         { 0.10995174365532186764, 0.22338158967801146570 } };
+    static const double corner[3][2] = {
+        {1 / 3.0, 0}, {2 / 3.0, 0}, {0.81684757298045851308, 0.10810301816807022736}};
+    static const double weight[3][2] = {
+        {1, 0}, {1 / 3.0, 0}, {0.10995174365532186764, 0.22338158967801146570}};
     double x[3], y[3], z[3], sum = 0;
-    int group, i, k;
     sub3(x, b, a);
     sub3(y, c, a);
     cross3(z, x, y);
-    for (group = 0; group < (order == 2 ? 2 : 1); group++) {
+    for (int group = 0; group < (order == 2 ? 2 : 1); group++) {
         double w = corner[order][group], v = 0.5 * (1 - w), part = 0;
-        for (i = 0; i < (order == 0 ? 1 : 3); i++) {
-            const double *p0 = i == 0 ? a : i == 1 ? b : c, *p1 = i == 0 ? b : i == 1 ? c : a,
-                         *p2 = i == 0 ? c : i == 1 ? a : b;
-            for (k = 0; k < 3; k++)
+        for (int i = 0; i < (order == 0 ? 1 : 3); i++) {
+            const double *p0 = i == 0   ? a
+                               : i == 1 ? b
+                                        : c,
+                         *p1 = i == 0   ? b
+                               : i == 1 ? c
+                                        : a,
+                         *p2 = i == 0   ? c
+                               : i == 1 ? a
+                                        : b;
+            for (int k = 0; k < 3; k++)
                 x[k] = w * p0[k] + v * p1[k] + v * p2[k];
-            part += lambert_sum(x, n, (const double (*)[3])q->v, q->n);
+            part += lambert_sum(x, n, (const double(*)[3])q->v, q->n);
         }
         sum += weight[order][group] * part;
     }
@@ -61,34 +68,36 @@ static inline double polygon_factor_triangle(const double *a, const double *b, c
 }
 
 /* The same over a quad: the bilinear map of a Gauss rule of 1, 2 x 2 or 3 x 3 points. */
-static inline double polygon_factor_quad(const double (*v)[3], const double n[3], const struct polygon *q, int order)
+static inline double polygon_factor_quad(const double (*v)[3], const double n[3],
+                                         const struct polygon *q, int order)
 {
-    static const double node[3][3] = { { 0.5, 0, 0 },
-                                       { 0.21132486540518711775, 0.78867513459481288225, 0 },
-                                       { 0.11270166537925831148, 0.5, 0.88729833462074168852 } };
-    static const double weight[3][3] = { { 1, 0, 0 }, { 0.5, 0.5, 0 },
-                                         { 5 / 18.0, 8 / 18.0, 5 / 18.0 } };
+    static const double node[3][3] = {{0.5, 0, 0},
+                                      {0.21132486540518711775, 0.78867513459481288225, 0},
+                                      {0.11270166537925831148, 0.5, 0.88729833462074168852}};
+    static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
     double sum = 0;
-    int i, j, k;
-    for (i = 0; i <= order; i++)
-        for (j = 0; j <= order; j++) {
+    for (int i = 0; i <= order; i++)
+        for (int j = 0; j <= order; j++) {
             double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
-            for (k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]), high = v[3][k] + s * (v[2][k] - v[3][k]);
+            for (int k = 0; k < 3; k++) {
+                double low = v[0][k] + s * (v[1][k] - v[0][k]),
+                       high = v[3][k] + s * (v[2][k] - v[3][k]);
                 p[k] = low + t * (high - low);
                 dt[k] = high - low;
                 ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
             }
             cross3(jacobian, ds, dt);
-            sum += weight[order][i] * weight[order][j] * dot3(jacobian, n) * lambert_sum(p, n, (const double (*)[3])q->v, q->n);
+            sum += weight[order][i] * weight[order][j] * dot3(jacobian, n)
+                   * lambert_sum(p, n, (const double(*)[3])q->v, q->n);
         }
     return sum;
 }
 
 /* The integral over a whole polygon, cut into quads and triangles (m2). */
-static inline double polygon_factor_rule(const struct polygon *p, const double n[3], const struct polygon *q, int order)
+static inline double polygon_factor_rule(const struct polygon *p, const double n[3],
+                                         const struct polygon *q, int order)
 {
-    const double (*v)[3] = (const double (*)[3])p->v;
+    const double(*v)[3] = (const double(*)[3])p->v;
     double sum = 0;
     if (p->n != 3)
         sum = polygon_factor_quad(v, n, q, order);
@@ -100,13 +109,13 @@ static inline double polygon_factor_rule(const struct polygon *p, const double n
 }
 
 /* The contour integral at a size of about one, so that logarithms round alike at every scale. */
-static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius, double area, double error)
+static inline double polygon_factor_contour_at(struct polygon *p, struct polygon *q, double radius,
+                                               double area, double error)
 {
-    double up, down;
     int e;
     (void)frexp(radius, &e);
-    up = ldexp(1, e);
-    down = 1 / up;
+    double up = ldexp(1, e);
+    double down = 1 / up;
     polygon_factor_scale(p, down);
     polygon_factor_scale(q, down);
     return contour_factor(p, q, area * down * down, error) * up * up;
@@ -116,30 +125,30 @@ static inline double polygon_factor_contour_at(struct polygon *p, struct polygon
 static inline double polygon_factor_height(const struct element *e, const struct element *plane)
 {
     double most = height3(e->vertex[0], plane->centre, plane->normal);
-    int i;
-    for (i = 1; i < e->vertices; i++) {
+    for (int i = 1; i < e->vertices; i++) {
         double h = height3(e->vertex[i], plane->centre, plane->normal);
         most = h > most ? h : most;
     }
     return most;
 }
 
-/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane, that F is 0, as for
- * coplanar elements, not what sums of nothing leave. A plane is known the worse the narrower its element and the
- * farther off the corner. */
-static inline int polygon_factor_hidden(const struct element *r, const struct element *s, double exchange)
+/* 1: what they exchange is so little, and one has so nearly no part in front of the other's plane,
+ * that F is 0, as for coplanar elements, not what sums of nothing leave. A plane is known the worse
+ * the narrower its element and the farther off the corner. */
+static inline int polygon_factor_hidden(const struct element *r, const struct element *s,
+                                        double exchange)
 {
-    double away[3], reach, size, width = r->area / r->radius, flat;
-    int k;
+    double away[3], width = r->area / r->radius;
     if (!(exchange < POLYGON_FACTOR_FAINT * (r->area < s->area ? r->area : s->area)))
         return 0;
     sub3(away, s->centre, r->centre);
-    reach = size = length3(away) + r->radius + s->radius;
-    for (k = 0; k < 3; k++)
+    double size;
+    double reach = size = length3(away) + r->radius + s->radius;
+    for (int k = 0; k < 3; k++)
         size += fabs(r->centre[k]) + fabs(s->centre[k]);
     if (s->area / s->radius < width)
         width = s->area / s->radius;
-    flat = POLYGON_FACTOR_FLAT * size * (1 + reach / width);
+    double flat = POLYGON_FACTOR_FLAT * size * (1 + reach / width);
     return polygon_factor_height(r, s) <= flat || polygon_factor_height(s, r) <= flat;
 }
 
@@ -149,27 +158,34 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct polygon p, q;
-    double away[3], distance, exchange, least;
+    double away[3];
     sub3(away, small->centre, large->centre);
-    distance = length3(away) - large->radius;
+    double distance = length3(away) - large->radius;
     if (!exact && distance > POLYGON_FACTOR_FAR * large->radius) {
-        double cos_r = -dot3(small->normal, away), cos_s = dot3(large->normal, away), square = dot3(away, away);
+        double cos_r = -dot3(small->normal, away), cos_s = dot3(large->normal, away),
+               square = dot3(away, away);
         if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
             return cos_r * cos_s * s->area / (LAMBERT_PI * square * square);
     }
-    polygon_clip(&p, (const double (*)[3])small->vertex, small->vertices, large->centre, large->normal);
-    polygon_clip(&q, (const double (*)[3])large->vertex, large->vertices, small->centre, small->normal);
+    polygon_clip(&p, (const double(*)[3])small->vertex, small->vertices, large->centre,
+                 large->normal);
+    polygon_clip(&q, (const double(*)[3])large->vertex, large->vertices, small->centre,
+                 small->normal);
     if (p.n == 0 || q.n == 0)
         return 0;
     if (distance < POLYGON_FACTOR_FAR * small->radius)
-        distance = polygon_distance(small->centre, (const double (*)[3])q.v, q.n, large->normal);
-    least = r->area < s->area ? r->area : s->area;
+        distance = polygon_distance(small->centre, (const double(*)[3])q.v, q.n, large->normal);
+    double least = r->area < s->area ? r->area : s->area;
+    double exchange;
     if (distance <= (exact ? POLYGON_FACTOR_EXACT : POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = polygon_factor_contour_at(&p, &q, large->radius, least, exact ? CONTOUR_FACTOR_EXACT : CONTOUR_FACTOR_FAIR);
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, least,
+                                             exact ? CONTOUR_FACTOR_EXACT : CONTOUR_FACTOR_FAIR);
     else
-        exchange = polygon_factor_rule(&p, small->normal, &q, exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
-                                                              : distance <= POLYGON_FACTOR_FAR * small->radius         ? 1
-                                                                                                                       : 0);
+        exchange =
+            polygon_factor_rule(&p, small->normal, &q,
+                                exact || distance <= POLYGON_FACTOR_MIDDLE * small->radius ? 2
+                                : distance <= POLYGON_FACTOR_FAR * small->radius           ? 1
+                                                                                           : 0);
     if (!(exchange > 0 && least > 0) || polygon_factor_hidden(r, s, exchange))
         return 0;
     return (exchange < least ? exchange : least) / r->area;

@@ -1,6 +1,7 @@
 /* surface.h - a surface from its corners: area, centroid, normal, radius; and its quarters.
  *
- * Halving at midpoints (a + b) / 2 is exact to the last bit in both directions of an edge, so that parts of neighbours meet.
+ * Halving at midpoints (a + b) / 2 is exact to the last bit in both directions of an edge, so that
+ * parts of neighbours meet.
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_SURFACE_H
 #define KERNEL_SURFACE_H
@@ -11,7 +12,7 @@
 /* Area, centroid, unit normal and radius from the corners. */
 static inline void surface_measure(struct element *e)
 {
-    double normal[3] = { 0, 0, 0 }, sum[3] = { 0, 0, 0 }, area = 0, farthest = 0;
+    double normal[3] = {0, 0, 0}, sum[3] = {0, 0, 0}, area = 0, farthest = 0;
     for (int i = 2; i < e->vertices; i++) {
         double a[3], b[3], c[3];
         sub3(a, e->vertex[i - 1], e->vertex[0]);
@@ -46,13 +47,13 @@ static inline void surface_measure(struct element *e)
     e->cone = 1;
 }
 
-/* The place of quarter i: the one that keeps corner i, or of a triangle, with i = 3, the one between the midpoints.
- * What is not place (identity, radiosity, ...) is zero. */
+/* The place of quarter i: the one that keeps corner i, or of a triangle, with i = 3, the one
+ * between the midpoints. What is not place (identity, radiosity, ...) is zero. */
 static inline void surface_quarter(const struct element *e, int i, struct element *quarter)
 {
     int n = e->vertices;
-    double middle[4][3];
     memset(quarter, 0, sizeof *quarter);
+    double middle[4][3];
     for (int j = 0; j < n; j++)
         for (int k = 0; k < 3; k++)
             middle[j][k] = 0.5 * (e->vertex[j][k] + e->vertex[j + 1 < n ? j + 1 : 0][k]);

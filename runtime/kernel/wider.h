@@ -1,5 +1,5 @@
-/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so that a pair opens the same
- * element both ways round.
+/* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so
+ * that a pair opens the same element both ways round.
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_WIDER_H
 #define KERNEL_WIDER_H

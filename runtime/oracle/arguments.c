@@ -1,9 +1,10 @@
 /* arguments.c - the values of a step's arguments.
  *
- * Arguments of numbers and parameters are evaluated once, when a parameter is set. A step with others
- * calls `program_compute` in its tool's place, which runs a program for a stack that ends as the tool's
- * arguments; so the walk itself need not ask which kind a step is. Operations and their order are
- * those of the flat release's C text (dagc/emit/emit_expression.c): the values are the same to the bit.
+ * Arguments of numbers and parameters are evaluated once, when a parameter is set. A step with
+ * others calls `program_compute` in its tool's place, which runs a program for a stack that ends as
+ * the tool's arguments; so the walk itself need not ask which kind a step is. Operations and their
+ * order are those of the flat release's C text (dagc/emit/emit_expression.c): the values are the
+ * same to the bit.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -81,20 +82,18 @@ static double fold(const struct refiner *r, int expression)
 {
     const struct program *p = r->own;
     const struct expression *e = &p->dag->expressions[expression];
-    double a, b;
     if (e->kind == EXPRESSION_NUMBER)
         return e->number;
     if (e->kind == EXPRESSION_PARAMETER)
         return refiner_get(r, e->parameter - p->first_parameter);
-    a = fold(r, e->left);
-    b = e->right < 0 ? 0 : fold(r, e->right);
+    double a = fold(r, e->left);
+    double b = e->right < 0 ? 0 : fold(r, e->right);
     return operate(e->kind, a, b);
 }
 
 static const struct term_entry *find_term(const char *name)
 {
-    int i;
-    for (i = 0; i < term_table_count; i++)
+    for (int i = 0; i < term_table_count; i++)
         if (strcmp(term_table[i].name, name) == 0)
             return &term_table[i];
     return NULL;
@@ -102,21 +101,20 @@ static const struct term_entry *find_term(const char *name)
 
 static const struct fact_entry *find_fact(const char *name)
 {
-    int i;
-    for (i = 0; i < fact_table_count; i++)
+    for (int i = 0; i < fact_table_count; i++)
         if (strcmp(fact_table[i].name, name) == 0)
             return &fact_table[i];
     return NULL;
 }
 
-/* Appends the tree's code; what is fixed in it becomes one number. Every name has been looked up by `link_expression`. */
+/* Appends the tree's code; what is fixed in it becomes one number. Every name has been looked up
+ * by `link_expression`. */
 static struct instruction *compile(const struct refiner *r, int expression, struct instruction *at)
 {
     const struct program *p = r->own;
     const struct dag *dag = p->dag;
     const struct expression *e = &dag->expressions[expression];
-    struct instruction i = { e->kind, e->level, 0, NULL, NULL };
-    int k;
+    struct instruction i = {e->kind, e->level, 0, NULL, NULL};
     if (dag_is_fixed(dag, expression)) {
         i.kind = EXPRESSION_NUMBER;
         i.number = fold(r, expression);
@@ -127,9 +125,10 @@ static struct instruction *compile(const struct refiner *r, int expression, stru
     } else if (e->kind == EXPRESSION_EXTERN) {
         const struct span reads = dag->callbacks[e->index].reads;
         i.fact = p->externs[e->index].fact;
-        for (k = reads.first; k < reads.first + reads.count; k++) {
-            struct instruction need = { EXPRESSION_TERM, dag->needs[k].level, 0,
-                                        find_term(dag->terms[dag->needs[k].term].name)->read, i.fact };
+        for (int k = reads.first; k < reads.first + reads.count; k++) {
+            struct instruction need = {EXPRESSION_TERM, dag->needs[k].level, 0,
+                                       find_term(dag->terms[dag->needs[k].term].name)->read,
+                                       i.fact};
             *at++ = need;
         }
     } else {
@@ -141,8 +140,10 @@ static struct instruction *compile(const struct refiner *r, int expression, stru
     return at;
 }
 
-/* Can every name in the tree be evaluated here? 0, or -1 after a message. *size gets the room its code needs. */
-static int link_expression(const struct program *p, int expression, const char *oracle, int *size, struct messages *messages)
+/* Can every name in the tree be evaluated here? 0, or -1 after a message. *size gets the room
+ * its code needs. */
+static int link_expression(const struct program *p, int expression, const char *oracle, int *size,
+                           struct messages *messages)
 {
     const struct dag *dag = p->dag;
     const struct expression *e = &dag->expressions[expression];
@@ -156,22 +157,24 @@ static int link_expression(const struct program *p, int expression, const char *
         name = dag->terms[e->index].name;
     } else if (e->kind == EXPRESSION_EXTERN) {
         const struct span reads = dag->callbacks[e->index].reads;
-        int k;
         *size += reads.count;
-        for (k = reads.first; k < reads.first + reads.count && !what; k++)
+        for (int k = reads.first; k < reads.first + reads.count && !what; k++)
             if (!find_term(dag->terms[dag->needs[k].term].name)) {
                 what = "term";
                 name = dag->terms[dag->needs[k].term].name;
             }
         if (!p->externs[e->index].fact) {
-            return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: the extern '%s' is not registered; give its C "
+            return messages_say(messages, MESSAGE_ARGUMENT,
+                                "oracle %s: the extern '%s' is not registered; give its C "
                                 "function in interpretation.externs, or use the flat release",
                                 oracle, dag->callbacks[e->index].name);
         }
     }
     if (what)
-        return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: this program was built without the %s '%s'; use the "
-                            "flat release", oracle, what, name);
+        return messages_say(messages, MESSAGE_ARGUMENT,
+                            "oracle %s: this program was built without the %s '%s'; use the "
+                            "flat release",
+                            oracle, what, name);
     if (e->left >= 0 && link_expression(p, e->left, oracle, size, messages) < 0)
         return -1;
     return e->right >= 0 ? link_expression(p, e->right, oracle, size, messages) : 0;
@@ -180,13 +183,12 @@ static int link_expression(const struct program *p, int expression, const char *
 void program_prepare(struct refiner *r)
 {
     struct program *p = r->own;
-    int i, k;
-    for (i = 0; i < p->argument_count; i++)
+    for (int i = 0; i < p->argument_count; i++)
         p->arguments[i] = dag_is_fixed(p->dag, p->expressions[i]) ? fold(r, p->expressions[i]) : 0;
-    for (i = 0; i < p->computed_count; i++) {
+    for (int i = 0; i < p->computed_count; i++) {
         struct computed *c = &p->computed[i];
         struct instruction *end = c->code;
-        for (k = 0; k < c->argument_count; k++)
+        for (int k = 0; k < c->argument_count; k++)
             end = compile(r, p->expressions[c->argument + k], end);
         c->count = (int)(end - c->code);
     }
@@ -194,8 +196,7 @@ void program_prepare(struct refiner *r)
 
 static int is_computed(const struct dag *dag, const struct node *n)
 {
-    int k;
-    for (k = 0; k < n->arguments.count; k++)
+    for (int k = 0; k < n->arguments.count; k++)
         if (!dag_is_fixed(dag, dag->arguments[n->arguments.first + k].expression))
             return 1;
     return 0;
@@ -205,22 +206,23 @@ static int is_computed(const struct dag *dag, const struct node *n)
 int program_link(struct program *p, const struct oracle_graph *g, struct messages *messages)
 {
     const struct dag *dag = p->dag;
-    int i, k, size = 0, argument = 0, *first = NULL;
-    for (i = 0; i < g->order.count; i++)
+    int size = 0, argument = 0, *first = NULL;
+    for (int i = 0; i < g->order.count; i++)
         p->computed_count += is_computed(dag, &dag->nodes[dag->order[g->order.first + i]]);
     p->computed = calloc((size_t)p->computed_count + 1, sizeof *p->computed);
     first = calloc((size_t)p->computed_count + 1, sizeof *first);
     if (!p->computed || !first)
         goto memory;
     p->computed_count = 0;
-    for (i = 0; i < g->order.count; i++) {
+    for (int i = 0; i < g->order.count; i++) {
         const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
         struct computed *c = &p->computed[p->computed_count];
         if (is_computed(dag, n)) {
             if (n->arguments.count > STACK_MAX - EXPRESSION_DEPTH) {
                 free(first);
-                return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: '%s' has too many arguments to compute",
-                                    g->name, n->tool_name);
+                return messages_say(messages, MESSAGE_ARGUMENT,
+                                    "oracle %s: '%s' has too many arguments to compute", g->name,
+                                    n->tool_name);
             }
             c->call = p->steps[i].call;
             c->argument = argument;
@@ -228,8 +230,9 @@ int program_link(struct program *p, const struct oracle_graph *g, struct message
             p->steps[i].call = program_compute;
             p->steps[i].arguments = &c->unused;
             first[p->computed_count++] = size;
-            for (k = 0; k < n->arguments.count; k++)
-                if (link_expression(p, p->expressions[argument + k], g->name, &size, messages) < 0) {
+            for (int k = 0; k < n->arguments.count; k++)
+                if (link_expression(p, p->expressions[argument + k], g->name, &size, messages)
+                    < 0) {
                     free(first);
                     return -1;
                 }
@@ -239,7 +242,7 @@ int program_link(struct program *p, const struct oracle_graph *g, struct message
     p->code = calloc((size_t)size + 1, sizeof *p->code);
     if (!p->code)
         goto memory;
-    for (i = 0; i < p->computed_count; i++)
+    for (int i = 0; i < p->computed_count; i++)
         p->computed[i].code = &p->code[first[i]];
     free(first);
     return 0;

@@ -1,7 +1,7 @@
 /* compile_oracle.c - from a graph to a loaded library and the oracle in it.
  *
- * dagc's library carries the headers that the C text includes, so this works wherever a program stands; what it
- * needs is a C compiler.
+ * dagc's library carries the headers that the C text includes, so this works wherever a program
+ * stands; what it needs is a C compiler.
  * SPDX-License-Identifier: MIT */
 #include "oracle/compile_oracle.h"
 
@@ -17,12 +17,11 @@ static void close_library(struct refiner *r)
     dlclose(r->own);
 }
 
-/* A discussion holds the terms of this program's catalog, in their order: a graph that declares more of them was
- * compiled for another structure. */
+/* A discussion holds the terms of this program's catalog, in their order: a graph that declares
+ * more of them was compiled for another structure. */
 static int same_terms(const struct dag *dag)
 {
-    int i;
-    for (i = 0; i < dag->term_count && i < term_table_count; i++)
+    for (int i = 0; i < dag->term_count && i < term_table_count; i++)
         if (strcmp(dag->terms[i].name, term_table[i].name) != 0)
             return 0;
     return dag->term_count == term_table_count;
@@ -40,25 +39,28 @@ static struct refiner *open_library(void *library, const char *name, struct mess
         return r;
     }
     dlclose(library);
-    (void)messages_say(messages, MESSAGE_COMPILER, "the compiled oracle '%s' does not fit this program", name);
+    (void)messages_say(messages, MESSAGE_COMPILER,
+                       "the compiled oracle '%s' does not fit this program", name);
     return NULL;
 }
 
 struct refiner *compile_oracle(const char *path, const char *text, const char *name,
-                               const char *compiler, const char *temporary, struct messages *messages)
+                               const char *compiler, const char *temporary,
+                               struct messages *messages)
 {
-    struct dag_options options = { .text = text, .length = text ? strlen(text) : 0 };
-    char message[4096];
+    struct dag_options options = {.text = text, .length = text ? strlen(text) : 0};
     struct refiner *r = NULL;
     int index;
     struct dag *dag = load_graph(path, &options, name, &index, messages);
     if (!dag)
         return NULL;
     if (!same_terms(dag)) {
-        (void)messages_say(messages, MESSAGE_ARGUMENT, "the graph's catalog declares terms that this program was built "
+        (void)messages_say(messages, MESSAGE_ARGUMENT,
+                           "the graph's catalog declares terms that this program was built "
                            "without; leave them out, or build a program with that catalog");
     } else {
-        const struct dag_compiler how = { compiler, temporary };
+        const struct dag_compiler how = {compiler, temporary};
+        char message[4096];
         void *library = dag_compile_oracles(dag, &how, message, sizeof message);
         if (!library)
             (void)messages_say(messages, MESSAGE_COMPILER, "%s", message);

@@ -6,9 +6,11 @@
 #include "oracle/refiner.h"
 #include "util/messages.h"
 
-/* Load `path` ("-": standard input) or, when `text` is not NULL, that text under the name `path`, have the C compiler make
- * machine code of it (NULL: cc, in /tmp) and look up the oracle called `name` (NULL: the only one). Returns NULL after a message. */
+/* Load `path` ("-": standard input) or, when `text` is not NULL, that text under the name `path`,
+ * have the C compiler make machine code of it (NULL: cc, in /tmp) and look up the oracle called
+ * `name` (NULL: the only one). Returns NULL after a message. */
 struct refiner *compile_oracle(const char *path, const char *text, const char *name,
-                               const char *compiler, const char *temporary, struct messages *messages);
+                               const char *compiler, const char *temporary,
+                               struct messages *messages);
 
 #endif

@@ -1,10 +1,12 @@
 /* interpreter.c - the DAG release: the graph itself, walked node by node.
  *
- * A node becomes a step: the tool's function, the values of its arguments, and a map from answers to
- * steps or decisions. Steps stand in topological order, so every arc leads forward and the walk ends.
+ * A node becomes a step: the tool's function, the values of its arguments, and a map from answers
+ * to steps or decisions. Steps stand in topological order, so every arc leads forward and the walk
+ * ends.
  * [Turbet & Sillion, section 4 and figure 3]
  *
- * What the tools are given is worked out in arguments.c, what a counting walk counts in statistics.c.
+ * What the tools are given is worked out in arguments.c, what a counting walk counts in
+ * statistics.c.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +20,7 @@ enum decision program_walk(const void *state, struct discussion *d)
     for (;;) {
         int next = step->next[step->call(d, step->arguments)];
         if (next < 0)
-            return (enum decision)~next;
+            return (enum decision) ~next;
         step = &steps[next];
     }
 }
@@ -44,19 +46,19 @@ static void release_program(struct refiner *r)
 
 static const struct tool_entry *find_tool(const char *name)
 {
-    int i;
-    for (i = 0; i < tool_table_count; i++)
+    for (int i = 0; i < tool_table_count; i++)
         if (strcmp(tool_table[i].name, name) == 0)
             return &tool_table[i];
     return NULL;
 }
 
 /* Steps in the graph's topological order; every span of the dag has been checked by dagc. */
-static int build(struct refiner *r, struct program *p, const struct oracle_graph *g, struct messages *messages)
+static int build(struct refiner *r, struct program *p, const struct oracle_graph *g,
+                 struct messages *messages)
 {
     const struct dag *dag = p->dag;
-    int i, k, arguments = 0, answers = 0;
-    for (i = 0; i < g->order.count; i++) {
+    int arguments = 0, answers = 0;
+    for (int i = 0; i < g->order.count; i++) {
         const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
         arguments += n->arguments.count;
         answers += n->arcs.count;
@@ -72,10 +74,11 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
     p->parameters = calloc((size_t)g->parameters.count + 1, sizeof *p->parameters);
     p->reads = calloc((size_t)dag->fact_count + 1, sizeof *p->reads);
     r->block = calloc((size_t)g->parameters.count + 1, sizeof(double));
-    if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !p->reads || !r->block) {
+    if (!p->steps || !p->arguments || !p->expressions || !p->next || !p->parameters || !p->reads
+        || !r->block) {
         return messages_say(messages, MESSAGE_MEMORY, "out of memory");
     }
-    for (i = 0; i < g->parameters.count; i++) {
+    for (int i = 0; i < g->parameters.count; i++) {
         const struct parameter *q = &dag->parameters[g->parameters.first + i];
         struct oracle_parameter *o = &p->parameters[i];
         o->name = q->name;
@@ -90,26 +93,30 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
     }
     r->parameters = p->parameters;
     r->parameter_count = g->parameters.count;
-    for (i = 0; i < dag->fact_count; i++)
+    for (int i = 0; i < dag->fact_count; i++)
         if (dag_reads_fact(dag, g, i))
             p->reads[p->read_count++] = i;
     arguments = answers = 0;
-    for (i = 0; i < g->order.count; i++) {
+    for (int i = 0; i < g->order.count; i++) {
         const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
         const struct tool_entry *tool = find_tool(dag->tools[n->tool].name);
-        if (!tool || tool->argument_count != n->arguments.count || tool->answer_count != n->arcs.count) {
-            return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s: this program was built without the tool '%s'; "
-                                "use the flat release", g->name, dag->tools[n->tool].name);
+        if (!tool || tool->argument_count != n->arguments.count
+            || tool->answer_count != n->arcs.count) {
+            return messages_say(messages, MESSAGE_ARGUMENT,
+                                "oracle %s: this program was built without the tool '%s'; "
+                                "use the flat release",
+                                g->name, dag->tools[n->tool].name);
         }
         p->steps[i].call = tool->call;
         p->steps[i].keeps = dag->tools[n->tool].keeps;
         p->steps[i].arguments = &p->arguments[arguments];
         p->steps[i].next = &p->next[answers];
-        for (k = 0; k < n->arguments.count; k++)
+        for (int k = 0; k < n->arguments.count; k++)
             p->expressions[arguments++] = dag->arguments[n->arguments.first + k].expression;
-        for (k = 0; k < n->arcs.count; k++) {
+        for (int k = 0; k < n->arcs.count; k++) {
             const struct target *t = &dag->arcs[n->arcs.first + k].target;
-            p->next[answers++] = t->kind == TARGET_DECISION ? ~t->index : dag->nodes[t->index].order;
+            p->next[answers++] =
+                t->kind == TARGET_DECISION ? ~t->index : dag->nodes[t->index].order;
         }
     }
     return program_link(p, g, messages);
@@ -117,18 +124,18 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
 
 static int find_externs(struct program *p, const struct interpretation *how)
 {
-    int i, k;
     p->externs = calloc((size_t)p->dag->callback_count + 1, sizeof *p->externs);
     if (!p->externs)
         return -1;
-    for (i = 0; i < p->dag->callback_count; i++)
-        for (k = 0; k < how->extern_count; k++)
+    for (int i = 0; i < p->dag->callback_count; i++)
+        for (int k = 0; k < how->extern_count; k++)
             if (strcmp(how->externs[k].name, p->dag->callbacks[i].name) == 0)
                 p->externs[i].fact = how->externs[k].call;
     return 0;
 }
 
-struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, struct messages *messages)
+struct refiner *refiner_interpreted(const char *path, const char *text, const char *name,
+                                    struct messages *messages)
 {
     struct interpretation how = {0};
     how.path = path;
@@ -142,7 +149,6 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     struct dag_options options = {0};
     struct refiner *r = calloc(1, sizeof *r);
     struct program *p = calloc(1, sizeof *p);
-    int index, i;
     if (!r || !p) {
         (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
         free(r);
@@ -157,6 +163,7 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     options.folders = how->folders;
     options.folder_count = how->folder_count;
     options.switches = how->switches;
+    int index;
     p->dag = load_graph(how->path, &options, how->oracle, &index, messages);
     if (!p->dag)
         goto fail;
@@ -174,12 +181,13 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     r->reads = p->reads;
     r->read_count = p->read_count;
     r->prepare = program_prepare;
-    for (i = 0; i < r->parameter_count; i++)
+    for (int i = 0; i < r->parameter_count; i++)
         if (r->parameters[i].integer) {
             int whole = (int)r->parameters[i].value;
             memcpy((char *)r->block + r->parameters[i].offset, &whole, sizeof whole);
         } else {
-            memcpy((char *)r->block + r->parameters[i].offset, &r->parameters[i].value, sizeof(double));
+            memcpy((char *)r->block + r->parameters[i].offset, &r->parameters[i].value,
+                   sizeof(double));
         }
     program_prepare(r);
     return r;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct dag *load_graph(const char *path, const struct dag_options *options, const char *name, int *index,
-                       struct messages *messages)
+struct dag *load_graph(const char *path, const struct dag_options *options, const char *name,
+                       int *index, struct messages *messages)
 {
     char *text = NULL;
     size_t length = 0;
@@ -30,7 +30,8 @@ struct dag *load_graph(const char *path, const struct dag_options *options, cons
     if (name)
         (void)messages_say(messages, MESSAGE_ARGUMENT, "no oracle '%s' here", name);
     else
-        (void)messages_say(messages, MESSAGE_ARGUMENT, "%d oracles here, not one", dag->oracle_count);
+        (void)messages_say(messages, MESSAGE_ARGUMENT, "%d oracles here, not one",
+                           dag->oracle_count);
     dag_free(dag);
     return NULL;
 }

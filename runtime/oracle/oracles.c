@@ -7,15 +7,15 @@
 #include "oracle/compile_oracle.h"
 #include "oracle/oracles.h"
 
-const char *const release_names[RELEASES] = { "flat", "dag", "hand" };
+const char *const release_names[RELEASES] = {"flat", "dag", "hand"};
 
 static const struct oracle_sources nothing;
 
 int oracle_register(struct oracle_sources *sources, const struct oracle *oracle)
 {
-    const struct oracle **moved;
     if (oracle->abi != RUNTIME_ABI)
         return -1;
+    const struct oracle **moved;
     moved = realloc(sources->hand, ((size_t)sources->hand_count + 1) * sizeof *moved);
     if (!moved)
         return -1;
@@ -34,13 +34,13 @@ void oracle_sources_free(struct oracle_sources *sources)
 static int is_file(const char *oracle)
 {
     size_t n = strlen(oracle);
-    return strchr(oracle, '/') || (n > 4 && strcmp(oracle + n - 4, ".dag") == 0) || strcmp(oracle, "-") == 0;
+    return strchr(oracle, '/') || (n > 4 && strcmp(oracle + n - 4, ".dag") == 0)
+           || strcmp(oracle, "-") == 0;
 }
 
 static const struct builtin *find_builtin(const char *name)
 {
-    const struct builtin *b;
-    for (b = builtins; b->name; b++)
+    for (const struct builtin *b = builtins; b->name; b++)
         if (strcmp(b->name, name) == 0)
             return b;
     return NULL;
@@ -48,8 +48,7 @@ static const struct builtin *find_builtin(const char *name)
 
 static const struct oracle *find_hand(const struct oracle_sources *sources, const char *oracle)
 {
-    int i;
-    for (i = 0; i < sources->hand_count; i++)
+    for (int i = 0; i < sources->hand_count; i++)
         if (strcmp(sources->hand[i]->name, oracle) == 0)
             return sources->hand[i];
     return NULL;
@@ -60,7 +59,8 @@ int oracle_by_hand(const struct oracle_sources *sources, const char *oracle)
     return find_hand(sources ? sources : &nothing, oracle) != NULL;
 }
 
-static struct refiner *open_compiled(const struct oracle *oracle, enum release release, struct messages *messages)
+static struct refiner *open_compiled(const struct oracle *oracle, enum release release,
+                                     struct messages *messages)
 {
     struct refiner *r = refiner_compiled(oracle, release_names[release]);
     if (!r)
@@ -68,29 +68,33 @@ static struct refiner *open_compiled(const struct oracle *oracle, enum release r
     return r;
 }
 
-static struct refiner *open_hand(const struct oracle_sources *sources, const char *oracle, struct messages *messages)
+static struct refiner *open_hand(const struct oracle_sources *sources, const char *oracle,
+                                 struct messages *messages)
 {
     const struct oracle *hand = find_hand(sources, oracle);
     char names[500] = "";
     size_t used = 0;
-    int i;
     if (hand)
         return open_compiled(hand, RELEASE_HAND, messages);
-    for (i = 0; i < sources->hand_count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s--oracle %s", i ? " or " : ", or ",
-                                 sources->hand[i]->name);
-    (void)messages_say(messages, MESSAGE_ARGUMENT, "no hand-written release of this oracle; use --release flat or dag%s", names);
+    for (int i = 0; i < sources->hand_count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s--oracle %s",
+                                 i ? " or " : ", or ", sources->hand[i]->name);
+    (void)messages_say(messages, MESSAGE_ARGUMENT,
+                       "no hand-written release of this oracle; use --release flat or dag%s",
+                       names);
     return NULL;
 }
 
-struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle, enum release release,
-                             struct messages *messages)
+struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle,
+                            enum release release, struct messages *messages)
 {
     const struct builtin *b = find_builtin(oracle);
     if (!sources)
         sources = &nothing;
     if (!b && !is_file(oracle) && (release != RELEASE_HAND || !find_hand(sources, oracle))) {
-        (void)messages_say(messages, MESSAGE_ARGUMENT, "no such oracle; `radiosity oracles` lists the built-in ones, a file's name ends in .dag");
+        (void)messages_say(messages, MESSAGE_ARGUMENT,
+                           "no such oracle; `radiosity oracles` lists the built-in ones, a file's "
+                           "name ends in .dag");
         return NULL;
     }
     if (release == RELEASE_HAND)
@@ -102,8 +106,9 @@ struct refiner *oracle_open(const struct oracle_sources *sources, const char *or
     return open_compiled(b->flat, RELEASE_FLAT, messages);
 }
 
-struct refiner *oracle_load(const struct oracle_sources *sources, const char *path, const char *text, const char *name,
-                             enum release release, struct messages *messages)
+struct refiner *oracle_load(const struct oracle_sources *sources, const char *path,
+                            const char *text, const char *name, enum release release,
+                            struct messages *messages)
 {
     if (!sources)
         sources = &nothing;
@@ -111,6 +116,7 @@ struct refiner *oracle_load(const struct oracle_sources *sources, const char *pa
         return refiner_interpreted(path, text, name, messages);
     if (release == RELEASE_FLAT)
         return compile_oracle(path, text, name, sources->compiler, sources->temporary, messages);
-    (void)messages_say(messages, MESSAGE_ARGUMENT, "a file has no hand-written release; use --release flat or dag");
+    (void)messages_say(messages, MESSAGE_ARGUMENT,
+                       "a file has no hand-written release; use --release flat or dag");
     return NULL;
 }

@@ -7,7 +7,8 @@
 #include "util/messages.h"
 
 #define DEFAULT_ORACLE "clusters"
-#define DEFAULT_BY_HAND "bf_guarded" /* of `compare`: the one nearest to it that has a hand-written release */
+/* of `compare`: the one nearest to it that has a hand-written release */
+#define DEFAULT_BY_HAND "bf_guarded"
 
 enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASES };
 
@@ -15,25 +16,30 @@ extern const char *const release_names[RELEASES]; /* "flat", "dag", "hand" */
 
 /* What a program adds to the built-in oracles; all zero: nothing. */
 struct oracle_sources {
-    const struct oracle **hand; /* [hand_count]: releases written by hand, or generated and linked with */
+    /* [hand_count]: releases written by hand, or generated and linked with */
+    const struct oracle **hand;
     int hand_count;
     const char *compiler, *temporary; /* for the flat release of files; NULL: "cc", "/tmp" */
 };
 
-/* Registers a release under its own name; it is borrowed. Returns 0, or -1: out of memory, or of another RUNTIME_ABI. */
+/* Registers a release under its own name; it is borrowed. Returns 0, or -1: out of memory, or of
+ * another RUNTIME_ABI. */
 int oracle_register(struct oracle_sources *sources, const struct oracle *oracle);
 void oracle_sources_free(struct oracle_sources *sources);
 
 /* Is there a registered release of this oracle? */
 int oracle_by_hand(const struct oracle_sources *sources, const char *oracle);
 
-/* A built-in or registered oracle by its name, or, when `oracle` looks like a file's name (ends in .dag, has a '/', is
- * "-"), the only one of that file. `sources` NULL: none. Returns NULL after a message. */
-struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle, enum release release,
-                             struct messages *messages);
+/* A built-in or registered oracle by its name, or, when `oracle` looks like a file's name (ends in
+ * .dag, has a '/', is "-"), the only one of that file. `sources` NULL: none. Returns NULL after a
+ * message. */
+struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle,
+                            enum release release, struct messages *messages);
 
-/* An oracle of a file, or of a text under the name `path`; `name` NULL: the only one. FLAT or DAG. */
-struct refiner *oracle_load(const struct oracle_sources *sources, const char *path, const char *text, const char *name,
-                             enum release release, struct messages *messages);
+/* An oracle of a file, or of a text under the name `path`; `name` NULL: the only one. FLAT or
+ * DAG. */
+struct refiner *oracle_load(const struct oracle_sources *sources, const char *path,
+                            const char *text, const char *name, enum release release,
+                            struct messages *messages);
 
 #endif

@@ -1,5 +1,5 @@
-/* program.h - an oracle ready to be interpreted: what interpreter.c builds and walks, arguments.c evaluates, and
- * statistics.c counts.
+/* program.h - an oracle ready to be interpreted: what interpreter.c builds and walks, arguments.c
+ * evaluates, and statistics.c counts.
  * SPDX-License-Identifier: MIT */
 #ifndef PROGRAM_H
 #define PROGRAM_H
@@ -9,7 +9,8 @@
 #include "oracle/refiner.h"
 #include "util/messages.h"
 
-/* One operation of a computed step: a number, something read, or an operator on the top of the stack. */
+/* One operation of a computed step: a number, something read, or an operator on the top of the
+ * stack. */
 struct instruction {
     enum expression_kind kind;
     int level;
@@ -32,7 +33,7 @@ struct computed {
 struct step {
     int (*call)(struct discussion *d, const double *arguments);
     const double *arguments;
-    const int *next; /* [answers]: a step, or ~decision */
+    const int *next;  /* [answers]: a step, or ~decision */
     enum keeps keeps; /* what a counting walk keeps of the arguments */
 };
 
@@ -44,22 +45,23 @@ struct program {
     int *next;         /* of all steps */
     struct computed *computed;
     int computed_count;
-    struct instruction *code;      /* of all computed steps */
-    struct instruction *externs;   /* per callback of the dag: its function, NULL when not given */
+    struct instruction *code;    /* of all computed steps */
+    struct instruction *externs; /* per callback of the dag: its function, NULL when not given */
     int argument_count;
     struct dag *dag;
     int first_parameter; /* of the oracle, in dag->parameters */
     const struct oracle_graph *graph;
-    int *reads;          /* [read_count], enum catalog_fact */
+    int *reads; /* [read_count], enum catalog_fact */
     int read_count;
-    int answer_count;    /* of all steps */
-    uint64_t counting;   /* which of all countings this is; 0: nothing is counted */
+    int answer_count;     /* of all steps */
+    uint64_t counting;    /* which of all countings this is; 0: nothing is counted */
     struct program *self; /* so that a walk, which has a const one, can add its thread's counters */
     _Atomic(struct tally *) tallies; /* one per thread that has asked */
-    atomic_int lost;     /* there was no memory for one */
+    atomic_int lost;                 /* there was no memory for one */
 };
 
-/* arguments.c. The call of a step with computed arguments, and those arguments alone, on a stack of STACK_MAX. */
+/* arguments.c. The call of a step with computed arguments, and those arguments alone, on a stack
+ * of STACK_MAX. */
 int program_compute(struct discussion *d, const double *arguments);
 void program_evaluate(struct discussion *d, const struct computed *c, double *stack);
 

@@ -19,21 +19,21 @@ static void write_parameter(struct refiner *r, int i, double value)
 double refiner_get(const struct refiner *r, int i)
 {
     const char *at = (const char *)r->block + r->parameters[i].offset;
-    double value;
-    int whole;
     if (r->parameters[i].integer) {
+        int whole;
         memcpy(&whole, at, sizeof whole);
         return whole;
     }
+    double value;
     memcpy(&value, at, sizeof value);
     return value;
 }
 
 struct refiner *refiner_compiled(const struct oracle *oracle, const char *release)
 {
-    struct refiner *r;
     if (oracle->abi != RUNTIME_ABI)
         return NULL;
+    struct refiner *r;
     r = calloc(1, sizeof *r);
     if (!r)
         return NULL;
@@ -58,8 +58,7 @@ struct refiner *refiner_compiled(const struct oracle *oracle, const char *releas
 
 int refiner_find(const struct refiner *r, const char *name)
 {
-    int i;
-    for (i = 0; i < r->parameter_count; i++)
+    for (int i = 0; i < r->parameter_count; i++)
         if (strcmp(r->parameters[i].name, name) == 0)
             return i;
     return -1;
@@ -67,8 +66,7 @@ int refiner_find(const struct refiner *r, const char *name)
 
 int refiner_find_role(const struct refiner *r, int role, int after)
 {
-    int i;
-    for (i = after + 1; i < r->parameter_count; i++)
+    for (int i = after + 1; i < r->parameter_count; i++)
         if (r->parameters[i].role == role)
             return i;
     return -1;
@@ -76,8 +74,7 @@ int refiner_find_role(const struct refiner *r, int role, int after)
 
 int refiner_reads(const struct refiner *r, int fact)
 {
-    int i;
-    for (i = 0; i < r->read_count; i++)
+    for (int i = 0; i < r->read_count; i++)
         if (r->reads[i] == fact)
             return 1;
     return 0;
@@ -87,11 +84,11 @@ static int say_none_such(const struct refiner *r, const char *name, struct messa
 {
     char names[1000] = "";
     size_t used = 0;
-    int i;
-    for (i = 0; i < r->parameter_count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s %s", i ? "," : "", r->parameters[i].name);
-    return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s has no parameter '%s'; it has%s", r->oracle, name,
-                        r->parameter_count ? names : " none");
+    for (int i = 0; i < r->parameter_count && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s %s", i ? "," : "",
+                                 r->parameters[i].name);
+    return messages_say(messages, MESSAGE_ARGUMENT, "oracle %s has no parameter '%s'; it has%s",
+                        r->oracle, name, r->parameter_count ? names : " none");
 }
 
 int refiner_set(struct refiner *r, const char *name, double value, struct messages *messages)
@@ -106,8 +103,9 @@ int refiner_set(struct refiner *r, const char *name, double value, struct messag
     else if (p->integer && value != floor(value))
         cause = "not a whole number";
     if (cause)
-        return messages_say(messages, MESSAGE_ARGUMENT, "%s = %g: %s; %s takes %s%g to %g%s%s", name, value, cause, name,
-                            p->integer ? "whole numbers from " : "", p->low, p->high, *p->unit ? " " : "", p->unit);
+        return messages_say(messages, MESSAGE_ARGUMENT, "%s = %g: %s; %s takes %s%g to %g%s%s",
+                            name, value, cause, name, p->integer ? "whole numbers from " : "",
+                            p->low, p->high, *p->unit ? " " : "", p->unit);
     write_parameter(r, i, value);
     if (r->prepare)
         r->prepare(r);

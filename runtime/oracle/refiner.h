@@ -6,8 +6,8 @@
 #include "oracle.h"
 #include "util/messages.h"
 
-/* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long as
- * no parameter is set meanwhile. */
+/* To ask it: refiner->refine(refiner->state, &discussion). Safe from many threads at once as long
+ * as no parameter is set meanwhile. */
 struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
     const void *state; /* a parameter structure, or the interpreter's program */
@@ -27,12 +27,14 @@ struct refiner {
  * Returns NULL when out of memory or when it was compiled against another RUNTIME_ABI. */
 struct refiner *refiner_compiled(const struct oracle *oracle, const char *release);
 
-/* The DAG release: load `path` ("-": standard input) or, when `text` is not NULL, that text under the name
- * `path`, and interpret the oracle called `name` (NULL: the only one). Returns NULL
- * after a message. */
-struct refiner *refiner_interpreted(const char *path, const char *text, const char *name, struct messages *messages);
+/* The DAG release: load `path` ("-": standard input) or, when `text` is not NULL, that text under
+ * the name `path`, and interpret the oracle called `name` (NULL: the only one). Returns NULL after
+ * a message. */
+struct refiner *refiner_interpreted(const char *path, const char *text, const char *name,
+                                    struct messages *messages);
 
-/* A C function that an oracle names with `extern`, for the interpreter; the flat release is linked with it. */
+/* A C function that an oracle names with `extern`, for the interpreter; the flat release is
+ * linked with it. */
 struct extern_entry {
     const char *name;
     double (*call)(const struct discussion *d);
@@ -43,26 +45,32 @@ struct extern_entry {
 struct interpretation {
     const char *path, *text, *oracle; /* as above */
     const char *catalog_path;         /* the catalog's file; NULL: the standard catalog */
-    const char *const *folders;       /* where imports are looked for, after the importing file's own */
+    /* where imports are looked for, after the importing file's own */
+    const char *const *folders;
     int folder_count;
     const struct extern_entry *externs;
     int extern_count;
-    const char *switches;             /* of warnings, as in struct dag_options; NULL: errors alone */
+    /* of warnings, as in struct dag_options; NULL: errors alone */
+    const char *switches;
 };
 
-/* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and so is a
- * tool, term or fact that the program was built without. */
+/* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and
+ * so is a tool, term or fact that the program was built without. */
 struct refiner *refiner_interpret(const struct interpretation *how, struct messages *messages);
 
-/* Set a parameter. Returns 0, or -1 after a message that names the parameter and its range, or those there are. */
+/* Set a parameter. Returns 0, or -1 after a message that names the parameter and its range, or
+ * those there are. */
 int refiner_set(struct refiner *refiner, const char *name, double value, struct messages *messages);
-int refiner_find(const struct refiner *refiner, const char *name); /* a parameter's index; -1: there is none */
+/* a parameter's index; -1: there is none */
+int refiner_find(const struct refiner *refiner, const char *name);
 double refiner_get(const struct refiner *refiner, int parameter);
 
-/* The first parameter of that role (enum catalog_role), after the index `after`; -1: there is none. Begin with -1. */
+/* The first parameter of that role (enum catalog_role), after the index `after`; -1: there is
+ * none. Begin with -1. */
 int refiner_find_role(const struct refiner *refiner, int role, int after);
 
-/* Does some argument of it read that fact (enum catalog_fact), so that whoever asks must provide it? */
+/* Does some argument of it read that fact (enum catalog_fact), so that whoever asks must provide
+ * it? */
 int refiner_reads(const struct refiner *refiner, int fact);
 
 void refiner_close(struct refiner *refiner); /* NULL is fine */

@@ -1,8 +1,8 @@
 /* statistics.c - the walk that counts.
  *
- * It takes the place of the walk in interpreter.c only when counts are wanted, so that they cost nothing
- * otherwise. Every thread that asks has counters of its own, whoever made the thread; sums are made when asked for. What
- * is counted never reaches a tool, so decisions are the same.
+ * It takes the place of the walk in interpreter.c only when counts are wanted, so that they cost
+ * nothing otherwise. Every thread that asks has counters of its own, whoever made the thread; sums
+ * are made when asked for. What is counted never reaches a tool, so decisions are the same.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdatomic.h>
@@ -20,7 +20,8 @@ struct tally {
     uint64_t taken[]; /* [program.answer_count], as program.next */
 };
 
-/* The tally that the thread used last, and of which counting: a number that is never given twice. */
+/* The tally that the thread used last, and of which counting: a number that is never given
+ * twice. */
 static _Thread_local struct {
     uint64_t counting;
     struct tally *tally;
@@ -28,14 +29,16 @@ static _Thread_local struct {
 
 static atomic_uint_fast64_t countings;
 
-/* The thread's tally of the program, made when it asks for the first time. NULL: out of memory, which statistics_take tells. */
+/* The thread's tally of the program, made when it asks for the first time. NULL: out of memory,
+ * which statistics_take tells. */
 static struct tally *find_tally(struct program *p)
 {
     struct tally *first = atomic_load(&p->tallies), *t = first;
     while (t && t->owner != &mine)
         t = t->next;
     if (!t) {
-        t = calloc(1, sizeof *t + (size_t)p->answer_count * sizeof(uint64_t) + 64); /* no line shared */
+        /* no line shared */
+        t = calloc(1, sizeof *t + (size_t)p->answer_count * sizeof(uint64_t) + 64);
         if (!t) {
             atomic_store(&p->lost, 1);
             return NULL;
@@ -53,14 +56,19 @@ static struct tally *find_tally(struct program *p)
 static void keep(struct tally *t, enum keeps what, const double *values)
 {
     if (what == KEEPS_COUNT) {
-        t->counts[values[0] > 0 ? values[0] < STATISTICS_COUNTS ? (int)values[0] : STATISTICS_COUNTS - 1 : 0]++;
+        t->counts[values[0] > 0
+                      ? values[0] < STATISTICS_COUNTS ? (int)values[0] : STATISTICS_COUNTS - 1
+                      : 0]++;
     } else {
-        struct record_statistics *r = &t->records[values[1] > 0 ? values[1] < STATISTICS_SLOTS ? (int)values[1] : STATISTICS_SLOTS - 1 : 0];
-        int e;
+        struct record_statistics *r =
+            &t->records[values[1] > 0
+                            ? values[1] < STATISTICS_SLOTS ? (int)values[1] : STATISTICS_SLOTS - 1
+                            : 0];
         if (!(values[0] > 0)) {
             r->zero++;
             return;
         }
+        int e;
         e = isinf(values[0]) ? STATISTICS_HIGH : (frexp(values[0], &e), e - 1);
         e = e < STATISTICS_LOW ? STATISTICS_LOW : e >= STATISTICS_HIGH ? STATISTICS_HIGH - 1 : e;
         r->bins[e - STATISTICS_LOW]++;
@@ -78,8 +86,8 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
         int answer = step->call(d, step->arguments), next = step->next[answer];
         t->taken[&step->next[answer] - p->next]++;
         if (step->keeps != KEEPS_NOTHING) {
-            double values[STACK_MAX];
             if (step->call == program_compute) {
+                double values[STACK_MAX];
                 program_evaluate(d, (const struct computed *)(const void *)step->arguments, values);
                 keep(t, step->keeps, values);
             } else {
@@ -87,7 +95,7 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
             }
         }
         if (next < 0)
-            return (enum decision)~next;
+            return (enum decision) ~next;
         step = &p->steps[next];
     }
 }
@@ -125,20 +133,21 @@ static uint64_t sum_taken(const struct program *p, int answer)
 
 static void sum_nodes(struct statistics *s, const struct program *p)
 {
-    static const char *const kinds[] = { "precise", "approximate", "other" };
+    static const char *const kinds[] = {"precise", "approximate", "other"};
     const struct dag *dag = p->dag;
-    int i, k, at = 0;
-    for (i = 0; i < s->node_count; i++) {
+    int at = 0;
+    for (int i = 0; i < s->node_count; i++) {
         const struct node *n = &dag->nodes[dag->order[p->graph->order.first + i]];
         struct node_statistics *x = &s->nodes[i];
         x->name = n->name;
         x->tool = dag->tools[n->tool].name;
         x->answers = &s->answers[at];
         x->answer_count = n->arcs.count;
-        for (k = 0; k < n->arcs.count; k++, at++) {
+        for (int k = 0; k < n->arcs.count; k++, at++) {
             const struct answer *a = &dag->answers[dag->tools[n->tool].answers.first + k];
             s->answers[at].name = a->name;
-            s->answers[at].kind = dag->tools[n->tool].kind == TOOL_COMMAND ? "command" : kinds[a->kind];
+            s->answers[at].kind =
+                dag->tools[n->tool].kind == TOOL_COMMAND ? "command" : kinds[a->kind];
             s->answers[at].target = dag->arcs[n->arcs.first + k].target.name;
             s->answers[at].count = sum_taken(p, at);
             x->calls += s->answers[at].count;
@@ -149,7 +158,6 @@ static void sum_nodes(struct statistics *s, const struct program *p)
 int statistics_take(struct statistics *s, const struct refiner *r)
 {
     const struct program *p = r->own;
-    int k, m;
     memset(s, 0, sizeof *s);
     if (strcmp(r->release, "dag") != 0 || !p->counting || p->lost)
         return -1;
@@ -162,11 +170,11 @@ int statistics_take(struct statistics *s, const struct refiner *r)
     }
     sum_nodes(s, p);
     for (const struct tally *t = p->tallies; t; t = t->next) {
-        for (k = 0; k < STATISTICS_COUNTS; k++)
+        for (int k = 0; k < STATISTICS_COUNTS; k++)
             s->counts[k] += t->counts[k];
-        for (k = 0; k < STATISTICS_SLOTS; k++) {
+        for (int k = 0; k < STATISTICS_SLOTS; k++) {
             s->records[k].zero += t->records[k].zero;
-            for (m = 0; m < STATISTICS_HIGH - STATISTICS_LOW; m++)
+            for (int m = 0; m < STATISTICS_HIGH - STATISTICS_LOW; m++)
                 s->records[k].bins[m] += t->records[k].bins[m];
         }
     }

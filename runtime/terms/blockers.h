@@ -1,9 +1,11 @@
-/* blockers.h - term: how many faces may stand between the two elements, 0 to 8, or 9: too many to be worth a list.
+/* blockers.h - term: how many faces may stand between the two elements, 0 to 8, or 9: too many to
+ * be worth a list.
  *
- * The faces themselves are kept in d->blockers, in ascending order. A list is made by the host, from all
- * faces, or filtered from that of a pair which holds this one: a shaft within a shaft meets no other face. Both ways
- * give the same list (shaft.h says why), and it is the same for a pair either way round. [Haines & Wallace 1994]
- * Lists of bent quads are not for the pairs below them (`handed`), whose planes are others.
+ * The faces themselves are kept in d->blockers, in ascending order. A list is made by the host,
+ * from all faces, or filtered from that of a pair which holds this one: a shaft within a shaft
+ * meets no other face. Both ways give the same list (shaft.h says why), and it is the same for a
+ * pair either way round. [Haines & Wallace 1994] Lists of bent quads are not for the pairs below
+ * them (`handed`), whose planes are others.
  * Fails (too many): clusters; a host without candidates; more than 8 faces.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_BLOCKERS_H
@@ -12,19 +14,19 @@
 #include "discussion.h"
 #include "kernel/shaft.h"
 
-OUTLINE void blockers_find(const struct element *r, const struct element *s, const struct host *host, struct blockers *list)
+OUTLINE void blockers_find(const struct element *r, const struct element *s,
+                           const struct host *host, struct blockers *list)
 {
-    struct shaft shaft;
-    int found, i, j;
     if (list->known == BLOCKERS_OWN)
         return;
-    found = list->known == BLOCKERS_INHERITED ? list->count : -1;
+    int found = list->known == BLOCKERS_INHERITED ? list->count : -1;
     list->known = BLOCKERS_OWN;
     list->covered = list->handed = 0;
     list->count = BLOCKERS_TOO_MANY;
     if (!r->vertices || !s->vertices || !host->candidates || !host->corners)
         return;
     list->count = 0;
+    struct shaft shaft;
     if (!shaft_open(&shaft, r, s, host)) {
         list->covered = 1;
         return;
@@ -36,13 +38,14 @@ OUTLINE void blockers_find(const struct element *r, const struct element *s, con
         return;
     }
     list->handed = shaft_nests(&shaft, r) && shaft_nests(&shaft, s);
-    for (i = 0; i < found; i++) {
+    int j;
+    for (int i = 0; i < found; i++) {
         uint32_t face = list->face[i];
         struct polygon p;
         host->corners(host, face, &p);
-        if (!shaft_meets(&shaft, (const double (*)[3])p.v, p.n, NULL))
+        if (!shaft_meets(&shaft, (const double(*)[3])p.v, p.n, NULL))
             continue;
-        list->covered |= (unsigned char)shaft_covered(&shaft, (const double (*)[3])p.v, p.n);
+        list->covered |= (unsigned char)shaft_covered(&shaft, (const double(*)[3])p.v, p.n);
         for (j = list->count++; j > 0 && list->face[j - 1] > face; j--)
             list->face[j] = list->face[j - 1];
         list->face[j] = face;

@@ -1,4 +1,5 @@
-/* distance.h - term: the distance between points of the receiver and points of the emitter, least and largest (m).
+/* distance.h - term: the distance between points of the receiver and points of the emitter, least
+ * and largest (m).
  *
  * centre  both are the distance of the centres.
  * bound   no two points are nearer than [0] or farther than [1] (kernel/element_distance.h).

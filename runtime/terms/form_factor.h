@@ -2,21 +2,25 @@
  * stood between, mean over r. Dimensionless, in [0, 1].
  *
  * disc     the emitter as a disc of its area seen from the receiver's centre,
- *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and more; a
- *          wall's strip beside a wide ceiling loses most), so where the bounding spheres meet the
- *          polygon is computed instead; elements that cross each other's planes.
+ *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and
+ *          more; a wall's strip beside a wide ceiling loses most), so where the bounding spheres
+ *          meet the polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
- * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the receiver's plane
- *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5 % for unit squares at
- *          right angles with a common edge, +33 % for parallel ones at half their side (tests/check_terms.c).
+ * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the
+ * receiver's plane
+ *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5
+ *          % for unit squares at right angles with a common edge, +33 % for parallel ones at half
+ *          their side (tests/check_terms.c).
  *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
- *          by a rule of as many points as the distance asks for; where they are nearer than their size, the
- *          contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963], closed for parallel edges, else its
- *          inner integral closed and the outer one adaptive (contour_factor.h). Relative error about 1e-5,
- *          4e-4 at the most (far pairs); 1e-6 by contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
- * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond: F to 1e-9.
+ *          by a rule of as many points as the distance asks for; where they are nearer than their
+ *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963],
+ *          closed for parallel edges, else its inner integral closed and the outer one adaptive
+ *          (contour_factor.h). Relative error about 1e-5, 4e-4 at the most (far pairs); 1e-6 by
+ *          contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond:
+ * F to 1e-9.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_FORM_FACTOR_H
 #define TERM_FORM_FACTOR_H
@@ -47,9 +51,11 @@ TOOL double term_form_factor(struct discussion *d, enum form_factor_level level)
             if (dot3(axis, axis) < reach * reach)
                 level = FORM_FACTOR_POLYGON;
         }
-        d->terms.form_factor = level == FORM_FACTOR_DISC    ? form_factor_disc(d)
-                               : level == FORM_FACTOR_POINT ? point_factor(d->receiver, d->emitter)
-                                                            : polygon_factor(d->receiver, d->emitter, level == FORM_FACTOR_CONTOUR);
+        d->terms.form_factor =
+            level == FORM_FACTOR_DISC ? form_factor_disc(d)
+            : level == FORM_FACTOR_POINT
+                ? point_factor(d->receiver, d->emitter)
+                : polygon_factor(d->receiver, d->emitter, level == FORM_FACTOR_CONTOUR);
         d->terms.form_factor_level = (unsigned char)level;
     }
     return d->terms.form_factor;

@@ -1,16 +1,21 @@
-/* form_factor_range.h - term: the least and the largest F(x) over the points x of the receiver, nothing between:
- * the point-to-polygon factor of point_factor.h. Dimensionless, [0] <= [1], both in [0, 1].
+/* form_factor_range.h - term: the least and the largest F(x) over the points x of the receiver,
+ * nothing between: the point-to-polygon factor of point_factor.h. Dimensionless, [0] <= [1], both
+ * in [0, 1].
  *
- * sampled  over the receiver's corners and centre. The corners are taken 2^-20 of the way to the centre: where the
- *          elements touch, F has no value at the corner itself. Fails: an extremum between them is not seen.
- * bounded  no F(x) lies outside. With k(x) the height of x over the emitter's plane, h(y) that of y over the
- *          receiver's, F(x) = k(x)/pi int h(y) / |x-y|^4 dy: only k and the distance depend on x. So, for distances in [d, D],
- *          k_min Q/D^4 <= F <= k_max Q/d^4 with Q = int h / pi; F is at most what the emitter's whole half plane
- *          would give, (1 - n_r.n_s)/2; and with the gradient g at a centre c, R the radius around it,
- *          |F(x) - F(c) - g.(x-c)| <= 1/2 R^2 (20 F_max/d^2 + 8 kappa min(F_max/(k_min d), Q/d^5)),
- *          kappa = |grad k| along the receiver. Quarters of the receiver, and theirs, are bounded by themselves
- *          where that could matter. Fails: not tight where the two are nearer than an eighth of the receiver
- *          (the upper end is then the half plane's, which is right where they touch). [D: derived here]
+ * sampled  over the receiver's corners and centre. The corners are taken 2^-20 of the way to the
+ * centre: where the
+ *          elements touch, F has no value at the corner itself. Fails: an extremum between them is
+ *          not seen.
+ * bounded  no F(x) lies outside. With k(x) the height of x over the emitter's plane, h(y) that of y
+ * over the
+ *          receiver's, F(x) = k(x)/pi int h(y) / |x-y|^4 dy: only k and the distance depend on x.
+ *          So, for distances in [d, D], k_min Q/D^4 <= F <= k_max Q/d^4 with Q = int h / pi; F is
+ *          at most what the emitter's whole half plane would give, (1 - n_r.n_s)/2; and with the
+ *          gradient g at a centre c, R the radius around it, |F(x) - F(c) - g.(x-c)| <= 1/2 R^2 (20
+ *          F_max/d^2 + 8 kappa min(F_max/(k_min d), Q/d^5)), kappa = |grad k| along the receiver.
+ *          Quarters of the receiver, and theirs, are bounded by themselves where that could matter.
+ *          Fails: not tight where the two are nearer than an eighth of the receiver (the upper end
+ *          is then the half plane's, which is right where they touch). [D: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_FORM_FACTOR_RANGE_H
 #define TERM_FORM_FACTOR_RANGE_H
@@ -23,48 +28,47 @@ enum { FORM_FACTOR_RANGE_DEPTH = 3 };
 
 struct form_factor_range {
     const struct element *r, *s;
-    struct polygon q;      /* the emitter, clipped */
-    double share;          /* Q (m3) */
-    double lowest;         /* the least h(y) (m) */
-    double cap, slope;     /* (1 - n_r.n_s)/2; kappa */
-    double seen[2];        /* the range of the values found */
-    double bound[2];       /* what encloses all pieces so far */
+    struct polygon q;  /* the emitter, clipped */
+    double share;      /* Q (m3) */
+    double lowest;     /* the least h(y) (m) */
+    double cap, slope; /* (1 - n_r.n_s)/2; kappa */
+    double seen[2];    /* the range of the values found */
+    double bound[2];   /* what encloses all pieces so far */
 };
 
-OUTLINE void form_factor_range_sample(const struct element *r, const struct element *s, double range[2])
+OUTLINE void form_factor_range_sample(const struct element *r, const struct element *s,
+                                      double range[2])
 {
     struct polygon q;
-    double f;
-    int i, k;
     point_factor_clip(&q, r, s);
     range[0] = range[1] = point_factor_at(r->centre, r, s, &q);
     if (q.n == 0 || polygon_factor_hidden(r, s, range[1] * r->area)) {
         range[0] = range[1] = 0;
         return;
     }
-    for (i = 0; i < r->vertices; i++) {
+    for (int i = 0; i < r->vertices; i++) {
         double x[3];
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             x[k] = r->vertex[i][k] + (1 / 1048576.0) * (r->centre[k] - r->vertex[i][k]);
-        f = point_factor_at(x, r, s, &q);
+        double f = point_factor_at(x, r, s, &q);
         range[0] = f < range[0] ? f : range[0];
         range[1] = f > range[1] ? f : range[1];
     }
 }
 
 /* Widen b->bound by what encloses F over the part v[n] of the receiver. */
-static inline void form_factor_range_piece(struct form_factor_range *b, const double (*v)[3], int n, int depth)
+static inline void form_factor_range_piece(struct form_factor_range *b, const double (*v)[3], int n,
+                                           int depth)
 {
-    double c[3] = { 0, 0, 0 }, gradient[3], radius = 0, far = 0, k_min = INFINITY, k_max = -INFINITY, near, k_most;
-    double f, low = 0, high = b->cap, bend, steep, rise[2] = { 0, 0 };
-    int i, j, k, open;
-    for (i = 0; i < n; i++)
-        for (k = 0; k < 3; k++)
+    double c[3] = {0, 0, 0}, gradient[3], radius = 0, far = 0, k_min = INFINITY, k_max = -INFINITY;
+    double low = 0, high = b->cap, rise[2] = {0, 0};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
             c[k] += v[i][k] / n;
-    for (i = 0; i < n; i++) {
-        double h = height3(v[i], b->s->centre, b->s->normal), w[3], d;
+    for (int i = 0; i < n; i++) {
+        double h = height3(v[i], b->s->centre, b->s->normal), w[3];
         sub3(w, v[i], c);
-        d = length3(w);
+        double d = length3(w);
         radius = d > radius ? d : radius;
         k_min = h < k_min ? h : k_min;
         k_max = h > k_max ? h : k_max;
@@ -73,32 +77,33 @@ static inline void form_factor_range_piece(struct form_factor_range *b, const do
         b->bound[0] = b->seen[0] = 0;
         return;
     }
-    for (i = 0; i < b->q.n; i++) {
-        double w[3], d;
+    for (int i = 0; i < b->q.n; i++) {
+        double w[3];
         sub3(w, b->q.v[i], c);
-        d = length3(w) + radius;
+        double d = length3(w) + radius;
         far = d > far ? d : far;
     }
-    f = point_factor_gradient(c, b->r->normal, &b->q, gradient);
-    near = polygon_distance(c, (const double (*)[3])b->q.v, b->q.n, b->s->normal) - radius;
+    double f = point_factor_gradient(c, b->r->normal, &b->q, gradient);
+    double near = polygon_distance(c, (const double(*)[3])b->q.v, b->q.n, b->s->normal) - radius;
     near = k_min > near ? k_min : near;
     near = b->lowest > near ? b->lowest : near;
-    k_most = k_max > -k_min ? k_max : -k_min;
+    double k_most = k_max > -k_min ? k_max : -k_min;
     if (k_min > 0)
         low = k_min * b->share / far / far / far / far;
-    open = !(near > 0);
+    int open = !(near > 0);
     if (near > 0) {
-        double most = b->share / near / near / near / near, f_most = k_most * most < 1 ? k_most * most : 1;
+        double most = b->share / near / near / near / near,
+               f_most = k_most * most < 1 ? k_most * most : 1;
         if (k_max * most < high)
             high = k_max * most;
-        steep = most / near;
+        double steep = most / near;
         if (k_min > 0 && f_most / k_min / near < steep)
             steep = f_most / k_min / near;
-        bend = 0.5 * radius * radius * (20 * f_most / near / near + 8 * b->slope * steep);
-        for (i = 0; i < n; i++) {
-            double w[3], step;
+        double bend = 0.5 * radius * radius * (20 * f_most / near / near + 8 * b->slope * steep);
+        for (int i = 0; i < n; i++) {
+            double w[3];
             sub3(w, v[i], c);
-            step = dot3(w, gradient);
+            double step = dot3(w, gradient);
             rise[0] = step < rise[0] ? step : rise[0];
             rise[1] = step > rise[1] ? step : rise[1];
         }
@@ -121,54 +126,57 @@ static inline void form_factor_range_piece(struct form_factor_range *b, const do
         b->bound[1] = high > b->bound[1] ? high : b->bound[1];
         return;
     }
-    for (i = 0; i < 4; i++) { /* quarters: corner i and the middles beside it; of a triangle the fourth is between the middles */
+    /* quarters: corner i and the middles beside it; of a triangle the fourth is between the
+     * middles */
+    for (int i = 0; i < 4; i++) {
         double part[4][3];
-        for (j = 0; j < n; j++) {
+        for (int j = 0; j < n; j++) {
             int from = n == 3 && i == 3 ? j : i, to = n == 3 && i == 3 ? (j + 1) % 3 : j;
             int across = n == 4 && (i + 2) % 4 == j;
-            for (k = 0; k < 3; k++)
+            for (int k = 0; k < 3; k++)
                 part[j][k] = across ? c[k] : 0.5 * (v[from][k] + v[to][k]);
         }
-        form_factor_range_piece(b, (const double (*)[3])part, n, depth - 1);
+        form_factor_range_piece(b, (const double(*)[3])part, n, depth - 1);
     }
 }
 
-OUTLINE void form_factor_range_bound(const struct element *r, const struct element *s, double range[2])
+OUTLINE void form_factor_range_bound(const struct element *r, const struct element *s,
+                                     double range[2])
 {
-    struct form_factor_range b;
     double turn = dot3(r->normal, s->normal), level = 0;
-    int i;
     range[0] = range[1] = 0;
     if (!r->vertices || !s->vertices) {
         range[1] = 1;
         return;
     }
+    struct form_factor_range b;
     b.r = r;
     b.s = s;
     point_factor_clip(&b.q, r, s);
     if (b.q.n == 0 || polygon_factor_hidden(r, s, point_factor_at(r->centre, r, s, &b.q) * r->area))
         return;
     b.lowest = INFINITY;
-    for (i = 0; i < b.q.n; i++) {
+    for (int i = 0; i < b.q.n; i++) {
         double h = height3(b.q.v[i], r->centre, r->normal);
         b.lowest = h < b.lowest ? h : b.lowest;
     }
-    for (i = 2; i < b.q.n; i++) {
+    for (int i = 2; i < b.q.n; i++) {
         struct polygon t;
-        int j, k;
         t.n = 3;
-        for (j = 0; j < 3; j++)
-            for (k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++)
                 t.v[j][k] = b.q.v[j ? i - 2 + j : 0][k];
-        for (j = 0; j < 3; j++)
-            level += height3(t.v[j], r->centre, r->normal) * polygon_area(&t, s->normal) * (1 / 3.0);
+        for (int j = 0; j < 3; j++)
+            level +=
+                height3(t.v[j], r->centre, r->normal) * polygon_area(&t, s->normal) * (1 / 3.0);
     }
     b.share = level > 0 ? level / LAMBERT_PI : 0;
     b.cap = 0.5 - 0.5 * turn < 1 ? 0.5 - 0.5 * turn : 1;
     b.slope = turn * turn < 1 ? sqrt(1 - turn * turn) : 0;
     b.seen[0] = b.bound[0] = INFINITY;
     b.seen[1] = b.bound[1] = 0;
-    form_factor_range_piece(&b, (const double (*)[3])r->vertex, r->vertices, FORM_FACTOR_RANGE_DEPTH);
+    form_factor_range_piece(&b, (const double(*)[3])r->vertex, r->vertices,
+                            FORM_FACTOR_RANGE_DEPTH);
     /* What rounding may have done to the sums over edges. */
     range[0] = b.bound[0] * (1 - 1e-12) - 4e-15;
     range[0] = range[0] > 0 ? range[0] : 0;

@@ -1,8 +1,10 @@
-/* receiver_cosine.h - term: the cosine between the receiver's normal and the direction from its point to the other's, least and
- * largest. Dimensionless, in [-1, 1]; negative where the other lies behind. For a cluster, of any of its normals.
+/* receiver_cosine.h - term: the cosine between the receiver's normal and the direction from its
+ * point to the other's, least and largest. Dimensionless, in [-1, 1]; negative where the other lies
+ * behind. For a cluster, of any of its normals.
  *
- * centre  both are the cosine between the centres, 0 where these coincide; a cluster's normal is its cone's axis.
- * bound   no two points have a cosine outside (cosine_bound.h); of surfaces, the least is exact where all of the other lies in front.
+ * centre  both are the cosine between the centres, 0 where these coincide; a cluster's normal is
+ * its cone's axis. bound   no two points have a cosine outside (cosine_bound.h); of surfaces, the
+ * least is exact where all of the other lies in front.
  * SPDX-License-Identifier: MIT */
 #ifndef TERM_RECEIVER_COSINE_H
 #define TERM_RECEIVER_COSINE_H

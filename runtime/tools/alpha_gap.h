@@ -1,10 +1,13 @@
-/* alpha_gap.h - question: cluster_gap's (cluster_gap.h), with what the two may turn to each other: by how much may the irradiance that
- * the emitter brings to the receiver vary, when both are taken for points whose faces keep their own orientation?
- *     (1/pi) (facing area of r / A_r) (facing area of s) B_s (1/(d - a)^2 - 1/(d + a)^2)                        (W/m2)
- * d the distance of the centres, a the sum of the radii, facing areas by the normal cones of the children (kernel/cluster_facing.h); held
- * against the larger of `absolute` and `relative` times the scene's mean irradiance. It is never more than what cluster_gap
- * holds against the same, and costs as many cosines as the two have children. Ask it of pairs that cluster_gap found
- * above; nearer than 1.5 a it answers above. Approximate: occlusion is not looked at.
+/* alpha_gap.h - question: cluster_gap's (cluster_gap.h), with what the two may turn to each other:
+ * by how much may the irradiance that the emitter brings to the receiver vary, when both are taken
+ * for points whose faces keep their own orientation?
+ *     (1/pi) (facing area of r / A_r) (facing area of s) B_s (1/(d - a)^2 - 1/(d + a)^2)
+ *     (W/m2)
+ * d the distance of the centres, a the sum of the radii, facing areas by the normal cones of the
+ * children (kernel/cluster_facing.h); held against the larger of `absolute` and `relative` times
+ * the scene's mean irradiance. It is never more than what cluster_gap holds against the same, and
+ * costs as many cosines as the two have children. Ask it of pairs that cluster_gap found above;
+ * nearer than 1.5 a it answers above. Approximate: occlusion is not looked at.
  * [Smits, Arvo, Greenberg 1994, the bound of alpha links; Lischinski et al. 1994 for gaps]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_ALPHA_GAP_H
@@ -15,33 +18,35 @@
 #include "kernel/cluster_facing.h"
 #include "tools/cluster_gap.h"
 
-OUTLINE double alpha_gap_range(const struct element *r, const struct element *s, const struct element *all, const double axis[3])
+OUTLINE double alpha_gap_range(const struct element *r, const struct element *s,
+                               const struct element *all, const double axis[3])
 {
-    double distance = length3(axis), reach = r->radius + s->radius, slope, low, high, facing, v[3], back[3];
-    int k;
+    double distance = length3(axis), reach = r->radius + s->radius, v[3], back[3];
     if (!(distance > CLUSTER_GAP_APART * reach))
         return INFINITY;
-    slope = reach / distance;
-    for (k = 0; k < 3; k++) {
+    double slope = reach / distance;
+    for (int k = 0; k < 3; k++) {
         v[k] = axis[k] / distance;
         back[k] = -v[k];
     }
-    low = distance - reach;
-    high = distance + reach;
-    facing = cluster_facing_parts(r, all, v, slope);
+    double low = distance - reach;
+    double high = distance + reach;
+    double facing = cluster_facing_parts(r, all, v, slope);
     if (!(facing > 0)) /* so of an element without area */
         return 0;
-    return 0.31830988618379067154 * (facing / r->area) * cluster_facing_parts(s, all, back, slope) * s->radiosity
-         * (1 / (low * low) - 1 / (high * high));
+    return 0.31830988618379067154 * (facing / r->area) * cluster_facing_parts(s, all, back, slope)
+           * s->radiosity * (1 / (low * low) - 1 / (high * high));
 }
 
 TOOL enum alpha_gap_answer tool_alpha_gap(struct discussion *d, double absolute, double relative)
 {
-    const struct element *all = d->host->elements ? *d->host->elements : NULL; /* NULL: there are no clusters */
+    /* NULL: there are no clusters */
+    const struct element *all = d->host->elements ? *d->host->elements : NULL;
     double limit = relative * d->host->irradiance;
     if (absolute > limit)
         limit = absolute;
-    return alpha_gap_range(d->receiver, d->emitter, all, term_axis(d)) > limit ? ALPHA_GAP_ABOVE : ALPHA_GAP_BELOW;
+    return alpha_gap_range(d->receiver, d->emitter, all, term_axis(d)) > limit ? ALPHA_GAP_ABOVE
+                                                                               : ALPHA_GAP_BELOW;
 }
 
 #endif

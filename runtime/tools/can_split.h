@@ -14,10 +14,9 @@ enum { CAN_SPLIT_DEPTH = 24 };
 TOOL enum can_split_answer tool_can_split(struct discussion *d, double min_area, double min_share)
 {
     double least = min_share * d->host->area;
-    int r, s;
     least = 4 * (least > min_area ? least : min_area);
-    r = d->receiver->area >= least && d->receiver->depth < CAN_SPLIT_DEPTH;
-    s = d->emitter->area >= least && d->emitter->depth < CAN_SPLIT_DEPTH;
+    int r = d->receiver->area >= least && d->receiver->depth < CAN_SPLIT_DEPTH;
+    int s = d->emitter->area >= least && d->emitter->depth < CAN_SPLIT_DEPTH;
     return r ? s ? CAN_SPLIT_BOTH : CAN_SPLIT_RECEIVER : s ? CAN_SPLIT_EMITTER : CAN_SPLIT_NEITHER;
 }
 

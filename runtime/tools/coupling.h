@@ -1,7 +1,8 @@
-/* coupling.h - question: is one of the two form factors, F_rs = A_s/A_r F_sr and F_sr, above the limit? Dimensionless.
- * The "FF criterion": it knows of the elements' shape and not of their light, so one mesh serves every lamp, and
- * bright and dark pairs cost the same. dark: this emitter never sends light. Approximate: F is the estimate at hand, the
- * disc when nothing better is known. Fails: a small F between a lamp and a wall may still carry most of the light.
+/* coupling.h - question: is one of the two form factors, F_rs = A_s/A_r F_sr and F_sr, above the
+ * limit? Dimensionless. The "FF criterion": it knows of the elements' shape and not of their light,
+ * so one mesh serves every lamp, and bright and dark pairs cost the same. dark: this emitter never
+ * sends light. Approximate: F is the estimate at hand, the disc when nothing better is known.
+ * Fails: a small F between a lamp and a wall may still carry most of the light.
  * [Hanrahan et al. 1991, section 4]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_COUPLING_H
@@ -12,10 +13,10 @@
 
 TOOL enum coupling_answer tool_coupling(struct discussion *d, double limit)
 {
-    double there, area_r = d->receiver->area, area_s = d->emitter->area;
+    double area_r = d->receiver->area, area_s = d->emitter->area;
     if (d->emitter->black)
         return COUPLING_DARK;
-    there = term_form_factor(d, FORM_FACTOR_DISC);
+    double there = term_form_factor(d, FORM_FACTOR_DISC);
     return there > limit || there * area_r > limit * area_s ? COUPLING_ABOVE : COUPLING_BELOW;
 }
 

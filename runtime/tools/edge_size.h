@@ -1,6 +1,6 @@
-/* edge_size.h - question: has the receiver an edge longer than the larger of `below` (m) and `share` of the scene's
- * extent? For shadows: how finely their outline is to be drawn is a length, whatever light there is. A cluster is as long
- * as its box. [D: derived here]
+/* edge_size.h - question: has the receiver an edge longer than the larger of `below` (m) and
+ * `share` of the scene's extent? For shadows: how finely their outline is to be drawn is a length,
+ * whatever light there is. A cluster is as long as its box. [D: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_EDGE_SIZE_H
 #define TOOL_EDGE_SIZE_H
@@ -11,10 +11,10 @@ TOOL enum edge_size_answer tool_edge_size(struct discussion *d, double below, do
 {
     const struct element *r = d->receiver;
     double limit = share * d->host->extent, v[3], most = 0;
-    int i, n = r->vertices ? r->vertices : 2;
+    int n = r->vertices ? r->vertices : 2;
     if (below > limit)
         limit = below;
-    for (i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++) {
         sub3(v, r->vertex[i + 1 < n ? i + 1 : 0], r->vertex[i]);
         most = dot3(v, v) > most ? dot3(v, v) : most;
     }

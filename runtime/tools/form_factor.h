@@ -1,4 +1,5 @@
-/* form_factor.h - command: have the form factor at the level that a link deserves, the clipped polygon.
+/* form_factor.h - command: have the form factor at the level that a link deserves, the clipped
+ * polygon.
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_FORM_FACTOR_H
 #define TOOL_FORM_FACTOR_H

@@ -1,5 +1,5 @@
-/* groups.h - question: which of two surfaces are flat groups of faces, which are opened and not split (tools/group_level.h)?
- * D: derived here.
+/* groups.h - question: which of two surfaces are flat groups of faces, which are opened and not
+ * split (tools/group_level.h)? D: derived here.
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_GROUPS_H
 #define TOOL_GROUPS_H

@@ -1,5 +1,6 @@
-/* mark.h - command: mark the pair, so that its link can be counted among those that the graph treats apart.
- * By convention 1 says that the link was too large for the oracle and could not be split. [D: derived here]
+/* mark.h - command: mark the pair, so that its link can be counted among those that the graph
+ * treats apart. By convention 1 says that the link was too large for the oracle and could not be
+ * split. [D: derived here]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_MARK_H
 #define TOOL_MARK_H

@@ -1,5 +1,6 @@
-/* overlap.h - question: do the boxes of the two elements meet? "apart" is true of what they hold. Boxes that meet may
- * hold elements that do not: bounds on distance or cosines say nothing then, and only opening them helps.
+/* overlap.h - question: do the boxes of the two elements meet? "apart" is true of what they hold.
+ * Boxes that meet may hold elements that do not: bounds on distance or cosines say nothing then,
+ * and only opening them helps.
  * [Hanrahan et al. 1991 for clusters of volumes; Smits et al. 1994, section 3]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_OVERLAP_H

@@ -1,4 +1,5 @@
-/* point_form_factor.h - command: have the form factor at least as the receiver's centre sees the clipped polygon.
+/* point_form_factor.h - command: have the form factor at least as the receiver's centre sees the
+ * clipped polygon.
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_POINT_FORM_FACTOR_H
 #define TOOL_POINT_FORM_FACTOR_H

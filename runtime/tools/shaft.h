@@ -1,10 +1,12 @@
 /* shaft.h - question: is there anything between the two elements? No ray is cast.
  *
- * visible when no face meets their shaft, invisible when one convex face covers it, or when no parts of them face
- * each other: both are true of every segment between them (kernel/shaft.h proves it), and the visibility is then
- * known exactly, 1 or 0, so that no later tool casts a ray. uncertain: some face stands at the shaft's edge or in it, and
- * several together may hide all. too_complex: more than 8 do, or the elements are clusters, or the host has no
- * candidates. Whatever the answer, tools/visibility.h may follow: it finds what is known and casts only what is not.
+ * visible when no face meets their shaft, invisible when one convex face covers it, or when no
+ * parts of them face each other: both are true of every segment between them (kernel/shaft.h proves
+ * it), and the visibility is then known exactly, 1 or 0, so that no later tool casts a ray.
+ * uncertain: some face stands at the shaft's edge or in it, and several together may hide all.
+ * too_complex: more than 8 do, or the elements are clusters, or the host has no candidates.
+ * Whatever the answer, tools/visibility.h may follow: it finds what is known and casts only what is
+ * not.
  * [Haines & Wallace 1994; Teller & Hanrahan 1993 for "visible" and "invisible"]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_SHAFT_H

@@ -1,5 +1,6 @@
-/* straddle.h - question: which of the two has parts on both sides of the other's support plane? Of a cluster the box
- * counts, and a cluster has no plane to cross. [Turbet & Sillion, section 3.1.3 and figure 2]
+/* straddle.h - question: which of the two has parts on both sides of the other's support plane? Of
+ * a cluster the box counts, and a cluster has no plane to cross. [Turbet & Sillion, section 3.1.3
+ * and figure 2]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_STRADDLE_H
 #define TOOL_STRADDLE_H

@@ -1,5 +1,6 @@
-/* trace_reference.h - command: have the reference for the visibility, by `rays` rays (64, 256, 1024 or 4096, the next above)
- * or exactly where the shaft knows it; for studies of other tools, not for oracles.
+/* trace_reference.h - command: have the reference for the visibility, by `rays` rays (64, 256, 1024
+ * or 4096, the next above) or exactly where the shaft knows it; for studies of other tools, not for
+ * oracles.
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_TRACE_REFERENCE_H
 #define TOOL_TRACE_REFERENCE_H

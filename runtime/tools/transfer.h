@@ -17,7 +17,8 @@ TOOL enum transfer_answer tool_transfer(struct discussion *d, double absolute, d
         limit = absolute;
     if (!(d->emitter->radiosity > limit)) /* F <= 1 */
         return TRANSFER_BELOW;
-    return d->emitter->radiosity * term_form_factor(d, FORM_FACTOR_DISC) > limit ? TRANSFER_ABOVE : TRANSFER_BELOW;
+    return d->emitter->radiosity * term_form_factor(d, FORM_FACTOR_DISC) > limit ? TRANSFER_ABOVE
+                                                                                 : TRANSFER_BELOW;
 }
 
 #endif

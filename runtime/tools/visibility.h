@@ -1,7 +1,7 @@
 /* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
- * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of "partial";
- * "none" and "all" are the rays' opinion. What a shaft has
- * settled (level exact) casts none. [Turbet & Sillion, section 3.1.2]
+ * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
+ * "partial"; "none" and "all" are the rays' opinion. What a shaft has settled (level exact) casts
+ * none. [Turbet & Sillion, section 3.1.2]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_VISIBILITY_H
 #define TOOL_VISIBILITY_H

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Make room for one more in an array of `count` items of `size` bytes; `array` points at the pointer to it, which may be NULL.
- * Returns 0, or -1 when out of memory; then nothing has changed. */
+/* Make room for one more in an array of `count` items of `size` bytes; `array` points at the
+ * pointer to it, which may be NULL. Returns 0, or -1 when out of memory; then nothing has
+ * changed. */
 static inline int array_reserve(void *array, size_t count, size_t *capacity, size_t size)
 {
     if (count < *capacity)

@@ -8,10 +8,11 @@
 
 int messages_say(struct messages *m, enum message_cause cause, const char *format, ...)
 {
-    va_list arguments, again;
     if (!m || m->cause != MESSAGE_NONE)
         return -1;
+    va_list arguments;
     va_start(arguments, format);
+    va_list again;
     va_copy(again, arguments);
     int length = vsnprintf(NULL, 0, format, again);
     va_end(again);

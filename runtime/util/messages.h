@@ -1,7 +1,7 @@
 /* messages.h - what went wrong, kept for whoever called: nothing in the engine prints.
  *
- * The first error stays, later ones follow from it. All zero: nothing has been said. A function that takes one
- * may be given NULL, and then only fails.
+ * The first error stays, later ones follow from it. All zero: nothing has been said. A function
+ * that takes one may be given NULL, and then only fails.
  * SPDX-License-Identifier: MIT */
 #ifndef MESSAGES_H
 #define MESSAGES_H
@@ -22,11 +22,13 @@ enum message_cause {
 
 struct messages {
     enum message_cause cause;
-    char *text; /* but for GRAPH a sentence without a newline at its end; NULL: there was no memory for it */
+    /* but for GRAPH a sentence without a newline at its end; NULL: there was no memory for it */
+    char *text;
 };
 
 /* Returns -1, so that a function can `return messages_say(...)`. */
-int messages_say(struct messages *messages, enum message_cause cause, const char *format, ...) MESSAGE_LIKE(3, 4);
+int messages_say(struct messages *messages, enum message_cause cause, const char *format, ...)
+    MESSAGE_LIKE(3, 4);
 const char *messages_text(const struct messages *messages); /* never NULL */
 void messages_free(struct messages *messages);              /* and nothing has been said again */
 

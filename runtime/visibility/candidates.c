@@ -36,7 +36,8 @@ static int walk_shaft(struct walk *w, uint32_t index)
     const struct element *e = &h->elements[index];
     double low[3], high[3];
     if (h->solid ? h->solid[index] : e->vertices) {
-        if (h->faces[h->order[h->range[index].from]].back || !shaft_meets(w->shaft, (const double (*)[3])e->vertex, e->vertices, NULL))
+        if (h->faces[h->order[h->range[index].from]].back
+            || !shaft_meets(w->shaft, (const double(*)[3])e->vertex, e->vertices, NULL))
             return 0;
         if (w->found == w->most)
             return -1;
@@ -45,7 +46,8 @@ static int walk_shaft(struct walk *w, uint32_t index)
     }
     if (e->vertices)
         box_of_group(e, h->flat, low, high);
-    if (shaft_misses_box(w->shaft, e->vertices ? low : e->vertex[0], e->vertices ? high : e->vertex[1]))
+    if (shaft_misses_box(w->shaft, e->vertices ? low : e->vertex[0],
+                         e->vertices ? high : e->vertex[1]))
         return 0;
     for (uint32_t c = 0; c < e->children; c++)
         if (walk_shaft(w, e->child + c) < 0)
@@ -55,7 +57,7 @@ static int walk_shaft(struct walk *w, uint32_t index)
 
 int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most, uint32_t *faces)
 {
-    struct walk w = { h, shaft, most, 0, faces };
+    struct walk w = {h, shaft, most, 0, faces};
     return walk_shaft(&w, 0) < 0 ? most + 1 : w.found;
 }
 
@@ -70,10 +72,9 @@ void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon
 static double inside(const struct segment *g, const double low[3], const double high[3])
 {
     double from = 0, to = 1, v[3];
-    int k;
     sub3(v, g->to, g->from);
-    for (k = 0; k < 3; k++) {
-        double a = low[k] - g->from[k], b = high[k] - g->from[k], swap;
+    for (int k = 0; k < 3; k++) {
+        double a = low[k] - g->from[k], b = high[k] - g->from[k];
         if (!(fabs(v[k]) > 0)) {
             if (a > 0 || b < 0)
                 return 0;
@@ -82,7 +83,7 @@ static double inside(const struct segment *g, const double low[3], const double 
         a /= v[k];
         b /= v[k];
         if (a > b) {
-            swap = a;
+            double swap = a;
             a = b;
             b = swap;
         }
@@ -92,24 +93,25 @@ static double inside(const struct segment *g, const double low[3], const double 
     return from < to ? (to - from) * length3(v) : 0;
 }
 
-static double depth(const struct hierarchy *h, uint32_t index, const struct segment *g, const uint32_t own[2], double least)
+static double depth(const struct hierarchy *h, uint32_t index, const struct segment *g,
+                    const uint32_t own[2], double least)
 {
     const struct element *e = &h->elements[index];
-    double low[3], high[3], area = 0, volume = 1, length, sum = 0;
-    int c, k, counts = 1;
+    double low[3], high[3], area = 0, volume = 1, sum = 0;
+    int counts = 1;
     if (e->vertices)
         return 0;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         double more = 0.5 * (least - (e->vertex[1][k] - e->vertex[0][k]));
         more = more > 0 ? more : 0;
         low[k] = e->vertex[0][k] - more;
         high[k] = e->vertex[1][k] + more;
         volume *= high[k] - low[k];
     }
-    length = inside(g, low, high);
+    double length = inside(g, low, high);
     if (!(length > 0))
         return 0;
-    for (c = 0; c < e->children; c++) {
+    for (int c = 0; c < e->children; c++) {
         const struct element *x = &h->elements[e->child + (uint32_t)c];
         if (!x->vertices) {
             sum += depth(h, e->child + (uint32_t)c, g, own, least);
@@ -123,8 +125,9 @@ static double depth(const struct hierarchy *h, uint32_t index, const struct segm
     return counts && area > 0 ? sum + 0.25 * area / volume * length : sum;
 }
 
-double candidates_depth(const struct hierarchy *h, const struct segment *segment, uint32_t receiver, uint32_t emitter, double least)
+double candidates_depth(const struct hierarchy *h, const struct segment *segment, uint32_t receiver,
+                        uint32_t emitter, double least)
 {
-    const uint32_t own[2] = { receiver, emitter };
+    const uint32_t own[2] = {receiver, emitter};
     return depth(h, 0, segment, own, least);
 }

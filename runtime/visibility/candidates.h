@@ -5,16 +5,19 @@
 
 #include "hierarchy/hierarchy.h"
 
-/* The faces that meet the shaft, at most `most` of them. Returns how many there are, or most + 1 when there are more.
- * Faces marked `back` are left out: their front stands at the same place. In a hierarchy with groups what is listed are elements:
- * faces, and groups that are as good as one. */
-int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most, uint32_t *faces);
+/* The faces that meet the shaft, at most `most` of them. Returns how many there are, or most + 1
+ * when there are more. Faces marked `back` are left out: their front stands at the same place. In a
+ * hierarchy with groups what is listed are elements: faces, and groups that are as good as one. */
+int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most,
+                    uint32_t *faces);
 
 void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon *polygon);
 
-/* Optical depth along a segment: sum of kappa l over the clusters that hold faces themselves, kappa = sum A / 4 Vol
- * (1/m), l the length inside (m). Clusters that hold `receiver` or `emitter`, two faces, do not count.
- * A box is taken to be `least` thick at least. [Sillion & Drettakis 1995, section 3] */
-double candidates_depth(const struct hierarchy *h, const struct segment *segment, uint32_t receiver, uint32_t emitter, double least);
+/* Optical depth along a segment: sum of kappa l over the clusters that hold faces themselves, kappa
+ * = sum A / 4 Vol (1/m), l the length inside (m). Clusters that hold `receiver` or `emitter`, two
+ * faces, do not count. A box is taken to be `least` thick at least. [Sillion & Drettakis 1995,
+ * section 3] */
+double candidates_depth(const struct hierarchy *h, const struct segment *segment, uint32_t receiver,
+                        uint32_t emitter, double least);
 
 #endif

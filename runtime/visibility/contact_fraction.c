@@ -1,9 +1,10 @@
 /* contact_fraction.c - which part of a surface lies inside a solid that stands on it, by rays.
  *
- * A point is covered when most rays from it, cosine-spread over its side, meet first the back of a one-sided face: it is
- * inside something. The share is that of a 4 x 4 grid of points, so it is off by up to about half a cell along the
- * edge of what stands there. Not all rays need meet backs: solids may reach into each other, and a ray along an edge may
- * slip past. Fails where faces are two-sided: they have no inside.
+ * A point is covered when most rays from it, cosine-spread over its side, meet first the back of a
+ * one-sided face: it is inside something. The share is that of a 4 x 4 grid of points, so it is off
+ * by up to about half a cell along the edge of what stands there. Not all rays need meet backs:
+ * solids may reach into each other, and a ray along an edge may slip past. Fails where faces are
+ * two-sided: they have no inside.
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include "kernel/constants.h"
@@ -21,8 +22,8 @@ double contact_fraction(const struct rays *rays, const struct element *e)
     for (int m = 0; m < CONTACT_RAYS; m++)
         hemisphere_direction(direction[m], &above, m, CONTACT_RAYS, 0);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        double p[3];
         int inside = 0;
+        double p[3];
         surface_point(p, e, (i / SIDE + 0.5) / SIDE, (i % SIDE + 0.5) / SIDE);
         for (int k = 0; k < 3; k++)
             p[k] += rays_host(rays)->ray_offset * e->normal[k];

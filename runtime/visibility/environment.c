@@ -1,7 +1,7 @@
 /* environment.c - where the rays from a surface go: 64 from each of 16 points.
  *
- * The 1,024 rays say whether any light leaves the scene and share what a row of view factors lacks among the ways out; how much
- * it lacks the row itself knows better.
+ * The 1,024 rays say whether any light leaves the scene and share what a row of view factors lacks
+ * among the ways out; how much it lacks the row itself knows better.
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include "visibility/environment.h"
@@ -15,10 +15,10 @@ struct environment environment_of(const struct rays *rays, const struct element 
 {
     const struct hemisphere above = hemisphere_over(surface->normal);
     const double offset = rays_host(rays)->ray_offset;
-    struct environment all = { 0, 0, 0, 0 };
+    struct environment all = {0, 0, 0, 0};
     for (int i = 0; i < POINTS; i++) {
         double p[3], d[3];
-        int met[3] = { 0, 0, 0 };
+        int met[3] = {0, 0, 0};
         surface_point(p, surface, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE);
         for (int k = 0; k < 3; k++)
             p[k] += offset * surface->normal[k];

@@ -5,10 +5,13 @@
 
 #include "visibility/rays.h"
 
-/* Of as many rays as stand here together, spread evenly over the surface and by the cosine over its hemisphere. */
+/* Of as many rays as stand here together, spread evenly over the surface and by the cosine over
+ * its hemisphere. */
 struct environment {
-    int fronts, leaves, backs; /* what they meet first: a front, nothing, the black back of a one-sided face */
-    int covered;               /* from points inside a solid, as under a table leg, whatever they meet */
+    /* what they meet first: a front, nothing, the black back of a one-sided face */
+    int fronts, leaves, backs;
+    /* from points inside a solid, as under a table leg, whatever they meet */
+    int covered;
 };
 
 /* Thread-safe. The result depends on the surface and the scene alone. */

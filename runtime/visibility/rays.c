@@ -2,11 +2,11 @@
  *
  * Embree works in single precision, so the scene is moved to the origin and scaled by a power of
  * two to a size of about one: a scene in millimetres or kilometres gives the same rays to the bit.
- * Segments start and end a little off their surfaces (host.ray_offset), which no rounding of Embree's robust mode can
- * cross; so no hit needs to be filtered.
- * Rays travel in packets of 16, a pair's together. Said to be coherent, as they nearly are, they take a third longer;
- * packets filled across pairs would take a sixth less, sorted ones no less than that (measured on 5 million segments of a
- * scene of 13,000 faces).
+ * Segments start and end a little off their surfaces (host.ray_offset), which no rounding of
+ * Embree's robust mode can cross; so no hit needs to be filtered. Rays travel in packets of 16, a
+ * pair's together. Said to be coherent, as they nearly are, they take a third longer; packets
+ * filled across pairs would take a sixth less, sorted ones no less than that (measured on 5 million
+ * segments of a scene of 13,000 faces).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +19,8 @@
 
 enum { PACKET = 16 };
 
-/* Counters of a thread, alone on their cache lines. A thread that a program brings itself may have any number, so threads may
- * share a tally; they add to it one at a time. */
+/* Counters of a thread, alone on their cache lines. A thread that a program brings itself may have
+ * any number, so threads may share a tally; they add to it one at a time. */
 struct tally {
     uint64_t rays;
     uint64_t nanoseconds;
@@ -28,11 +28,11 @@ struct tally {
 };
 
 struct rays {
-    struct host host; /* first, so that a host is its rays */
+    struct host host;                  /* first, so that a host is its rays */
     const struct hierarchy *hierarchy; /* borrowed */
     RTCDevice device;
     RTCScene scene;
-    double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
+    double origin[3], scale;  /* Embree's coordinates: (x - origin) * scale */
     unsigned char *two_sided; /* by Embree's primitive: its back is no inside */
     int threads;
     struct tally *tallies; /* [threads] */
@@ -50,17 +50,14 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
     const struct rays *rays = (const struct rays *)(const void *)host;
     struct tally *tally = &rays->tallies[omp_get_thread_num() % rays->threads];
     uint64_t hits = 0, inside = 0;
-    int first, i;
-    for (first = 0; first < count; first += PACKET) {
+    for (int first = 0; first < count; first += PACKET) {
         int n = count - first < PACKET ? count - first : PACKET;
         _Alignas(64) int valid[PACKET];
         _Alignas(64) struct RTCRay16 packet;
-        uint64_t start;
-        for (i = 0; i < PACKET; i++) {
+        for (int i = 0; i < PACKET; i++) {
             const struct segment *s = &segments[first + (i < n ? i : 0)];
             float from[3], to[3];
-            int k;
-            for (k = 0; k < 3; k++) {
+            for (int k = 0; k < 3; k++) {
                 from[k] = (float)((s->from[k] - rays->origin[k]) * rays->scale);
                 to[k] = (float)((s->to[k] - rays->origin[k]) * rays->scale);
             }
@@ -78,7 +75,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
             packet.id[i] = 0;
             packet.flags[i] = 0;
         }
-        start = now();
+        uint64_t start = now();
         {
 #if EMBREE == 4
             struct RTCOccludedArguments arguments;
@@ -91,7 +88,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
 #endif
         }
         inside += now() - start;
-        for (i = 0; i < n; i++)
+        for (int i = 0; i < n; i++)
             hits |= (uint64_t)(packet.tfar[i] < 0) << (first + i); /* Embree: -inf when occluded */
     }
 #pragma omp atomic
@@ -116,7 +113,8 @@ static void corners(const struct host *host, uint32_t face, struct polygon *poly
     candidates_corners(hierarchy_of(host), face, polygon);
 }
 
-static double optical_depth(const struct host *host, const struct segment *segment, uint32_t receiver, uint32_t emitter)
+static double optical_depth(const struct host *host, const struct segment *segment,
+                            uint32_t receiver, uint32_t emitter)
 {
     return candidates_depth(hierarchy_of(host), segment, receiver, emitter, host->ray_offset);
 }
@@ -129,12 +127,11 @@ static double power_of_two(double x)
     return ldexp(1, e - 1);
 }
 
-static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance, const double *reflectance)
+static void totals(struct rays *rays, const struct hierarchy *h, const double *exitance,
+                   const double *reflectance)
 {
     double area = 0, emitted = 0, reflected = 0, brightest = 0, whitest = 0, size = 0;
-    uint32_t i;
-    int k;
-    for (i = 0; i < h->face_count; i++) {
+    for (uint32_t i = 0; i < h->face_count; i++) {
         double a = h->elements[h->face_element[i]].area;
         area += a;
         emitted += a * exitance[i];
@@ -142,7 +139,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
         brightest = exitance[i] > brightest ? exitance[i] : brightest;
         whitest = reflectance[i] > whitest ? reflectance[i] : whitest;
     }
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         double side = h->high[k] - h->low[k];
         rays->origin[k] = 0.5 * (h->low[k] + h->high[k]);
         size = side > size ? side : size;
@@ -168,13 +165,13 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
 static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
 {
     RTCGeometry geometry = rtcNewGeometry(rays->device, RTC_GEOMETRY_TYPE_QUAD);
-    uint32_t solid = 0, i, j, n = 0;
-    float *vertices;
-    unsigned *indices;
-    for (i = 0; i < h->face_count; i++)
+    uint32_t solid = 0, n = 0;
+    for (uint32_t i = 0; i < h->face_count; i++)
         solid += !h->faces[i].back;
+    float *vertices;
     vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                        3 * sizeof *vertices, (size_t)solid * 4);
+    unsigned *indices;
     indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
                                       4 * sizeof *indices, solid);
     rays->two_sided = calloc(solid, 1);
@@ -182,15 +179,16 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
         rtcReleaseGeometry(geometry);
         return NULL;
     }
-    for (i = 0; i < h->face_count; i++) {
+    for (uint32_t i = 0; i < h->face_count; i++) {
         const struct face *f = &h->faces[i];
         if (f->back)
             continue;
-        for (j = 0; j < 4; j++) {
-            const double *v = f->vertex[j < f->vertices ? j : f->vertices - 1]; /* a triangle repeats its last corner */
-            int k;
-            for (k = 0; k < 3; k++)
-                vertices[12 * (size_t)n + 3 * j + (size_t)k] = (float)((v[k] - rays->origin[k]) * rays->scale);
+        for (uint32_t j = 0; j < 4; j++) {
+            /* a triangle repeats its last corner */
+            const double *v = f->vertex[j < f->vertices ? j : f->vertices - 1];
+            for (int k = 0; k < 3; k++)
+                vertices[12 * (size_t)n + 3 * j + (size_t)k] =
+                    (float)((v[k] - rays->origin[k]) * rays->scale);
             indices[4 * (size_t)n + j] = 4 * n + j;
         }
         rays->two_sided[n] = i + 1 < h->face_count && f[1].back && f[1].input == f->input;
@@ -204,7 +202,6 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
                        int threads, const char **cause)
 {
     struct rays *rays = calloc(1, sizeof *rays);
-    RTCGeometry geometry;
     *cause = "out of memory";
     if (!rays)
         return NULL;
@@ -225,7 +222,7 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     rays->scene = rtcNewScene(rays->device);
     rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(rays->scene, RTC_BUILD_QUALITY_HIGH);
-    geometry = faces_geometry(rays, h);
+    RTCGeometry geometry = faces_geometry(rays, h);
     if (geometry) {
         rtcAttachGeometry(rays->scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -239,12 +236,12 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* What the ray from p (Embree's coordinates) meets first: *length directions away, the side it meets facing along `side`, which
- * has any length. */
-static enum ray_fate first_hit(const struct rays *rays, const double p[3], const double direction[3], double *length, double side[3])
+/* What the ray from p (Embree's coordinates) meets first: *length directions away, the side it
+ * meets facing along `side`, which has any length. */
+static enum ray_fate first_hit(const struct rays *rays, const double p[3],
+                               const double direction[3], double *length, double side[3])
 {
     _Alignas(16) struct RTCRayHit query;
-    float facing;
     memset(&query, 0, sizeof query);
     query.ray.org_x = (float)p[0];
     query.ray.org_y = (float)p[1];
@@ -268,7 +265,8 @@ static enum ray_fate first_hit(const struct rays *rays, const double p[3], const
     }
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return RAY_LEAVES;
-    facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z;
+    float facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y
+                   + query.hit.Ng_z * query.ray.dir_z;
     *length = query.ray.tfar;
     side[0] = facing > 0 ? -query.hit.Ng_x : query.hit.Ng_x;
     side[1] = facing > 0 ? -query.hit.Ng_y : query.hit.Ng_y;
@@ -278,18 +276,18 @@ static enum ray_fate first_hit(const struct rays *rays, const double p[3], const
     return facing > 0 ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
 }
 
-enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3], double at[3], double normal[3])
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3],
+                         double at[3], double normal[3])
 {
-    double p[3], side[3], length, size;
-    enum ray_fate fate;
-    int k;
-    for (k = 0; k < 3; k++)
+    double p[3], side[3];
+    for (int k = 0; k < 3; k++)
         p[k] = (from[k] - rays->origin[k]) * rays->scale;
-    fate = first_hit(rays, p, direction, &length, side);
+    double length;
+    enum ray_fate fate = first_hit(rays, p, direction, &length, side);
     if (fate == RAY_LEAVES)
         return fate;
-    size = length3(side);
-    for (k = 0; k < 3; k++) {
+    double size = length3(side);
+    for (int k = 0; k < 3; k++) {
         if (at)
             at[k] = from[k] + length / rays->scale * direction[k];
         if (normal)
@@ -305,9 +303,8 @@ const struct host *rays_host(const struct rays *rays)
 
 struct rays_count rays_count(const struct rays *rays)
 {
-    struct rays_count sum = { 0, 0 };
-    int i;
-    for (i = 0; i < rays->threads; i++) {
+    struct rays_count sum = {0, 0};
+    for (int i = 0; i < rays->threads; i++) {
         sum.rays += rays->tallies[i].rays;
         sum.seconds += 1e-9 * (double)rays->tallies[i].nanoseconds;
     }

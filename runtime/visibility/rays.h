@@ -1,5 +1,5 @@
-/* rays.h - the host services of a scene: occlusion by Embree, candidates from the clusters, totals for the oracles.
- * Embree 3 or 4, whichever the system has, is known to rays.c alone.
+/* rays.h - the host services of a scene: occlusion by Embree, candidates from the clusters, totals
+ * for the oracles. Embree 3 or 4, whichever the system has, is known to rays.c alone.
  * SPDX-License-Identifier: MIT */
 #ifndef RAYS_H
 #define RAYS_H
@@ -15,20 +15,22 @@ struct rays_count {
     double seconds; /* inside Embree, summed over threads */
 };
 
-/* Build the occlusion structure over the faces; those marked `back` cast no shadow of their own, for
- * their front stands at the same place and every face occludes from both sides.
- * exitance and reflectance: scene totals for host.irradiance, [face_count] largest band each.
- * `threads`: how many threads may ask at once. The hierarchy is borrowed until rays_close; it
- * may be split meanwhile, but not while a discussion goes on.
- * Returns NULL when Embree fails; *cause then names the reason (a constant string). */
+/* Build the occlusion structure over the faces; those marked `back` cast no shadow of their own,
+ * for their front stands at the same place and every face occludes from both sides. exitance and
+ * reflectance: scene totals for host.irradiance, [face_count] largest band each. `threads`: how
+ * many threads may ask at once. The hierarchy is borrowed until rays_close; it may be split
+ * meanwhile, but not while a discussion goes on. Returns NULL when Embree fails; *cause then names
+ * the reason (a constant string). */
 struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
                        int threads, const char **cause);
 
-/* What the ray from a point into a direction (any length) meets first; the sides of a two-sided face are both
- * fronts. The caller keeps the point off the surface it stands on (host.ray_offset). Where it meets something goes to `at`, as well
- * as single precision knows, and the unit normal of the side it meets to `normal`; both may be NULL. Thread-safe. */
+/* What the ray from a point into a direction (any length) meets first; the sides of a two-sided
+ * face are both fronts. The caller keeps the point off the surface it stands on (host.ray_offset).
+ * Where it meets something goes to `at`, as well as single precision knows, and the unit normal of
+ * the side it meets to `normal`; both may be NULL. Thread-safe. */
 enum ray_fate { RAY_LEAVES, RAY_MEETS_FRONT, RAY_MEETS_BACK };
-enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3], double at[3], double normal[3]);
+enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3],
+                         double at[3], double normal[3]);
 
 /* The services in the form that a discussion takes. Valid until rays_close. */
 const struct host *rays_host(const struct rays *rays);

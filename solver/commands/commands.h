@@ -1,5 +1,5 @@
-/* commands.h - what the command line can ask for, one file each. All return the exit status; `scene` is the one that the
- * command line names, NULL for commands that take none.
+/* commands.h - what the command line can ask for, one file each. All return the exit status;
+ * `scene` is the one that the command line names, NULL for commands that take none.
  * SPDX-License-Identifier: MIT */
 #ifndef COMMANDS_H
 #define COMMANDS_H

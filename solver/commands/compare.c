@@ -1,8 +1,9 @@
-/* compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one where there is one.
+/* compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one
+ * where there is one.
  *
- * First one solve by an oracle made of all of them: each discusses every pair on a copy, and decisions and what links would
- * store are compared bit by bit. Then each release solves alone, in turn, several times, and the medians of the refinement's
- * seconds are compared.
+ * First one solve by an oracle made of all of them: each discusses every pair on a copy, and
+ * decisions and what links would store are compared bit by bit. Then each release solves alone, in
+ * turn, several times, and the medians of the refinement's seconds are compared.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,8 @@
 enum { RELEASES = 3 };
 
 /* The order of the report: the first that there is is the yardstick. */
-static const enum RadRelease order[RELEASES] = { RAD_RELEASE_HAND, RAD_RELEASE_DAG, RAD_RELEASE_FLAT };
+static const enum RadRelease order[RELEASES] = {RAD_RELEASE_HAND, RAD_RELEASE_DAG,
+                                                RAD_RELEASE_FLAT};
 
 /* What a link keeps of a discussion. */
 struct kept {
@@ -51,23 +53,28 @@ static int links(enum decision decision)
 static struct kept keep(enum decision decision, const struct terms *t)
 {
     if (!links(decision))
-        return (struct kept){ 0 };
-    return (struct kept){ (float)t->form_factor, t->visibility, { t->form_factor_level, t->visibility_level },
-                          (unsigned char)(t->mark_level ? t->mark : 0) };
+        return (struct kept){0};
+    return (struct kept){(float)t->form_factor,
+                         t->visibility,
+                         {t->form_factor_level, t->visibility_level},
+                         (unsigned char)(t->mark_level ? t->mark : 0)};
 }
 
 /* Equal to the bit, for which NAN is like NAN. */
 static int same(const struct kept *a, const struct kept *b)
 {
     return memcmp(&a->form_factor, &b->form_factor, sizeof a->form_factor) == 0
-        && memcmp(&a->visibility, &b->visibility, sizeof a->visibility) == 0
-        && memcmp(a->levels, b->levels, sizeof a->levels) == 0 && a->mark == b->mark;
+           && memcmp(&a->visibility, &b->visibility, sizeof a->visibility) == 0
+           && memcmp(a->levels, b->levels, sizeof a->levels) == 0 && a->mark == b->mark;
 }
 
-static void record(struct panel *p, int k, const struct discussion *d, const enum decision decision[2], const struct kept link[2])
+static void record(struct panel *p, int k, const struct discussion *d,
+                   const enum decision decision[2], const struct kept link[2])
 {
     struct difference *f = &p->first;
-    if (p->differences++ && (d->receiver->id > f->receiver || (d->receiver->id == f->receiver && d->emitter->id >= f->emitter)))
+    if (p->differences++
+        && (d->receiver->id > f->receiver
+            || (d->receiver->id == f->receiver && d->emitter->id >= f->emitter)))
         return;
     f->release = k;
     f->receiver = d->receiver->id;
@@ -80,8 +87,8 @@ static void record(struct panel *p, int k, const struct discussion *d, const enu
     memcpy(f->link, link, sizeof f->link);
 }
 
-/* The parameters of the oracle that asks all: where the panel stands. An oracle's defaults have no context, and a process
- * runs one comparison. */
+/* The parameters of the oracle that asks all: where the panel stands. An oracle's defaults have no
+ * context, and a process runs one comparison. */
 static struct panel panel;
 
 static void panel_defaults(void *parameters)
@@ -94,10 +101,10 @@ static enum decision ask_all(const void *parameters, struct discussion *d)
 {
     struct panel *p;
     struct discussion start = *d;
-    enum decision decision[2];
-    struct kept link[2];
     memcpy(&p, parameters, sizeof p);
+    enum decision decision[2];
     decision[0] = radAskOracle(p->releases[0], d);
+    struct kept link[2];
     link[0] = keep(decision[0], &d->terms);
     for (int k = 1; k < p->count; k++) {
         struct discussion other = start;
@@ -147,8 +154,8 @@ static const char *name_of(const struct panel *p, int k)
 static void print_difference(const struct panel *p)
 {
     const struct difference *f = &p->first;
-    printf("different: %llu of %llu discussions; first, receiver ", (unsigned long long)p->differences,
-           (unsigned long long)p->decisions);
+    printf("different: %llu of %llu discussions; first, receiver ",
+           (unsigned long long)p->differences, (unsigned long long)p->decisions);
     print_side(f, 0);
     printf(", emitter ");
     print_side(f, 1);
@@ -156,15 +163,16 @@ static void print_difference(const struct panel *p)
     for (int i = 0; i < 2; i++) {
         printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_name(f->decision[i]));
         if (links(f->decision[i]))
-            printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d", (double)f->link[i].form_factor, f->link[i].levels[0],
-                   f->link[i].visibility, f->link[i].levels[1], f->link[i].mark);
+            printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d",
+                   (double)f->link[i].form_factor, f->link[i].levels[0], f->link[i].visibility,
+                   f->link[i].levels[1], f->link[i].mark);
         printf("\n");
     }
 }
 
 /* Solve the scene with one oracle. Returns the refinement's seconds, or -1 after a message. */
-static double solve_once(const struct options *o, const struct open_scene *scene, RadOracle oracle, struct progress *progress,
-                         struct RadReport *report)
+static double solve_once(const struct options *o, const struct open_scene *scene, RadOracle oracle,
+                         struct progress *progress, struct RadReport *report)
 {
     const struct RadSolveOptions how = solve_options(o);
     struct solved s;
@@ -189,15 +197,16 @@ static double median(double *values, int n)
     return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-static int time_releases(const struct options *o, const struct open_scene *scene, const struct panel *p, struct progress *progress,
+static int time_releases(const struct options *o, const struct open_scene *scene,
+                         const struct panel *p, struct progress *progress,
                          double median_seconds[RELEASES])
 {
-    double *times[RELEASES] = { 0 };
-    struct RadReport report;
+    double *times[RELEASES] = {0};
     int result = 0;
     for (int k = 0; k < p->count; k++)
         if (!(times[k] = malloc((size_t)o->repeats * sizeof **times)))
             result = report_error(o->scene, 0, "out of memory");
+    struct RadReport report;
     for (int i = 0; i < o->repeats && result == 0; i++)
         for (int k = 0; k < p->count && result == 0; k++) {
             times[k][i] = solve_once(o, scene, p->releases[k], progress, &report);
@@ -210,30 +219,39 @@ static int time_releases(const struct options *o, const struct open_scene *scene
     return result;
 }
 
-static json_t *compare_json(const struct panel *p, uint64_t link_count, const double seconds[RELEASES])
+static json_t *compare_json(const struct panel *p, uint64_t link_count,
+                            const double seconds[RELEASES])
 {
     json_t *releases = json_object();
     for (int k = 0; k < p->count; k++)
-        json_object_set_new(releases, name_of(p, k),
-                            json_pack("{s:f, s:f}", "seconds", seconds[k], "ratio", seconds[k] / seconds[0]));
-    return json_pack("{s:b, s:I, s:I, s:I, s:o}", "identical", p->differences == 0, "decisions", (json_int_t)p->decisions,
-                     "links", (json_int_t)link_count, "differences", (json_int_t)p->differences, "releases", releases);
+        json_object_set_new(
+            releases, name_of(p, k),
+            json_pack("{s:f, s:f}", "seconds", seconds[k], "ratio", seconds[k] / seconds[0]));
+    return json_pack("{s:b, s:I, s:I, s:I, s:o}", "identical", p->differences == 0, "decisions",
+                     (json_int_t)p->decisions, "links", (json_int_t)link_count, "differences",
+                     (json_int_t)p->differences, "releases", releases);
 }
 
 /* Open all releases that there are, and the oracle that asks them. Returns NULL after a message. */
 static RadOracle open_panel(RadDevice device, const struct options *o, struct oracle *all)
 {
-    struct RadOracleReport report;
-    panel = (struct panel){ .count = radHasOracle(device, o->oracle, RAD_RELEASE_HAND) ? RELEASES : RELEASES - 1 };
+    panel = (struct panel){
+        .count = radHasOracle(device, o->oracle, RAD_RELEASE_HAND) ? RELEASES : RELEASES - 1};
     for (int k = 0; k < panel.count; k++) {
         enum RadRelease release = order[RELEASES - panel.count + k];
         panel.releases[k] = open_oracle(device, o->oracle, release, o->settings, o->setting_count);
         if (!panel.releases[k])
             return NULL;
     }
+    struct RadOracleReport report;
     radGetOracleReport(panel.releases[0], &report);
-    *all = (struct oracle){ .abi = RUNTIME_ABI, .name = o->oracle, .doc = report.doc, .fingerprint = "",
-                            .parameters_size = sizeof(struct panel *), .defaults = panel_defaults, .refine = ask_all };
+    *all = (struct oracle){.abi = RUNTIME_ABI,
+                           .name = o->oracle,
+                           .doc = report.doc,
+                           .fingerprint = "",
+                           .parameters_size = sizeof(struct panel *),
+                           .defaults = panel_defaults,
+                           .refine = ask_all};
     RadOracle oracle = radNewOracleCompiled(device, all, "all");
     if (!oracle)
         report_device(device, o->scene);
@@ -244,17 +262,18 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
 static int compare(const struct options *o, const struct open_scene *scene, RadOracle all)
 {
     struct progress progress;
-    struct RadReport report;
-    double seconds[RELEASES];
     progress_start(&progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
+    struct RadReport report;
     if (solve_once(o, scene, all, &progress, &report) < 0)
         return 1;
     panel.decisions = report.pairs;
     if (panel.differences)
         print_difference(&panel);
     else if (!o->quiet)
-        printf("identical: %llu decisions, %llu links\n", (unsigned long long)panel.decisions, (unsigned long long)report.links);
+        printf("identical: %llu decisions, %llu links\n", (unsigned long long)panel.decisions,
+               (unsigned long long)report.links);
+    double seconds[RELEASES];
     if (time_releases(o, scene, &panel, &progress, seconds) < 0)
         return 1;
     for (int k = 0; k < panel.count && !o->quiet; k++)

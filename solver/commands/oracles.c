@@ -8,12 +8,13 @@
 
 static int print_oracle(RadDevice device, const char *name)
 {
-    struct RadOracleReport report;
     RadOracle oracle = open_oracle(device, name, RAD_RELEASE_FLAT, NULL, 0);
     if (!oracle)
         return -1;
+    struct RadOracleReport report;
     radGetOracleReport(oracle, &report);
-    printf("%s%s: %s\n", name, strcmp(name, radGetDefaultOracle()) == 0 ? " (default)" : "", report.doc);
+    printf("%s%s: %s\n", name, strcmp(name, radGetDefaultOracle()) == 0 ? " (default)" : "",
+           report.doc);
     for (int i = 0; i < report.parameter_count; i++) {
         const struct oracle_parameter *p = &report.parameters[i];
         printf("  %-10s %8g %-5s %s\n", p->name, p->value, p->unit, p->doc);

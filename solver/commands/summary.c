@@ -1,11 +1,13 @@
-/* summary.c - see summary.h. Whatever bounded the result, a cap, a guard or a closure, is told here and never silent.
+/* summary.c - see summary.h. Whatever bounded the result, a cap, a guard or a closure, is told here
+ * and never silent.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
 #include <sys/resource.h>
 #include "commands/summary.h"
 
-enum { GUARDED = 1 }; /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
+/* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
+enum { GUARDED = 1 };
 
 static double peak_megabytes(void)
 {
@@ -42,24 +44,28 @@ static json_t *importance_json(const struct RadReport *r)
 {
     if (!r->importance.sweeps)
         return json_null();
-    return json_pack("{s:i, s:f, s:f, s:f}", "sweeps", r->importance.sweeps, "largest", r->importance.largest,
-                     "mean", r->importance.mean, "area_seen", r->importance.seen);
+    return json_pack("{s:i, s:f, s:f, s:f}", "sweeps", r->importance.sweeps, "largest",
+                     r->importance.largest, "mean", r->importance.mean, "area_seen",
+                     r->importance.seen);
 }
 
 static json_t *error_json(const struct RadReport *r)
 {
     if (!(r->tolerance.target > 0))
         return json_null();
-    return json_pack("{s:f, s:f, s:f}", "target", r->tolerance.target, "largest", r->tolerance.largest, "area_above", r->tolerance.area);
+    return json_pack("{s:f, s:f, s:f}", "target", r->tolerance.target, "largest",
+                     r->tolerance.largest, "area_above", r->tolerance.area);
 }
 
 static json_t *closure_json(const struct options *o, const struct RadReport *r)
 {
     if (o->closure == RAD_CLOSURE_NONE)
         return json_null();
-    return json_pack("{s:b, s:I, s:f, s:f, s:f}", "closed_scene", r->closed > 0, "rays", (json_int_t)r->closed_rays,
-                     "removed_mean", r->closed > 0 ? r->rows.defect_mean : r->rows.moved,
-                     "removed_largest", r->closed > 0 ? r->rows.defect_most : fmax(r->rows.high - 1, 0), "blind_area", r->rows.blind_area);
+    return json_pack("{s:b, s:I, s:f, s:f, s:f}", "closed_scene", r->closed > 0, "rays",
+                     (json_int_t)r->closed_rays, "removed_mean",
+                     r->closed > 0 ? r->rows.defect_mean : r->rows.moved, "removed_largest",
+                     r->closed > 0 ? r->rows.defect_most : fmax(r->rows.high - 1, 0), "blind_area",
+                     r->rows.blind_area);
 }
 
 json_t *summary_json(const struct summary *s)
@@ -68,47 +74,58 @@ json_t *summary_json(const struct summary *s)
     const struct RadSceneReport *scene = &s->scene->report;
     struct RadOracleReport oracle;
     radGetOracleReport(s->oracle, &oracle);
-    return json_pack("{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
-                     " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
-                     "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release,
-                     "parameters", parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
-                     "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into", (int)scene->parts,
-                     "elements", (int)r->elements, "leaves", (int)r->leaves, "links", (json_int_t)r->links, "pairs", (json_int_t)r->pairs,
-                     "guard_hits", (json_int_t)r->marked[GUARDED], "marks", marks_json(r),
-                     "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds, "passes", r->passes,
-                     "iterations", r->iterations, "converged", r->converged, "residual", r->residual,
-                     "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance", imbalance(r),
-                     "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
-                     "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-                     "closure", closure_json(s->options, r), "importance", importance_json(r), "error", error_json(r),
-                     "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays", r->seconds.in_rays,
-                     "iterate", r->seconds.iterate, "output", s->output_seconds, "peak_memory_mb", peak_megabytes());
+    return json_pack(
+        "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
+        "s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
+        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
+        "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
+        parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
+        "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
+        (int)scene->parts, "elements", (int)r->elements, "leaves", (int)r->leaves, "links",
+        (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "guard_hits",
+        (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
+        "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
+        "converged", r->converged, "residual", r->residual, "power_emitted", r->emitted,
+        "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums", "smallest",
+        r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved, "defect_mean",
+        r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
+        closure_json(s->options, r), "importance", importance_json(r), "error", error_json(r),
+        "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
+        r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
+        "peak_memory_mb", peak_megabytes());
 }
 
-/* Links that a graph has marked. A mark other than the guard's means what the graph's author meant by it. */
+/* Links that a graph has marked. A mark other than the guard's means what the graph's author
+ * meant by it. */
 static void print_marks(const struct RadReport *r)
 {
     for (int i = 1; i < RAD_LINK_MARKS; i++)
         if (r->marked[i])
-            printf("marks     %llu links (%.2g %%) with mark %d%s\n", (unsigned long long)r->marked[i],
-                   100 * (double)r->marked[i] / (double)r->links, i,
+            printf("marks     %llu links (%.2g %%) with mark %d%s\n",
+                   (unsigned long long)r->marked[i], 100 * (double)r->marked[i] / (double)r->links,
+                   i,
                    i == GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
 }
 
 static void print_rows(const struct options *o, const struct RadReport *r)
 {
     if (o->closure == RAD_CLOSURE_NONE) {
-        printf("rows      sums of F V from %.4f to %.4f before the cap at 1, which moved %.2g of the exchange\n",
+        printf("rows      sums of F V from %.4f to %.4f before the cap at 1, which moved %.2g of "
+               "the exchange\n",
                r->rows.low, r->rows.high, r->rows.moved);
         return;
     }
     printf("rows      sums of F V from %.4f to %.4f before closure\n", r->rows.low, r->rows.high);
     if (r->closed > 0)
-        printf("closure   the scene is closed (light finds no way out of it in %.3g steps): rows scaled to 1, which removed %.2g in the mean, "
-               "%.2g at the most\n", (double)r->closed_rays, r->rows.defect_mean, r->rows.defect_most);
+        printf("closure   the scene is closed (light finds no way out of it in %.3g steps): rows "
+               "scaled to 1, which removed %.2g in the mean, "
+               "%.2g at the most\n",
+               (double)r->closed_rays, r->rows.defect_mean, r->rows.defect_most);
     else
-        printf("closure   the scene is open (light leaves it or meets a black back, in %.3g steps): rows above 1 scaled to 1, which "
-               "removed %.2g in the mean, %.2g at the most\n", (double)r->closed_rays, r->rows.moved, fmax(r->rows.high - 1, 0));
+        printf("closure   the scene is open (light leaves it or meets a black back, in %.3g "
+               "steps): rows above 1 scaled to 1, which "
+               "removed %.2g in the mean, %.2g at the most\n",
+               (double)r->closed_rays, r->rows.moved, fmax(r->rows.high - 1, 0));
     if (r->rows.blind_area > 0)
         printf("blind     %.2g m2 of exposed leaves have no link%s\n", r->rows.blind_area,
                r->closed > 0 ? "; they take the mean of their face" : "");
@@ -120,26 +137,38 @@ void summary_print(const struct summary *s)
     const struct RadSceneReport *scene = &s->scene->report;
     struct RadOracleReport oracle;
     radGetOracleReport(s->oracle, &oracle);
-    printf("scene     %s: %u faces, %.4g m2, %s\n", s->options->scene, scene->polygons, scene->area, r->bands == 1 ? "grey" : "three bands");
+    printf("scene     %s: %u faces, %.4g m2, %s\n", s->options->scene, scene->polygons, scene->area,
+           r->bands == 1 ? "grey" : "three bands");
     if (scene->cut)
-        printf("cut       %u faces, into %u, where others stand in them\n", scene->cut, scene->parts);
+        printf("cut       %u faces, into %u, where others stand in them\n", scene->cut,
+               scene->parts);
     printf("oracle    %s (%s release)\n", oracle.name, oracle.release);
     printf("mesh      %u elements, of which %u leaves\n", r->elements, r->leaves);
-    printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n", (unsigned long long)r->links, (unsigned long long)r->pairs,
+    printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n",
+           (unsigned long long)r->links, (unsigned long long)r->pairs,
            (unsigned long long)r->rounds, (double)r->rays);
     print_marks(r);
-    printf("solution  %d passes, %d sweeps, residual %.1e, %s\n", r->passes, r->iterations, r->residual,
-           r->converged ? "converged" : "NOT converged: allow more --iterations, or loosen --tolerance");
+    printf("solution  %d passes, %d sweeps, residual %.1e, %s\n", r->passes, r->iterations,
+           r->residual,
+           r->converged ? "converged"
+                        : "NOT converged: allow more --iterations, or loosen --tolerance");
     if (r->importance.sweeps)
-        printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; %d of the sweeps\n",
+        printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
+               "%d of the sweeps\n",
                r->importance.seen, r->importance.mean, r->importance.largest, r->importance.sweeps);
     if (r->tolerance.target > 0)
-        printf("error     estimated %.3g W/m2 at the most, %.3g were asked for; above that are %.3g m2%s\n", r->tolerance.largest,
-               r->tolerance.target, r->tolerance.area, r->tolerance.area > 0 ? ", which nothing more can split" : "");
-    printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", r->emitted, r->absorbed, 100 * fabs(imbalance(r)),
+        printf("error     estimated %.3g W/m2 at the most, %.3g were asked for; above that are "
+               "%.3g m2%s\n",
+               r->tolerance.largest, r->tolerance.target, r->tolerance.area,
+               r->tolerance.area > 0 ? ", which nothing more can split" : "");
+    printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", r->emitted, r->absorbed,
+           100 * fabs(imbalance(r)),
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
-    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output %.2f; %.0f MB\n",
-           r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds, r->seconds.build, r->seconds.refine,
-           r->seconds.refine > 0 ? 100 * r->seconds.in_rays / r->seconds.refine : 0, r->seconds.iterate, s->output_seconds, peak_megabytes());
+    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "
+           "%.2f; %.0f MB\n",
+           r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds,
+           r->seconds.build, r->seconds.refine,
+           r->seconds.refine > 0 ? 100 * r->seconds.in_rays / r->seconds.refine : 0,
+           r->seconds.iterate, s->output_seconds, peak_megabytes());
 }

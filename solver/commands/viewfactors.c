@@ -1,7 +1,7 @@
 /* viewfactors.c - `radiosity viewfactors`: the matrix of face-to-face view factors.
  *
- * F_ij is the share of what leaves face i evenly that meets face j. Faces count as in the file: a face with two sides, or
- * cut into parts, is one row, a mean over its parts.
+ * F_ij is the share of what leaves face i evenly that meets face j. Faces count as in the file: a
+ * face with two sides, or cut into parts, is one row, a mean over its parts.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
@@ -14,71 +14,90 @@
 #include "util/open_oracle.h"
 #include "util/report.h"
 
-static void print(const struct options *o, const struct open_scene *scene, const struct RadExchangeReport *r, double write_seconds)
+static void print(const struct options *o, const struct open_scene *scene,
+                  const struct RadExchangeReport *r, double write_seconds)
 {
     printf("faces     %u\n", scene->report.polygons);
-    printf("links     %llu for %llu pairs of faces, %.3g rays; refine %.2f s, fill %.2f s, write %.2f s\n", (unsigned long long)r->links,
-           (unsigned long long)r->pairs, (double)r->rays, r->seconds.refine, r->seconds.fill, write_seconds);
+    printf("links     %llu for %llu pairs of faces, %.3g rays; refine %.2f s, fill %.2f s, write "
+           "%.2f s\n",
+           (unsigned long long)r->links, (unsigned long long)r->pairs, (double)r->rays,
+           r->seconds.refine, r->seconds.fill, write_seconds);
     printf("row sums  %.9f to %.9f\n", r->low, r->high);
     if (r->rows_closed)
-        printf("defect    |1 - sum| %.2e at the most, %.2e in the mean, of %u rows that see no sky%s\n", r->defect_most, r->defect_mean,
-               r->rows_closed, o->closure ? ", before closure" : "");
+        printf("defect    |1 - sum| %.2e at the most, %.2e in the mean, of %u rows that see no "
+               "sky%s\n",
+               r->defect_most, r->defect_mean, r->rows_closed,
+               o->closure ? ", before closure" : "");
     if (r->rows_open)
-        printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not normalised away\n", 100 * r->environment_mean,
-               100 * r->environment_most, r->rows_open);
+        printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not "
+               "normalised away\n",
+               100 * r->environment_mean, 100 * r->environment_most, r->rows_open);
     if (r->rows_covered)
-        printf("covered   %u rows that others stand on: their covered parts see nothing\n", r->rows_covered);
+        printf("covered   %u rows that others stand on: their covered parts see nothing\n",
+               r->rows_covered);
     if (o->closure)
         printf("closure   factors changed by up to %.2e%s; defect left %.1e\n", r->closure_change,
-               o->closure == RAD_CLOSURE_RECIPROCAL ? ", the same both ways" : "; A_i F_ij is no longer A_j F_ji", r->closure_left);
+               o->closure == RAD_CLOSURE_RECIPROCAL ? ", the same both ways"
+                                                    : "; A_i F_ij is no longer A_j F_ji",
+               r->closure_left);
 }
 
-static json_t *report_json(const struct options *o, const struct open_scene *scene, const struct RadExchangeReport *r, double write_seconds)
+static json_t *report_json(const struct options *o, const struct open_scene *scene,
+                           const struct RadExchangeReport *r, double write_seconds)
 {
-    return json_pack("{s:s, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, s:f, s:f, s:f, s:f}",
-                     "scene", o->scene, "faces", (int)scene->report.polygons, "links", (json_int_t)r->links,
-                     "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays,
-                     "row_sum_smallest", r->low, "row_sum_largest", r->high,
-                     "row_defect_largest", r->defect_most, "row_defect_mean", r->defect_mean, "rows_closed", (int)r->rows_closed,
-                     "rows_to_sky", (int)r->rows_open, "rows_covered", (int)r->rows_covered, "to_sky_largest", r->environment_most,
-                     "to_sky_mean", r->environment_mean, "closure", closure_words[o->closure], "closure_largest_change", r->closure_change,
-                     "closure_defect_left", r->closure_left, "seconds", r->seconds.refine + r->seconds.fill + write_seconds,
-                     "seconds_refine", r->seconds.refine, "seconds_fill", r->seconds.fill, "seconds_write", write_seconds);
+    return json_pack(
+        "{s:s, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, "
+        "s:f, s:f, s:f, s:f}",
+        "scene", o->scene, "faces", (int)scene->report.polygons, "links", (json_int_t)r->links,
+        "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays, "row_sum_smallest", r->low,
+        "row_sum_largest", r->high, "row_defect_largest", r->defect_most, "row_defect_mean",
+        r->defect_mean, "rows_closed", (int)r->rows_closed, "rows_to_sky", (int)r->rows_open,
+        "rows_covered", (int)r->rows_covered, "to_sky_largest", r->environment_most, "to_sky_mean",
+        r->environment_mean, "closure", closure_words[o->closure], "closure_largest_change",
+        r->closure_change, "closure_defect_left", r->closure_left, "seconds",
+        r->seconds.refine + r->seconds.fill + write_seconds, "seconds_refine", r->seconds.refine,
+        "seconds_fill", r->seconds.fill, "seconds_write", write_seconds);
 }
 
 /* Write what was asked for. Returns 0, or -1 after a message. */
-static int write_outputs(const struct options *o, const struct open_scene *scene, RadExchange exchange)
+static int write_outputs(const struct options *o, const struct open_scene *scene,
+                         RadExchange exchange)
 {
-    const struct surfaces surfaces = surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
-    struct RadExchangeReport r;
+    const struct surfaces surfaces =
+        surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
     double start = seconds();
-    if ((o->out && factor_file_write(o->out, o->format, exchange, scene->report.polygons, o->threads) < 0)
+    if ((o->out
+         && factor_file_write(o->out, o->format, exchange, scene->report.polygons, o->threads) < 0)
         || (o->names && factor_file_names(o->names, &surfaces) < 0))
         return -1;
     double write_seconds = seconds() - start;
+    struct RadExchangeReport r;
     radGetExchangeReport(exchange, &r);
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
         print(o, scene, &r, write_seconds);
     if (!o->quiet && r.defect_most > o->tolerance)
-        report_warning(o->scene, 0, "a row sum is off by %.1e, above the tolerance %.1e; a smaller --tolerance takes longer", r.defect_most,
-                       o->tolerance);
+        report_warning(o->scene, 0,
+                       "a row sum is off by %.1e, above the tolerance %.1e; a smaller --tolerance "
+                       "takes longer",
+                       r.defect_most, o->tolerance);
     return o->json ? json_file_write(o->json, report_json(o, scene, &r, write_seconds)) : 0;
 }
 
 int command_viewfactors(const struct options *o, const struct open_scene *scene)
 {
-    const struct RadExchangeOptions how = { .tolerance = o->tolerance, .closure = o->closure };
-    struct progress progress;
+    const struct RadExchangeOptions how = {.tolerance = o->tolerance, .closure = o->closure};
     int status = -1;
     RadOracle oracle = radNewExchangeOracle(scene->device, o->tolerance);
     if (!oracle)
         return report_device(scene->device, o->scene), 1;
     if (set_oracle(scene->device, oracle, o->settings, o->setting_count) == 0) {
+        struct progress progress;
         progress_start(&progress, o->quiet);
         radSetDeviceProgressFunction(scene->device, progress_show, &progress);
         RadExchange exchange = radNewExchange(scene->scene, oracle, &how);
         progress_end(&progress);
-        status = exchange ? write_outputs(o, scene, exchange) : report_device(scene->device, o->scene);
+        status =
+            exchange ? write_outputs(o, scene, exchange) : report_device(scene->device, o->scene);
         radReleaseExchange(exchange);
     }
     radReleaseOracle(oracle);

@@ -35,15 +35,17 @@ static int read_ending(struct options *o, const struct option_row *row, const ch
 {
     const char *const *ending = row->words;
     size_t length = strlen(value);
-    while (*ending && (length < strlen(*ending) || strcasecmp(value + length - strlen(*ending), *ending) != 0))
+    while (
+        *ending
+        && (length < strlen(*ending) || strcasecmp(value + length - strlen(*ending), *ending) != 0))
         ending++;
     return *ending ? read_text(o, row, value) : -1;
 }
 
 static int read_whole(struct options *o, const struct option_row *row, const char *value)
 {
-    char *end;
     errno = 0;
+    char *end;
     long n = strtol(value, &end, 10);
     if (end == value || *end || errno || n < row->low || n > row->high)
         return -1;
@@ -53,8 +55,8 @@ static int read_whole(struct options *o, const struct option_row *row, const cha
 
 static int read_tolerance(struct options *o, const struct option_row *row, const char *value)
 {
-    char *end;
     (void)row;
+    char *end;
     o->tolerance = strtod(value, &end);
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
@@ -161,8 +163,8 @@ static int read_thresholds(struct options *o, const struct option_row *row, cons
 /* Powers of four: the graph's tools round others up. */
 static int read_rays(struct options *o, const struct option_row *row, const char *value)
 {
-    double list[STUDY_LIST];
     (void)row;
+    double list[STUDY_LIST];
     o->ray_count = rising_list(value, 4, 1024, list);
     for (int i = 0; i < o->ray_count; i++) {
         o->rays[i] = (int)list[i];
@@ -183,43 +185,52 @@ const char *option_takes(const struct option_row *row)
     int length = snprintf(text, sizeof text, "%s", row->read == read_ending ? "a file named " : "");
     for (int i = 0; word[i]; i++)
         length += snprintf(text + length, sizeof text - (size_t)length, "%s%s",
-                           !i ? "" : word[i + 1] ? ", " : " or ", word[i]);
+                           !i            ? ""
+                           : word[i + 1] ? ", "
+                                         : " or ",
+                           word[i]);
     return text;
 }
 
 /* ---- the commands */
 
 const struct command_row command_rows[COMMANDS] = {
-    [COMMAND_SOLVE] = {"solve", "SCENE", "light in a scene: summary, picture, mesh, tables",
-        "Solve a scene, print a summary, and write the outputs that are asked for.\n",
-        "radiosity solve room.obj --set relative=0.02 --image room.png"},
-    [COMMAND_COMPARE] = {"compare", "SCENE", "the releases of an oracle, side by side",
-        "Solve a scene by all releases of an oracle at once: compiled graph, interpreted\n"
-        "graph, and written by hand where there is one. Compare every decision and link\n"
-        "bit by bit, then time them. The exit status is 1 when they differ.\n",
-        "radiosity compare room.obj --oracle bf --set epsilon=0.02"},
-    [COMMAND_VIEWFACTORS] = {"viewfactors", "SCENE", "the matrix of view factors between faces",
-        "F_ij is the share of what leaves face i evenly that meets face j, occlusion\n"
-        "included. Rows and columns are the faces of the scene file, in its order.\n",
-        "radiosity viewfactors room.obj -o factors.csv --closure reciprocal"},
-    [COMMAND_STABILITY] = {"study stability", "", "where methods fail, and by how much",
-        "Small scenes whose answer is known and on which published methods fail:\n"
-        "elements that share an edge, slivers, a blocker smaller than the gaps between\n"
-        "rays, a bright furnace. Rows are the scenes, columns the methods; a cell is the\n"
-        "method's error, or `fails: why` when that is above the row's tolerance. The exit\n"
-        "status is 1 when a method that must pass fails: the default oracle.\n",
-        "radiosity study stability --only tiny_blocker"},
-    [COMMAND_VISIBILITY] = {"study visibility", "SCENE", "how often few rays are wrong about visibility",
-        "Classify what the pairs of a scene see of each other by few rays, and again by\n"
-        "so many that the answer is trusted. [Turbet and Sillion, section 5]\n",
-        "radiosity study visibility room.obj --rays 4,16,64 --chart wrong.svg"},
-    [COMMAND_CLUSTERING] = {"study clustering", "SCENE", "what ways of grouping faces cost and give",
-        "Solve a scene once for each way of grouping its faces into clusters, and compare\n"
-        "time, links, rays, memory and error:\n",
-        "radiosity study clustering room.obj --reference room.csv -o table.md"},
+    [COMMAND_SOLVE] =
+        {"solve", "SCENE", "light in a scene: summary, picture, mesh, tables",
+         "Solve a scene, print a summary, and write the outputs that are asked for.\n",
+         "radiosity solve room.obj --set relative=0.02 --image room.png"},
+    [COMMAND_COMPARE] =
+        {"compare", "SCENE", "the releases of an oracle, side by side",
+         "Solve a scene by all releases of an oracle at once: compiled graph, interpreted\n"
+         "graph, and written by hand where there is one. Compare every decision and link\n"
+         "bit by bit, then time them. The exit status is 1 when they differ.\n",
+         "radiosity compare room.obj --oracle bf --set epsilon=0.02"},
+    [COMMAND_VIEWFACTORS] =
+        {"viewfactors", "SCENE", "the matrix of view factors between faces",
+         "F_ij is the share of what leaves face i evenly that meets face j, occlusion\n"
+         "included. Rows and columns are the faces of the scene file, in its order.\n",
+         "radiosity viewfactors room.obj -o factors.csv --closure reciprocal"},
+    [COMMAND_STABILITY] =
+        {"study stability", "", "where methods fail, and by how much",
+         "Small scenes whose answer is known and on which published methods fail:\n"
+         "elements that share an edge, slivers, a blocker smaller than the gaps between\n"
+         "rays, a bright furnace. Rows are the scenes, columns the methods; a cell is the\n"
+         "method's error, or `fails: why` when that is above the row's tolerance. The exit\n"
+         "status is 1 when a method that must pass fails: the default oracle.\n",
+         "radiosity study stability --only tiny_blocker"},
+    [COMMAND_VISIBILITY] =
+        {"study visibility", "SCENE", "how often few rays are wrong about visibility",
+         "Classify what the pairs of a scene see of each other by few rays, and again by\n"
+         "so many that the answer is trusted. [Turbet and Sillion, section 5]\n",
+         "radiosity study visibility room.obj --rays 4,16,64 --chart wrong.svg"},
+    [COMMAND_CLUSTERING] =
+        {"study clustering", "SCENE", "what ways of grouping faces cost and give",
+         "Solve a scene once for each way of grouping its faces into clusters, and compare\n"
+         "time, links, rays, memory and error:\n",
+         "radiosity study clustering room.obj --reference room.csv -o table.md"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
-        "List the built-in oracles and the parameters that --set gives them.\n",
-        "radiosity oracles"},
+                         "List the built-in oracles and the parameters that --set gives them.\n",
+                         "radiosity oracles"},
 };
 
 /* ---- the options */
@@ -254,21 +265,24 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
-    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING, "clusters", "the refinement oracle", TEXT(oracle)},
+    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING, "clusters", "the refinement oracle",
+     TEXT(oracle)},
     /* The one nearest to the default that has a release by hand. */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
-    {"release", "flat|dag|hand", SOLVE | CLUSTERING, NULL, "compiled, interpreted or written by hand (flat)",
-     WORD(read_release, release_words)},
-    {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL, .read = read_setting},
+    {"release", "flat|dag|hand", SOLVE | CLUSTERING, NULL,
+     "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words)},
+    {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
+     .read = read_setting},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters)},
     {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
-    {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for", "a number above 0 and below 1",
-     .read = read_tolerance},
+    {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
+     "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES, "100000", "sweeps per solve at the most", "a whole number from 1",
      WHOLE(iterations, 1, INT_MAX)},
-    {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel", FLAG(jacobi)},
+    {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
+     FLAG(jacobi)},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
      WORD(read_closure, closures)},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
@@ -277,29 +291,37 @@ const struct option_row option_rows[] = {
      WHOLE(repeats, 1, 1000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},
     {"only", "NAME", CLUSTERING, NULL, "one of the ways", NULL, .read = read_clustering, IN(only)},
-    {"reference", "FACES.csv", CLUSTERING, NULL, "B to measure errors by, from solve --faces", TEXT(reference)},
+    {"reference", "FACES.csv", CLUSTERING, NULL, "B to measure errors by, from solve --faces",
+     TEXT(reference)},
     {"thresholds", "A,B,...", VISIBILITY, "2,3,5,7.5,10,15", "projected areas below which to ask",
-     "rising numbers from 1e-300 to 1e300 parted by commas, 32 at the most", .read = read_thresholds},
+     "rising numbers from 1e-300 to 1e300 parted by commas, 32 at the most",
+     .read = read_thresholds},
     {"rays", "N,M,...", VISIBILITY, "4,16,64", "rays held against the reference",
      "some of 4,16,64,256,1024, rising, parted by commas", .read = read_rays},
     {"two-sided", NULL, SCENES, NULL, "faces have two sides, not only those *_2s", FLAG(two_sided)},
-    {"threads", "N", ALL, NULL, "all processors if not given; same result", "a whole number from 1 to 1024",
-     WHOLE(threads, 1, 1024)},
+    {"threads", "N", ALL, NULL, "all processors if not given; same result",
+     "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
     {"o", "FILE", STABILITY | CLUSTERING, NULL, "the table, .csv or .md", NAMED(out, tables)},
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
-    {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)", WORD(read_format, formats)},
+    {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
+     WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows", OUTPUT(image)},
-    {"size", "WxH", SOLVE, "1024x768", "its size in pixels", "WxH, each 1 to 16384", .read = read_size},
+    {"size", "WxH", SOLVE, "1024x768", "its size in pixels", "WxH, each 1 to 16384",
+     .read = read_size},
     {"view", "X,Y,Z:X,Y,Z[:FOV]", SOLVE, NULL, "eye, point looked at, degrees of height (70)",
      "X,Y,Z:X,Y,Z[:FOV], two different points and 1 to 170 degrees", .read = read_view},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},
-    {"chart", "FILE", VISIBILITY | CLUSTERING, NULL, "a drawing, .svg or .png", NAMED(chart, drawings)},
-    {"faces", "FILE.csv", SOLVE, NULL, "E, rho, H, B of each face of the scene file", OUTPUT(faces)},
-    {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -", OUTPUT(statistics)},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS, NULL, "what the summary says; - is standard output", OUTPUT(json)},
+    {"chart", "FILE", VISIBILITY | CLUSTERING, NULL, "a drawing, .svg or .png",
+     NAMED(chart, drawings)},
+    {"faces", "FILE.csv", SOLVE, NULL, "E, rho, H, B of each face of the scene file",
+     OUTPUT(faces)},
+    {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
+     OUTPUT(statistics)},
+    {"json", "FILE", SOLVE | COMPARE | FACTORS, NULL, "what the summary says; - is standard output",
+     OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };
 const int option_row_count = sizeof option_rows / sizeof *option_rows;

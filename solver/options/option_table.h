@@ -1,5 +1,5 @@
-/* option_table.h - every option of `radiosity` is one row, every command another: the parser, --help, the man page
- * and the tests derive from them.
+/* option_table.h - every option of `radiosity` is one row, every command another: the parser,
+ * --help, the man page and the tests derive from them.
  * SPDX-License-Identifier: MIT */
 #ifndef OPTION_TABLE_H
 #define OPTION_TABLE_H
@@ -17,10 +17,12 @@ extern const struct command_row command_rows[COMMANDS];
 struct option_row {
     const char *name;     /* without dashes; of one letter: it has one dash, else two */
     const char *argument; /* NULL: none */
-    unsigned commands;    /* those that take it: bits 1 << enum command. A name may have a row for each */
-    const char *preset;   /* its value when it is not given; NULL: none */
-    const char *help;     /* one line, without the preset, which is appended */
-    const char *takes;    /* what values it takes, for messages; NULL: its words or the argument say it */
+    /* those that take it: bits 1 << enum command. A name may have a row for each */
+    unsigned commands;
+    const char *preset; /* its value when it is not given; NULL: none */
+    const char *help;   /* one line, without the preset, which is appended */
+    /* what values it takes, for messages; NULL: its words or the argument say it */
+    const char *takes;
 
     /* Store what `value` says. Returns 0, or -1 when the option does not take that. */
     int (*read)(struct options *o, const struct option_row *row, const char *value);

@@ -1,6 +1,7 @@
 /* options.c - parse the command line by the table of options, and print --help from it.
  *
- * getopt_long does the parsing; that an option may be abbreviated as long as it is clear is its doing, too.
+ * getopt_long does the parsing; that an option may be abbreviated as long as it is clear is its
+ * doing, too.
  * SPDX-License-Identifier: MIT */
 #include "options/options.h"
 
@@ -14,7 +15,8 @@
 #include "options/option_table.h"
 #include "util/report.h"
 
-enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 }; /* what getopt_long returns: a letter, or one of these */
+/* what getopt_long returns: a letter, or one of these */
+enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 };
 
 /* ---- help */
 
@@ -22,9 +24,9 @@ static void print_lines(const char *prefix)
 {
     for (int i = 0; i < COMMANDS; i++) {
         const struct command_row *c = &command_rows[i];
-        char left[32];
         if (strncmp(c->name, prefix, strlen(prefix)) != 0)
             continue;
+        char left[32];
         snprintf(left, sizeof left, "%s %s", c->name, c->argument);
         printf("  %-23s %s\n", left, c->help);
     }
@@ -65,14 +67,13 @@ static int print_studies_help(void)
 /* "--name ARGUMENT". Returns its length. */
 static int option_text(const struct option_row *row, char text[64])
 {
-    return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name, row->argument ? " " : "",
-                    row->argument ? row->argument : "");
+    return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name,
+                    row->argument ? " " : "", row->argument ? row->argument : "");
 }
 
 static int print_command_help(enum command command)
 {
     const struct command_row *c = &command_rows[command];
-    char text[64];
     int width = 0;
     printf("usage: radiosity %s%s%s%s\n%s", c->name, *c->argument ? " " : "", c->argument,
            command == COMMAND_ORACLES ? "" : " [options]", c->lesson);
@@ -80,8 +81,10 @@ static int print_command_help(enum command command)
     for (int i = 0; command == COMMAND_CLUSTERING && names[i]; i++)
         printf("  %-6s %s\n", names[i], radGetClusteringDoc(names[i]));
     printf("\n");
+    char text[64];
     for (int i = 0; i < option_row_count; i++) {
-        int length = option_rows[i].commands >> command & 1 ? option_text(&option_rows[i], text) : 0;
+        int length =
+            option_rows[i].commands >> command & 1 ? option_text(&option_rows[i], text) : 0;
         width = length > width ? length : width;
     }
     for (int i = 0; i < option_row_count; i++) {
@@ -124,15 +127,16 @@ static int wrong_option(enum command command, const char *argument)
         if (strncmp(row->name, word, length) != 0 || (row->name[1] != 0) != is_long)
             continue;
         if (row->commands >> command & 1)
-            snprintf(several + strlen(several), sizeof several - strlen(several), "%s--%s", *several ? ", " : "", row->name);
+            snprintf(several + strlen(several), sizeof several - strlen(several), "%s--%s",
+                     *several ? ", " : "", row->name);
         for (int c = 0; c < COMMANDS && whole && others < 0; c++)
             others = row->commands >> c & 1 ? c : -1;
     }
     if (length && *several)
         return wrong(name, "%.*s could be %s", (int)(strcspn(argument, "=")), argument, several);
     if (length && others >= 0)
-        return wrong(name, "%s has no option %.*s; %s has", name, (int)(strcspn(argument, "=")), argument,
-                     command_rows[others].name);
+        return wrong(name, "%s has no option %.*s; %s has", name, (int)(strcspn(argument, "=")),
+                     argument, command_rows[others].name);
     return wrong(name, "unknown option %s", argument);
 }
 
@@ -190,14 +194,17 @@ static int without_command(int count, char **arguments)
         return wrong("", "unknown command %s", arguments[1]);
     if (count < 3 || !*arguments[2])
         return wrong("study", "study what?");
-    return is_help(arguments[2]) ? print_studies_help() : wrong("study", "there is no study %s", arguments[2]);
+    return is_help(arguments[2]) ? print_studies_help()
+                                 : wrong("study", "there is no study %s", arguments[2]);
 }
 
 /* The table as getopt_long wants it, for one command. */
-static void options_of(enum command command, struct option longs[OPTIONS_MAX], char shorts[OPTIONS_MAX])
+static void options_of(enum command command, struct option longs[OPTIONS_MAX],
+                       char shorts[OPTIONS_MAX])
 {
     int n = 0;
-    strcpy(shorts, "-:h"); /* "-": what is no option comes in its order; ":": tell missing values from unknown options */
+    strcpy(shorts, "-:h"); /* "-": what is no option comes in its order; ":": tell missing values
+                              from unknown options */
     for (int i = 0; i < option_row_count; i++) {
         const struct option_row *row = &option_rows[i];
         if (!(row->commands >> command & 1))
@@ -218,7 +225,8 @@ static const struct option_row *row_of(enum command command, int number)
     if (number >= ROWS)
         return &option_rows[number - ROWS];
     for (int i = 0; i < option_row_count; i++)
-        if (option_rows[i].commands >> command & 1 && !option_rows[i].name[1] && option_rows[i].name[0] == number)
+        if (option_rows[i].commands >> command & 1 && !option_rows[i].name[1]
+            && option_rows[i].name[0] == number)
             return &option_rows[i];
     return NULL;
 }
@@ -227,7 +235,8 @@ static int set_scene(struct options *o, const char *path)
 {
     const struct command_row *c = &command_rows[o->command];
     if (!*c->argument)
-        return wrong(c->name, "%s takes no scene, but got %s", c->name, *path ? path : "an empty name");
+        return wrong(c->name, "%s takes no scene, but got %s", c->name,
+                     *path ? path : "an empty name");
     if (!*path)
         return wrong(c->name, "the scene's name is empty");
     if (o->scene)
@@ -240,7 +249,8 @@ static int set_scene(struct options *o, const char *path)
 static int read_argument(struct options *o, int number, const char *last)
 {
     const char *command = command_rows[o->command].name;
-    const struct option_row *row = row_of(o->command, number == '?' || number == ':' ? optopt : number);
+    const struct option_row *row =
+        row_of(o->command, number == '?' || number == ':' ? optopt : number);
     char letter[3] = {'-', (char)optopt, 0};
     switch (number) {
     case 1:
@@ -252,10 +262,12 @@ static int read_argument(struct options *o, int number, const char *last)
         printf("radiosity %s\n", RADIOSITY_VERSION);
         return 0;
     case ':':
-        return wrong(command, "a value is missing after %s%s", row->name[1] ? "--" : "-", row->name);
+        return wrong(command, "a value is missing after %s%s", row->name[1] ? "--" : "-",
+                     row->name);
     case '?':
         if (optopt >= HELP)
-            return wrong(command, "no value goes with --%.*s", (int)strcspn(last + 2, "="), last + 2);
+            return wrong(command, "no value goes with --%.*s", (int)strcspn(last + 2, "="),
+                         last + 2);
         return wrong_option(o->command, optopt ? letter : last);
     default:
         return read_value(o, row, optarg);
@@ -269,7 +281,9 @@ static int check_together(struct options *o)
     if (*c->argument && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)
-        return wrong(c->name, "--statistics counts what the interpreted graph does: it takes no --release but dag");
+        return wrong(
+            c->name,
+            "--statistics counts what the interpreted graph does: it takes no --release but dag");
     if (o->statistics)
         o->release = RAD_RELEASE_DAG;
     if (o->mesh && !o->image)
@@ -279,22 +293,23 @@ static int check_together(struct options *o)
 
 int options_parse(struct options *o, int count, char **arguments)
 {
-    struct option longs[OPTIONS_MAX];
-    char shorts[OPTIONS_MAX];
-    int words, number, status = -1;
+    int status = -1;
     memset(o, 0, sizeof *o);
     o->threads = omp_get_num_procs();
-    words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
+    int words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
     if (!words)
         return without_command(count, arguments);
     for (int i = 0; i < option_row_count && status < 0; i++)
         if (option_rows[i].commands >> o->command & 1 && option_rows[i].preset)
             status = read_value(o, &option_rows[i], option_rows[i].preset);
+    struct option longs[OPTIONS_MAX];
+    char shorts[OPTIONS_MAX];
     options_of(o->command, longs, shorts);
     count -= words;
     arguments += words;
     optind = 1;
     opterr = 0;
+    int number;
     while (status < 0 && (number = getopt_long(count, arguments, shorts, longs, NULL)) != -1)
         status = read_argument(o, number, arguments[optind - 1]);
     for (; status < 0 && optind < count; optind++)

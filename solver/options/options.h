@@ -23,7 +23,8 @@ extern const char *const release_words[], *const closure_words[];
 
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
-/* What a command does not take is zero. Texts are the command line's own; NULL: not given, not wanted. */
+/* What a command does not take is zero. Texts are the command line's own; NULL: not given, not
+ * wanted. */
 struct options {
     enum command command;
     const char *scene;
@@ -47,22 +48,26 @@ struct options {
     int view_given;
 
     /* What to measure. */
-    int repeats;           /* compare */
-    const char *only;      /* stability: the case to run; clustering: the strategy */
-    const char *reference; /* clustering: the table of faces to measure by */
+    int repeats;                   /* compare */
+    const char *only;              /* stability: the case to run; clustering: the strategy */
+    const char *reference;         /* clustering: the table of faces to measure by */
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
 };
 
-/* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on stderr. */
+/* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on
+ * stderr. */
 int options_parse(struct options *o, int count, char **arguments);
 
 /* How to solve, as far as the command line says. */
 static inline struct RadSolveOptions solve_options(const struct options *o)
 {
-    return (struct RadSolveOptions){ .tolerance = o->tolerance, .iterations = o->iterations, .jacobi = o->jacobi,
-                                     .closure = o->closure, .clustering = o->clusters };
+    return (struct RadSolveOptions){.tolerance = o->tolerance,
+                                    .iterations = o->iterations,
+                                    .jacobi = o->jacobi,
+                                    .closure = o->closure,
+                                    .clustering = o->clusters};
 }
 
 /* The files that shall be written, "-" for standard output among them. Returns how many. */

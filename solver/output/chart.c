@@ -10,27 +10,28 @@
 #include "util/ends_with.h"
 #include "util/report.h"
 
-int chart_draw(const char *path, void (*print)(FILE *script, const void *context), const void *context)
+int chart_draw(const char *path, void (*print)(FILE *script, const void *context),
+               const void *context)
 {
     const char *folder = getenv("TMPDIR");
     char script[512], command[600], bytes[4096];
-    struct atomic_file file;
-    FILE *f, *picture;
-    size_t n, all = 0;
-    int fd;
+    size_t all = 0;
     snprintf(script, sizeof script, "%s/radiosity-XXXXXX", folder && *folder ? folder : "/tmp");
-    fd = mkstemp(script);
-    f = fd < 0 ? NULL : fdopen(fd, "w");
+    int fd = mkstemp(script);
+    FILE *f = fd < 0 ? NULL : fdopen(fd, "w");
     if (!f)
         return report_error(script, 0, "cannot be written");
-    fprintf(f, "set terminal %s\n", ends_with(path, ".svg") ? "svg size 800,500 dynamic" : "pngcairo size 800,500");
+    fprintf(f, "set terminal %s\n",
+            ends_with(path, ".svg") ? "svg size 800,500 dynamic" : "pngcairo size 800,500");
     print(f, context);
+    struct atomic_file file;
     if (fclose(f) != 0 || atomic_open(&file, path)) {
         unlink(script);
         return -1;
     }
     snprintf(command, sizeof command, "gnuplot '%s'", script);
-    picture = popen(command, "r");
+    FILE *picture = popen(command, "r");
+    size_t n;
     while (picture && (n = fread(bytes, 1, sizeof bytes, picture)) > 0)
         all += fwrite(bytes, 1, n, file.stream);
     n = picture && pclose(picture) == 0 && all > 0;

@@ -1,9 +1,10 @@
 /* contact.c - see contact.h.
  *
- * A face stands on the surface along a direction d, square to both normals, when the point a little along d and a little
- * up the face lies in it: by OUTPUT_REACH and OUTPUT_RISE times what counts as touching, so that a wall that begins or ends at p leads one way,
- * and one that hangs below the surface no way at all. The surface ends along an edge of one of its faces when no
- * other holds the point a little along and a little beyond.
+ * A face stands on the surface along a direction d, square to both normals, when the point a little
+ * along d and a little up the face lies in it: by OUTPUT_REACH and OUTPUT_RISE times what counts as
+ * touching, so that a wall that begins or ends at p leads one way, and one that hangs below the
+ * surface no way at all. The surface ends along an edge of one of its faces when no other holds the
+ * point a little along and a little beyond.
  * SPDX-License-Identifier: MIT */
 #include "output/contact.h"
 
@@ -70,13 +71,13 @@ static const double *normal_of(const struct solution *solution, uint32_t face)
 }
 
 /* Face g stands on the surface with that normal. */
-static void add_standing(struct contact *c, const struct solution *solution, uint32_t g, const double normal[3],
-                         const double p[3], double touch)
+static void add_standing(struct contact *c, const struct solution *solution, uint32_t g,
+                         const double normal[3], const double p[3], double touch)
 {
     const double *n = normal_of(solution, g);
-    double along[3], up[3], sine, height = height3(p, solution->surfaces.faces[g].vertex[0], n);
+    double along[3], up[3], height = height3(p, solution->surfaces.faces[g].vertex[0], n);
     cross3(along, normal, n);
-    sine = length3(along);
+    double sine = length3(along);
     if (sine < OUTPUT_NO_LINE || fabs(height) > touch)
         return;
     for (int k = 0; k < 3; k++) {
@@ -95,23 +96,23 @@ static void add_standing(struct contact *c, const struct solution *solution, uin
 }
 
 /* The edges of face g, of the surface, beyond which the surface ends. */
-static void add_border(struct contact *c, const struct solution *solution, uint32_t g, const double p[3],
-                       double touch)
+static void add_border(struct contact *c, const struct solution *solution, uint32_t g,
+                       const double p[3], double touch)
 {
     const struct RadFace *f = &solution->surfaces.faces[g];
     const double *n = normal_of(solution, g);
     for (uint32_t i = 0; i < 2 * f->vertices; i++) {
         const double *a = f->vertex[i / 2], *b = f->vertex[i / 2 + 1 < f->vertices ? i / 2 + 1 : 0];
-        double e[3], w[3], d[3], out[3], q[3], size, rest;
+        double e[3], w[3], d[3], out[3], q[3];
         sub3(e, b, a);
         sub3(w, p, a);
         cross3(d, e, w);
-        size = length3(e);
+        double size = length3(e);
         if (!(size > 0) || length3(d) > touch * size)
             continue;
         cross3(out, e, n);
         sub3(d, i & 1 ? b : a, p);
-        rest = length3(d);
+        double rest = length3(d);
         if ((i & 1 ? dot3(d, e) : -dot3(d, e)) <= 0 || rest <= OUTPUT_REACH * touch)
             continue;
         for (int k = 0; k < 3; k++) {
@@ -120,7 +121,8 @@ static void add_border(struct contact *c, const struct solution *solution, uint3
         }
         int more = 0;
         for (int j = 0; j < c->faces && !more; j++)
-            more = in_face(&solution->surfaces.faces[c->face[j]], normal_of(solution, c->face[j]), q, touch);
+            more = in_face(&solution->surfaces.faces[c->face[j]], normal_of(solution, c->face[j]),
+                           q, touch);
         if (!more)
             add_direction(c, d);
     }
@@ -131,16 +133,19 @@ static double angle(const struct hemisphere *over, const double v[3])
     return atan2(dot3(v, over->v), dot3(v, over->u));
 }
 
-void contact_at(struct contact *c, const struct solution *solution, uint32_t f, const double p[3], double touch)
+void contact_at(struct contact *c, const struct solution *solution, uint32_t f, const double p[3],
+                double touch)
 {
     const double *normal = normal_of(solution, f);
     const struct hemisphere over = hemisphere_over(normal);
-    struct near near = { .solution = solution, .p = p, .reach = (OUTPUT_REACH + OUTPUT_RISE + 1) * touch };
+    struct near near = {
+        .solution = solution, .p = p, .reach = (OUTPUT_REACH + OUTPUT_RISE + 1) * touch};
     find_near(&near, &solution->tree.elements[0]);
     c->faces = c->directions = 0;
     for (int i = 0; i < near.count; i++) {
         const struct RadFace *g = &solution->surfaces.faces[near.face[i]];
-        if (g->material == solution->surfaces.faces[f].material && dot3(normal_of(solution, near.face[i]), normal) > OUTPUT_SAME_PLANE
+        if (g->material == solution->surfaces.faces[f].material
+            && dot3(normal_of(solution, near.face[i]), normal) > OUTPUT_SAME_PLANE
             && fabs(height3(p, g->vertex[0], normal)) <= touch)
             c->face[c->faces++] = near.face[i];
         else if (!g->back)
@@ -149,7 +154,8 @@ void contact_at(struct contact *c, const struct solution *solution, uint32_t f, 
     for (int i = 0; i < c->faces; i++)
         add_border(c, solution, c->face[i], p, touch);
     for (int i = 1; i < c->directions; i++)
-        for (int j = i; j > 0 && angle(&over, c->direction[j]) < angle(&over, c->direction[j - 1]); j--) {
+        for (int j = i; j > 0 && angle(&over, c->direction[j]) < angle(&over, c->direction[j - 1]);
+             j--) {
             double keep[3];
             memcpy(keep, c->direction[j], sizeof keep);
             memcpy(c->direction[j], c->direction[j - 1], sizeof keep);
@@ -157,7 +163,8 @@ void contact_at(struct contact *c, const struct solution *solution, uint32_t f, 
         }
 }
 
-int contact_sector(const double normal[3], int count, const double (*direction)[3], const double v[3])
+int contact_sector(const double normal[3], int count, const double (*direction)[3],
+                   const double v[3])
 {
     const struct hemisphere over = hemisphere_over(normal);
     double at = angle(&over, v);

@@ -18,8 +18,14 @@
 
 enum export_format export_format(const char *path)
 {
-    static const struct { const char *extension; enum export_format format; } known[] = {
-        {".ply", EXPORT_PLY}, {".gltf", EXPORT_GLTF}, {".glb", EXPORT_GLB}, {".obj", EXPORT_OBJ},
+    static const struct {
+        const char *extension;
+        enum export_format format;
+    } known[] = {
+        {".ply", EXPORT_PLY},
+        {".gltf", EXPORT_GLTF},
+        {".glb", EXPORT_GLB},
+        {".obj", EXPORT_OBJ},
     };
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
     for (size_t i = 0; dot && i < sizeof known / sizeof *known; i++)
@@ -39,7 +45,8 @@ static int measure(const struct solution *s, struct exposure *exposure)
         for (uint32_t i = 0; i < s->tree.count; i++) {
             const struct element *e = &s->tree.elements[i];
             if (is_leaf(e) && !e->black && is_lamp(&s->surfaces, e->face) == lamps)
-                meter[count++] = (struct meter_sample){luminance(radiosity_of(s, i), s->tree.bands), e->area};
+                meter[count++] =
+                    (struct meter_sample){luminance(radiosity_of(s, i), s->tree.bands), e->area};
         }
     *exposure = exposure_measure(meter, count);
     free(meter);
@@ -62,15 +69,19 @@ static void put_float(FILE *out, double value)
     put_u32(out, bits);
 }
 
-static void write_ply(FILE *out, const struct leaf_mesh *m, const struct vertex_values *v, const float *colour)
+static void write_ply(FILE *out, const struct leaf_mesh *m, const struct vertex_values *v,
+                      const float *colour)
 {
-    fprintf(out, "ply\nformat binary_little_endian 1.0\n"
-                 "comment radiosity_K is B of band K in W/m2; red, green, blue show it exposed, sRGB\n"
-                 "element vertex %u\nproperty float x\nproperty float y\nproperty float z\n"
-                 "property uchar red\nproperty uchar green\nproperty uchar blue\n", (unsigned)v->count);
+    fprintf(out,
+            "ply\nformat binary_little_endian 1.0\n"
+            "comment radiosity_K is B of band K in W/m2; red, green, blue show it exposed, sRGB\n"
+            "element vertex %u\nproperty float x\nproperty float y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+            (unsigned)v->count);
     for (uint32_t k = 0; k < v->bands; k++)
         fprintf(out, "property float radiosity_%u\n", (unsigned)k);
-    fprintf(out, "element face %u\nproperty list uint uint vertex_indices\nend_header\n", (unsigned)m->polygons);
+    fprintf(out, "element face %u\nproperty list uint uint vertex_indices\nend_header\n",
+            (unsigned)m->polygons);
     for (uint32_t i = 0; i < v->count; i++) {
         for (int k = 0; k < 3; k++)
             put_float(out, v->vertices[i].position[k]);
@@ -99,7 +110,8 @@ static int write_format(const char *path, enum export_format format, int z_up, s
     case EXPORT_GLTF:
     case EXPORT_GLB:
         if (leaf_mesh_triangulate(m, v))
-            return report_error(path, 0, "out of memory for the mesh; write .ply, which needs less");
+            return report_error(path, 0,
+                                "out of memory for the mesh; write .ply, which needs less");
         return export_assimp(path, format == EXPORT_GLB ? "glb2" : "gltf2", z_up, m, v, colour);
     case EXPORT_OBJ:
         for (size_t i = 0; i < 3 * (size_t)v->count; i++)
@@ -126,7 +138,8 @@ int export_write(const char *path, const struct solution *s, const struct vertex
             for (size_t k = 0; k < 3; k++)
                 colour[3 * (size_t)i + k] = (float)c[k];
         }
-        result = write_format(path, export_format(path), view_up_axis(&s->surfaces) == 2, &mesh, v, colour);
+        result = write_format(path, export_format(path), view_up_axis(&s->surfaces) == 2, &mesh, v,
+                              colour);
     }
     leaf_mesh_free(&mesh);
     free(colour);

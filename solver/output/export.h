@@ -5,8 +5,9 @@
  * would show it (exposed). In .ply each vertex has
  *     float x y z, uchar red green blue (sRGB), float radiosity_0 [radiosity_1 radiosity_2] (W/m2)
  * in binary, little endian. glTF holds linear colours (COLOR_0) and an unlit material, so that
- * viewers show the radiosity and nothing else, with y up as glTF wants it; .obj holds sRGB colours behind the coordinates of
- * each vertex, as MeshLab and Blender read them. .gltf comes with a .bin and .obj with a .mtl.
+ * viewers show the radiosity and nothing else, with y up as glTF wants it; .obj holds sRGB colours
+ * behind the coordinates of each vertex, as MeshLab and Blender read them. .gltf comes with a .bin
+ * and .obj with a .mtl.
  * SPDX-License-Identifier: MIT */
 #ifndef EXPORT_H
 #define EXPORT_H
@@ -19,6 +20,7 @@ enum export_format { EXPORT_UNKNOWN = -1, EXPORT_PLY, EXPORT_GLTF, EXPORT_GLB, E
 enum export_format export_format(const char *path);
 
 /* Returns 0, or -1 after one line on stderr. Files appear whole or not at all. */
-int export_write(const char *path, const struct solution *solution, const struct vertex_values *values);
+int export_write(const char *path, const struct solution *solution,
+                 const struct vertex_values *values);
 
 #endif

@@ -59,9 +59,9 @@ static enum aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin
 
 static size_t size_file(struct aiFile *file)
 {
-    long at = ftell(stream(file)), end;
+    long at = ftell(stream(file));
     fseek(stream(file), 0, SEEK_END);
-    end = ftell(stream(file));
+    long end = ftell(stream(file));
     fseek(stream(file), at, SEEK_SET);
     return end < 0 ? 0 : (size_t)end;
 }
@@ -97,8 +97,8 @@ static void close_file(struct aiFileIO *io, struct aiFile *file)
 
 /* One vertex per corner, for Assimp 5.2 writes beyond its arrays when it has to part shared
  * vertices of polygons itself. It joins equal ones again where the format wants it. */
-static int fill_mesh(struct aiMesh *to, const struct leaf_mesh *mesh, const struct vertex_values *values, const float *colour,
-                     unsigned int *index)
+static int fill_mesh(struct aiMesh *to, const struct leaf_mesh *mesh,
+                     const struct vertex_values *values, const float *colour, unsigned int *index)
 {
     to->mNumVertices = mesh->corners;
     to->mNumFaces = mesh->polygons;
@@ -117,25 +117,31 @@ static int fill_mesh(struct aiMesh *to, const struct leaf_mesh *mesh, const stru
     for (uint32_t i = 0; i < mesh->polygons; i++) {
         to->mFaces[i].mNumIndices = mesh->start[i + 1] - mesh->start[i];
         to->mFaces[i].mIndices = &index[mesh->start[i]]; /* borrowed: Assimp copies the scene */
-        to->mPrimitiveTypes |= to->mFaces[i].mNumIndices > 3 ? aiPrimitiveType_POLYGON : aiPrimitiveType_TRIANGLE;
+        to->mPrimitiveTypes |=
+            to->mFaces[i].mNumIndices > 3 ? aiPrimitiveType_POLYGON : aiPrimitiveType_TRIANGLE;
     }
     return 0;
 }
 
-static struct aiMaterialProperty property(const char *key, enum aiPropertyTypeInfo type, const void *data, unsigned int size)
+static struct aiMaterialProperty property(const char *key, enum aiPropertyTypeInfo type,
+                                          const void *data, unsigned int size)
 {
-    struct aiMaterialProperty p = {.mType = type, .mDataLength = size, .mData = (char *)(uintptr_t)data};
+    struct aiMaterialProperty p = {
+        .mType = type, .mDataLength = size, .mData = (char *)(uintptr_t)data};
     p.mKey.length = (ai_uint32)strlen(key);
     memcpy(p.mKey.data, key, p.mKey.length + 1);
     return p;
 }
 
-int export_assimp(const char *path, const char *id, int z_up, const struct leaf_mesh *mesh, const struct vertex_values *values,
-                  const float *colour)
+int export_assimp(const char *path, const char *id, int z_up, const struct leaf_mesh *mesh,
+                  const struct vertex_values *values, const float *colour)
 {
     /* A white material that no light changes: what shows is the vertices' colours. */
     static const float white[4] = {1, 1, 1, 1};
-    static const struct { ai_uint32 length; char text[12]; } name = {9, "radiosity"};
+    static const struct {
+        ai_uint32 length;
+        char text[12];
+    } name = {9, "radiosity"};
     const int unlit = aiShadingMode_Unlit;
     struct aiMaterialProperty properties[4] = {
         property("?mat.name", aiPTI_String, &name, sizeof name.length + name.length + 1),
@@ -144,8 +150,10 @@ int export_assimp(const char *path, const char *id, int z_up, const struct leaf_
         /* Assimp's own writer keeps enumerations as bytes, and its reader of them wants that. */
         property("$mat.shadingm", aiPTI_Buffer, &unlit, sizeof unlit),
     };
-    struct aiMaterialProperty *property_list[4] = {&properties[0], &properties[1], &properties[2], &properties[3]};
-    struct aiMaterial material = {.mProperties = property_list, .mNumProperties = 4, .mNumAllocated = 4};
+    struct aiMaterialProperty *property_list[4] = {&properties[0], &properties[1], &properties[2],
+                                                   &properties[3]};
+    struct aiMaterial material = {
+        .mProperties = property_list, .mNumProperties = 4, .mNumAllocated = 4};
     struct aiMaterial *materials[1] = {&material};
     struct aiMesh *shape = calloc(1, sizeof *shape), *shapes[1] = {shape};
     struct aiNode *node = calloc(1, sizeof *node);
@@ -158,7 +166,8 @@ int export_assimp(const char *path, const char *id, int z_up, const struct leaf_
     } else {
         aiIdentityMatrix4(&node->mTransformation);
         if (z_up) /* to y up: (x, y, z) becomes (x, z, -y) */
-            node->mTransformation = (struct aiMatrix4x4){1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
+            node->mTransformation =
+                (struct aiMatrix4x4){1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
         node->mNumMeshes = 1;
         node->mMeshes = &first;
         scene->mRootNode = node;
@@ -167,7 +176,8 @@ int export_assimp(const char *path, const char *id, int z_up, const struct leaf_
         scene->mNumMaterials = 1;
         scene->mMaterials = materials;
         struct aiFileIO io = {open_file, close_file, (aiUserData)(void *)files};
-        result = aiExportSceneEx(scene, id, path, &io, 0) == aiReturn_SUCCESS && !files->failed ? 0 : -1;
+        result =
+            aiExportSceneEx(scene, id, path, &io, 0) == aiReturn_SUCCESS && !files->failed ? 0 : -1;
         if (result && !files->failed)
             report_error(path, 0, "cannot be written: %s; write .ply instead", aiGetErrorString());
     }

@@ -9,18 +9,20 @@
 
 double luminance(const double *radiosity, uint32_t bands)
 {
-    return bands == 1 ? radiosity[0] : 0.2126 * radiosity[0] + 0.7152 * radiosity[1] + 0.0722 * radiosity[2];
+    return bands == 1 ? radiosity[0]
+                      : 0.2126 * radiosity[0] + 0.7152 * radiosity[1] + 0.0722 * radiosity[2];
 }
 
 static int by_luminance(const void *a, const void *b)
 {
-    double x = ((const struct meter_sample *)a)->luminance, y = ((const struct meter_sample *)b)->luminance;
+    double x = ((const struct meter_sample *)a)->luminance,
+           y = ((const struct meter_sample *)b)->luminance;
     return (x > y) - (x < y);
 }
 
 struct exposure exposure_measure(struct meter_sample *samples, size_t count)
 {
-    double lit = 0, sum = 0, below = 0, bright = 0, least;
+    double lit = 0, sum = 0, below = 0, bright = 0;
     if (count)
         qsort(samples, count, sizeof *samples, by_luminance);
     for (size_t i = 0; i < count; i++)
@@ -33,7 +35,7 @@ struct exposure exposure_measure(struct meter_sample *samples, size_t count)
             bright = samples[i].luminance;
         }
     /* Near-black corners would drag the log-mean to nothing. */
-    least = 1e-3 * bright;
+    double least = 1e-3 * bright;
     for (size_t i = 0; i < count; i++)
         if (samples[i].luminance > 0)
             sum += samples[i].weight * log(fmax(samples[i].luminance, least));
@@ -42,10 +44,12 @@ struct exposure exposure_measure(struct meter_sample *samples, size_t count)
     return e;
 }
 
-void exposure_apply(const struct exposure *exposure, const double *radiosity, uint32_t bands, double colour[3])
+void exposure_apply(const struct exposure *exposure, const double *radiosity, uint32_t bands,
+                    double colour[3])
 {
     double in = luminance(radiosity, bands) * exposure->scale, white = exposure->white;
-    double out = in * (1 + in / (white * white)) / (1 + in), gain = in > 0 ? out / in * exposure->scale : 0;
+    double out = in * (1 + in / (white * white)) / (1 + in),
+           gain = in > 0 ? out / in * exposure->scale : 0;
     for (uint32_t k = 0; k < 3; k++) {
         double c = radiosity[bands == 1 ? 0 : k] * gain;
         colour[k] = c < 1 ? (c > 0 ? c : 0) : 1;

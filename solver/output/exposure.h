@@ -27,7 +27,8 @@ double luminance(const double *radiosity, uint32_t bands);
 struct exposure exposure_measure(struct meter_sample *samples, size_t count);
 
 /* Linear colour, each channel 0 to 1. */
-void exposure_apply(const struct exposure *exposure, const double *radiosity, uint32_t bands, double colour[3]);
+void exposure_apply(const struct exposure *exposure, const double *radiosity, uint32_t bands,
+                    double colour[3]);
 
 /* The sRGB transfer function, 0 to 255. [IEC 61966-2-1] */
 uint8_t srgb_byte(double linear);

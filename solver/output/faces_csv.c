@@ -57,17 +57,18 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
     for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g", dropped ? 0 : t->irradiance[k] / t->area);
     for (uint32_t k = 0; k < bands; k++)
-        fprintf(out, ",%.12g", dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
+        fprintf(out, ",%.12g",
+                dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
     putc('\n', out);
 }
 
 int faces_csv_write(const char *path, const struct solution *s)
 {
-    struct atomic_file file;
     uint32_t polygons = s->surfaces.polygon_count, bands = s->tree.bands;
     struct total *total = calloc((size_t)polygons + 1, sizeof *total);
     if (!total)
         return report_error(path, 0, "out of memory for the table of faces");
+    struct atomic_file file;
     if (atomic_open(&file, path)) {
         free(total);
         return -1;

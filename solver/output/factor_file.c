@@ -1,7 +1,7 @@
 /* factor_file.c - the matrix of view factors as text.
  *
- * Rows are written many at a time, each by one thread into a text of its own; the texts go out in order. So the bytes do
- * not depend on the number of threads.
+ * Rows are written many at a time, each by one thread into a text of its own; the texts go out in
+ * order. So the bytes do not depend on the number of threads.
  * [Boisvert, Pozo & Remington 1996, The Matrix Market Exchange Formats]
  * SPDX-License-Identifier: MIT */
 #include "output/factor_file.h"
@@ -23,11 +23,11 @@ struct writer {
     struct label { /* "j," or "j " of each column */
         char text[15];
         unsigned char length;
-    } *labels;
+    } * labels;
     int threads;
-    uint32_t batch; /* rows at a time */
-    double *rows;   /* [threads][count] */
-    char *text;     /* [batch][room] */
+    uint32_t batch;       /* rows at a time */
+    double *rows;         /* [threads][count] */
+    char *text;           /* [batch][room] */
     size_t room, *length; /* [batch] */
 };
 
@@ -72,7 +72,8 @@ static void write_row(const struct writer *w, uint32_t i, uint32_t slot)
 {
     const double *row = row_of(w, i);
     char *text = w->text + slot * w->room;
-    w->length[slot] = w->format == FACTOR_CSV ? write_dense(row, w->count, text) : write_sparse(w, i, row, text);
+    w->length[slot] =
+        w->format == FACTOR_CSV ? write_dense(row, w->count, text) : write_sparse(w, i, row, text);
 }
 
 /* Entries that are not 0. */
@@ -124,8 +125,9 @@ static void close_writer(struct writer *w)
 static void write_matrix(const struct writer *w, FILE *out)
 {
     if (w->format == FACTOR_MTX)
-        fprintf(out, "%%%%MatrixMarket matrix coordinate real general\n"
-                     "%% view factors F_ij, row i to column j\n%u %u %llu\n",
+        fprintf(out,
+                "%%%%MatrixMarket matrix coordinate real general\n"
+                "%% view factors F_ij, row i to column j\n%u %u %llu\n",
                 w->count, w->count, (unsigned long long)count_entries(w));
     for (uint32_t first = 0; first < w->count; first += w->batch) {
         uint32_t count = w->count - first < w->batch ? w->count - first : w->batch;
@@ -137,10 +139,11 @@ static void write_matrix(const struct writer *w, FILE *out)
     }
 }
 
-int factor_file_write(const char *path, enum factor_format format, RadExchange exchange, uint32_t polygons,
-                      int threads)
+int factor_file_write(const char *path, enum factor_format format, RadExchange exchange,
+                      uint32_t polygons, int threads)
 {
-    struct writer w = {.exchange = exchange, .count = polygons, .format = format, .threads = threads};
+    struct writer w = {
+        .exchange = exchange, .count = polygons, .format = format, .threads = threads};
     struct atomic_file file = {0};
     int status = -1;
     if (open_writer(&w) < 0) {

@@ -16,7 +16,8 @@
 #include "output/raster.h"
 #include "util/report.h"
 
-enum { SIDE = 3, METER = 4, BAND = 4 }; /* samples per pixel side, pixels per meter sample, pixel rows per task */
+/* samples per pixel side, pixels per meter sample, pixel rows per task */
+enum { SIDE = 3, METER = 4, BAND = 4 };
 
 struct picture {
     const struct solution *solution;
@@ -33,12 +34,13 @@ static const double LINE = 0.5 * SIDE;
 static const double BACKGROUND = 0.015;
 
 /* Where the ray of sample (x, y) meets the plane of a face. */
-static void point_seen(const struct picture *p, uint32_t face, double x, double y, double direction[3], double point[3])
+static void point_seen(const struct picture *p, uint32_t face, double x, double y,
+                       double direction[3], double point[3])
 {
     const struct raster *r = &p->raster;
     const struct element *e = element_of_face(p->solution, face);
-    double to[3];
     raster_direction(r, x, y, direction);
+    double to[3];
     sub3(to, e->vertex[0], r->eye);
     double t = dot3(e->normal, to) / dot3(e->normal, direction);
     for (int k = 0; k < 3; k++)
@@ -47,7 +49,8 @@ static void point_seen(const struct picture *p, uint32_t face, double x, double 
 
 /* How much a mesh line covers the sample: its distance in the picture from the leaf's edges. The
  * plane through the eye and an edge is linear in the picture, so no edge needs to be clipped. */
-static double line_cover(const struct raster *r, const struct element *leaf, const double direction[3])
+static double line_cover(const struct raster *r, const struct element *leaf,
+                         const double direction[3])
 {
     double nearest = INFINITY, widest = 0;
     for (int i = 0; i < leaf->vertices; i++) {
@@ -88,8 +91,10 @@ static void shade(const struct picture *p, uint32_t face, double x, double y, do
         draw_line(colour, line_cover(&p->raster, &s->tree.elements[leaf], direction));
 }
 
-/* The mean colour of pixel (x, y), whose samples' faces stand in rows that begin with sample row `from`. */
-static void shade_pixel(const struct picture *p, const uint32_t *faces, int from, int x, int y, uint8_t rgb[3])
+/* The mean colour of pixel (x, y), whose samples' faces stand in rows that begin with sample row
+ * `from`. */
+static void shade_pixel(const struct picture *p, const uint32_t *faces, int from, int x, int y,
+                        uint8_t rgb[3])
 {
     double sum[3] = {0, 0, 0}, colour[3];
     for (int j = 0; j < SIDE * SIDE; j++) {
@@ -130,15 +135,16 @@ static int draw_rows(const struct picture *p, int width, int from, int to, uint8
         raster_rows(&p->raster, from * SIDE, to * SIDE, samples.face, samples.nearness);
         for (int y = from; y < to; y++)
             for (int x = 0; x < width; x++)
-                shade_pixel(p, samples.face, from * SIDE, x, y, &rgb[((size_t)y * (size_t)width + (size_t)x) * 3]);
+                shade_pixel(p, samples.face, from * SIDE, x, y,
+                            &rgb[((size_t)y * (size_t)width + (size_t)x) * 3]);
     }
     samples_close(&samples);
     return failed;
 }
 
 /* Luminances of what samples of w a row see: of lamps, or of all else. Returns how many. */
-static size_t read_meter(const struct picture *p, const uint32_t *face, size_t samples, size_t w, int lamps,
-                         struct meter_sample *meter)
+static size_t read_meter(const struct picture *p, const uint32_t *face, size_t samples, size_t w,
+                         int lamps, struct meter_sample *meter)
 {
     size_t count = 0;
     for (size_t i = 0; i < samples; i++) {
@@ -190,16 +196,19 @@ static int draw(struct picture *p, const struct view *view, int width, int heigh
     return failed ? -1 : 0;
 }
 
-int image_write(const char *path, const struct solution *solution, const struct vertex_values *values,
-                const struct view *view, int width, int height, int mesh)
+int image_write(const char *path, const struct solution *solution,
+                const struct vertex_values *values, const struct view *view, int width, int height,
+                int mesh)
 {
     struct picture p = {.solution = solution, .values = values, .mesh = mesh};
-    struct view guessed;
     if (width < 1 || height < 1 || width > 16384 || height > 16384)
-        return report_error(path, 0, "a picture of %d x %d; give 1 to 16384 pixels each way", width, height);
+        return report_error(path, 0, "a picture of %d x %d; give 1 to 16384 pixels each way", width,
+                            height);
     uint8_t *rgb = malloc((size_t)width * (size_t)height * 3);
     int result = -1;
-    if (!rgb || (!view && view_guess(&solution->surfaces, &guessed)) || draw(&p, view ? view : &guessed, width, height, rgb))
+    struct view guessed;
+    if (!rgb || (!view && view_guess(&solution->surfaces, &guessed))
+        || draw(&p, view ? view : &guessed, width, height, rgb))
         report_error(path, 0, "out of memory for the picture; ask for a smaller one");
     else
         result = png_file_write(path, width, height, rgb);

@@ -10,7 +10,8 @@
  * automatic exposure; `mesh`: the edges of the leaves over it. Backs of one-sided faces are cut
  * away, so that one can look into a closed room from outside. The file appears whole or not at
  * all. Returns 0, or -1 after one line on stderr. */
-int image_write(const char *path, const struct solution *solution, const struct vertex_values *values,
-                const struct view *view, int width, int height, int mesh);
+int image_write(const char *path, const struct solution *solution,
+                const struct vertex_values *values, const struct view *view, int width, int height,
+                int mesh);
 
 #endif

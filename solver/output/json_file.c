@@ -7,21 +7,27 @@
 
 static int dump(json_t *value, FILE *stream)
 {
-    return json_dumpf(value, stream, JSON_INDENT(2) | JSON_PRESERVE_ORDER) < 0 || fputc('\n', stream) == EOF ? -1 : 0;
+    return json_dumpf(value, stream, JSON_INDENT(2) | JSON_PRESERVE_ORDER) < 0
+                   || fputc('\n', stream) == EOF
+               ? -1
+               : 0;
 }
 
 int json_file_write(const char *path, json_t *value)
 {
-    struct atomic_file file;
-    int result;
     if (!value)
         return report_error(path, 0, "out of memory");
+    int result;
     if (strcmp(path, "-") == 0) {
-        result = dump(value, stdout) < 0 || fflush(stdout) != 0 ? report_error("standard output", 0, "cannot be written") : 0;
+        result = dump(value, stdout) < 0 || fflush(stdout) != 0
+                     ? report_error("standard output", 0, "cannot be written")
+                     : 0;
     } else {
+        struct atomic_file file;
         result = atomic_open(&file, path);
         if (result == 0) {
-            (void)dump(value, file.stream); /* a failed write leaves its mark on the stream, for commit to find */
+            /* a failed write leaves its mark on the stream, for commit to find */
+            (void)dump(value, file.stream);
             result = atomic_commit(&file);
         }
     }

@@ -5,7 +5,8 @@
 
 #include <jansson.h>
 
-/* Takes over `value` (NULL: out of memory). `path` "-": standard output. Returns 0, or -1 after a message. */
+/* Takes over `value` (NULL: out of memory). `path` "-": standard output. Returns 0, or -1 after
+ * a message. */
 int json_file_write(const char *path, json_t *value);
 
 #endif

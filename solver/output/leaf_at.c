@@ -1,4 +1,5 @@
-/* leaf_at.c - see leaf_at.h. A face is cut at exact midpoints, so the way down is taken in the coordinates of its shape.
+/* leaf_at.c - see leaf_at.h. A face is cut at exact midpoints, so the way down is taken in the
+ * coordinates of its shape.
  * SPDX-License-Identifier: MIT */
 #include "output/leaf_at.h"
 
@@ -36,7 +37,9 @@ static void quad_parameters(const struct element *e, const double p[3], double *
     double d = sqrt(fmax(b * b - 4 * a * c, 0)), q = -0.5 * (b + copysign(d, b));
     /* q / a overflows when the sides are parallel; then c / q is the root. */
     double root = c / q, other = q / a;
-    *t = distance_outside(root) <= 1e-9 || !(distance_outside(other) < distance_outside(root)) ? clamp(root) : clamp(other);
+    *t = distance_outside(root) <= 1e-9 || !(distance_outside(other) < distance_outside(root))
+             ? clamp(root)
+             : clamp(other);
     double wx = ex + gx * *t, wy = ey + gy * *t;
     *s = clamp(fabs(wx) > fabs(wy) ? (hx - fx * *t) / wx : (hy - fy * *t) / wy);
 }
@@ -60,7 +63,8 @@ static void triangle_parameters(const struct element *e, const double p[3], doub
 
 /* Halving a quad halves its bilinear parameters: the cuts are lines of s = 1/2 and t = 1/2, and a
  * child numbers its corners as its parent does. */
-static uint32_t descend_quad(const struct element *elements, uint32_t i, const double p[3], double weight[4])
+static uint32_t descend_quad(const struct element *elements, uint32_t i, const double p[3],
+                             double weight[4])
 {
     double s, t;
     quad_parameters(&elements[i], p, &s, &t);
@@ -78,7 +82,8 @@ static uint32_t descend_quad(const struct element *elements, uint32_t i, const d
 }
 
 /* Child k keeps corner k; child 3 is the middle, its corners those between 0-1, 1-2, 2-0. */
-static uint32_t descend_triangle(const struct element *elements, uint32_t i, const double p[3], double weight[4])
+static uint32_t descend_triangle(const struct element *elements, uint32_t i, const double p[3],
+                                 double weight[4])
 {
     triangle_parameters(&elements[i], p, weight);
     while (elements[i].children) {
@@ -97,7 +102,8 @@ static uint32_t descend_triangle(const struct element *elements, uint32_t i, con
     return i;
 }
 
-uint32_t leaf_at(const struct solution *solution, uint32_t face, const double point[3], double weight[4])
+uint32_t leaf_at(const struct solution *solution, uint32_t face, const double point[3],
+                 double weight[4])
 {
     const struct element *elements = solution->tree.elements;
     uint32_t root = solution->tree.face_element[face];

@@ -1,6 +1,7 @@
 /* leaf_mesh.c - see leaf_mesh.h.
  *
- * Leaves are convex, so that triangles are cut off without looking whether another corner lies within.
+ * Leaves are convex, so that triangles are cut off without looking whether another corner lies
+ * within.
  * SPDX-License-Identifier: MIT */
 #include "output/leaf_mesh.h"
 
@@ -16,7 +17,9 @@ static const double MESH_STRAIGHT = 1e-9;
 static int push_number(uint32_t **array, uint32_t *count, uint32_t *capacity, uint32_t value)
 {
     if (*count == *capacity) {
-        uint32_t more = *capacity < 1024 ? 1024 : *capacity > UINT32_MAX / 2 ? UINT32_MAX : *capacity * 2;
+        uint32_t more = *capacity < 1024             ? 1024
+                        : *capacity > UINT32_MAX / 2 ? UINT32_MAX
+                                                     : *capacity * 2;
         uint32_t *larger = more > *count ? realloc(*array, more * sizeof *larger) : NULL;
         if (!larger)
             return -1;
@@ -36,20 +39,23 @@ static int push_edge(struct leaf_mesh *m, const struct vertex_values *v, uint32_
     return push_edge(m, v, a, middle) || push_edge(m, v, middle, b) ? -1 : 0;
 }
 
-/* Where on the polygon's border, corner by corner, vertex c lies: between `*at` and the next. Returns 0 when it is a corner. */
-static int edge_of(const struct leaf_mesh *m, const struct vertex_values *v, uint32_t from, uint32_t c, uint32_t *at)
+/* Where on the polygon's border, corner by corner, vertex c lies: between `*at` and the next.
+ * Returns 0 when it is a corner. */
+static int edge_of(const struct leaf_mesh *m, const struct vertex_values *v, uint32_t from,
+                   uint32_t c, uint32_t *at)
 {
     const double *p = v->vertices[c].position;
     double nearest = INFINITY;
     for (uint32_t j = from; j < m->corners; j++) {
-        const double *a = v->vertices[m->corner[j]].position, *b = v->vertices[m->corner[j + 1 < m->corners ? j + 1 : from]].position;
-        double e[3], x[3], y[3], detour;
+        const double *a = v->vertices[m->corner[j]].position,
+                     *b = v->vertices[m->corner[j + 1 < m->corners ? j + 1 : from]].position;
+        double e[3], x[3], y[3];
         if (m->corner[j] == c)
             return 0;
         sub3(e, b, a);
         sub3(x, p, a);
         sub3(y, b, p);
-        detour = (length3(x) + length3(y)) / length3(e);
+        double detour = (length3(x) + length3(y)) / length3(e);
         if (detour < nearest) {
             nearest = detour;
             *at = j;
@@ -58,8 +64,10 @@ static int edge_of(const struct leaf_mesh *m, const struct vertex_values *v, uin
     return 1;
 }
 
-/* Put the vertices of other faces that lie on the leaf's edges into the last polygon, which begins at `from`. */
-static int push_passing(struct leaf_mesh *m, const struct vertex_values *v, uint32_t leaf, uint32_t from)
+/* Put the vertices of other faces that lie on the leaf's edges into the last polygon, which
+ * begins at `from`. */
+static int push_passing(struct leaf_mesh *m, const struct vertex_values *v, uint32_t leaf,
+                        uint32_t from)
 {
     uint32_t low = 0, high = v->passing_count, at = from;
     while (low < high) {
@@ -91,7 +99,8 @@ static int finish(struct leaf_mesh *m, int failed)
     return 0;
 }
 
-int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution, const struct vertex_values *values)
+int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution,
+                    const struct vertex_values *values)
 {
     int failed = 0;
     *m = (struct leaf_mesh){0};
@@ -126,16 +135,18 @@ static void ear_at(const uint32_t *ring, uint32_t count, uint32_t i, uint32_t ea
     ear[2] = ring[i + 1 < count ? i + 1 : 0];
 }
 
-/* The ear of a convex ring of that area with the shortest cut. Straight corners are no ears, and neither is one that would leave
- * only a straight rest: the vertices in it would be lost. Returns `count` when there is none. */
-static uint32_t best_ear(const struct vertex_values *v, const uint32_t *ring, uint32_t count, double area)
+/* The ear of a convex ring of that area with the shortest cut. Straight corners are no ears, and
+ * neither is one that would leave only a straight rest: the vertices in it would be lost. Returns
+ * `count` when there is none. */
+static uint32_t best_ear(const struct vertex_values *v, const uint32_t *ring, uint32_t count,
+                         double area)
 {
     uint32_t best = count, ear[3];
     double shortest = INFINITY, least = MESH_STRAIGHT * area;
     for (uint32_t i = 0; i < count; i++) {
-        double cut[3], own;
+        double cut[3];
         ear_at(ring, count, i, ear);
-        own = twice_area(v, ear);
+        double own = twice_area(v, ear);
         sub3(cut, v->vertices[ear[2]].position, v->vertices[ear[0]].position);
         if (own > least && own < area - least && length3(cut) < shortest) {
             shortest = length3(cut);
@@ -145,8 +156,10 @@ static uint32_t best_ear(const struct vertex_values *v, const uint32_t *ring, ui
     return best;
 }
 
-/* Push the triangles of a leaf: convex, with vertices of neighbours on its straight edges. `ring` is used up. */
-static int push_triangles(struct leaf_mesh *m, const struct vertex_values *v, uint32_t *ring, uint32_t count)
+/* Push the triangles of a leaf: convex, with vertices of neighbours on its straight edges.
+ * `ring` is used up. */
+static int push_triangles(struct leaf_mesh *m, const struct vertex_values *v, uint32_t *ring,
+                          uint32_t count)
 {
     double area = 0;
     int failed = 0;
@@ -172,7 +185,8 @@ int leaf_mesh_triangulate(struct leaf_mesh *m, const struct vertex_values *value
     struct leaf_mesh out = {0};
     int failed = 0;
     for (uint32_t i = 0; i < m->polygons && !failed; i++)
-        failed = push_triangles(&out, values, &m->corner[m->start[i]], m->start[i + 1] - m->start[i]);
+        failed =
+            push_triangles(&out, values, &m->corner[m->start[i]], m->start[i + 1] - m->start[i]);
     failed = finish(&out, failed);
     leaf_mesh_free(m);
     *m = out;

@@ -1,8 +1,8 @@
 /* leaf_mesh.h - the leaves of a solution as polygons with shared vertices.
  *
  * Vertices are those of vertex_values, by the same indices. Invariant: a vertex in the middle of a
- * polygon's edge is a corner of that polygon, and so is one of another face of the same surface; so the mesh has no T-junction
- * inside a face, nor between the parts of one that was cut.
+ * polygon's edge is a corner of that polygon, and so is one of another face of the same surface; so
+ * the mesh has no T-junction inside a face, nor between the parts of one that was cut.
  * SPDX-License-Identifier: MIT */
 #ifndef LEAF_MESH_H
 #define LEAF_MESH_H
@@ -10,12 +10,15 @@
 #include "output/vertex_values.h"
 
 struct leaf_mesh {
-    uint32_t *corner, corners, corner_capacity; /* vertex indices of all polygons, one after the other */
-    uint32_t *start, polygons, polygon_capacity; /* polygon i is corner[start[i]] .. corner[start[i + 1] - 1] */
+    /* vertex indices of all polygons, one after the other */
+    uint32_t *corner, corners, corner_capacity;
+    /* polygon i is corner[start[i]] .. corner[start[i + 1] - 1] */
+    uint32_t *start, polygons, polygon_capacity;
 };
 
 /* Returns 0, or -1 when out of memory; then *m is empty. */
-int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution, const struct vertex_values *values);
+int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution,
+                    const struct vertex_values *values);
 
 /* Cut all polygons into triangles, without new vertices. Returns 0, or -1 when out of memory; then
  * *m is empty. */

@@ -32,13 +32,14 @@ static void no_warning(png_structp png, png_const_charp message)
 }
 
 /* Kept apart from its caller, so that the jump finds no variable of ours in a register. */
-static int encode(FILE *stream, png_structp png, png_infop info, int width, int height, const uint8_t *rgb)
+static int encode(FILE *stream, png_structp png, png_infop info, int width, int height,
+                  const uint8_t *rgb)
 {
     if (setjmp(png_jmpbuf(png)))
         return -1;
     png_set_write_fn(png, stream, write_png, flush_png);
-    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     for (int y = 0; y < height; y++)

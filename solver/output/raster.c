@@ -27,7 +27,8 @@ static void clip_range(double low, double high, int size, int *from, int *to)
 }
 
 /* The box of a face in the picture, of the part that is ahead of the eye by `least`. */
-static int bound(const struct raster *r, struct raster_face *f, double (*v)[3], int n, const double frame[3][3], double least)
+static int bound(const struct raster *r, struct raster_face *f, double (*v)[3], int n,
+                 const double frame[3][3], double least)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     double half_x = 1 / length3(r->step_x), half_y = 1 / length3(r->step_y);
@@ -61,10 +62,10 @@ static int bound(const struct raster *r, struct raster_face *f, double (*v)[3], 
     return f->left < f->right && f->top < f->bottom;
 }
 
-static int prepare(const struct raster *r, struct raster_face *f, const struct RadFace *face, const double frame[3][3],
-                   double least, int backs)
+static int prepare(const struct raster *r, struct raster_face *f, const struct RadFace *face,
+                   const double frame[3][3], double least, int backs)
 {
-    double v[4][3] = {{0}}, normal[3] = {0, 0, 0}, height;
+    double v[4][3] = {{0}}, normal[3] = {0, 0, 0};
     int n = (int)face->vertices;
     for (int i = 0; i < n; i++)
         sub3(v[i], face->vertex[i], r->eye);
@@ -76,7 +77,7 @@ static int prepare(const struct raster *r, struct raster_face *f, const struct R
         for (int k = 0; k < 3; k++)
             normal[k] += c[k];
     }
-    height = dot3(normal, v[0]);
+    double height = dot3(normal, v[0]);
     f->front = height < 0;
     if (height == 0 || (!f->front && (!backs || face->back)) || !bound(r, f, v, n, frame, least))
         return 0;
@@ -95,7 +96,8 @@ static int prepare(const struct raster *r, struct raster_face *f, const struct R
     return 1;
 }
 
-int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct view *view, int width, int height, int backs)
+int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct view *view,
+                 int width, int height, int backs)
 {
     double frame[3][3], size = 0;
     view_frame(view, surfaces, frame[0], frame[1], frame[2]);
@@ -116,7 +118,8 @@ int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct
                 size = fmax(size, fabs(surfaces->faces[i].vertex[j][k] - view->eye[k]));
     for (uint32_t i = 0; i < surfaces->face_count; i++) {
         r->faces[r->count].face = i;
-        r->count += (uint32_t)prepare(r, &r->faces[r->count], &surfaces->faces[i], (const double (*)[3])frame, 1e-7 * size, backs);
+        r->count += (uint32_t)prepare(r, &r->faces[r->count], &surfaces->faces[i],
+                                      (const double(*)[3])frame, 1e-7 * size, backs);
     }
     return 0;
 }
@@ -165,7 +168,8 @@ void raster_rows(const struct raster *r, int from, int to, uint32_t *face, doubl
         const struct raster_face *f = &r->faces[i];
         int top = f->top > from ? f->top : from, bottom = f->bottom < to ? f->bottom : to;
         for (int y = top; y < bottom; y++)
-            draw_row(f, y, &face[(size_t)(y - from) * width], &nearness[(size_t)(y - from) * width]);
+            draw_row(f, y, &face[(size_t)(y - from) * width],
+                     &nearness[(size_t)(y - from) * width]);
     }
 }
 

@@ -22,24 +22,26 @@ struct raster_face {
     struct raster_plane edge[4]; /* >= 0 inside */
     struct raster_plane depth;   /* 1 / distance along the axis of view */
     int edges;
-    int front;           /* 1: the eye sees the front */
+    int front; /* 1: the eye sees the front */
     uint32_t face;
     int left, right, top, bottom; /* samples that it may cover: [left, right) x [top, bottom) */
 };
 
 struct raster {
-    int width, height;                   /* samples */
+    int width, height; /* samples */
     double eye[3];
-    double corner[3], step_x[3], step_y[3]; /* direction of sample (x, y): corner + x step_x + y step_y */
-    struct raster_face *faces;           /* [count] */
+    /* direction of sample (x, y): corner + x step_x + y step_y */
+    double corner[3], step_x[3], step_y[3];
+    struct raster_face *faces; /* [count] */
     uint32_t count;
 };
 
 /* With `backs`, backs of one-sided faces are seen too. Returns 0, or -1 when out of memory. */
-int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct view *view, int width, int height, int backs);
+int raster_begin(struct raster *r, const struct surfaces *surfaces, const struct view *view,
+                 int width, int height, int backs);
 
-/* Fill face[(y - from) * width + x] with the face each sample of rows [from, to) sees, or NO_FACE, and
- * `nearness` with 1 / its distance along the axis of view. Allowed on many threads at once. */
+/* Fill face[(y - from) * width + x] with the face each sample of rows [from, to) sees, or NO_FACE,
+ * and `nearness` with 1 / its distance along the axis of view. Allowed on many threads at once. */
 void raster_rows(const struct raster *r, int from, int to, uint32_t *face, double *nearness);
 
 /* The direction of the middle of sample (x, y); its component along the axis of view is 1. */

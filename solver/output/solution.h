@@ -1,39 +1,49 @@
-/* solution.h - what the writers of pictures, meshes and tables read: surfaces, and radiosity on their elements.
+/* solution.h - what the writers of pictures, meshes and tables read: surfaces, and radiosity on
+ * their elements.
  *
- * Both are views: whatever they were made of must outlive them. They are plain, so that a test may make up its own.
+ * Both are views: whatever they were made of must outlive them. They are plain, so that a test may
+ * make up its own.
  * SPDX-License-Identifier: MIT */
 #ifndef SOLUTION_H
 #define SOLUTION_H
 
 #include "radiosity.h"
 
-/* A scene: the faces that the library made of the polygons of the scene file, and those polygons themselves. */
+/* A scene: the faces that the library made of the polygons of the scene file, and those polygons
+ * themselves. */
 struct surfaces {
     const struct RadFace *faces; /* [face_count] */
     uint32_t face_count;
     const struct RadMaterial *materials;
-    uint32_t polygon_count;            /* and the rest with it: for tables, whose rows are polygons */
-    const double *polygon_areas;       /* m2, one side; 0 of those that were dropped */
+    /* and the rest with it: for tables, whose rows are polygons */
+    uint32_t polygon_count;
+    const double *polygon_areas; /* m2, one side; 0 of those that were dropped */
     const uint32_t *polygon_materials;
     char *const *material_names;
 };
 
-/* Values are constant over a leaf. Radiosity is the mean over what of an element no solid stands on, irradiance the mean
- * over all of it, what its ancestors receive included. */
+/* Values are constant over a leaf. Radiosity is the mean over what of an element no solid stands
+ * on, irradiance the mean over all of it, what its ancestors receive included. */
 struct solution {
     struct surfaces surfaces;
     struct RadElements tree;
 };
 
-/* Materials of polygons and names of materials are the scene file's, which the library does not know; both may be NULL when
- * no table is written. Empty before the commit. */
-static inline struct surfaces surfaces_of(RadScene scene, const uint32_t *polygon_materials, char *const *material_names)
+/* Materials of polygons and names of materials are the scene file's, which the library does not
+ * know; both may be NULL when no table is written. Empty before the commit. */
+static inline struct surfaces surfaces_of(RadScene scene, const uint32_t *polygon_materials,
+                                          char *const *material_names)
 {
     struct RadSceneReport report;
     if (radGetSceneReport(scene, &report) < 0)
         return (struct surfaces){0};
-    return (struct surfaces){radGetSceneFaces(scene), report.faces, radGetSceneMaterials(scene), report.polygons,
-                             radGetScenePolygonAreas(scene), polygon_materials, material_names};
+    return (struct surfaces){radGetSceneFaces(scene),
+                             report.faces,
+                             radGetSceneMaterials(scene),
+                             report.polygons,
+                             radGetScenePolygonAreas(scene),
+                             polygon_materials,
+                             material_names};
 }
 
 static inline struct solution solution_of(const struct surfaces *surfaces, RadSolution solution)

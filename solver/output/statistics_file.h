@@ -5,8 +5,8 @@
 
 #include "radiosity.h"
 
-/* Write what the oracle has counted (radCountOracle) to `path`: text, or CSV or JSON by the name's end; "-" is standard output, as text.
- * Returns 0, or -1 after a message. */
+/* Write what the oracle has counted (radCountOracle) to `path`: text, or CSV or JSON by the name's
+ * end; "-" is standard output, as text. Returns 0, or -1 after a message. */
 int statistics_write(const char *path, RadOracle oracle);
 
 #endif

@@ -26,14 +26,16 @@ static uint32_t table_index(const struct vertex_values *v, const double p[3], ui
 }
 
 /* On which side of what stands at the vertex the direction leads. */
-static int sector_of(const struct vertex_values *v, const struct shared_vertex *s, const double direction[3])
+static int sector_of(const struct vertex_values *v, const struct shared_vertex *s,
+                     const double direction[3])
 {
-    return contact_sector(s->normal, s->contacts, (const double (*)[3])&v->contact[s->contact], direction);
+    return contact_sector(s->normal, s->contacts, (const double(*)[3]) & v->contact[s->contact],
+                          direction);
 }
 
 /* The vertex at p that the leaf in direction `inward` (unless NULL: any) has. */
-static uint32_t find_vertex(const struct vertex_values *v, const double p[3], const double normal[3], uint32_t material,
-                            const double *inward)
+static uint32_t find_vertex(const struct vertex_values *v, const double p[3],
+                            const double normal[3], uint32_t material, const double *inward)
 {
     uint32_t i = v->table[table_index(v, p, material)];
     for (; i != NO_VERTEX; i = v->vertices[i].next) {
@@ -46,7 +48,8 @@ static uint32_t find_vertex(const struct vertex_values *v, const double p[3], co
     return i;
 }
 
-/* Is p on the border of a face? What stands inside a face, or across it, parts nothing: leaves lie across it, too. */
+/* Is p on the border of a face? What stands inside a face, or across it, parts nothing: leaves
+ * lie across it, too. */
 static int on_border(const struct RadFace *f, const double p[3], double touch)
 {
     for (uint32_t i = 0; i < f->vertices; i++) {
@@ -93,46 +96,50 @@ static int is_corner(const struct element *e, const double p[3])
     return 0;
 }
 
-/* Note the leaves past whose edges the vertex at p lies, one in each of these faces at the most. Returns 0 or -1. */
+/* Note the leaves past whose edges the vertex at p lies, one in each of these faces at the most.
+ * Returns 0 or -1. */
 static int find_passing(struct vertex_values *v, uint32_t vertex, const struct solution *solution,
                         const struct contact *c, double touch)
 {
     const double *p = v->vertices[vertex].position;
-    struct passing *moved = enlarge(v->passing, v->passing_count, &v->passing_capacity, CONTACT_FACES, sizeof *moved);
+    struct passing *moved =
+        enlarge(v->passing, v->passing_count, &v->passing_capacity, CONTACT_FACES, sizeof *moved);
     if (!moved)
         return -1;
     v->passing = moved;
     for (int i = 0; i < c->faces; i++) {
         const struct element *e = element_of_face(solution, c->face[i]);
-        double q[3], inward[3], weight[4], size;
+        double q[3], inward[3], weight[4];
         sub3(inward, e->centre, p);
-        size = length3(inward);
+        double size = length3(inward);
         for (int k = 0; k < 3; k++)
             q[k] = p[k] + (size > touch ? touch / size : 1) * inward[k];
         uint32_t leaf = leaf_at(solution, c->face[i], q, weight);
         if (!is_corner(&solution->tree.elements[leaf], p))
-            v->passing[v->passing_count++] = (struct passing){ leaf, vertex }; /* at first the vertex of any side */
+            v->passing[v->passing_count++] =
+                (struct passing){leaf, vertex}; /* at first the vertex of any side */
     }
     return 0;
 }
 
 /* Note what parts the surface at the vertex, a corner of face f. Returns 0 or -1. */
-static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct solution *solution, uint32_t f)
+static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct solution *solution,
+                         uint32_t f)
 {
     struct shared_vertex *s = &v->vertices[vertex];
-    struct contact c;
     double touch = OUTPUT_TOUCH * face_size(&solution->surfaces.faces[f]);
     s->contact = v->contact_count;
     s->contacts = 0;
     if (!on_border(&solution->surfaces.faces[f], s->position, touch))
         return 0;
+    struct contact c;
     contact_at(&c, solution, f, s->position, touch);
     if (c.faces > 1 && find_passing(v, vertex, solution, &c, touch))
         return -1;
     if (c.directions < 2)
         return 0;
-    double (*moved)[3] =
-        enlarge(v->contact, v->contact_count, &v->contact_capacity, CONTACT_DIRECTIONS, sizeof *moved);
+    double(*moved)[3] = enlarge(v->contact, v->contact_count, &v->contact_capacity,
+                                CONTACT_DIRECTIONS, sizeof *moved);
     if (!moved)
         return -1;
     v->contact = moved;
@@ -143,8 +150,8 @@ static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct 
 }
 
 /* The vertex of corner p of leaf e, or NO_VERTEX when out of memory. */
-static uint32_t find_or_add(struct vertex_values *v, const struct solution *solution, const struct element *e,
-                            const double p[3])
+static uint32_t find_or_add(struct vertex_values *v, const struct solution *solution,
+                            const struct element *e, const double p[3])
 {
     const struct RadFace *f = &solution->surfaces.faces[e->face];
     double inward[3];
@@ -207,7 +214,8 @@ static void mark_hanging(struct vertex_values *v, uint32_t a, uint32_t b)
 }
 
 /* Give a hanging vertex its value, the ends of its edge first. While a vertex waits for its ends it
- * no longer counts as hanging, so that a ring of edges, which no quadtree makes, would still end. */
+ * no longer counts as hanging, so that a ring of edges, which no quadtree makes, would still
+ * end. */
 static void interpolate_hanging(struct vertex_values *v, uint32_t i)
 {
     struct shared_vertex *s = &v->vertices[i];
@@ -218,17 +226,21 @@ static void interpolate_hanging(struct vertex_values *v, uint32_t i)
     interpolate_hanging(v, a);
     interpolate_hanging(v, b);
     for (uint32_t k = 0; k < v->bands; k++)
-        v->value[i * v->bands + k] = 0.5 * (v->value[a * v->bands + k] + v->value[b * v->bands + k]);
+        v->value[i * v->bands + k] =
+            0.5 * (v->value[a * v->bands + k] + v->value[b * v->bands + k]);
 }
 
 static int by_leaf(const void *a, const void *b)
 {
     const struct passing *p = a, *q = b;
-    return p->leaf != q->leaf ? p->leaf < q->leaf ? -1 : 1 : p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+    return p->leaf != q->leaf      ? p->leaf < q->leaf ? -1 : 1
+           : p->vertex < q->vertex ? -1
+                                   : p->vertex > q->vertex;
 }
 
 /* Let a leaf count for the mean at a vertex, by its area. */
-static void add_leaf(struct vertex_values *v, const struct solution *solution, uint32_t leaf, uint32_t vertex)
+static void add_leaf(struct vertex_values *v, const struct solution *solution, uint32_t leaf,
+                     uint32_t vertex)
 {
     const double *radiosity = radiosity_of(solution, leaf);
     double area = solution->tree.elements[leaf].area;
@@ -253,7 +265,8 @@ static int add_corners(struct vertex_values *v, const struct solution *solution)
     return 0;
 }
 
-/* Every leaf at the vertices of other faces past its edges: of each, that on the leaf's side, if there is one. */
+/* Every leaf at the vertices of other faces past its edges: of each, that on the leaf's side, if
+ * there is one. */
 static void add_passing(struct vertex_values *v, const struct solution *solution)
 {
     uint32_t kept = 0;
@@ -337,15 +350,17 @@ void vertex_values_free(struct vertex_values *v)
     *v = (struct vertex_values){0};
 }
 
-uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution, uint32_t face,
-                          const double point[3], double *radiosity)
+uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution,
+                          uint32_t face, const double point[3], double *radiosity)
 {
     double weight[4];
-    uint32_t leaf = leaf_at(solution, face, point, weight), n = solution->tree.elements[leaf].vertices;
+    uint32_t leaf = leaf_at(solution, face, point, weight),
+             n = solution->tree.elements[leaf].vertices;
     for (uint32_t k = 0; k < v->bands; k++) {
         radiosity[k] = 0;
         for (uint32_t j = 0; j < n; j++)
-            radiosity[k] += weight[j] * v->value[(size_t)v->corner[4 * (size_t)leaf + j] * v->bands + k];
+            radiosity[k] +=
+                weight[j] * v->value[(size_t)v->corner[4 * (size_t)leaf + j] * v->bands + k];
     }
     return leaf;
 }

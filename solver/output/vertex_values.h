@@ -4,11 +4,13 @@
  * mean over the leaves that meet there in one plane and one material. A corner in the middle of a
  * larger neighbour's edge ("hanging") takes what the neighbour has there, the mean of the edge's
  * ends, so that both sides of the edge show the same. [Cohen & Wallace 1993, section 8.3]
- * Where faces of one surface do not share whole edges, as parts of a cut face, the leaf past whose edge a corner
- * lies counts for its mean; there the two sides agree at corners only as far as the solution is smooth.
+ * Where faces of one surface do not share whole edges, as parts of a cut face, the leaf past whose
+ * edge a corner lies counts for its mean; there the two sides agree at corners only as far as the
+ * solution is smooth.
  *
- * Where another face stands on the surface, light may jump: leaves on two sides of a wall share no vertex along it, so
- * that nothing shines under it and a box that stands on the floor darkens none of it. Beyond the wall's end they do.
+ * Where another face stands on the surface, light may jump: leaves on two sides of a wall share no
+ * vertex along it, so that nothing shines under it and a box that stands on the floor darkens none
+ * of it. Beyond the wall's end they do.
  *
  * Invariant: parts of a face are cut at exact midpoints (a + b) / 2, so that equal points are
  * equal bits and a hash finds them.
@@ -26,10 +28,12 @@ struct shared_vertex {
     double position[3];
     double normal[3];
     uint32_t material;
-    uint32_t contact; /* where in `contacts` the directions begin that part the surface here; the same on all sides */
+    /* where in `contacts` the directions begin that part the surface here; the same on all sides */
+    uint32_t contact;
     uint8_t contacts, sector; /* how many, and between which this vertex is (contact.h) */
-    uint32_t next; /* the next vertex in the same place of the table */
-    uint32_t end[2]; /* while building: of a hanging vertex that has no value yet, the ends of its edge */
+    uint32_t next;            /* the next vertex in the same place of the table */
+    /* while building: of a hanging vertex that has no value yet, the ends of its edge */
+    uint32_t end[2];
 };
 
 struct vertex_values {
@@ -43,20 +47,22 @@ struct vertex_values {
     uint32_t contact_count, contact_capacity;
     struct passing {
         uint32_t leaf, vertex;
-    } *passing;                     /* [passing_count], by leaf: on whose edge a vertex of another face of the surface lies */
+        /* [passing_count], by leaf: on whose edge a vertex of another face of the surface lies */
+    } * passing;
     uint32_t passing_count, passing_capacity;
-    uint32_t *table, table_size;    /* first vertex of each hash value; the size is a power of 2 */
+    uint32_t *table, table_size; /* first vertex of each hash value; the size is a power of 2 */
 };
 
 /* Returns 0, or -1 when out of memory; then *v is empty. The solution is not kept. */
 int vertex_values_build(struct vertex_values *v, const struct solution *solution);
 void vertex_values_free(struct vertex_values *v);
 
-/* The vertex in the middle of the edge from vertex a to vertex b of a leaf, which is left of it, or NO_VERTEX. */
+/* The vertex in the middle of the edge from vertex a to vertex b of a leaf, which is left of it,
+ * or NO_VERTEX. */
 uint32_t vertex_values_middle(const struct vertex_values *v, uint32_t a, uint32_t b);
 
 /* B interpolated at a point of a face: bilinear in quads, linear in triangles. Returns the leaf. */
-uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution, uint32_t face,
-                          const double point[3], double *radiosity);
+uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution,
+                          uint32_t face, const double point[3], double *radiosity);
 
 #endif

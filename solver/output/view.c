@@ -18,9 +18,9 @@ enum { COARSE_X = 40, COARSE_Y = 30, DEFAULT_FOV = 70 };
 
 static int number(const char **text, double *value)
 {
-    char *stop;
     if (isspace((unsigned char)**text))
         return -1;
+    char *stop;
     *value = strtod(*text, &stop);
     if (stop == *text || !isfinite(*value))
         return -1;
@@ -35,17 +35,20 @@ static int character(const char **text, char c)
 
 static int triple(const char **text, double v[3])
 {
-    return number(text, &v[0]) || character(text, ',') || number(text, &v[1]) || character(text, ',') || number(text, &v[2]) ? -1 : 0;
+    return number(text, &v[0]) || character(text, ',') || number(text, &v[1])
+                   || character(text, ',') || number(text, &v[2])
+               ? -1
+               : 0;
 }
 
 int view_parse(const char *text, struct view *view)
 {
     struct view v = {.fov = DEFAULT_FOV};
-    double ahead[3];
     if (triple(&text, v.eye) || character(&text, ':') || triple(&text, v.at))
         return -1;
     if (*text && (character(&text, ':') || number(&text, &v.fov)))
         return -1;
+    double ahead[3];
     sub3(ahead, v.at, v.eye);
     double distance = length3(ahead);
     if (*text || !(distance > 0) || !isfinite(distance) || !(v.fov >= 1 && v.fov <= 170))
@@ -60,11 +63,11 @@ int view_up_axis(const struct surfaces *surfaces)
     for (uint32_t i = 0; i < surfaces->face_count; i++) {
         const struct RadFace *f = &surfaces->faces[i];
         for (uint32_t j = 2; j < f->vertices; j++) {
-            double a[3], b[3], c[3], twice;
+            double a[3], b[3], c[3];
             sub3(a, f->vertex[j - 1], f->vertex[0]);
             sub3(b, f->vertex[j], f->vertex[0]);
             cross3(c, a, b);
-            twice = length3(c);
+            double twice = length3(c);
             for (int k = 0; k < 3; k++)
                 if (fabs(c[k]) > 0.999 * twice)
                     square[k] += twice;
@@ -73,11 +76,12 @@ int view_up_axis(const struct surfaces *surfaces)
     return square[1] > 1.02 * square[2] ? 1 : 2;
 }
 
-void view_frame(const struct view *view, const struct surfaces *surfaces, double right[3], double up[3], double ahead[3])
+void view_frame(const struct view *view, const struct surfaces *surfaces, double right[3],
+                double up[3], double ahead[3])
 {
-    double wish[3] = {view->up[0], view->up[1], view->up[2]}, size;
+    double wish[3] = {view->up[0], view->up[1], view->up[2]};
     sub3(ahead, view->at, view->eye);
-    size = length3(ahead);
+    double size = length3(ahead);
     for (int k = 0; k < 3; k++)
         ahead[k] /= size;
     if (!(length3(wish) > 0))
@@ -96,7 +100,8 @@ void view_frame(const struct view *view, const struct surfaces *surfaces, double
     cross3(up, right, ahead);
 }
 
-struct RadCamera view_camera(const struct view *view, const struct surfaces *surfaces, double aspect)
+struct RadCamera view_camera(const struct view *view, const struct surfaces *surfaces,
+                             double aspect)
 {
     struct RadCamera c;
     memcpy(c.eye, view->eye, sizeof c.eye);
@@ -106,8 +111,10 @@ struct RadCamera view_camera(const struct view *view, const struct surfaces *sur
     return c;
 }
 
-/* What the picture gains by a sample that sees face f at that distance; `again`: the sample before it saw the same. */
-static double gain(const struct view *view, const struct RadFace *f, double distance, double diagonal, int again)
+/* What the picture gains by a sample that sees face f at that distance; `again`: the sample
+ * before it saw the same. */
+static double gain(const struct view *view, const struct RadFace *f, double distance,
+                   double diagonal, int again)
 {
     double a[3], b[3], n[3], toward[3];
     sub3(a, f->vertex[1], f->vertex[0]);
@@ -123,7 +130,8 @@ static double gain(const struct view *view, const struct RadFace *f, double dist
 }
 
 /* The score of a view. With cut_away, backs are not seen at all. */
-static int judge(const struct surfaces *surfaces, const struct view *view, double diagonal, int cut_away, double *score)
+static int judge(const struct surfaces *surfaces, const struct view *view, double diagonal,
+                 int cut_away, double *score)
 {
     struct raster r;
     uint32_t face[COARSE_X * COARSE_Y], last = NO_FACE;
@@ -142,10 +150,12 @@ static int judge(const struct surfaces *surfaces, const struct view *view, doubl
     return 0;
 }
 
-/* Move the eye along its line of sight until the box of size d around v->at fits into a 4:3 picture. */
+/* Move the eye along its line of sight until the box of size d around v->at fits into a 4:3
+ * picture. */
 static void step_back(const struct surfaces *surfaces, struct view *v, const double d[3])
 {
-    double right[3], up[3], ahead[3], distance = 0, half = tan(v->fov / 360 * 3.14159265358979323846);
+    double right[3], up[3], ahead[3], distance = 0,
+                                      half = tan(v->fov / 360 * 3.14159265358979323846);
     view_frame(v, surfaces, right, up, ahead);
     for (int i = 0; i < 8; i++) {
         double p[3];
@@ -170,8 +180,16 @@ struct search {
 static void begin_search(struct search *s, const struct surfaces *surfaces, struct view *best)
 {
     int up = view_up_axis(surfaces);
-    *s = (struct search){surfaces, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0, 0, 0}, 0,
-                         up == 2 ? 0 : 2, up == 2 ? 1 : 0, up, best, -INFINITY};
+    *s = (struct search){surfaces,
+                         {INFINITY, INFINITY, INFINITY},
+                         {-INFINITY, -INFINITY, -INFINITY},
+                         {0, 0, 0},
+                         0,
+                         up == 2 ? 0 : 2,
+                         up == 2 ? 1 : 0,
+                         up,
+                         best,
+                         -INFINITY};
     for (uint32_t i = 0; i < surfaces->face_count; i++)
         for (uint32_t j = 0; j < surfaces->faces[i].vertices; j++)
             for (int k = 0; k < 3; k++) {
@@ -185,10 +203,11 @@ static void begin_search(struct search *s, const struct surfaces *surfaces, stru
 /* Keep the view when it is better than what there is. Returns 0, or -1 when out of memory. */
 static int try_view(struct search *s, const struct view *v, int cut_away)
 {
-    double score, ahead[3];
+    double ahead[3];
     sub3(ahead, v->at, v->eye);
     if (!(length3(ahead) > 1e-3 * s->diagonal))
         return 0;
+    double score;
     if (judge(s->surfaces, v, s->diagonal, cut_away, &score))
         return -1;
     if (score > s->score) {
@@ -198,7 +217,8 @@ static int try_view(struct search *s, const struct view *v, int cut_away)
     return 0;
 }
 
-/* From within: per corner and inset, across to the other corner, along one wall, along the other. */
+/* From within: per corner and inset, across to the other corner, along one wall, along the
+ * other. */
 static int search_inside(struct search *s)
 {
     static const double insets[3] = {0.06, 0.12, 0.25};

@@ -22,10 +22,12 @@ int view_guess(const struct surfaces *surfaces, struct view *view);
 
 /* The camera's frame: unit vectors to the right, up, ahead. Guesses `up` when it is not given, and
  * replaces it when the camera looks along it. */
-void view_frame(const struct view *view, const struct surfaces *surfaces, double right[3], double up[3], double ahead[3]);
+void view_frame(const struct view *view, const struct surfaces *surfaces, double right[3],
+                double up[3], double ahead[3]);
 
 /* The same for the engine; aspect: the picture's width over its height. */
-struct RadCamera view_camera(const struct view *view, const struct surfaces *surfaces, double aspect);
+struct RadCamera view_camera(const struct view *view, const struct surfaces *surfaces,
+                             double aspect);
 
 /* The axis that points up, 1 (y) or 2 (z): the one that more area is square to, as floors and
  * ceilings are; z when in doubt. */

@@ -4,7 +4,8 @@
 
 #include "util/device.h"
 
-int open_scene(struct open_scene *s, const char *path, const struct scene_options *options, int threads)
+int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
+               int threads)
 {
     *s = (struct open_scene){.path = path};
     if (scene_file_read(&s->file, path, options) < 0)
@@ -13,9 +14,10 @@ int open_scene(struct open_scene *s, const char *path, const struct scene_option
     s->device = open_device(options->quiet ? NULL : path, threads);
     if (s->device) {
         s->scene = radNewScene(s->device);
-        if (s->scene && radSetSceneMaterials(s->scene, s->file.materials, s->file.material_count) == 0 &&
-            radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0 &&
-            radGetSceneReport(s->scene, &s->report) == 0) {
+        if (s->scene
+            && radSetSceneMaterials(s->scene, s->file.materials, s->file.material_count) == 0
+            && radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0
+            && radGetSceneReport(s->scene, &s->report) == 0) {
             if (!options->quiet)
                 scene_file_warn(&s->file, path, s->report.dropped);
             return 0;

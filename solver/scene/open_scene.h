@@ -14,7 +14,8 @@ struct open_scene {
 };
 
 /* Returns 0, or -1 after a message, with nothing to close. */
-int open_scene(struct open_scene *s, const char *path, const struct scene_options *options, int threads);
+int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
+               int threads);
 void close_scene(struct open_scene *s);
 
 #endif

@@ -1,7 +1,7 @@
 /* read_assimp.c - see read_assimp.h.
  *
- * Assimp reads with no post-processing, so that faces are those of the file. Invariant: one polygon per face of the
- * file, in the file's order.
+ * Assimp reads with no post-processing, so that faces are those of the file. Invariant: one polygon
+ * per face of the file, in the file's order.
  * SPDX-License-Identifier: MIT */
 #include "scene/read_assimp.h"
 
@@ -27,8 +27,8 @@ static void read_material(const struct aiMaterial *from, struct RadMaterial *to)
 {
     struct aiColor4D colour;
     float strength = 1;
-    if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour) == aiReturn_SUCCESS ||
-        aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
+    if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour) == aiReturn_SUCCESS
+        || aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
         to->reflectance[0] = (double)colour.r;
         to->reflectance[1] = (double)colour.g;
         to->reflectance[2] = (double)colour.b;
@@ -55,12 +55,15 @@ static int read_materials(struct reader *r, const struct aiScene *from)
             return out_of_memory(r);
     }
     /* A file without materials still gets one: grey, dark. */
-    if (!from->mNumMaterials && scene_file_add_material(r->file, "unnamed", &(struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}}))
+    if (!from->mNumMaterials
+        && scene_file_add_material(r->file, "unnamed",
+                                   &(struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}}))
         return out_of_memory(r);
     return 0;
 }
 
-static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct aiMatrix4x4 *m, int mirrored)
+static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct aiMatrix4x4 *m,
+                     int mirrored)
 {
     struct scene_file *f = r->file;
     size_t first = f->position_count;
@@ -80,11 +83,14 @@ static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct a
             uint32_t index = from->mIndices[mirrored ? from->mNumIndices - 1 - j : j];
             if (index >= mesh->mNumVertices)
                 return report_error(r->path, 0,
-                                    "face %u of mesh '%s' names vertex %u of %u; the file is damaged, export it again",
-                                    (unsigned)i, mesh->mName.data, (unsigned)index, (unsigned)mesh->mNumVertices);
+                                    "face %u of mesh '%s' names vertex %u of %u; the file is "
+                                    "damaged, export it again",
+                                    (unsigned)i, mesh->mName.data, (unsigned)index,
+                                    (unsigned)mesh->mNumVertices);
             const double *p = &f->positions[3 * (first + index)];
             if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
-                return report_error(r->path, 0, "vertex %u of mesh '%s' is not finite; correct its coordinates",
+                return report_error(r->path, 0,
+                                    "vertex %u of mesh '%s' is not finite; correct its coordinates",
                                     (unsigned)index, mesh->mName.data);
             if (scene_file_add_corner(f, (uint32_t)(first + index)))
                 return out_of_memory(r);
@@ -95,14 +101,16 @@ static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct a
     return 0;
 }
 
-static int read_node(struct reader *r, const struct aiScene *from, const struct aiNode *node, const struct aiMatrix4x4 *above)
+static int read_node(struct reader *r, const struct aiScene *from, const struct aiNode *node,
+                     const struct aiMatrix4x4 *above)
 {
     struct aiMatrix4x4 m = *above;
     aiMultiplyMatrix4(&m, &node->mTransformation);
     /* A mirror turns the sense of rotation, hence the front; turn it back. */
     int mirrored = aiMatrix4Determinant(&m) < 0;
     for (uint32_t i = 0; i < node->mNumMeshes; i++)
-        if (node->mMeshes[i] < from->mNumMeshes && read_mesh(r, from->mMeshes[node->mMeshes[i]], &m, mirrored))
+        if (node->mMeshes[i] < from->mNumMeshes
+            && read_mesh(r, from->mMeshes[node->mMeshes[i]], &m, mirrored))
             return -1;
     for (uint32_t i = 0; i < node->mNumChildren; i++)
         if (read_node(r, from, node->mChildren[i], &m))
@@ -126,7 +134,9 @@ int read_assimp(struct scene_file *file, const char *path)
     file->single_precision = sizeof(ai_real) == sizeof(float);
     int result;
     if (!from || !from->mRootNode)
-        result = report_error(path, 0, "cannot be read as a scene: %s; check the format and that the file is whole", aiGetErrorString());
+        result = report_error(
+            path, 0, "cannot be read as a scene: %s; check the format and that the file is whole",
+            aiGetErrorString());
     else
         result = convert(&r, from);
     aiReleaseImport(from);

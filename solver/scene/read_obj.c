@@ -1,7 +1,7 @@
 /* read_obj.c - see read_obj.h.
  *
- * Read once, from top to bottom. Vertices and materials may be used before they are defined; what is still undefined at the end is
- * reported with the line that used it first.
+ * Read once, from top to bottom. Vertices and materials may be used before they are defined; what
+ * is still undefined at the end is reported with the line that used it first.
  * SPDX-License-Identifier: MIT */
 #include "scene/read_obj.h"
 
@@ -16,8 +16,8 @@
 #include "util/report.h"
 #include "util/text_file.h"
 
-/* What MTL files' materials reflect unless they say so, and the material of faces without one: as Assimp has them,
- * which read these files before. */
+/* What MTL files' materials reflect unless they say so, and the material of faces without one: as
+ * Assimp has them, which read these files before. */
 static const char STAND_IN[] = "DefaultMaterial";
 static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 
@@ -26,10 +26,12 @@ static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 struct obj {
     struct scene_file *file;
     const char *path;
-    uint32_t *use; /* [material_count]: the line of the first usemtl of each that no library has defined yet, else 0 */
-    uint32_t current;    /* material of the faces to come */
+    /* [material_count]: the line of the first usemtl of each that no library has defined yet,
+     * else 0 */
+    uint32_t *use;
+    uint32_t current; /* material of the faces to come */
     uint32_t libraries;
-    int ahead;           /* some face uses a vertex that comes after it */
+    int ahead; /* some face uses a vertex that comes after it */
 };
 
 static int out_of_memory(const char *path)
@@ -37,17 +39,22 @@ static int out_of_memory(const char *path)
     return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
 }
 
-/* The finite numbers on the rest of the line, of which the first `most` go to `value`. Returns how many; -1 after an error. */
-static int read_numbers(struct text_lines *t, const char *path, const char *what, int most, double *value)
+/* The finite numbers on the rest of the line, of which the first `most` go to `value`. Returns
+ * how many; -1 after an error. */
+static int read_numbers(struct text_lines *t, const char *path, const char *what, int most,
+                        double *value)
 {
     int count = 0;
     while (next_word(t)) {
         double x;
         int length = (int)(t->word_end - t->word);
         if (!word_number(t, &x))
-            return report_error(path, t->number, "'%.*s' is not a number in %s; write a decimal number", length, t->word, what);
+            return report_error(path, t->number,
+                                "'%.*s' is not a number in %s; write a decimal number", length,
+                                t->word, what);
         if (!(fabs(x) <= (double)FLT_MAX))
-            return report_error(path, t->number, "%s is not finite ('%.*s'); write a finite number", what, length, t->word);
+            return report_error(path, t->number, "%s is not finite ('%.*s'); write a finite number",
+                                what, length, t->word);
         if (count < most)
             value[count] = x;
         count++;
@@ -72,7 +79,8 @@ static uint32_t find_material(struct obj *o, const char *name)
     return scene_file_add_material(f, name, &PLAIN) ? NONE : f->material_count - 1;
 }
 
-static int read_newmtl(struct obj *o, const char *path, const struct text_lines *t, uint32_t *material)
+static int read_newmtl(struct obj *o, const char *path, const struct text_lines *t,
+                       uint32_t *material)
 {
     char *name = rest_of_line(t);
     uint32_t before = o->file->material_count;
@@ -93,17 +101,20 @@ static int read_colour(struct obj *o, const char *path, struct text_lines *t, ui
     int diffuse = t->word[1] == 'd';
     double value[3] = {0};
     uint32_t line = t->number;
-    int count = read_numbers(t, path, diffuse ? "a diffuse colour (Kd)" : "an exitance (Ke)", 3, value);
+    int count =
+        read_numbers(t, path, diffuse ? "a diffuse colour (Kd)" : "an exitance (Ke)", 3, value);
     if (count < 0)
         return -1;
     if (count != 1 && count != 3)
-        return report_error(path, line, "a colour has %d numbers; give one per channel, three in all", count);
+        return report_error(path, line,
+                            "a colour has %d numbers; give one per channel, three in all", count);
     if (material == NONE)
         return 0;
     struct RadMaterial *m = &o->file->materials[material];
     for (int k = 0; k < 3; k++)
         (diffuse ? m->reflectance : m->exitance)[k] = value[count == 3 ? k : 0];
-    *(diffuse ? &o->file->places[material].diffuse_line : &o->file->places[material].emissive_line) = line;
+    *(diffuse ? &o->file->places[material].diffuse_line
+              : &o->file->places[material].emissive_line) = line;
     return 0;
 }
 
@@ -113,8 +124,9 @@ static int read_library_text(struct obj *o, const char *path, struct text_lines 
     while (next_line(&t)) {
         if (!next_word(&t))
             continue;
-        if (word_is(&t, "newmtl") ? read_newmtl(o, path, &t, &material)
-            : (word_is(&t, "Kd") || word_is(&t, "Ke")) && read_colour(o, path, &t, material))
+        if (word_is(&t, "newmtl")
+                ? read_newmtl(o, path, &t, &material)
+                : (word_is(&t, "Kd") || word_is(&t, "Ke")) && read_colour(o, path, &t, material))
             return -1;
     }
     return 0;
@@ -127,17 +139,20 @@ static int read_library(struct obj *o, const struct text_lines *line)
     const char *slash = strrchr(o->path, '/');
     int result = -1;
     if (name) {
-        size_t folder = slash && *name != '/' ? (size_t)(slash - o->path) + 1 : 0, size;
+        size_t folder = slash && *name != '/' ? (size_t)(slash - o->path) + 1 : 0;
         path = malloc(folder + strlen(name) + 1);
         if (path) {
             memcpy(path, o->path, folder);
             strcpy(path + folder, name);
+            size_t size;
             char *text = text_file_read(path, &size);
             if (text)
                 result = read_library_text(o, path, text_lines(text, size));
             else
-                report_error(o->path, line->number, "cannot read the material library '%s': %s; put it there or correct the name",
-                             path, strerror(errno));
+                report_error(
+                    o->path, line->number,
+                    "cannot read the material library '%s': %s; put it there or correct the name",
+                    path, strerror(errno));
             free(text);
             o->libraries++;
         }
@@ -177,30 +192,38 @@ static int read_vertex(struct obj *o, struct text_lines *t)
     if (count == 4) {
         for (int k = 0; k < 3; k++)
             p[k] /= p[3];
-        if (!(fabs(p[0]) <= (double)FLT_MAX && fabs(p[1]) <= (double)FLT_MAX && fabs(p[2]) <= (double)FLT_MAX))
-            return report_error(o->path, line, "a vertex is not finite when divided by its w, %g; give x, y and z", p[3]);
+        if (!(fabs(p[0]) <= (double)FLT_MAX && fabs(p[1]) <= (double)FLT_MAX
+              && fabs(p[2]) <= (double)FLT_MAX))
+            return report_error(o->path, line,
+                                "a vertex is not finite when divided by its w, %g; give x, y and z",
+                                p[3]);
     }
     return scene_file_add_position(o->file, p) ? out_of_memory(o->path) : 0;
 }
 
-static int report_index(const struct obj *o, uint32_t line, int length, const char *index, int relative)
+static int report_index(const struct obj *o, uint32_t line, int length, const char *index,
+                        int relative)
 {
-    return report_error(o->path, line, "vertex index %.*s is out of range: %zu vertices %s; correct the index", length, index,
-                        o->file->position_count, relative ? "come before this line" : "are in the file, counted from 1");
+    return report_error(o->path, line,
+                        "vertex index %.*s is out of range: %zu vertices %s; correct the index",
+                        length, index, o->file->position_count,
+                        relative ? "come before this line" : "are in the file, counted from 1");
 }
 
-/* f: corners N, N/T, N//N or N/T/N, of which the first number is the vertex; from 1, or from -1 back. */
+/* f: corners N, N/T, N//N or N/T/N, of which the first number is the vertex; from 1, or from -1
+ * back. */
 static int read_face(struct obj *o, struct text_lines *t)
 {
     struct scene_file *f = o->file;
     const long seen = (long)f->position_count;
     uint32_t corners = 0, line = t->number;
     while (next_word(t)) {
-        char *stop;
         errno = 0;
+        char *stop;
         long index = strtol(t->word, &stop, 10);
         if (stop == t->word || (stop < t->word_end && *stop != '/') || stop > t->word_end)
-            return report_error(o->path, line, "'%.*s' is not a corner of a face; write the number of a vertex",
+            return report_error(o->path, line,
+                                "'%.*s' is not a corner of a face; write the number of a vertex",
                                 (int)(t->word_end - t->word), t->word);
         if (index == 0 || index < -seen || index >= (long)UINT32_MAX)
             return report_index(o, line, (int)(stop - t->word), t->word, index < 0);
@@ -210,7 +233,8 @@ static int read_face(struct obj *o, struct text_lines *t)
         corners++;
     }
     if (!corners)
-        return report_error(o->path, line, "a face without corners; give three vertex numbers or more");
+        return report_error(o->path, line,
+                            "a face without corners; give three vertex numbers or more");
     if (o->current == NONE) {
         o->current = find_material(o, STAND_IN);
         if (o->current == NONE)
@@ -249,15 +273,20 @@ static int check_uses(const struct obj *o)
     const struct scene_file *f = o->file;
     for (uint32_t i = 0; i < f->material_count; i++)
         if (o->use[i])
-            return report_error(o->path, o->use[i], o->libraries ? "material '%s' is in no material library of this file; define it there or correct the name"
-                                                                 : "material '%s' is used, but no mtllib line names a material library; add one",
-                                f->names[i]);
+            return report_error(
+                o->path, o->use[i],
+                o->libraries
+                    ? "material '%s' is in no material library of this file; define it there or "
+                      "correct the name"
+                    : "material '%s' is used, but no mtllib line names a material library; add one",
+                f->names[i]);
     size_t at = 0;
     for (uint32_t i = 0; i < f->polygon_count && o->ahead; at += f->sizes[i], i++)
         for (uint32_t j = 0; j < f->sizes[i]; j++)
             if (f->indices[at + j] >= f->position_count) {
                 char index[16];
-                int length = snprintf(index, sizeof index, "%lu", (unsigned long)f->indices[at + j] + 1);
+                int length =
+                    snprintf(index, sizeof index, "%lu", (unsigned long)f->indices[at + j] + 1);
                 return report_index(o, f->lines[i], length, index, 0);
             }
     return 0;
@@ -275,9 +304,11 @@ int read_obj(struct scene_file *file, const char *path)
         result = report_error(path, 0, "not a text, hence no OBJ file; check the format");
     } else {
         int mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
-        result = read_lines(&o, text_lines(text + mark, size - (size_t)mark)) || check_uses(&o) ? -1 : 0;
+        result =
+            read_lines(&o, text_lines(text + mark, size - (size_t)mark)) || check_uses(&o) ? -1 : 0;
         if (!result && !file->polygon_count)
-            result = report_error(path, 0, "there is no face in it; a scene needs one `f` line at least");
+            result = report_error(path, 0,
+                                  "there is no face in it; a scene needs one `f` line at least");
     }
     free(text);
     free(o.use);

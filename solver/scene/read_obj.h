@@ -1,8 +1,9 @@
 /* read_obj.h - OBJ files and their MTL files.
  *
- * One polygon per `f` line, in the file's order and in double precision, whatever its object, group or run of materials.
- * Errors have the line and what is wrong with it. Of OBJ: v, f, usemtl and mtllib; of MTL: newmtl, Kd and Ke, which is W/m2 and not
- * clamped. Normals, texture, smoothing and transparency (d, Tr) are passed over; points and lines are counted.
+ * One polygon per `f` line, in the file's order and in double precision, whatever its object, group
+ * or run of materials. Errors have the line and what is wrong with it. Of OBJ: v, f, usemtl and
+ * mtllib; of MTL: newmtl, Kd and Ke, which is W/m2 and not clamped. Normals, texture, smoothing and
+ * transparency (d, Tr) are passed over; points and lines are counted.
  * [Wavefront Advanced Visualizer, appendix B1, Object Files; MTL material format, v4.2]
  * SPDX-License-Identifier: MIT */
 #ifndef READ_OBJ_H

@@ -18,7 +18,9 @@
 int scene_file_add_position(struct scene_file *f, const double position[3])
 {
     if (f->position_count == UINT32_MAX
-        || array_reserve(&f->positions, f->position_count, &f->position_capacity, 3 * sizeof *f->positions) < 0)
+        || array_reserve(&f->positions, f->position_count, &f->position_capacity,
+                         3 * sizeof *f->positions)
+               < 0)
         return -1;
     memcpy(&f->positions[3 * f->position_count++], position, 3 * sizeof *position);
     return 0;
@@ -42,7 +44,9 @@ int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t materia
 {
     uint32_t n = f->polygon_count;
     if (n == UINT32_MAX || reserve_beside(&f->sizes, n, f->polygon_capacity, sizeof *f->sizes) < 0
-        || reserve_beside(&f->polygon_materials, n, f->polygon_capacity, sizeof *f->polygon_materials) < 0
+        || reserve_beside(&f->polygon_materials, n, f->polygon_capacity,
+                          sizeof *f->polygon_materials)
+               < 0
         || array_reserve(&f->lines, n, &f->polygon_capacity, sizeof *f->lines) < 0)
         return -1;
     f->sizes[n] = size;
@@ -52,10 +56,12 @@ int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t materia
     return 0;
 }
 
-int scene_file_add_material(struct scene_file *f, const char *name, const struct RadMaterial *material)
+int scene_file_add_material(struct scene_file *f, const char *name,
+                            const struct RadMaterial *material)
 {
     uint32_t n = f->material_count;
-    if (n == UINT32_MAX || reserve_beside(&f->materials, n, f->material_capacity, sizeof *f->materials) < 0
+    if (n == UINT32_MAX
+        || reserve_beside(&f->materials, n, f->material_capacity, sizeof *f->materials) < 0
         || reserve_beside(&f->names, n, f->material_capacity, sizeof *f->names) < 0
         || array_reserve(&f->places, n, &f->material_capacity, sizeof *f->places) < 0)
         return -1;
@@ -77,8 +83,10 @@ static int has_extension(const char *path, const char *const *extensions)
     return 0;
 }
 
-/* Formats of shape alone: Assimp's stand-in is white, which no radiosity can stand, and two-sided. */
-static void replace_stand_in(struct scene_file *f, const char *path, const struct scene_options *options)
+/* Formats of shape alone: Assimp's stand-in is white, which no radiosity can stand, and
+ * two-sided. */
+static void replace_stand_in(struct scene_file *f, const char *path,
+                             const struct scene_options *options)
 {
     static const char *const shapes[] = {".ply", ".stl", ".off", NULL};
     if (!has_extension(path, shapes))
@@ -86,14 +94,16 @@ static void replace_stand_in(struct scene_file *f, const char *path, const struc
     for (uint32_t i = 0; i < f->material_count; i++)
         f->materials[i] = (struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}};
     if (!options->quiet)
-        report_warning(path, 0, "this format holds no materials: every face reflects 0.5 and none emits");
+        report_warning(path, 0,
+                       "this format holds no materials: every face reflects 0.5 and none emits");
 }
 
 /* Materials that no polygon has may be anything. */
 static int check_materials(const struct scene_file *f, const char *path)
 {
     uint8_t *used = calloc((size_t)f->material_count + 1, 1);
-    int result = used ? 0 : report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
+    int result =
+        used ? 0 : report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
     for (uint32_t i = 0; i < f->polygon_count && used; i++)
         used[f->polygon_materials[i]] = 1;
     for (uint32_t i = 0; i < f->material_count && !result; i++) {
@@ -103,11 +113,13 @@ static int check_materials(const struct scene_file *f, const char *path)
         for (int k = 0; k < 3 && used[i] && !result; k++) {
             if (!(m->reflectance[k] >= 0 && m->reflectance[k] < 1))
                 result = report_error(file, where->diffuse_line,
-                                      "material '%s' has reflectance %g; the diffuse colour must be 0 or more and below 1",
+                                      "material '%s' has reflectance %g; the diffuse colour must "
+                                      "be 0 or more and below 1",
                                       f->names[i], m->reflectance[k]);
             else if (!(m->exitance[k] >= 0 && isfinite(m->exitance[k])))
                 result = report_error(file, where->emissive_line,
-                                      "material '%s' has exitance %g W/m2; the emissive colour must be 0 or more and finite",
+                                      "material '%s' has exitance %g W/m2; the emissive colour "
+                                      "must be 0 or more and finite",
                                       f->names[i], m->exitance[k]);
         }
     }
@@ -119,8 +131,8 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
 {
     static const char *const obj[] = {".obj", NULL};
     const struct scene_options none = {0};
-    struct stat status;
     options = options ? options : &none;
+    struct stat status;
     *f = (struct scene_file){0};
     if (stat(path, &status))
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
@@ -158,8 +170,12 @@ void scene_file_free(struct scene_file *f)
 struct RadPolygons scene_file_polygons(const struct scene_file *f)
 {
     return (struct RadPolygons){
-        .positions = f->positions, .position_count = f->position_count, .indices = f->indices,
-        .sizes = f->sizes, .materials = f->polygon_materials, .count = f->polygon_count,
+        .positions = f->positions,
+        .position_count = f->position_count,
+        .indices = f->indices,
+        .sizes = f->sizes,
+        .materials = f->polygon_materials,
+        .count = f->polygon_count,
         .single_precision = f->single_precision,
     };
 }
@@ -167,6 +183,8 @@ struct RadPolygons scene_file_polygons(const struct scene_file *f)
 void scene_file_warn(const struct scene_file *f, const char *path, uint32_t dropped)
 {
     if (dropped || f->other)
-        report_warning(path, 0, "%u degenerate faces dropped (no area, or fewer than three corners), %u points and lines ignored",
+        report_warning(path, 0,
+                       "%u degenerate faces dropped (no area, or fewer than three corners), %u "
+                       "points and lines ignored",
                        (unsigned)dropped, (unsigned)f->other);
 }

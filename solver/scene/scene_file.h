@@ -1,9 +1,10 @@
-/* scene_file.h - a scene file as arrays: the polygons and materials that radSetSceneSharedPolygons and
- * radSetSceneMaterials take, and what messages and tables want to know besides.
+/* scene_file.h - a scene file as arrays: the polygons and materials that radSetSceneSharedPolygons
+ * and radSetSceneMaterials take, and what messages and tables want to know besides.
  *
- * Material: reflectance = diffuse colour (glTF: base colour), exitance in W/m2 = emissive colour times its strength
- * where the format has one. A face reflects and emits on both sides when its material's name ends in "_2s", when the
- * format says so (glTF: doubleSided), or when the caller asks for it. Textures are not looked at.
+ * Material: reflectance = diffuse colour (glTF: base colour), exitance in W/m2 = emissive colour
+ * times its strength where the format has one. A face reflects and emits on both sides when its
+ * material's name ends in "_2s", when the format says so (glTF: doubleSided), or when the caller
+ * asks for it. Textures are not looked at.
  * SPDX-License-Identifier: MIT */
 #ifndef SCENE_FILE_H
 #define SCENE_FILE_H
@@ -23,9 +24,11 @@ struct scene_file {
     size_t position_count, position_capacity;
     uint32_t *indices; /* [sum of sizes] */
     size_t index_count, index_capacity;
-    uint32_t *sizes;             /* [polygon_count], in the file's order; some may have fewer than three corners */
+    /* [polygon_count], in the file's order; some may have fewer than three corners */
+    uint32_t *sizes;
     uint32_t *polygon_materials; /* [polygon_count] */
-    uint32_t *lines;             /* [polygon_count]: where each stands in the file; 0 where the format has no lines */
+    /* [polygon_count]: where each stands in the file; 0 where the format has no lines */
+    uint32_t *lines;
     uint32_t polygon_count;
     size_t polygon_capacity;
     struct RadMaterial *materials; /* [material_count] */
@@ -34,7 +37,7 @@ struct scene_file {
     uint32_t material_count;
     size_t material_capacity;
     int single_precision; /* 1: positions have been floats, as Assimp keeps them */
-    uint32_t other; /* points and lines of the file, which are no faces */
+    uint32_t other;       /* points and lines of the file, which are no faces */
 };
 
 struct scene_options {
@@ -50,14 +53,17 @@ void scene_file_free(struct scene_file *file);
 /* The polygons, for radSetSceneSharedPolygons; good until the file is freed. */
 struct RadPolygons scene_file_polygons(const struct scene_file *file);
 
-/* Say on stderr how many faces were dropped (RadSceneReport.dropped), and points and lines ignored; nothing when there are none. */
+/* Say on stderr how many faces were dropped (RadSceneReport.dropped), and points and lines
+ * ignored; nothing when there are none. */
 void scene_file_warn(const struct scene_file *file, const char *path, uint32_t dropped);
 
-/* For the readers of formats. Each returns 0, or -1 when out of memory. A polygon has the corners added since the last
- * one; a material's name is copied. */
+/* For the readers of formats. Each returns 0, or -1 when out of memory. A polygon has the corners
+ * added since the last one; a material's name is copied. */
 int scene_file_add_position(struct scene_file *file, const double position[3]);
 int scene_file_add_corner(struct scene_file *file, uint32_t position);
-int scene_file_add_polygon(struct scene_file *file, uint32_t size, uint32_t material, uint32_t line);
-int scene_file_add_material(struct scene_file *file, const char *name, const struct RadMaterial *material);
+int scene_file_add_polygon(struct scene_file *file, uint32_t size, uint32_t material,
+                           uint32_t line);
+int scene_file_add_material(struct scene_file *file, const char *name,
+                            const struct RadMaterial *material);
 
 #endif

@@ -1,7 +1,7 @@
 /* text_lines.h - the lines of a text in memory and their words.
  *
- * Words are parted by blanks; a word that starts with # ends the line. A backslash at the end of a line joins it with the next:
- * both become blanks in the text.
+ * Words are parted by blanks; a word that starts with # ends the line. A backslash at the end of a
+ * line joins it with the next: both become blanks in the text.
  * SPDX-License-Identifier: MIT */
 #ifndef TEXT_LINES_H
 #define TEXT_LINES_H
@@ -68,7 +68,8 @@ static inline int word_is(const struct text_lines *t, const char *name)
     return (size_t)(t->word_end - t->word) == size && memcmp(t->word, name, size) == 0;
 }
 
-/* The rest of the line without the blanks around it, for free(): names may hold blanks. NULL when out of memory. */
+/* The rest of the line without the blanks around it, for free(): names may hold blanks. NULL
+ * when out of memory. */
 static inline char *rest_of_line(const struct text_lines *t)
 {
     const char *from = t->word_end, *to = t->line_end;

@@ -1,6 +1,6 @@
 /* closed_forms.h - view factors that are known: what form factors are measured against.
- * In long double, since the forms subtract what is nearly equal. Numbers C-xx: Howell, A Catalog of Radiation Heat
- * Transfer Configuration Factors.
+ * In long double, since the forms subtract what is nearly equal. Numbers C-xx: Howell, A Catalog of
+ * Radiation Heat Transfer Configuration Factors.
  * SPDX-License-Identifier: MIT */
 #ifndef CLOSED_FORMS_H
 #define CLOSED_FORMS_H
@@ -12,9 +12,11 @@
 /* C-11: aligned parallel rectangles a x b at distance c. */
 static inline double closed_parallel(double a, double b, double c)
 {
-    long double x = (long double)a / c, y = (long double)b / c, p = sqrtl(1 + x * x), q = sqrtl(1 + y * y);
-    return (double)(2 / (CLOSED_PI * x * y) * (logl(p * q / sqrtl(1 + x * x + y * y)) + x * q * atanl(x / q)
-                                               + y * p * atanl(y / p) - x * atanl(x) - y * atanl(y)));
+    long double x = (long double)a / c, y = (long double)b / c, p = sqrtl(1 + x * x),
+                q = sqrtl(1 + y * y);
+    return (double)(2 / (CLOSED_PI * x * y)
+                    * (logl(p * q / sqrtl(1 + x * x + y * y)) + x * q * atanl(x / q)
+                       + y * p * atanl(y / p) - x * atanl(x) - y * atanl(y)));
 }
 
 /* C-14: perpendicular rectangles with a common edge l, from width w to height h. */
@@ -24,7 +26,9 @@ static inline double closed_perpendicular(double w, double h, double l)
     long double t = (1 + W * W) * (1 + H * H) / (1 + s2);
     long double u = powl(W * W * (1 + s2) / ((1 + W * W) * s2), W * W);
     long double v = powl(H * H * (1 + s2) / ((1 + H * H) * s2), H * H);
-    return (double)((W * atanl(1 / W) + H * atanl(1 / H) - s * atanl(1 / s) + 0.25L * logl(t * u * v)) / (CLOSED_PI * W));
+    return (
+        double)((W * atanl(1 / W) + H * atanl(1 / H) - s * atanl(1 / s) + 0.25L * logl(t * u * v))
+                / (CLOSED_PI * W));
 }
 
 /* C-41: coaxial parallel discs, from radius r to radius s at distance h. */
@@ -41,9 +45,10 @@ static inline double closed_corner(double a, double b, double d)
     return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * M_PI);
 }
 
-/* Crossed strings, strips without end: from the segment a-b to the segment c-d of the plane, which see each other whole;
- * a-d and b-c are the uncrossed strings. [Hottel 1954] */
-static inline double closed_strips(const double a[2], const double b[2], const double c[2], const double d[2])
+/* Crossed strings, strips without end: from the segment a-b to the segment c-d of the plane, which
+ * see each other whole; a-d and b-c are the uncrossed strings. [Hottel 1954] */
+static inline double closed_strips(const double a[2], const double b[2], const double c[2],
+                                   const double d[2])
 {
     double crossed = hypot(c[0] - a[0], c[1] - a[1]) + hypot(d[0] - b[0], d[1] - b[1]);
     double uncrossed = hypot(d[0] - a[0], d[1] - a[1]) + hypot(c[0] - b[0], c[1] - b[1]);

@@ -1,4 +1,5 @@
-/* faces_reference.c - see faces_reference.h. B of a face is E + rho H with H the mean over all of it, as in faces_csv.c.
+/* faces_reference.c - see faces_reference.h. B of a face is E + rho H with H the mean over all of
+ * it, as in faces_csv.c.
  * SPDX-License-Identifier: MIT */
 #include "study/faces_reference.h"
 
@@ -12,7 +13,8 @@
 
 enum { COLUMNS = 64 };
 
-/* Split one line at its commas, in place; quotes are taken off. Returns how many fields there are. */
+/* Split one line at its commas, in place; quotes are taken off. Returns how many fields there
+ * are. */
 static int split(char *line, char *field[COLUMNS])
 {
     int n = 0;
@@ -62,29 +64,39 @@ static char *next_line(char **text)
     return line;
 }
 
-static int parse(struct faces_reference *r, const char *path, char *text, const struct open_scene *scene)
+static int parse(struct faces_reference *r, const char *path, char *text,
+                 const struct open_scene *scene)
 {
     static const char *const bands[3] = {"B_0", "B_1", "B_2"};
     char *field[COLUMNS], *line = next_line(&text);
-    int columns = line ? split(line, field) : 0, face = find(field, columns, "face"), area = find(field, columns, "area"), band[3];
+    int columns = line ? split(line, field) : 0, face = find(field, columns, "face"),
+        area = find(field, columns, "area"), band[3];
     for (uint32_t k = 0; k < 3; k++) {
         band[k] = find(field, columns, bands[k]);
         r->bands += band[k] >= 0 && r->bands == k;
     }
     if (face < 0 || area < 0 || !r->bands)
-        return report_error(path, 1, "the columns face, area and B_0 are not all there; give a table as `radiosity solve --faces` writes it");
+        return report_error(path, 1,
+                            "the columns face, area and B_0 are not all there; give a table as "
+                            "`radiosity solve --faces` writes it");
     if (r->bands != scene->report.bands)
-        return report_error(path, 1, "%u bands of B, but the scene has %u; give a table of this scene", (unsigned)r->bands, (unsigned)scene->report.bands);
+        return report_error(path, 1,
+                            "%u bands of B, but the scene has %u; give a table of this scene",
+                            (unsigned)r->bands, (unsigned)scene->report.bands);
     for (uint32_t number_of_line = 2; (line = next_line(&text)); number_of_line++) {
-        double index, a;
         int n = split(line, field);
         if (n != columns)
-            return report_error(path, number_of_line, "%d columns where the first line has %d", n, columns);
-        if (!number(field[face], &index) || !(index >= 0 && index < scene->report.polygons) || index != (uint32_t)index
-            || (r->count && (uint32_t)index <= r->face[r->count - 1]))
-            return report_error(path, number_of_line, "face '%s' is out of order, or none of the scene's %u; give a table of this scene", field[face],
-                                (unsigned)scene->report.polygons);
+            return report_error(path, number_of_line, "%d columns where the first line has %d", n,
+                                columns);
+        double index;
+        if (!number(field[face], &index) || !(index >= 0 && index < scene->report.polygons)
+            || index != (uint32_t)index || (r->count && (uint32_t)index <= r->face[r->count - 1]))
+            return report_error(
+                path, number_of_line,
+                "face '%s' is out of order, or none of the scene's %u; give a table of this scene",
+                field[face], (unsigned)scene->report.polygons);
         r->face[r->count] = (uint32_t)index;
+        double a;
         if (!number(field[area], &a) || !(a >= 0))
             return report_error(path, number_of_line, "'%s' is no area", field[area]);
         r->area[r->count] = a;
@@ -96,7 +108,8 @@ static int parse(struct faces_reference *r, const char *path, char *text, const 
     return r->count ? 0 : report_error(path, 0, "no face is in it; give a table of this scene");
 }
 
-int faces_reference_read(struct faces_reference *r, const char *path, const struct open_scene *scene)
+int faces_reference_read(struct faces_reference *r, const char *path,
+                         const struct open_scene *scene)
 {
     size_t size;
     char *text = text_file_read(path, &size);
@@ -106,18 +119,21 @@ int faces_reference_read(struct faces_reference *r, const char *path, const stru
     r->face = malloc(((size_t)scene->report.polygons + 1) * sizeof *r->face);
     r->area = malloc(((size_t)scene->report.polygons + 1) * sizeof *r->area);
     r->value = malloc(((size_t)scene->report.polygons + 1) * 3 * sizeof *r->value);
-    int failed = !r->face || !r->area || !r->value ? report_error(path, 0, "out of memory") : parse(r, path, text, scene);
+    int failed = !r->face || !r->area || !r->value ? report_error(path, 0, "out of memory")
+                                                   : parse(r, path, text, scene);
     free(text);
     if (failed)
         faces_reference_free(r);
     return failed;
 }
 
-double faces_reference_error(const struct faces_reference *r, const struct open_scene *scene, RadSolution solution)
+double faces_reference_error(const struct faces_reference *r, const struct open_scene *scene,
+                             RadSolution solution)
 {
     const struct RadMaterial *materials = radGetSceneMaterials(scene->scene);
     const double *area = radGetScenePolygonAreas(scene->scene);
-    double *irradiance = malloc(((size_t)scene->report.polygons + 1) * sizeof *irradiance), off = 0, all = 0;
+    double *irradiance = malloc(((size_t)scene->report.polygons + 1) * sizeof *irradiance), off = 0,
+           all = 0;
     for (uint32_t k = 0; irradiance && k < r->bands; k++) {
         if (radGetPolygonValues(solution, k, NULL, irradiance) < 0) {
             free(irradiance);

@@ -23,12 +23,14 @@ struct made_scene {
 /* A grey material. Returns its index. */
 static inline uint32_t made_material(struct made_scene *s, double rho, double exitance)
 {
-    s->materials[s->material_count] = (struct RadMaterial){ { rho, rho, rho }, { exitance, exitance, exitance }, 0 };
+    s->materials[s->material_count] =
+        (struct RadMaterial){{rho, rho, rho}, {exitance, exitance, exitance}, 0};
     return s->material_count++;
 }
 
 /* A polygon with n corners p, counter-clockwise from its front. */
-static inline void made_face(struct made_scene *s, uint32_t material, uint32_t n, const double (*p)[3])
+static inline void made_face(struct made_scene *s, uint32_t material, uint32_t n,
+                             const double (*p)[3])
 {
     memcpy(s->position[s->corners], p, n * sizeof *p);
     for (uint32_t i = 0; i < n; i++, s->corners++)
@@ -38,16 +40,20 @@ static inline void made_face(struct made_scene *s, uint32_t material, uint32_t n
 }
 
 /* A parallelogram o, o + a, o + a + b, o + b: its front is where a x b points. */
-static inline void made_quad(struct made_scene *s, uint32_t material, double ox, double oy, double oz,
-                             double ax, double ay, double az, double bx, double by, double bz)
+static inline void made_quad(struct made_scene *s, uint32_t material, double ox, double oy,
+                             double oz, double ax, double ay, double az, double bx, double by,
+                             double bz)
 {
-    const double p[4][3] = { { ox, oy, oz }, { ox + ax, oy + ay, oz + az },
-                             { ox + ax + bx, oy + ay + by, oz + az + bz }, { ox + bx, oy + by, oz + bz } };
+    const double p[4][3] = {{ox, oy, oz},
+                            {ox + ax, oy + ay, oz + az},
+                            {ox + ax + bx, oy + ay + by, oz + az + bz},
+                            {ox + bx, oy + by, oz + bz}};
     made_face(s, material, 4, p);
 }
 
 /* A box seen from inside: floor, ceiling, then the four walls. */
-static inline void made_room(struct made_scene *s, const uint32_t material[6], double x, double y, double z)
+static inline void made_room(struct made_scene *s, const uint32_t material[6], double x, double y,
+                             double z)
 {
     made_quad(s, material[0], 0, 0, 0, x, 0, 0, 0, y, 0);
     made_quad(s, material[1], 0, 0, z, 0, y, 0, x, 0, 0);
@@ -74,7 +80,7 @@ static inline void made_move(struct made_scene *s, double by)
 /* Polygon i as an element by itself, in no tree. */
 static inline struct element made_element(const struct made_scene *s, uint32_t i)
 {
-    struct element e = { .vertices = (uint8_t)s->size[i], .face = i };
+    struct element e = {.vertices = (uint8_t)s->size[i], .face = i};
     uint32_t first = 0;
     for (uint32_t j = 0; j < i; j++)
         first += s->size[j];

@@ -1,10 +1,12 @@
-/* stability.h - configurations on which radiosity methods are known to fail, each with its right answer.
+/* stability.h - configurations on which radiosity methods are known to fail, each with its right
+ * answer.
  *
- * One table (stability_cases.c) serves the tests and `radiosity study stability`. A row is a case: a scene made in
- * memory and a measure of how wrong a method is on it, against a closed form or a condition that must
- * hold. A cell is a case and a method, with what is expected of it: to stay within a tolerance, or to fail by a
- * known amount for a known reason. Invariant: a failing cell's expected range lies above its tolerance,
- * so a cell cannot hold both ways, and evidence that no longer holds is as loud as a broken method.
+ * One table (stability_cases.c) serves the tests and `radiosity study stability`. A row is a case:
+ * a scene made in memory and a measure of how wrong a method is on it, against a closed form or a
+ * condition that must hold. A cell is a case and a method, with what is expected of it: to stay
+ * within a tolerance, or to fail by a known amount for a known reason. Invariant: a failing cell's
+ * expected range lies above its tolerance, so a cell cannot hold both ways, and evidence that no
+ * longer holds is as loud as a broken method.
  * SPDX-License-Identifier: MIT */
 #ifndef STABILITY_H
 #define STABILITY_H
@@ -21,7 +23,14 @@ enum stability_kind {
 };
 
 enum stability_sight { BY_FRONTS = 0, BY_FLOAT = -1, BY_INTEGRAL = -2 };
-enum stability_factor { FACTOR_KERNEL, FACTOR_CULLED, FACTOR_DISC, FACTOR_POINT, FACTOR_POLYGON, FACTOR_CONTOUR };
+enum stability_factor {
+    FACTOR_KERNEL,
+    FACTOR_CULLED,
+    FACTOR_DISC,
+    FACTOR_POINT,
+    FACTOR_POLYGON,
+    FACTOR_CONTOUR
+};
 
 struct stability_method {
     const char *name;
@@ -34,11 +43,47 @@ struct stability_method {
 
 /* The columns of the table, in their order: stability_methods.c. */
 enum {
-    NO_METHOD, KERNEL, CULLED, DISC, POINT, POLYGON, CONTOUR,
-    FRONTS, FIXED_EPSILON, RAYS_4, RAYS_16, RAYS_64, INTEGRAL,
-    NORMALISED, JACOBI, SWEEPS_JACOBI, NAIVE_STOP, ONE_PLANE, L2_NORM, LINF_NORM, UMBRA,
-    CORNERS, SAMPLED, BOUNDED, LARGER, LONGER, LINF_GAP, AREA_GAP,
-    BF_1991, BF_NODES, FF, BF, BFV, RELATIVE, GAP, SMOOTH, VIEWFACTORS, DEFAULT, UNCUT, FINE, CLOSED,
+    NO_METHOD,
+    KERNEL,
+    CULLED,
+    DISC,
+    POINT,
+    POLYGON,
+    CONTOUR,
+    FRONTS,
+    FIXED_EPSILON,
+    RAYS_4,
+    RAYS_16,
+    RAYS_64,
+    INTEGRAL,
+    NORMALISED,
+    JACOBI,
+    SWEEPS_JACOBI,
+    NAIVE_STOP,
+    ONE_PLANE,
+    L2_NORM,
+    LINF_NORM,
+    UMBRA,
+    CORNERS,
+    SAMPLED,
+    BOUNDED,
+    LARGER,
+    LONGER,
+    LINF_GAP,
+    AREA_GAP,
+    BF_1991,
+    BF_NODES,
+    FF,
+    BF,
+    BFV,
+    RELATIVE,
+    GAP,
+    SMOOTH,
+    VIEWFACTORS,
+    DEFAULT,
+    UNCUT,
+    FINE,
+    CLOSED,
     METHODS
 };
 extern const struct stability_method stability_methods[METHODS];
@@ -67,7 +112,8 @@ struct stability_case {
     const char *right;   /* the right answer */
     const char *measure; /* what the error is */
     const char *counted; /* unit of the trial's count where it is part of the evidence, else NULL */
-    int (*run)(struct stability_trial *trial); /* returns 0, or -1 when it cannot be run (out of memory) */
+    /* returns 0, or -1 when it cannot be run (out of memory) */
+    int (*run)(struct stability_trial *trial);
     struct stability_cell cells[STABILITY_CELLS];
 };
 
@@ -90,12 +136,14 @@ enum stability_verdict {
 enum stability_verdict stability_judge(const struct stability_cell *cell, double error);
 
 /* Run one cell. Returns 0 or -1. */
-int stability_run(const struct stability_case *c, const struct stability_cell *cell, int threads, struct stability_trial *trial);
+int stability_run(const struct stability_case *c, const struct stability_cell *cell, int threads,
+                  struct stability_trial *trial);
 
 /* The tools of the cases: stability_tools.c. */
 
 /* The form factor of two surfaces by a BY_FACTOR method, nothing between them. */
-double stability_factor(const struct stability_method *method, const struct element *r, const struct element *s);
+double stability_factor(const struct stability_method *method, const struct element *r,
+                        const struct element *s);
 
 /* A made scene solved by an oracle: how. */
 struct stability_how {
@@ -105,14 +153,17 @@ struct stability_how {
     struct RadSolveOptions options;
 };
 /* Returns 0, or -1 with nothing to close. */
-int stability_solve_so(struct solved *s, const struct made_scene *made, const struct stability_how *how);
+int stability_solve_so(struct solved *s, const struct made_scene *made,
+                       const struct stability_how *how);
 
-/* Its elements and what answers about rays (radGetHost), without links. Returns 0, or -1 with nothing to close. */
+/* Its elements and what answers about rays (radGetHost), without links. Returns 0, or -1 with
+ * nothing to close. */
 int stability_unsolved(struct solved *s, const struct made_scene *made);
 
 /* Solve a scene with a BY_ORACLE method; `unit`: view factors alone, refined and not solved.
  * Returns 0, or -1 with nothing to close. */
-int stability_solve(struct solved *s, const struct made_scene *made, const struct stability_trial *trial, int unit);
+int stability_solve(struct solved *s, const struct made_scene *made,
+                    const struct stability_trial *trial, int unit);
 
 /* A scene, and one number from its solution; `at` is the case's own: a reflectance, a level. */
 struct stability_scene {
@@ -120,11 +171,13 @@ struct stability_scene {
     double (*measure)(const struct solved *s, double at);
 };
 
-/* Make it, solve it by a BY_ORACLE method, measure it; trial->count becomes the number of links. Returns 0 or -1. */
-int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value);
+/* Make it, solve it by a BY_ORACLE method, measure it; trial->count becomes the number of links.
+ * Returns 0 or -1. */
+int stability_measured(struct stability_trial *trial, const struct stability_scene *scene,
+                       double at, double *value);
 
-/* The sum of F over a unit cube's face by a BY_FACTOR method, from one element per face: to the opposite face in [0], to
- * one of the four beside it in [1]. */
+/* The sum of F over a unit cube's face by a BY_FACTOR method, from one element per face: to the
+ * opposite face in [0], to one of the four beside it in [1]. */
 void stability_cube_factors(const struct stability_method *method, double f[2]);
 
 /* The element that is the whole of a face. */
@@ -146,13 +199,18 @@ double stability_random(unsigned *seed);
 
 /* The cases: each stability_*.c gives its measures. */
 #define STABILITY_MEASURES(M) \
-    M(shared_edge) M(shared_edge_halved) M(close_parallel) M(half_apart) M(row_sum) M(straddle) M(straddle_children) \
-    M(coplanar) M(sliver) M(sliver_standing) M(scale_far) M(degenerate_factor) M(closed_forms) \
-    M(tiny_blocker) M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) \
-    M(furnace_95) M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) M(open_plates) \
-    M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) M(hollow_sphere) M(concentric) M(wide_plates) \
-    M(brightness) M(scale) M(large_source) M(large_source_split) M(touching_cells) M(long_receiver) M(range_centre) M(range_quarter) M(four_shadows) \
-    M(bent_quad) M(no_area)
+    M(shared_edge) \
+    M(shared_edge_halved) \
+    M(close_parallel) \
+    M(half_apart) M(row_sum) M(straddle) M(straddle_children) M(coplanar) M(sliver) \
+        M(sliver_standing) M(scale_far) M(degenerate_factor) M(closed_forms) M(tiny_blocker) \
+            M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) M(furnace_95) \
+                M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) \
+                    M(open_plates) M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) \
+                        M(hollow_sphere) M(concentric) M(wide_plates) M(brightness) M(scale) \
+                            M(large_source) M(large_source_split) M(touching_cells) \
+                                M(long_receiver) M(range_centre) M(range_quarter) M(four_shadows) \
+                                    M(bent_quad) M(no_area)
 #define M(name) int stability_##name(struct stability_trial *trial);
 STABILITY_MEASURES(M)
 #undef M

@@ -1,11 +1,13 @@
 /* stability_balance.c - cases whose solution is known: open scenes, a cube and a cavity.
  *
- * Plates, cube and cube cavity from converged solutions of the integral equation, cross-checked by a second method.
+ * Plates, cube and cube cavity from converged solutions of the integral equation, cross-checked by
+ * a second method.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "study/stability.h"
 
-/* Two unit squares, E = 1, rho = .5: parallel at distance 1, or at right angles with an edge in common. */
+/* Two unit squares, E = 1, rho = .5: parallel at distance 1, or at right angles with an edge in
+ * common. */
 static void make_parallel(struct made_scene *s, double unused)
 {
     (void)unused;
@@ -24,12 +26,14 @@ static void make_corner(struct made_scene *s, double unused)
 
 enum { LEAF = 255 };
 
-/* B of the part of a face that is nearest to p (by its centre): of a leaf, or of what `depth` splits make. */
-static double radiosity_at(const struct solved *s, uint32_t face, int depth, double x, double y, double z)
+/* B of the part of a face that is nearest to p (by its centre): of a leaf, or of what `depth`
+ * splits make. */
+static double radiosity_at(const struct solved *s, uint32_t face, int depth, double x, double y,
+                           double z)
 {
     const struct element *all = s->elements.elements;
     uint32_t e = s->elements.face_element[face];
-    const double p[3] = { x, y, z };
+    const double p[3] = {x, y, z};
     while (all[e].children && all[e].depth < depth) {
         double best = INFINITY;
         uint32_t next = e;
@@ -60,11 +64,12 @@ static double plates_error(const struct solved *s, double known)
 
 int stability_open_plates(struct stability_trial *trial)
 {
-    static const struct stability_scene plates = { make_parallel, plates_error };
+    static const struct stability_scene plates = {make_parallel, plates_error};
     const double known = 1.111165244298;
     if (trial->method != &stability_methods[NORMALISED])
         return stability_measured(trial, &plates, known, &trial->error);
-    trial->error = 1 / (1 - 0.5) / known - 1; /* with its row made 1 a plate sees nothing but plate */
+    /* with its row made 1 a plate sees nothing but plate */
+    trial->error = 1 / (1 - 0.5) / known - 1;
     return 0;
 }
 
@@ -78,26 +83,27 @@ static double profile_error(const struct solved *s, double unused)
 
 int stability_plates_profile(struct stability_trial *trial)
 {
-    static const struct stability_scene plates = { make_parallel, profile_error };
+    static const struct stability_scene plates = {make_parallel, profile_error};
     return stability_measured(trial, &plates, 0, &trial->error);
 }
 
 static double edge_error(const struct solved *s, double unused)
 {
     (void)unused;
-    return off(off(0, stability_radiosity(s, 0), 1.1159537), radiosity_at(s, 0, LEAF, 0.5, 0, 0), 1 / (1 - 0.5 * 0.5));
+    return off(off(0, stability_radiosity(s, 0), 1.1159537), radiosity_at(s, 0, LEAF, 0.5, 0, 0),
+               1 / (1 - 0.5 * 0.5));
 }
 
 int stability_plates_edge(struct stability_trial *trial)
 {
-    static const struct stability_scene plates = { make_corner, edge_error };
+    static const struct stability_scene plates = {make_corner, edge_error};
     return stability_measured(trial, &plates, 0, &trial->error);
 }
 
 /* A unit cube, rho = .5, its ceiling E = 1. */
 static void make_lit_cube(struct made_scene *s, double unused)
 {
-    const uint32_t m[6] = { 0, 1, 0, 0, 0, 0 };
+    const uint32_t m[6] = {0, 1, 0, 0, 0, 0};
     (void)unused;
     made_material(s, 0.5, 0);
     made_material(s, 0.5, 1);
@@ -112,18 +118,20 @@ static double cube_off(double ceiling, double floor, double wall)
 static double cube_error(const struct solved *s, double unused)
 {
     (void)unused;
-    return cube_off(stability_radiosity(s, 1), stability_radiosity(s, 0), stability_radiosity(s, 2));
+    return cube_off(stability_radiosity(s, 1), stability_radiosity(s, 0),
+                    stability_radiosity(s, 2));
 }
 
 int stability_cube(struct stability_trial *trial)
 {
-    static const struct stability_scene cube = { make_lit_cube, cube_error };
-    double b[3] = { 1, 0, 0 }, f[2];
+    static const struct stability_scene cube = {make_lit_cube, cube_error};
+    double b[3] = {1, 0, 0}, f[2];
     if (trial->method->kind == BY_ORACLE)
         return stability_measured(trial, &cube, 0, &trial->error);
     stability_cube_factors(trial->method, f);
     for (int i = 0; i < 200; i++) { /* one element per face: ceiling, floor, walls */
-        double c = 1 + 0.5 * (f[0] * b[1] + 4 * f[1] * b[2]), g = 0.5 * (f[0] * b[0] + 4 * f[1] * b[2]);
+        double c = 1 + 0.5 * (f[0] * b[1] + 4 * f[1] * b[2]),
+               g = 0.5 * (f[0] * b[0] + 4 * f[1] * b[2]);
         b[2] = 0.5 * (f[1] * (b[0] + b[1] + 2 * b[2]) + f[0] * b[2]);
         b[0] = c;
         b[1] = g;
@@ -132,10 +140,11 @@ int stability_cube(struct stability_trial *trial)
     return 0;
 }
 
-/* A cube with one face open: a black face in the opening, whose irradiance is the emissivity that the opening seems to have. */
+/* A cube with one face open: a black face in the opening, whose irradiance is the emissivity
+ * that the opening seems to have. */
 static void make_cavity(struct made_scene *s, double emissivity)
 {
-    const uint32_t m[6] = { 0, 1, 0, 0, 0, 0 };
+    const uint32_t m[6] = {0, 1, 0, 0, 0, 0};
     made_material(s, 1 - emissivity, emissivity);
     made_material(s, 0, 0);
     made_room(s, m, 1, 1, 1);
@@ -149,13 +158,15 @@ static double opening(const struct solved *s, double unused)
 
 int stability_cavity(struct stability_trial *trial)
 {
-    static const struct stability_scene cavity = { make_cavity, opening };
-    static const double wall[2] = { 0.1, 0.5 }, known[2] = { 0.3483681, 0.8111445 };
+    static const struct stability_scene cavity = {make_cavity, opening};
+    static const double wall[2] = {0.1, 0.5}, known[2] = {0.3483681, 0.8111445};
     trial->error = 0;
     for (int i = 0; i < 2; i++) {
-        double f[2], seen = NAN;
-        if (trial->method->kind == BY_FACTOR) { /* floor and walls alike see the opening by f[0], f[1]; E = e, two unknowns */
+        double seen = NAN;
+        /* floor and walls alike see the opening by f[0], f[1]; E = e, two unknowns */
+        if (trial->method->kind == BY_FACTOR) {
             double b = wall[i], w = wall[i], rho = 1 - wall[i];
+            double f[2];
             stability_cube_factors(trial->method, f);
             for (int k = 0; k < 2000; k++) {
                 double next = wall[i] + rho * 4 * f[1] * w;

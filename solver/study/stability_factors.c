@@ -6,7 +6,7 @@
 
 static struct made_scene one_grey(void)
 {
-    struct made_scene scene = { .count = 0 };
+    struct made_scene scene = {.count = 0};
     made_material(&scene, 0.5, 0);
     return scene;
 }
@@ -30,7 +30,8 @@ static struct made_scene two_perpendicular(double w, double h, double l)
 }
 
 /* F from polygon i to polygon j by a BY_FACTOR method. */
-static double pair_factor(const struct stability_method *method, const struct made_scene *scene, uint32_t i, uint32_t j)
+static double pair_factor(const struct stability_method *method, const struct made_scene *scene,
+                          uint32_t i, uint32_t j)
 {
     const struct element r = made_element(scene, i), s = made_element(scene, j);
     return stability_factor(method, &r, &s);
@@ -39,11 +40,11 @@ static double pair_factor(const struct stability_method *method, const struct ma
 /* F from face 0 to face 1 by the trial's method. Returns 0 or -1. */
 static int factor(struct stability_trial *trial, const struct made_scene *scene, double *f)
 {
-    struct solved s;
     if (trial->method->kind == BY_FACTOR) {
         *f = pair_factor(trial->method, scene, 0, 1);
         return 0;
     }
+    struct solved s;
     if (stability_solve(&s, scene, trial, 1) < 0)
         return -1;
     *f = stability_exchange(&s, 0, 1);
@@ -72,7 +73,6 @@ static double parts_error(const struct stability_trial *trial, uint32_t n)
 {
     double h = 1.0 / n, sum = 0;
     struct made_scene scene = one_grey();
-    struct element element[MADE_POLYGONS];
     uint32_t cells = n * n;
     for (int k = 0; k < 2; k++)
         for (uint32_t i = 0; i < cells; i++) {
@@ -82,6 +82,7 @@ static double parts_error(const struct stability_trial *trial, uint32_t n)
             else
                 made_quad(&scene, 0, x, 0, y, 0, 0, h, h, 0, 0);
         }
+    struct element element[MADE_POLYGONS];
     for (uint32_t i = 0; i < scene.count; i++)
         element[i] = made_element(&scene, i);
     for (uint32_t i = 0; i < cells; i++)
@@ -112,15 +113,15 @@ int stability_half_apart(struct stability_trial *trial)
 
 int stability_row_sum(struct stability_trial *trial)
 {
-    const uint32_t grey[6] = { 0, 0, 0, 0, 0, 0 };
+    const uint32_t grey[6] = {0, 0, 0, 0, 0, 0};
     struct made_scene cube = one_grey();
-    struct solved s;
     double sum = 0;
     made_room(&cube, grey, 1, 1, 1);
     if (trial->method->kind == BY_FACTOR) {
         for (uint32_t j = 1; j < 6; j++)
             sum += pair_factor(trial->method, &cube, 0, j);
     } else {
+        struct solved s;
         if (stability_solve(&s, &cube, trial, 1) < 0)
             return -1;
         sum = stability_row(&s, 0);
@@ -178,14 +179,15 @@ int stability_coplanar(struct stability_trial *trial)
     int wrong = 0, n = trial->method->kind == BY_FACTOR ? PAIRS : SOLVED;
     for (int i = 0; i < n; i++) {
         struct made_scene scene = one_grey();
-        struct solved s;
         double u[3], v[3], side = 1 + (i & 1); /* touching, or one apart */
         random_frame(&seed, u, v);
         made_quad(&scene, 0, 0.1, 0.2, 0.3, u[0], u[1], u[2], v[0], v[1], v[2]);
-        made_quad(&scene, 0, 0.1 + side * u[0], 0.2 + side * u[1], 0.3 + side * u[2], u[0], u[1], u[2], v[0], v[1], v[2]);
+        made_quad(&scene, 0, 0.1 + side * u[0], 0.2 + side * u[1], 0.3 + side * u[2], u[0], u[1],
+                  u[2], v[0], v[1], v[2]);
         if (trial->method->kind == BY_FACTOR) {
             wrong += pair_factor(trial->method, &scene, 0, 1) > 0;
         } else {
+            struct solved s;
             if (stability_solve(&s, &scene, trial, 1) < 0)
                 return -1;
             wrong += s.links.count > 0 || s.report.rays > 0;
@@ -224,9 +226,11 @@ int stability_scale_far(struct stability_trial *trial)
 /* The worst of many rectangles, aligned and at right angles, thin and wide, near and far. */
 int stability_closed_forms(struct stability_trial *trial)
 {
-    static const double parallel[][3] = { { 1, 1, 0.01 }, { 1, 1, 0.1 }, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 0.5, 0.3 },
-                                          { 1, 3, 5 }, { 1, 1, 20 }, { 0.03, 4, 0.7 }, { 1, 100, 1 }, { 1, 1000, 1 } };
-    static const double standing[][3] = { { 1, 1, 1 }, { 1, 0.1, 1 }, { 0.1, 1, 1 }, { 3, 0.5, 2 }, { 1, 1, 10 }, { 5, 5, 0.1 } };
+    static const double parallel[][3] = {{1, 1, 0.01},  {1, 1, 0.1}, {1, 1, 1},  {1, 1, 2},
+                                         {2, 0.5, 0.3}, {1, 3, 5},   {1, 1, 20}, {0.03, 4, 0.7},
+                                         {1, 100, 1},   {1, 1000, 1}};
+    static const double standing[][3] = {{1, 1, 1},   {1, 0.1, 1}, {0.1, 1, 1},
+                                         {3, 0.5, 2}, {1, 1, 10},  {5, 5, 0.1}};
     double worst = 0;
     for (size_t i = 0; i < sizeof parallel / sizeof *parallel; i++) {
         const double *p = parallel[i];
@@ -236,7 +240,9 @@ int stability_closed_forms(struct stability_trial *trial)
     }
     for (size_t i = 0; i < sizeof standing / sizeof *standing; i++) {
         const double *p = standing[i];
-        if (against(trial, two_perpendicular(p[0], p[1], p[2]), closed_perpendicular(p[0], p[1], p[2])) < 0)
+        if (against(trial, two_perpendicular(p[0], p[1], p[2]),
+                    closed_perpendicular(p[0], p[1], p[2]))
+            < 0)
             return -1;
         worst = fmax(worst, trial->error);
     }
@@ -248,11 +254,12 @@ int stability_closed_forms(struct stability_trial *trial)
 /* A triangle whose corners lie on a line, among formulas that divide by its area. */
 int stability_degenerate_factor(struct stability_trial *trial)
 {
-    static const double flat[3][3] = { { 0.2, 0.2, 1 }, { 0.5, 0.5, 1 }, { 0.8, 0.8, 1 } };
+    static const double flat[3][3] = {{0.2, 0.2, 1}, {0.5, 0.5, 1}, {0.8, 0.8, 1}};
     struct made_scene scene = one_grey();
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     made_face(&scene, 0, 3, flat);
-    double f = pair_factor(trial->method, &scene, 0, 1), g = pair_factor(trial->method, &scene, 1, 0);
+    double f = pair_factor(trial->method, &scene, 0, 1),
+           g = pair_factor(trial->method, &scene, 1, 0);
     trial->error = isnan(f) || isnan(g) ? NAN : fmax(fabs(f), fabs(g));
     return 0;
 }

@@ -1,19 +1,19 @@
-/* stability_furnace.c - cases of white furnaces: where every place emits and reflects alike, B = E / (1 - rho) everywhere,
- * whatever the form of the room.
+/* stability_furnace.c - cases of white furnaces: where every place emits and reflects alike, B = E
+ * / (1 - rho) everywhere, whatever the form of the room.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "study/stability.h"
 
 static void make_cube(struct made_scene *s, double rho)
 {
-    const uint32_t white[6] = { 0, 0, 0, 0, 0, 0 };
+    const uint32_t white[6] = {0, 0, 0, 0, 0, 0};
     made_material(s, rho, 1);
     made_room(s, white, 1, 1, 1);
 }
 
 static void make_box(struct made_scene *s, double rho)
 {
-    const uint32_t white[6] = { 0, 0, 0, 0, 0, 0 };
+    const uint32_t white[6] = {0, 0, 0, 0, 0, 0};
     made_material(s, rho, 1);
     made_room(s, white, 2, 1, 1);
 }
@@ -21,9 +21,9 @@ static void make_box(struct made_scene *s, double rho)
 /* An L of unit width with legs of 2, height 1: its floor and ceiling are three squares each. */
 static void make_L(struct made_scene *s, double rho)
 {
-    static const double at[3][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
-    static const double wall[8][4] = { { 0, 0, 1, 0 }, { 1, 0, 1, 0 }, { 2, 0, 0, 1 }, { 2, 1, -1, 0 },
-                                       { 1, 1, 0, 1 }, { 1, 2, -1, 0 }, { 0, 2, 0, -1 }, { 0, 1, 0, -1 } };
+    static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    static const double wall[8][4] = {{0, 0, 1, 0}, {1, 0, 1, 0},  {2, 0, 0, 1},  {2, 1, -1, 0},
+                                      {1, 1, 0, 1}, {1, 2, -1, 0}, {0, 2, 0, -1}, {0, 1, 0, -1}};
     made_material(s, rho, 1);
     for (int i = 0; i < 3; i++) {
         made_quad(s, 0, at[i][0], at[i][1], 0, 1, 0, 0, 0, 1, 0);
@@ -43,12 +43,13 @@ static double furnace_error(const struct solved *s, double rho)
     return worst;
 }
 
-static int furnace(struct stability_trial *trial, void (*make)(struct made_scene *s, double rho), double rho)
+static int furnace(struct stability_trial *trial, void (*make)(struct made_scene *s, double rho),
+                   double rho)
 {
-    const struct stability_scene room = { make, furnace_error };
-    double f[2];
+    const struct stability_scene room = {make, furnace_error};
     if (trial->method->kind == BY_ORACLE)
         return stability_measured(trial, &room, rho, &trial->error);
+    double f[2];
     /* By symmetry all six B of the cube are equal, B = 1 + rho sum B. */
     stability_cube_factors(trial->method, f);
     trial->error = fabs((1 - rho) / (1 - rho * (f[0] + 4 * f[1])) - 1);
@@ -83,13 +84,16 @@ int stability_furnace_L(struct stability_trial *trial)
 }
 
 /* A furnace cube solved with other sweeps than the default. Returns 0 or -1. */
-static int sweep_furnace(struct stability_trial *trial, double rho, const struct RadSolveOptions *options, double *error, int *sweeps)
+static int sweep_furnace(struct stability_trial *trial, double rho,
+                         const struct RadSolveOptions *options, double *error, int *sweeps)
 {
-    static const char *const six_elements[] = { "relative=1", NULL }; /* they are as good as many here */
-    const struct stability_how how = { radGetDefaultOracle(), six_elements, trial->threads, *options };
-    struct made_scene cube = { .count = 0 };
-    struct solved s;
+    static const char *const six_elements[] = {"relative=1",
+                                               NULL}; /* they are as good as many here */
+    const struct stability_how how = {radGetDefaultOracle(), six_elements, trial->threads,
+                                      *options};
+    struct made_scene cube = {.count = 0};
     make_cube(&cube, rho);
+    struct solved s;
     if (stability_solve_so(&s, &cube, &how) < 0)
         return -1;
     *error = furnace_error(&s, rho);
@@ -102,15 +106,16 @@ static int sweep_furnace(struct stability_trial *trial, double rho, const struct
 int stability_near_white(struct stability_trial *trial)
 {
     const double rho = 0.999, tolerance = 1e-3;
-    struct RadSolveOptions how = { .tolerance = tolerance };
-    int sweeps;
+    struct RadSolveOptions how = {.tolerance = tolerance};
     if (trial->method == &stability_methods[JACOBI]) {
         how.jacobi = 1;
         how.iterations = 100;
     } else if (trial->method == &stability_methods[NAIVE_STOP]) {
         how.jacobi = 1;
-        how.tolerance = tolerance * rho / (1 - rho); /* takes back what the solver allows for: stop where dB / B is 1e-3 */
+        /* takes back what the solver allows for: stop where dB / B is 1e-3 */
+        how.tolerance = tolerance * rho / (1 - rho);
     }
+    int sweeps;
     if (sweep_furnace(trial, rho, &how, &trial->error, &sweeps) < 0)
         return -1;
     trial->count = sweeps;
@@ -120,8 +125,9 @@ int stability_near_white(struct stability_trial *trial)
 /* Sweeps to 1e-3 for rho from .5 to .999, as a share of Jacobi's ln 1e-3 / ln rho. */
 int stability_sweeps(struct stability_trial *trial)
 {
-    static const double rho[] = { 0.5, 0.9, 0.99, 0.999 };
-    const struct RadSolveOptions how = { .tolerance = 1e-3, .jacobi = trial->method == &stability_methods[SWEEPS_JACOBI] };
+    static const double rho[] = {0.5, 0.9, 0.99, 0.999};
+    const struct RadSolveOptions how = {
+        .tolerance = 1e-3, .jacobi = trial->method == &stability_methods[SWEEPS_JACOBI]};
     trial->error = 0;
     for (size_t i = 0; i < sizeof rho / sizeof *rho; i++) {
         double error;

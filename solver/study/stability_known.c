@@ -4,10 +4,12 @@
 
 #include <math.h>
 
-/* A rectangle with a corner above the point is odd in both sides, so corners add with their signs. */
+/* A rectangle with a corner above the point is odd in both sides, so corners add with their
+ * signs. */
 double known_point(double x0, double x1, double y0, double y1, double h)
 {
-    return closed_corner(x1, y1, h) - closed_corner(x0, y1, h) - closed_corner(x1, y0, h) + closed_corner(x0, y0, h);
+    return closed_corner(x1, y1, h) - closed_corner(x0, y1, h) - closed_corner(x1, y0, h)
+           + closed_corner(x0, y0, h);
 }
 
 double known_penumbra(const double source[4], double h, const double blocker[4], double z)

@@ -1,23 +1,25 @@
 /* stability_sphere.c - cases that many flat faces tend to: spheres, and plates without end.
  *
- * As faces get half as wide, or plates twice as wide, the error falls to a quarter; so two levels give what many would
- * tend to. Sources: closed forms of spheres and of infinite parallel plates.
+ * As faces get half as wide, or plates twice as wide, the error falls to a quarter; so two levels
+ * give what many would tend to. Sources: closed forms of spheres and of infinite parallel plates.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "study/stability.h"
 
-/* Triangles of a sphere seen from inside, or from outside: an octahedron's faces in quarters `level` times.
- * material(context, centre) names each. */
+/* Triangles of a sphere seen from inside, or from outside: an octahedron's faces in quarters
+ * `level` times. material(context, centre) names each. */
 struct sphere {
     double radius;
     int outward;
     uint32_t (*material)(const double centre[3]);
 };
 
-static void add_sphere(struct made_scene *s, const struct sphere *sphere, const double a[3], const double b[3], const double c[3], int level)
+static void add_sphere(struct made_scene *s, const struct sphere *sphere, const double a[3],
+                       const double b[3], const double c[3], int level)
 {
-    double p[3][3], middle[3][3], centre[3];
+    double p[3][3], centre[3];
     if (level > 0) {
+        double middle[3][3];
         for (int i = 0; i < 3; i++) {
             const double *u = i == 0 ? a : i == 1 ? b : c, *v = i == 0 ? b : i == 1 ? c : a;
             for (int k = 0; k < 3; k++)
@@ -38,20 +40,23 @@ static void add_sphere(struct made_scene *s, const struct sphere *sphere, const 
         p[2][k] = sphere->radius * (sphere->outward ? c : b)[k];
         centre[k] = a[k] + b[k] + c[k];
     }
-    made_face(s, sphere->material(centre), 3, (const double (*)[3])p);
+    made_face(s, sphere->material(centre), 3, (const double(*)[3])p);
 }
 
 static void made_sphere(struct made_scene *s, const struct sphere *sphere, int level)
 {
     for (int i = 0; i < 8; i++) {
-        const double x[3] = { i & 1 ? -1 : 1, 0, 0 }, y[3] = { 0, i & 2 ? -1 : 1, 0 }, z[3] = { 0, 0, i & 4 ? -1 : 1 };
+        const double x[3] = {i & 1 ? -1 : 1, 0, 0}, y[3] = {0, i & 2 ? -1 : 1, 0},
+                     z[3] = {0, 0, i & 4 ? -1 : 1};
         int even = !(((i & 1) + (i >> 1 & 1) + (i >> 2 & 1)) & 1);
         add_sphere(s, sphere, x, even ? y : z, even ? z : y, level);
     }
 }
 
-/* Area mean of B (or of H) over faces from..to of a solution, of one material or, with UINT32_MAX, of any. */
-static double mean(const struct solved *s, uint32_t from, uint32_t to, uint32_t material, int irradiance)
+/* Area mean of B (or of H) over faces from..to of a solution, of one material or, with
+ * UINT32_MAX, of any. */
+static double mean(const struct solved *s, uint32_t from, uint32_t to, uint32_t material,
+                   int irradiance)
 {
     const struct RadFace *faces = radGetSceneFaces(s->scene);
     double sum = 0, area = 0;
@@ -89,19 +94,22 @@ static uint32_t second_material(const double centre[3])
 }
 
 /* |value / known - 1| of what the numbers of levels 1 and 2 tend to. */
-static int extrapolated(struct stability_trial *trial, const struct stability_scene *scene, double known)
+static int extrapolated(struct stability_trial *trial, const struct stability_scene *scene,
+                        double known)
 {
     double low, high;
-    if (stability_measured(trial, scene, 1, &low) < 0 || stability_measured(trial, scene, 2, &high) < 0)
+    if (stability_measured(trial, scene, 1, &low) < 0
+        || stability_measured(trial, scene, 2, &high) < 0)
         return -1;
     trial->error = fabs((high + (high - low) / 3) / known - 1);
     return 0;
 }
 
-/* E = 1 above, rho = .8 on one side and .2 on the other: H = <E> / (1 - <rho>) = 1 in the dark half. */
+/* E = 1 above, rho = .8 on one side and .2 on the other: H = <E> / (1 - <rho>) = 1 in the dark
+ * half. */
 static void make_sphere(struct made_scene *s, double level)
 {
-    const struct sphere sphere = { 1, 0, by_octant };
+    const struct sphere sphere = {1, 0, by_octant};
     made_material(s, 0.2, 0);
     made_material(s, 0.2, 1);
     made_material(s, 0.8, 0);
@@ -117,14 +125,14 @@ static double dark_irradiance(const struct solved *s, double level)
 
 int stability_sphere(struct stability_trial *trial)
 {
-    static const struct stability_scene sphere = { make_sphere, dark_irradiance };
+    static const struct stability_scene sphere = {make_sphere, dark_irradiance};
     return extrapolated(trial, &sphere, 1);
 }
 
 /* Half of a sphere open: walls of emissivity .1 seem to have .1 / (.1 + .5 * .9). */
 static void make_hollow(struct made_scene *s, double level)
 {
-    const struct sphere sphere = { 1, 0, by_octant };
+    const struct sphere sphere = {1, 0, by_octant};
     made_material(s, 0, 0);
     made_material(s, 0.9, 0.1);
     made_material(s, 0, 0);
@@ -140,14 +148,14 @@ static double wall_radiosity(const struct solved *s, double level)
 
 int stability_hollow_sphere(struct stability_trial *trial)
 {
-    static const struct stability_scene hollow = { make_hollow, wall_radiosity };
+    static const struct stability_scene hollow = {make_hollow, wall_radiosity};
     return extrapolated(trial, &hollow, 0.1 / (0.1 + 0.5 * 0.9));
 }
 
 /* Radii 1/2 and 1, E = 1 within, rho = .5: B = 10/9 and 2/9. */
 static void make_concentric(struct made_scene *s, double level)
 {
-    const struct sphere inner = { 0.5, 1, first_material }, outer = { 1, 0, second_material };
+    const struct sphere inner = {0.5, 1, first_material}, outer = {1, 0, second_material};
     made_material(s, 0.5, 1);
     made_material(s, 0.5, 0);
     made_sphere(s, &inner, (int)level);
@@ -162,12 +170,12 @@ static double outer_radiosity(const struct solved *s, double level)
 
 int stability_concentric(struct stability_trial *trial)
 {
-    static const struct stability_scene concentric = { make_concentric, outer_radiosity };
+    static const struct stability_scene concentric = {make_concentric, outer_radiosity};
     return extrapolated(trial, &concentric, 2 / 9.0);
 }
 
-/* Plates of `wide` x `wide` unit squares, so wide that the middle ones see little else, E = 1 and 0, rho = .5 and .8;
- * what those lack of infinite ones falls as 1/wide2. */
+/* Plates of `wide` x `wide` unit squares, so wide that the middle ones see little else, E = 1 and
+ * 0, rho = .5 and .8; what those lack of infinite ones falls as 1/wide2. */
 static int wide_at(double level)
 {
     return 3 << (int)level;
@@ -192,6 +200,6 @@ static double middle_radiosity(const struct solved *s, double level)
 
 int stability_wide_plates(struct stability_trial *trial)
 {
-    static const struct stability_scene wide = { make_wide, middle_radiosity };
+    static const struct stability_scene wide = {make_wide, middle_radiosity};
     return extrapolated(trial, &wide, (1 + 0.5 * 0) / (1 - 0.5 * 0.8));
 }

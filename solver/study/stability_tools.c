@@ -7,13 +7,15 @@
 #include "util/device.h"
 #include "util/open_oracle.h"
 
-double stability_factor(const struct stability_method *method, const struct element *r, const struct element *s)
+double stability_factor(const struct stability_method *method, const struct element *r,
+                        const struct element *s)
 {
+    double axis[3];
     struct discussion d;
-    double axis[3], square, cos_r, cos_s, kernel;
     memset(&d, 0, sizeof d);
     d.receiver = r;
     d.emitter = s;
+    double square, cos_r, cos_s, kernel;
     switch ((enum stability_factor)method->number) {
     case FACTOR_KERNEL:
     case FACTOR_CULLED:
@@ -38,12 +40,16 @@ double stability_factor(const struct stability_method *method, const struct elem
 /* The scene, committed. Returns NULL after a message. */
 static RadScene commit_scene(RadDevice device, const struct made_scene *made)
 {
-    const struct RadPolygons polygons = { .positions = made->position[0], .position_count = made->corners, .indices = made->index,
-                                          .sizes = made->size, .materials = made->material, .count = made->count, .as_given = made->as_given };
+    const struct RadPolygons polygons = {.positions = made->position[0],
+                                         .position_count = made->corners,
+                                         .indices = made->index,
+                                         .sizes = made->size,
+                                         .materials = made->material,
+                                         .count = made->count,
+                                         .as_given = made->as_given};
     RadScene scene = radNewScene(device);
     if (!scene || radSetSceneMaterials(scene, made->materials, made->material_count) < 0
-        || radSetSceneSharedPolygons(scene, &polygons) < 0
-        || radCommitScene(scene) < 0) {
+        || radSetSceneSharedPolygons(scene, &polygons) < 0 || radCommitScene(scene) < 0) {
         report_device(device, "study stability");
         radReleaseScene(scene);
         return NULL;
@@ -52,49 +58,59 @@ static RadScene commit_scene(RadDevice device, const struct made_scene *made)
 }
 
 /* Made, committed, given an oracle, and solved when `solve`. */
-static int make_solution(struct solved *s, const struct made_scene *made, const struct stability_how *how, int solve)
+static int make_solution(struct solved *s, const struct made_scene *made,
+                         const struct stability_how *how, int solve)
 {
     int count = 0, status = -1;
     while (how->settings[count])
         count++;
     RadDevice device = open_device(NULL, how->threads);
     RadScene scene = device ? commit_scene(device, made) : NULL;
-    RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT, (char *const *)how->settings, count) : NULL;
+    RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT,
+                                           (char *const *)how->settings, count)
+                             : NULL;
     if (oracle)
-        status = (solve ? solved_open : solved_begin)(s, device, "study stability", scene, oracle, &how->options);
+        status = (solve ? solved_open : solved_begin)(s, device, "study stability", scene, oracle,
+                                                      &how->options);
     radReleaseOracle(oracle);
     radReleaseScene(scene);
     radReleaseDevice(device);
     return status;
 }
 
-int stability_solve_so(struct solved *s, const struct made_scene *made, const struct stability_how *how)
+int stability_solve_so(struct solved *s, const struct made_scene *made,
+                       const struct stability_how *how)
 {
     return make_solution(s, made, how, 1);
 }
 
 int stability_unsolved(struct solved *s, const struct made_scene *made)
 {
-    static const char *const none[] = { NULL };
-    const struct stability_how how = { .oracle = radGetDefaultOracle(), .settings = none, .threads = 1 };
+    static const char *const none[] = {NULL};
+    const struct stability_how how = {
+        .oracle = radGetDefaultOracle(), .settings = none, .threads = 1};
     return make_solution(s, made, &how, 0);
 }
 
-int stability_solve(struct solved *s, const struct made_scene *made, const struct stability_trial *trial, int unit)
+int stability_solve(struct solved *s, const struct made_scene *made,
+                    const struct stability_trial *trial, int unit)
 {
     const struct stability_method *m = trial->method;
     const struct stability_how how = {
-        m->oracle, m->settings, trial->threads,
-        { .tolerance = 1e-6, .closure = (enum RadClosure)m->number, .unit = unit },
+        m->oracle,
+        m->settings,
+        trial->threads,
+        {.tolerance = 1e-6, .closure = (enum RadClosure)m->number, .unit = unit},
     };
     return stability_solve_so(s, made, &how);
 }
 
-int stability_measured(struct stability_trial *trial, const struct stability_scene *scene, double at, double *value)
+int stability_measured(struct stability_trial *trial, const struct stability_scene *scene,
+                       double at, double *value)
 {
-    struct made_scene made = { .count = 0 };
-    struct solved s;
+    struct made_scene made = {.count = 0};
     scene->make(&made, at);
+    struct solved s;
     if (stability_solve(&s, &made, trial, 0) < 0)
         return -1;
     trial->count = (double)s.links.count;
@@ -105,10 +121,11 @@ int stability_measured(struct stability_trial *trial, const struct stability_sce
 
 void stability_cube_factors(const struct stability_method *method, double f[2])
 {
-    const uint32_t grey[6] = { 0, 0, 0, 0, 0, 0 };
-    struct made_scene cube = { .count = 0 };
+    const uint32_t grey[6] = {0, 0, 0, 0, 0, 0};
+    struct made_scene cube = {.count = 0};
     made_room(&cube, grey, 1, 1, 1);
-    const struct element floor = made_element(&cube, 0), ceiling = made_element(&cube, 1), wall = made_element(&cube, 2);
+    const struct element floor = made_element(&cube, 0), ceiling = made_element(&cube, 1),
+                         wall = made_element(&cube, 2);
     f[0] = stability_factor(method, &floor, &ceiling);
     f[1] = stability_factor(method, &floor, &wall);
 }
@@ -156,7 +173,7 @@ double stability_irradiance(const struct solved *s, uint32_t face)
 int stability_same_links(const struct solved *a, const struct solved *b)
 {
     return a->links.count == b->links.count && a->elements.count == b->elements.count
-        && memcmp(a->links.links, b->links.links, a->links.count * sizeof *a->links.links) == 0;
+           && memcmp(a->links.links, b->links.links, a->links.count * sizeof *a->links.links) == 0;
 }
 
 double stability_random(unsigned *seed)
@@ -169,10 +186,13 @@ enum stability_verdict stability_judge(const struct stability_cell *cell, double
 {
     if (!cell->why)
         return error <= cell->tolerance ? VERDICT_PASSES : VERDICT_FAILS;
-    return error > cell->tolerance && error >= cell->low && error <= cell->high ? VERDICT_FAILS_AS_KNOWN : VERDICT_CHANGED;
+    return error > cell->tolerance && error >= cell->low && error <= cell->high
+               ? VERDICT_FAILS_AS_KNOWN
+               : VERDICT_CHANGED;
 }
 
-int stability_run(const struct stability_case *c, const struct stability_cell *cell, int threads, struct stability_trial *trial)
+int stability_run(const struct stability_case *c, const struct stability_cell *cell, int threads,
+                  struct stability_trial *trial)
 {
     trial->method = &stability_methods[cell->method];
     trial->threads = threads;

@@ -1,5 +1,5 @@
-/* study.h - experiments whose table is the result, one file each. All return the exit status; `scene` is the one that the
- * command line names, NULL for studies that make their own.
+/* study.h - experiments whose table is the result, one file each. All return the exit status;
+ * `scene` is the one that the command line names, NULL for studies that make their own.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_H
 #define STUDY_H

@@ -1,10 +1,12 @@
 /* study_clustering.c - `radiosity study clustering`: which strategy groups faces best?
  *
- * Each strategy of radGetClusteringNames() solves the scene once with the same oracle. A row tells of its tree: clusters, depth, and
- * crossed, the clusters whose boxes a random line through the scene meets, sum of box areas over the root's [Goldsmith and
- * Salmon 1987], which is what searches pay for boxes that are large or overlap. And of the solve: seconds, links, discussions,
- * rays, peak memory, and error: against a reference, sum A |B - B_ref| / sum A B_ref over faces; in any case the power
- * imbalance, which in a closed scene is all error, in an open one also what leaves. Counts are exact; seconds are the machine's.
+ * Each strategy of radGetClusteringNames() solves the scene once with the same oracle. A row tells
+ * of its tree: clusters, depth, and crossed, the clusters whose boxes a random line through the
+ * scene meets, sum of box areas over the root's [Goldsmith and Salmon 1987], which is what searches
+ * pay for boxes that are large or overlap. And of the solve: seconds, links, discussions, rays,
+ * peak memory, and error: against a reference, sum A |B - B_ref| / sum A B_ref over faces; in any
+ * case the power imbalance, which in a closed scene is all error, in an open one also what leaves.
+ * Counts are exact; seconds are the machine's.
  * [the comparison, for other oracles: Hasenfratz, Damez, Sillion and Drettakis 1999]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -28,11 +30,12 @@ struct row {
     const char *strategy;
     uint32_t clusters, depth, elements;
     double crossed;
-    double build, clock, cpu; /* s: of the clusters alone; of all, by the clock and of all threads */
-    double memory;            /* MB */
-    uint64_t links, groups;   /* groups: links with a cluster at an end */
+    /* s: of the clusters alone; of all, by the clock and of all threads */
+    double build, clock, cpu;
+    double memory;          /* MB */
+    uint64_t links, groups; /* groups: links with a cluster at an end */
     uint64_t pairs, rays;
-    double imbalance, error;  /* shares; error: NAN without a reference */
+    double imbalance, error; /* shares; error: NAN without a reference */
     int converged;
 };
 
@@ -55,7 +58,6 @@ static void forget_peak(void)
 /* Peak of resident memory, MB. */
 static double peak(void)
 {
-    struct rusage usage;
     char line[128];
     double most = 0;
     FILE *f = fopen("/proc/self/status", "r");
@@ -64,6 +66,7 @@ static double peak(void)
             most = strtod(line + 6, NULL) / 1024;
     if (f)
         (void)fclose(f);
+    struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     return most > 0 ? most : (double)usage.ru_maxrss / 1024;
 }
@@ -99,24 +102,27 @@ static void describe_solution(struct row *row, const struct solved *s)
     row->elements = r->elements;
     row->links = r->links;
     for (size_t i = 0; i < s->links.count; i++)
-        row->groups += !e[s->links.links[i].receiver].vertices || !e[s->links.links[i].emitter].vertices;
+        row->groups +=
+            !e[s->links.links[i].receiver].vertices || !e[s->links.links[i].emitter].vertices;
     row->pairs = r->pairs;
     row->rays = r->rays;
     row->imbalance = r->emitted > 0 ? (r->emitted - r->absorbed) / r->emitted : 0;
     row->converged = r->converged;
 }
 
-static int run(const struct options *o, const struct open_scene *scene, const struct faces_reference *reference, struct progress *progress,
+static int run(const struct options *o, const struct open_scene *scene,
+               const struct faces_reference *reference, struct progress *progress,
                const char *strategy, struct row *row)
 {
     struct RadSolveOptions how = solve_options(o);
-    struct solved s;
-    RadOracle oracle = open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
+    RadOracle oracle =
+        open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
     if (!oracle)
         return -1;
     how.clustering = row->strategy = strategy;
     forget_peak();
     double clock = seconds(), cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    struct solved s;
     int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
     progress_end(progress);
     radReleaseOracle(oracle);
@@ -127,7 +133,8 @@ static int run(const struct options *o, const struct open_scene *scene, const st
     row->memory = peak();
     describe_tree(row, &s.elements);
     describe_solution(row, &s);
-    row->error = reference->count ? faces_reference_error(reference, scene, s.solution) : (double)NAN;
+    row->error =
+        reference->count ? faces_reference_error(reference, scene, s.solution) : (double)NAN;
     solved_close(&s);
     return 0;
 }
@@ -137,19 +144,24 @@ static int run(const struct options *o, const struct open_scene *scene, const st
 static void print_heading(FILE *out, const struct options *o)
 {
     fprintf(out, "%s, oracle %s, %d threads; error of B %s\n", o->scene, o->oracle, o->threads,
-            o->reference ? "per face against the reference, relative L1 by area" : "not known without --reference: look at the power imbalance");
+            o->reference ? "per face against the reference, relative L1 by area"
+                         : "not known without --reference: look at the power imbalance");
 }
 
 static void print_head(FILE *out)
 {
-    fputs("strategy clusters depth crossed  build s   cpu s clock s     links  of groups      pairs       rays    MB  imbalance  error\n", out);
+    fputs("strategy clusters depth crossed  build s   cpu s clock s     links  of groups      "
+          "pairs       rays    MB  imbalance  error\n",
+          out);
 }
 
 static void print_row(FILE *out, const struct row *r)
 {
-    fprintf(out, "%-8s %8u %5u %7.1f %8.2f %7.2f %7.2f %9llu  %9llu %10llu %10llu %5.0f   %6.2f %%", r->strategy, r->clusters, r->depth, r->crossed,
-            r->build, r->cpu, r->clock, (unsigned long long)r->links, (unsigned long long)r->groups, (unsigned long long)r->pairs,
-            (unsigned long long)r->rays, r->memory, 100 * r->imbalance);
+    fprintf(out, "%-8s %8u %5u %7.1f %8.2f %7.2f %7.2f %9llu  %9llu %10llu %10llu %5.0f   %6.2f %%",
+            r->strategy, r->clusters, r->depth, r->crossed, r->build, r->cpu, r->clock,
+            (unsigned long long)r->links, (unsigned long long)r->groups,
+            (unsigned long long)r->pairs, (unsigned long long)r->rays, r->memory,
+            100 * r->imbalance);
     if (isnan(r->error))
         fputs("      -", out);
     else
@@ -159,12 +171,15 @@ static void print_row(FILE *out, const struct row *r)
 
 static void print_csv(FILE *out, const struct table *t)
 {
-    fputs("strategy,clusters,depth,crossed,build_s,cpu_s,clock_s,elements,links,links_of_groups,pairs,rays,memory_mb,imbalance,error,converged\n", out);
+    fputs("strategy,clusters,depth,crossed,build_s,cpu_s,clock_s,elements,links,links_of_groups,"
+          "pairs,rays,memory_mb,imbalance,error,converged\n",
+          out);
     for (int i = 0; i < t->rows; i++) {
         const struct row *r = &t->row[i];
-        fprintf(out, "%s,%u,%u,%.9g,%.4f,%.4f,%.4f,%u,%llu,%llu,%llu,%llu,%.1f,%.9g,", r->strategy, r->clusters, r->depth, r->crossed, r->build,
-                r->cpu, r->clock, r->elements, (unsigned long long)r->links, (unsigned long long)r->groups, (unsigned long long)r->pairs,
-                (unsigned long long)r->rays, r->memory, r->imbalance);
+        fprintf(out, "%s,%u,%u,%.9g,%.4f,%.4f,%.4f,%u,%llu,%llu,%llu,%llu,%.1f,%.9g,", r->strategy,
+                r->clusters, r->depth, r->crossed, r->build, r->cpu, r->clock, r->elements,
+                (unsigned long long)r->links, (unsigned long long)r->groups,
+                (unsigned long long)r->pairs, (unsigned long long)r->rays, r->memory, r->imbalance);
         if (!isnan(r->error))
             fprintf(out, "%.9g", r->error);
         fprintf(out, ",%d\n", r->converged);
@@ -175,15 +190,23 @@ static void print_markdown(FILE *out, const struct table *t)
 {
     const struct options *o = t->options;
     const char *slash = strrchr(o->scene, '/');
-    fprintf(out, "`radiosity study clustering %s`, oracle `%s`, %d threads; error of B %s\n\n", slash ? slash + 1 : o->scene, o->oracle, o->threads,
-            o->reference ? "per face against a reference, relative L1 by area" : "not known: no reference was given");
-    fputs("| strategy | clusters | depth | crossed | build, s | cpu, s | clock, s | links | of groups | pairs | rays | MB | imbalance | error |\n"
-          "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n", out);
+    fprintf(out, "`radiosity study clustering %s`, oracle `%s`, %d threads; error of B %s\n\n",
+            slash ? slash + 1 : o->scene, o->oracle, o->threads,
+            o->reference ? "per face against a reference, relative L1 by area"
+                         : "not known: no reference was given");
+    fputs("| strategy | clusters | depth | crossed | build, s | cpu, s | clock, s | links | of "
+          "groups | pairs | rays | MB | imbalance | error |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+          out);
     for (int i = 0; i < t->rows; i++) {
         const struct row *r = &t->row[i];
-        fprintf(out, "| %s | %u | %u | %.1f | %.2f | %.1f | %.1f | %llu | %llu | %llu | %llu | %.0f | %.2f %% | ", r->strategy, r->clusters, r->depth,
-                r->crossed, r->build, r->cpu, r->clock, (unsigned long long)r->links, (unsigned long long)r->groups,
-                (unsigned long long)r->pairs, (unsigned long long)r->rays, r->memory, 100 * r->imbalance);
+        fprintf(out,
+                "| %s | %u | %u | %.1f | %.2f | %.1f | %.1f | %llu | %llu | %llu | %llu | %.0f | "
+                "%.2f %% | ",
+                r->strategy, r->clusters, r->depth, r->crossed, r->build, r->cpu, r->clock,
+                (unsigned long long)r->links, (unsigned long long)r->groups,
+                (unsigned long long)r->pairs, (unsigned long long)r->rays, r->memory,
+                100 * r->imbalance);
         if (isnan(r->error))
             fputs("- |\n", out);
         else
@@ -209,8 +232,11 @@ static void print_plot(FILE *out, const void *context)
 {
     const struct table *t = context;
     const int known = !isnan(t->row[0].error);
-    fprintf(out, "set style data histogram\nset style histogram clustered gap 1\nset style fill solid 0.8 border -1\n"
-                 "set ylabel 'times that of %s'\nset yrange [0:*]\nset grid ytics\nset key below horizontal\n$measures << EOD\nmeasure",
+    fprintf(out,
+            "set style data histogram\nset style histogram clustered gap 1\nset style fill solid "
+            "0.8 border -1\n"
+            "set ylabel 'times that of %s'\nset yrange [0:*]\nset grid ytics\nset key below "
+            "horizontal\n$measures << EOD\nmeasure",
             t->row[0].strategy);
     for (int i = 0; i < t->rows; i++)
         fprintf(out, " %s", t->row[i].strategy);
@@ -218,7 +244,8 @@ static void print_plot(FILE *out, const void *context)
     fprintf(out, "\n\"" name "\""); \
     for (int i = 0; i < t->rows; i++) { \
         const struct row *r = &t->row[i], *first = &t->row[0]; \
-        fprintf(out, " %.6g", (double)first->value > 0 ? (double)r->value / (double)first->value : 0); \
+        fprintf(out, " %.6g", \
+                (double)first->value > 0 ? (double)r->value / (double)first->value : 0); \
     }
     BARS("cpu time", cpu)
     BARS("links", links)
@@ -229,17 +256,18 @@ static void print_plot(FILE *out, const void *context)
         BARS("error", error)
     }
 #undef BARS
-    fprintf(out, "\nEOD\nplot for [i=2:%d] $measures using i:xtic(1) title columnheader(i)\n", t->rows + 1);
+    fprintf(out, "\nEOD\nplot for [i=2:%d] $measures using i:xtic(1) title columnheader(i)\n",
+            t->rows + 1);
 }
 
 int study_clustering(const struct options *o, const struct open_scene *scene)
 {
-    struct table t = { .options = o };
-    struct faces_reference reference = { 0 };
-    struct progress progress;
+    struct table t = {.options = o};
+    struct faces_reference reference = {0};
     int status = 1;
     if (o->reference && faces_reference_read(&reference, o->reference, scene) < 0)
         return 1;
+    struct progress progress;
     progress_start(&progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     if (!o->quiet) {
@@ -247,7 +275,8 @@ int study_clustering(const struct options *o, const struct open_scene *scene)
         print_head(stdout);
         fflush(stdout);
     }
-    for (const char *const *name = radGetClusteringNames(); *name && t.rows < STRATEGIES_MAX; name++) {
+    for (const char *const *name = radGetClusteringNames(); *name && t.rows < STRATEGIES_MAX;
+         name++) {
         if (o->only && strcmp(o->only, *name) != 0)
             continue;
         if (run(o, scene, &reference, &progress, *name, &t.row[t.rows]) < 0)
@@ -258,7 +287,8 @@ int study_clustering(const struct options *o, const struct open_scene *scene)
         }
         t.rows++;
     }
-    status = (o->out && write_table(o->out, &t) < 0) || (o->chart && chart_draw(o->chart, print_plot, &t) < 0);
+    status = (o->out && write_table(o->out, &t) < 0)
+             || (o->chart && chart_draw(o->chart, print_plot, &t) < 0);
 done:
     faces_reference_free(&reference);
     return status;

@@ -1,8 +1,9 @@
-/* study_stability.c - `radiosity study stability`: run the failure table (stability.h) and print it.
+/* study_stability.c - `radiosity study stability`: run the failure table (stability.h) and print
+ * it.
  *
- * On standard output and in Markdown one table per group: rows are cases, columns the methods that the
- * group's cases name, a cell is the measured error, and below it, when that is above the tolerance,
- * "fails: why". In CSV one line per cell, with the tolerance and the count.
+ * On standard output and in Markdown one table per group: rows are cases, columns the methods that
+ * the group's cases name, a cell is the measured error, and below it, when that is above the
+ * tolerance, "fails: why". In CSV one line per cell, with the tolerance and the count.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -36,15 +37,16 @@ static void announce(int wanted, const struct stability_case *c, const struct st
 
 static int run_group(struct results *r, const struct options *o)
 {
-    int i, k, watched = !o->quiet && isatty(STDERR_FILENO), status = 0;
+    int watched = !o->quiet && isatty(STDERR_FILENO), status = 0;
     r->result = calloc((size_t)r->group->count * STABILITY_CELLS, sizeof *r->result);
     if (!r->result)
         return report_error("study stability", 0, "out of memory");
-    for (i = 0; i < r->group->count && status == 0; i++) {
+    for (int i = 0; i < r->group->count && status == 0; i++) {
         const struct stability_case *c = &r->group->cases[i];
         if (o->only && strcmp(o->only, c->name) != 0)
             continue;
-        for (k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD && status == 0; k++) {
+        for (int k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD && status == 0;
+             k++) {
             struct result *result = &r->result[i * STABILITY_CELLS + k];
             announce(watched, c, &c->cells[k]);
             status = stability_run(c, &c->cells[k], o->threads, &result->trial);
@@ -61,14 +63,13 @@ static int run_group(struct results *r, const struct options *o)
 
 static void print_error(char text[48], const struct stability_case *c, const struct result *r)
 {
-    size_t n;
     if (isinf(r->trial.error))
         snprintf(text, 48, "none"); /* no number came of it, or it grows without end */
     else if (r->trial.error == 0)
         snprintf(text, 48, "0");
     else
         snprintf(text, 48, "%.2g", r->trial.error);
-    n = strlen(text);
+    size_t n = strlen(text);
     if (c->counted && r->trial.count >= 0)
         snprintf(text + n, 48 - n, " (%.0f %s)", r->trial.count, c->counted);
 }
@@ -100,7 +101,8 @@ static int cell_of(const struct stability_case *c, int method)
     return -1;
 }
 
-/* The error of a case by a method into text and why; "-" where that makes no sense. Returns 0 when the case was not run. */
+/* The error of a case by a method into text and why; "-" where that makes no sense. Returns 0
+ * when the case was not run. */
 static int cell_texts(const struct results *r, int i, int method, char text[48], char why[96])
 {
     const struct stability_case *c = &r->group->cases[i];
@@ -118,10 +120,10 @@ static int cell_texts(const struct results *r, int i, int method, char text[48],
 /* The methods that the group's cases name, and how wide their columns are. */
 static int columns(const struct results *r, int method[METHODS], int width[METHODS])
 {
-    int m, i, n = 0;
-    for (m = NO_METHOD + 1; m < METHODS; m++) {
+    int n = 0;
+    for (int m = NO_METHOD + 1; m < METHODS; m++) {
         int used = 0, wide = (int)strlen(stability_methods[m].name);
-        for (i = 0; i < r->group->count; i++) {
+        for (int i = 0; i < r->group->count; i++) {
             char text[48], why[96];
             if (!cell_texts(r, i, m, text, why) || cell_of(&r->group->cases[i], m) < 0)
                 continue;
@@ -139,20 +141,20 @@ static int columns(const struct results *r, int method[METHODS], int width[METHO
 
 static void print_plain(FILE *out, const struct results *r)
 {
-    int method[METHODS], width[METHODS], n = columns(r, method, width), i, k;
+    int method[METHODS], width[METHODS], n = columns(r, method, width);
     if (n == 0)
         return;
     fprintf(out, "%-20s", r->group->title);
-    for (k = 0; k < n; k++)
+    for (int k = 0; k < n; k++)
         fprintf(out, "  %-*s", width[k], stability_methods[method[k]].name);
     fputc('\n', out);
-    for (i = 0; i < r->group->count; i++) {
+    for (int i = 0; i < r->group->count; i++) {
         char text[48], why[96];
         int reasons = 0;
         if (!r->result[i * STABILITY_CELLS].run)
             continue;
         fprintf(out, "%-20s", r->group->cases[i].name);
-        for (k = 0; k < n; k++) {
+        for (int k = 0; k < n; k++) {
             (void)cell_texts(r, i, method[k], text, why);
             fprintf(out, "  %-*s", width[k], text);
             reasons |= why[0];
@@ -161,7 +163,7 @@ static void print_plain(FILE *out, const struct results *r)
         if (!reasons)
             continue;
         fprintf(out, "%-20s", "");
-        for (k = 0; k < n; k++) {
+        for (int k = 0; k < n; k++) {
             (void)cell_texts(r, i, method[k], text, why);
             fprintf(out, "  %-*s", width[k], why);
         }
@@ -172,44 +174,46 @@ static void print_plain(FILE *out, const struct results *r)
 
 static void print_markdown(FILE *out, const struct results *r)
 {
-    int method[METHODS], width[METHODS], n = columns(r, method, width), i, k;
+    int method[METHODS], width[METHODS], n = columns(r, method, width);
     if (n == 0)
         return;
     fprintf(out, "\n## %s\n\n| case |", r->group->title);
-    for (k = 0; k < n; k++)
+    for (int k = 0; k < n; k++)
         fprintf(out, " %s |", stability_methods[method[k]].name);
     fprintf(out, "\n|---|");
-    for (k = 0; k < n; k++)
+    for (int k = 0; k < n; k++)
         fprintf(out, "---|");
-    for (i = 0; i < r->group->count; i++) {
+    for (int i = 0; i < r->group->count; i++) {
         if (!r->result[i * STABILITY_CELLS].run)
             continue;
         fprintf(out, "\n| %s |", r->group->cases[i].name);
-        for (k = 0; k < n; k++) {
+        for (int k = 0; k < n; k++) {
             char text[48], why[96];
             (void)cell_texts(r, i, method[k], text, why);
             fprintf(out, " %s%s%s |", text, *why ? " " : "", why);
         }
     }
     fprintf(out, "\n\n");
-    for (i = 0; i < r->group->count; i++)
+    for (int i = 0; i < r->group->count; i++)
         if (r->result[i * STABILITY_CELLS].run)
-            fprintf(out, "- `%s`: %s. Right: %s. The number: %s.\n", r->group->cases[i].name, r->group->cases[i].what,
-                    r->group->cases[i].right, r->group->cases[i].measure);
+            fprintf(out, "- `%s`: %s. Right: %s. The number: %s.\n", r->group->cases[i].name,
+                    r->group->cases[i].what, r->group->cases[i].right, r->group->cases[i].measure);
 }
 
 /* One line per cell; texts hold no quotes. */
 static void print_csv(FILE *out, const struct results *r)
 {
-    static const char *const verdict[] = { "passes", "fails", "FAILS", "CHANGED" };
+    static const char *const verdict[] = {"passes", "fails", "FAILS", "CHANGED"};
     for (int i = 0; i < r->group->count; i++) {
         const struct stability_case *c = &r->group->cases[i];
         for (int k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++) {
             const struct result *result = &r->result[i * STABILITY_CELLS + k];
             if (!result->run)
                 continue;
-            fprintf(out, "%s,%s,\"%s\",%.6g,%.6g,%s,\"%s\",", r->group->title, c->name, stability_methods[c->cells[k].method].name,
-                    result->trial.error, c->cells[k].tolerance, verdict[result->verdict], c->cells[k].why ? c->cells[k].why : "");
+            fprintf(out, "%s,%s,\"%s\",%.6g,%.6g,%s,\"%s\",", r->group->title, c->name,
+                    stability_methods[c->cells[k].method].name, result->trial.error,
+                    c->cells[k].tolerance, verdict[result->verdict],
+                    c->cells[k].why ? c->cells[k].why : "");
             if (result->trial.count >= 0)
                 fprintf(out, "%.0f", result->trial.count);
             fprintf(out, ",\"%s\"\n", c->measure);
@@ -222,19 +226,23 @@ static void print_all(FILE *out, const struct results *results, enum format form
     if (format == CSV)
         fprintf(out, "group,case,method,error,tolerance,result,why,count,measure\n");
     if (format == MARKDOWN)
-        fprintf(out, "# Where methods fail\n\nMade by `radiosity study stability -o FILE.md`. A cell is the method's error; "
-                     "`fails: why` stands where it is above the tolerance of the cell; - where the two have nothing to do with each other.\n");
+        fprintf(out, "# Where methods fail\n\nMade by `radiosity study stability -o FILE.md`. A "
+                     "cell is the method's error; "
+                     "`fails: why` stands where it is above the tolerance of the cell; - where the "
+                     "two have nothing to do with each other.\n");
     for (int g = 0; g < stability_group_count; g++)
-        (format == CSV ? print_csv : format == MARKDOWN ? print_markdown : print_plain)(out, &results[g]);
+        (format == CSV        ? print_csv
+         : format == MARKDOWN ? print_markdown
+                              : print_plain)(out, &results[g]);
 }
 
 /* How many cells are not as expected, and how many there are at all. */
 static int unexpected(const struct results *results, int *cells, int *failing)
 {
-    int g, i, count = 0;
+    int count = 0;
     *cells = *failing = 0;
-    for (g = 0; g < stability_group_count; g++)
-        for (i = 0; results[g].result && i < results[g].group->count * STABILITY_CELLS; i++)
+    for (int g = 0; g < stability_group_count; g++)
+        for (int i = 0; results[g].result && i < results[g].group->count * STABILITY_CELLS; i++)
             if (results[g].result[i].run) {
                 enum stability_verdict v = results[g].result[i].verdict;
                 ++*cells;
@@ -247,7 +255,9 @@ static int unexpected(const struct results *results, int *cells, int *failing)
 static enum format format_of(const char *path)
 {
     const char *dot = strrchr(path, '.');
-    return dot && strcmp(dot, ".md") == 0 ? MARKDOWN : dot && strcmp(dot, ".csv") == 0 ? CSV : PLAIN;
+    return dot && strcmp(dot, ".md") == 0    ? MARKDOWN
+           : dot && strcmp(dot, ".csv") == 0 ? CSV
+                                             : PLAIN;
 }
 
 static int find(const char *name)
@@ -259,32 +269,35 @@ static int find(const char *name)
     report_error("--only", 0, "no case is called '%s'; the cases are", name);
     for (int g = 0; g < stability_group_count; g++)
         for (int i = 0; i < stability_groups[g].count; i++)
-            fprintf(stderr, "  %-20s %s\n", stability_groups[g].cases[i].name, stability_groups[g].cases[i].what);
+            fprintf(stderr, "  %-20s %s\n", stability_groups[g].cases[i].name,
+                    stability_groups[g].cases[i].what);
     return -1;
 }
 
 int study_stability(const struct options *o, const struct open_scene *scene)
 {
     (void)scene; /* it makes its own */
-    struct results *results;
-    struct atomic_file file;
-    int g, cells, failing, wrong, status = 0;
+    int status = 0;
     if (o->only && find(o->only) < 0)
         return 1;
+    struct results *results;
     results = calloc((size_t)stability_group_count, sizeof *results);
     if (!results)
         return report_error("study stability", 0, "out of memory") != 0;
-    for (g = 0; g < stability_group_count && status == 0; g++) {
+    for (int g = 0; g < stability_group_count && status == 0; g++) {
         results[g].group = &stability_groups[g];
         status = run_group(&results[g], o);
     }
     if (status == 0) {
-        wrong = unexpected(results, &cells, &failing);
+        int cells, failing;
+        int wrong = unexpected(results, &cells, &failing);
         if (!o->quiet) {
             print_all(stdout, results, PLAIN);
-            printf("%d cells: %d pass, %d fail as they are known to, %d are not as expected\n", cells, cells - failing - wrong, failing, wrong);
+            printf("%d cells: %d pass, %d fail as they are known to, %d are not as expected\n",
+                   cells, cells - failing - wrong, failing, wrong);
         }
         if (o->out) {
+            struct atomic_file file;
             status = atomic_open(&file, o->out);
             if (status == 0) {
                 print_all(file.stream, results, format_of(o->out));
@@ -294,7 +307,7 @@ int study_stability(const struct options *o, const struct open_scene *scene)
         if (wrong)
             status = -1;
     }
-    for (g = 0; g < stability_group_count; g++)
+    for (int g = 0; g < stability_group_count; g++)
         free(results[g].result);
     free(results);
     return status < 0;

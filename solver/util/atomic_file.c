@@ -55,11 +55,11 @@ static FILE *open_temporary(struct atomic_file *file)
 
 int atomic_open(struct atomic_file *file, const char *path)
 {
-    struct stat status;
     *file = (struct atomic_file){0};
     file->path = strdup(path);
     if (!file->path)
         return fail(file, ENOMEM);
+    struct stat status;
     int exists = stat(path, &status) == 0;
     if (exists && S_ISDIR(status.st_mode))
         return fail(file, EISDIR);

@@ -16,8 +16,8 @@ struct atomic_file {
     char *temporary; /* NULL when path is a device or a pipe, which is written in place */
 };
 
-/* Could path be written now? Leaves no trace. To be asked before long work whose result goes there. Returns 0, or -1 after one
- * line on stderr. */
+/* Could path be written now? Leaves no trace. To be asked before long work whose result goes there.
+ * Returns 0, or -1 after one line on stderr. */
 int atomic_check(const char *path);
 
 /* Each returns 0, or -1 after one line on stderr; a failed file is discarded already. */

@@ -28,7 +28,8 @@ static const char *from_environment(const char *name)
 
 RadDevice open_device(const char *where, int threads)
 {
-    const struct RadDeviceOptions options = { threads, from_environment("CC"), from_environment("TMPDIR") };
+    const struct RadDeviceOptions options = {threads, from_environment("CC"),
+                                             from_environment("TMPDIR")};
     RadDevice device = radNewDevice(&options);
     if (!device) {
         report_device(NULL, where ? where : "radiosity");

@@ -5,11 +5,12 @@
 
 #include "radiosity.h"
 
-/* The hand-written releases that devices opened from now on know: a table that ends with NULL and is borrowed. */
+/* The hand-written releases that devices opened from now on know: a table that ends with NULL
+ * and is borrowed. */
 void register_hand_releases(const struct oracle *const *table);
 
-/* `where` names in warnings what they are about, the scene's file as a rule, and is borrowed; NULL: no warnings.
- * Returns NULL after a message. */
+/* `where` names in warnings what they are about, the scene's file as a rule, and is borrowed; NULL:
+ * no warnings. Returns NULL after a message. */
 RadDevice open_device(const char *where, int threads);
 
 /* Say what the device's last call could not do, as "where: error: sentence". Returns -1. */

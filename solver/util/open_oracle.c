@@ -13,7 +13,8 @@
 
 static int is_file(const char *oracle)
 {
-    return strchr(oracle, '/') || (strlen(oracle) > 4 && ends_with(oracle, ".dag")) || strcmp(oracle, "-") == 0;
+    return strchr(oracle, '/') || (strlen(oracle) > 4 && ends_with(oracle, ".dag"))
+           || strcmp(oracle, "-") == 0;
 }
 
 /* The message to a name that nobody has, or that has no such release. Returns NULL. */
@@ -21,19 +22,24 @@ static RadOracle refuse_oracle(RadDevice device, const char *oracle, enum RadRel
 {
     char names[256] = "";
     (void)radGetDeviceError(device);
-    if (release != RAD_RELEASE_HAND || !(radHasOracle(device, oracle, RAD_RELEASE_DAG) || is_file(oracle))) {
-        report_error(oracle, 0, "no such oracle; `radiosity oracles` lists the built-in ones, a file's name ends in .dag");
+    if (release != RAD_RELEASE_HAND
+        || !(radHasOracle(device, oracle, RAD_RELEASE_DAG) || is_file(oracle))) {
+        report_error(oracle, 0,
+                     "no such oracle; `radiosity oracles` lists the built-in ones, a file's name "
+                     "ends in .dag");
         return NULL;
     }
     for (const char *const *name = radGetOracleNames(); *name; name++)
         if (radHasOracle(device, *name, RAD_RELEASE_HAND))
-            snprintf(names + strlen(names), sizeof names - strlen(names), "%s--oracle %s", *names ? " or " : "", *name);
-    report_error(oracle, 0, "no hand-written release of this oracle; use --release flat or dag, or %s", names);
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s--oracle %s",
+                     *names ? " or " : "", *name);
+    report_error(oracle, 0,
+                 "no hand-written release of this oracle; use --release flat or dag, or %s", names);
     return NULL;
 }
 
-/* The message to an oracle that could not be made: a graph's errors stand in lines of their own, each with its place.
- * Returns NULL. */
+/* The message to an oracle that could not be made: a graph's errors stand in lines of their own,
+ * each with its place. Returns NULL. */
 static RadOracle refuse_graph(RadDevice device, const char *oracle)
 {
     const char *message = radGetDeviceErrorMessage(device);
@@ -50,12 +56,13 @@ static RadOracle refuse_graph(RadDevice device, const char *oracle)
 static int apply_setting(RadDevice device, RadOracle oracle, const char *setting)
 {
     const char *equals = strchr(setting, '=');
-    char name[64], *end;
+    char name[64];
     size_t length = equals ? (size_t)(equals - setting) : 0;
     if (!equals || length == 0 || length >= sizeof name)
         return report_error("--set", 0, "'%s' names no parameter; write PARAM=VALUE", setting);
     memcpy(name, setting, length);
     name[length] = 0;
+    char *end;
     double value = strtod(equals + 1, &end);
     if (!equals[1])
         return report_error("--set", 0, "%s has no value; write %s=NUMBER", name, name);
@@ -74,7 +81,8 @@ int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int co
     return 0;
 }
 
-RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release, char *const *settings, int count)
+RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release,
+                      char *const *settings, int count)
 {
     RadOracle opened;
     if (release == RAD_RELEASE_HAND || !is_file(oracle)) {

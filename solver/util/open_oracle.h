@@ -5,9 +5,10 @@
 
 #include "radiosity.h"
 
-/* `oracle`: the name of a built-in oracle, or a .dag file; settings: [count] texts "NAME=VALUE" for its parameters.
- * Returns NULL after a message. */
-RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release, char *const *settings, int count);
+/* `oracle`: the name of a built-in oracle, or a .dag file; settings: [count] texts "NAME=VALUE" for
+ * its parameters. Returns NULL after a message. */
+RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release,
+                      char *const *settings, int count);
 
 /* Apply texts "NAME=VALUE" to an oracle. Returns 0, or -1 after a message. */
 int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int count);

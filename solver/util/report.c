@@ -5,7 +5,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-static void report(const char *path, uint32_t line, const char *kind, const char *format, va_list arguments)
+static void report(const char *path, uint32_t line, const char *kind, const char *format,
+                   va_list arguments)
 {
     char text[1024];
     vsnprintf(text, sizeof text, format, arguments);

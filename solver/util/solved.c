@@ -4,18 +4,18 @@
 
 #include "util/device.h"
 
-int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene, RadOracle oracle,
-                 const struct RadSolveOptions *how)
+int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene,
+                 RadOracle oracle, const struct RadSolveOptions *how)
 {
-    *s = (struct solved){ .scene = scene, .solution = radNewSolution(scene, oracle, how) };
+    *s = (struct solved){.scene = scene, .solution = radNewSolution(scene, oracle, how)};
     if (!s->solution)
         return report_device(device, where);
     radGetElements(s->solution, &s->elements);
     return 0;
 }
 
-int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene, RadOracle oracle,
-                const struct RadSolveOptions *how)
+int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene,
+                RadOracle oracle, const struct RadSolveOptions *how)
 {
     if (solved_begin(s, device, where, scene, oracle, how) < 0)
         return -1;

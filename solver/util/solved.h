@@ -15,13 +15,13 @@ struct solved {
 
 /* Make a solution over a committed scene: elements and what answers about rays, without links.
  * Returns 0, or -1 after a message that names `where`, with nothing to close. */
-int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene, RadOracle oracle,
-                 const struct RadSolveOptions *how);
+int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene,
+                 RadOracle oracle, const struct RadSolveOptions *how);
 
 /* Make a solution over a committed scene and solve it; with how->unit, refine it alone.
  * Returns 0, or -1 after a message that names `where`, with nothing to close. */
-int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene, RadOracle oracle,
-                const struct RadSolveOptions *how);
+int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene,
+                RadOracle oracle, const struct RadSolveOptions *how);
 void solved_close(struct solved *s);
 
 #endif

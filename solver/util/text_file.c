@@ -9,10 +9,10 @@
 
 char *text_file_read(const char *path, size_t *size)
 {
-    struct stat status;
     FILE *stream = fopen(path, "rb");
     if (!stream)
         return NULL;
+    struct stat status;
     if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
         fclose(stream);
         errno = EISDIR;

@@ -47,7 +47,8 @@ struct findings {
     int least[NODES];            /* the least level of size before a node */
     int lacks_size, lacks_clear; /* some path to keep */
     int judge_lacks, unguarded;
-    int unasked[NODES], answers[NODES];  /* outcomes for the node's own question, a bit per answer */
+    /* outcomes for the node's own question, a bit per answer */
+    int unasked[NODES], answers[NODES];
     int arc_unasked[NODES][NODES][3], arc_asked[NODES][NODES][3]; /* by arc, target first */
 };
 
@@ -79,7 +80,8 @@ static void make(struct graph *g)
                                "node n%d = %s {", n, tools[tool].call);
         for (int a = 0; a < answers_of(tool); a++) {
             int left = g->count - n - 1, node = left > 0 && pick(4) > 0;
-            int to = g->target[n][a] = node ? n + 1 + pick(left < 3 ? left : 3) : -1 - pick(DECISIONS);
+            int to = g->target[n][a] =
+                node ? n + 1 + pick(left < 3 ? left : 3) : -1 - pick(DECISIONS);
             char name[32];
             if (node)
                 snprintf(name, sizeof name, "n%d", to);
@@ -96,8 +98,8 @@ static void make(struct graph *g)
 /* May tool t change what question q answers? */
 static int changes(int t, int q)
 {
-    return (tools[t].writes & tools[q].reads) != 0 ||
-           (t != q && (tools[t].writes & tools[q].writes) != 0);
+    return (tools[t].writes & tools[q].reads) != 0
+           || (t != q && (tools[t].writes & tools[q].writes) != 0);
 }
 
 /* The answer that the path has to the tool's question: -1 none; -2 the path contradicts itself. */
@@ -175,11 +177,12 @@ static int says(const char *said, const char *warning, const char *what)
 static void compare(const struct graph *g, const char *said, const char *warning, const char *what,
                     int wanted)
 {
-    ck_assert_msg(says(said, warning, what) == (wanted != 0), "%s %s: %s expected of\n%s\n%s", warning,
-                  what, wanted ? "" : "not", g->text, said);
+    ck_assert_msg(says(said, warning, what) == (wanted != 0), "%s %s: %s expected of\n%s\n%s",
+                  warning, what, wanted ? "" : "not", g->text, said);
 }
 
-static void check_questions(const struct graph *g, const char *said, const struct findings *f, int n)
+static void check_questions(const struct graph *g, const char *said, const struct findings *f,
+                            int n)
 {
     char path_to[32], it[32];
     int bits = f->answers[n], single = bits != 0 && (bits & (bits - 1)) == 0;
@@ -212,8 +215,8 @@ START_TEST(random_graphs)
         memset(&f, 0, sizeof f);
         walk(&g, &path, 0, 0, 0, 0, &f);
         FILE *errors = open_memstream(&said, &length);
-        struct dag *dag = dag_load_switched("all no-error=missing-term no-error=unguarded-split", "t",
-                                            g.text, strlen(g.text), NULL, catalog, errors);
+        struct dag *dag = dag_load_switched("all no-error=missing-term no-error=unguarded-split",
+                                            "t", g.text, strlen(g.text), NULL, catalog, errors);
         fclose(errors);
         ck_assert_msg(dag != NULL, "%s\n%s", g.text, said);
         dag_free(dag);

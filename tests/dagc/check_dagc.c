@@ -1,8 +1,8 @@
 /* check_dagc.c - the compiler's library and command.
  *
  * The library: what a loaded graph looks like, the fingerprint, errors into a stream. Random
- * graphs: their structure, and that the C text generated for them makes the same calls with the same
- * arguments and decides alike as a walk over the graph. Mutated sources: an error or a graph,
+ * graphs: their structure, and that the C text generated for them makes the same calls with the
+ * same arguments and decides alike as a walk over the graph. Mutated sources: an error or a graph,
  * never a crash. The scripts in dagc/ test the messages and the command. Run from the top folder.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
@@ -135,7 +135,8 @@ START_TEST(errors_in_a_stream)
     free(text);
     ck_assert_ptr_null(load("oracle t { start a; }", NULL));
     struct dag *dag = load("oracle a { start n; node n = look() { otherwise -> drop; } }"
-                           "oracle b { start n; node n = look() { otherwise -> drop; } }", stderr);
+                           "oracle b { start n; node n = look() { otherwise -> drop; } }",
+                           stderr);
     ck_assert_ptr_nonnull(dag);
     ck_assert_int_eq(dag_oracle(dag, NULL), -1);
     ck_assert_int_eq(dag_oracle(dag, "b"), 1);
@@ -151,8 +152,8 @@ START_TEST(analyses)
     FILE *errors = open_memstream(&said, &length);
     /* what is an error by nature refuses the graph; warnings are silent unless asked for */
     ck_assert_ptr_null(dag_load_text("t", text, strlen(text), NULL, catalog, errors));
-    struct dag *dag = dag_load_switched("no-unguarded-split", "t", text, strlen(text), NULL, catalog,
-                                        stderr);
+    struct dag *dag =
+        dag_load_switched("no-unguarded-split", "t", text, strlen(text), NULL, catalog, stderr);
     ck_assert_ptr_nonnull(dag);
     ck_assert_int_eq(dag->warning_count, 0);
     dag_free(dag);
@@ -161,8 +162,8 @@ START_TEST(analyses)
     ck_assert_ptr_nonnull(dag);
     ck_assert_int_eq(dag->warning_count, 2);
     dag_free(dag);
-    ck_assert_ptr_null(dag_load_switched("error idle-question no-all-of-it", "t", text, strlen(text),
-                                         NULL, catalog, errors));
+    ck_assert_ptr_null(dag_load_switched("error idle-question no-all-of-it", "t", text,
+                                         strlen(text), NULL, catalog, errors));
     fclose(errors);
     ck_assert_ptr_nonnull(strstr(said, "error: a path to 'split' passes no guard"));
     ck_assert_ptr_nonnull(strstr(said, "warning: 'a' decides nothing"));
@@ -185,7 +186,8 @@ static uint64_t fingerprint(const char *text)
 START_TEST(same_fingerprint)
 {
     static const char other[] =
-        "oracle renamed {param limit:flux=25e-1 in[0,10];param n:count=3.0 in[1,9] \"doc\";start first;"
+        "oracle renamed {param limit:flux=25e-1 in[0,10];param n:count=3.0 in[1,9] \"doc\";start "
+        "first;"
         "node first=look(){neither->drop;right->last;left->second;}# comment\n"
         "node second=weigh(most=limit,share=0.250){otherwise->split;light->last;}"
         "node last=measure(){otherwise->keep;} }";
@@ -196,14 +198,19 @@ END_TEST
 START_TEST(other_fingerprint)
 {
     static const char *const changes[][2] = {
-        {"2.5", "2.5000000000000004"}, {"[1, 9]", "[1, 8]"}, {"param n", "param m"},
-        {"0.25", "0.5"}, {"most = limit", "most = 2.5"}, {"right -> c", "right -> b"},
-        {"done -> keep", "done -> drop"}, {"light -> c; heavy -> split", "light -> split; heavy -> c"},
+        {"2.5", "2.5000000000000004"},
+        {"[1, 9]", "[1, 8]"},
+        {"param n", "param m"},
+        {"0.25", "0.5"},
+        {"most = limit", "most = 2.5"},
+        {"right -> c", "right -> b"},
+        {"done -> keep", "done -> drop"},
+        {"light -> c; heavy -> split", "light -> split; heavy -> c"},
     };
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
-        char text[2048];
         const char *at = strstr(small, changes[i][0]);
         ck_assert_ptr_nonnull(at);
+        char text[2048];
         snprintf(text, sizeof text, "%.*s%s%s", (int)(at - small), small, changes[i][1],
                  at + strlen(changes[i][0]));
         char *n = strcmp(changes[i][1], "param m") == 0 ? strstr(text, "= n)") : NULL;
@@ -252,8 +259,10 @@ static void print_arguments(FILE *out, int tool)
 static void print_graph(FILE *out, int number)
 {
     static const char *const tools[] = {"look", "weigh", "tally", "measure"};
-    static const char *const answers[][3] = {{"left", "right", "neither"}, {"light", "heavy", NULL},
-                                             {"few", "some", "many"}, {"done", NULL, NULL}};
+    static const char *const answers[][3] = {{"left", "right", "neither"},
+                                             {"light", "heavy", NULL},
+                                             {"few", "some", "many"},
+                                             {"done", NULL, NULL}};
     int nodes = 1 + pick(number % 10 == 0 ? 200 : 30), names[200] = {0}, lines[200];
     for (int i = 0; i < nodes; i++)
         names[i] = lines[i] = i;
@@ -265,8 +274,10 @@ static void print_graph(FILE *out, int number)
         lines[i] = lines[k];
         lines[k] = t;
     }
-    fprintf(out, "oracle g%d {\n param pf : flux = 0.3 in [0, 5]; param ps : ratio = 0.7 in [0, 1];\n"
-                 " param pc : count = 9 in [2, 99];\n start n%d;\n", number, names[0]);
+    fprintf(out,
+            "oracle g%d {\n param pf : flux = 0.3 in [0, 5]; param ps : ratio = 0.7 in [0, 1];\n"
+            " param pc : count = 9 in [2, 99];\n start n%d;\n",
+            number, names[0]);
     for (int i = 0; i < nodes; i++) {
         int tool = pick(4), node = lines[i];
         fprintf(out, " node n%d = %s(", names[node], tools[tool]);
@@ -341,7 +352,6 @@ static int walk(const struct dag *dag, const struct oracle_graph *oracle, struct
 static void check_same(const struct dag *dag, const struct oracle_graph *oracle, void *library)
 {
     static struct record walked, called;
-    unsigned char script[CALLS];
     char name[64], parameters[256];
     int (*refine)(const void *, struct discussion *);
     void (*defaults)(void *);
@@ -351,6 +361,7 @@ static void check_same(const struct dag *dag, const struct oracle_graph *oracle,
     *(void **)&defaults = dlsym(library, name);
     ck_assert(refine != NULL && defaults != NULL);
     defaults(parameters);
+    unsigned char script[CALLS];
     for (int w = 0; w < WALKS; w++) {
         struct discussion a, b;
         memset(&a, 0, sizeof a);
@@ -371,9 +382,9 @@ static void check_same(const struct dag *dag, const struct oracle_graph *oracle,
         if (decision == 0) { /* keep reads all terms */
             ck_assert_mem_eq(a.terms.where, b.terms.where, sizeof a.terms.where);
             ck_assert(a.terms.size == b.terms.size && a.terms.times == b.terms.times);
-            ck_assert(a.terms.where_level == b.terms.where_level &&
-                      a.terms.size_level == b.terms.size_level &&
-                      a.terms.times_level == b.terms.times_level);
+            ck_assert(a.terms.where_level == b.terms.where_level
+                      && a.terms.size_level == b.terms.size_level
+                      && a.terms.times_level == b.terms.times_level);
         }
     }
 }
@@ -388,7 +399,6 @@ static void run(const char *format, const char *a, const char *b, const char *c)
 START_TEST(random_graphs)
 {
     char place[] = "/tmp/check_dagc.XXXXXX", path[256];
-    size_t length;
     ck_assert_ptr_nonnull(mkdtemp(place));
     snprintf(path, sizeof path, "%s/g.dag", place);
     FILE *out = fopen(path, "w");
@@ -402,6 +412,7 @@ START_TEST(random_graphs)
     run("cc -std=c11 -O1 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -I%s -o %s/g.so %s/g.c",
         place, place, place);
 
+    size_t length;
     char *text = read_file(path, &length);
     struct dag *dag = load(text, stderr);
     ck_assert_ptr_nonnull(dag);
@@ -422,11 +433,12 @@ END_TEST
 
 static void mutate(char *text, size_t *length, size_t room)
 {
-    static const char *const pieces[] = {"{", "}", ";", "->", "node a", "(", ")", "=", "\"", "in [",
-                                         "oracle t {", "1e", "-", "|", "#", "start", "param", ",",
+    static const char *const pieces[] = {"{",  "}",      ";",      "->",        "node a",     "(",
+                                         ")",  "=",      "\"",     "in [",      "oracle t {", "1e",
+                                         "-",  "|",      "#",      "start",     "param",      ",",
                                          ">=", "levels", "tool t", "answers (", "\xc3\xa9"};
     int count = 1 + pick(4);
-    for (int i = 0; i < count && *length > 0; i++) {
+    for (int i = 0; i<count && * length> 0; i++) {
         size_t at = (size_t)pick((int)*length);
         const char *piece = pieces[pick((int)(sizeof pieces / sizeof *pieces))];
         size_t size = strlen(piece), cut = (size_t)pick(20);
@@ -447,7 +459,7 @@ static void mutate(char *text, size_t *length, size_t room)
 
 START_TEST(mutations)
 {
-    size_t rich_length, length;
+    size_t rich_length;
     char *rich = read_file("tests/dagc/emit_c.dag", &rich_length);
     char text[8192], mutated[8192];
     FILE *nowhere = fopen("/dev/null", "w");
@@ -455,7 +467,7 @@ START_TEST(mutations)
     seed = 2;
     for (int i = 0; i < 6000; i++) {
         memcpy(text, rich, rich_length);
-        length = rich_length;
+        size_t length = rich_length;
         mutate(text, &length, sizeof text);
         dag_free(dag_load_switched("no-missing-term no-unguarded-split all shared-question", "m",
                                    text, length, NULL, catalog, nowhere));

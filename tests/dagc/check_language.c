@@ -1,7 +1,7 @@
 /* check_language.c - branches, imports and computed arguments as the library gives them.
  *
- * Random expressions: the interpreter and flat code pass the same bits to every tool. The example of
- * a user's own tool: built and run. Run from the top folder.
+ * Random expressions: the interpreter and flat code pass the same bits to every tool. The example
+ * of a user's own tool: built and run. Run from the top folder.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <stdio.h>
@@ -49,7 +49,8 @@ static const char *target(const struct dag *dag, const char *name, int answer)
 /* ---- branches */
 
 static const char nested[] =
-    "graph one(x : flux in [0, inf], s : ratio = 0.5 in [0, 1]) exits (low precise, high approximate, last) {\n"
+    "graph one(x : flux in [0, inf], s : ratio = 0.5 in [0, 1]) exits (low precise, high "
+    "approximate, last) {\n"
     "  start w; node w = weigh(most = x * 2, share = s) { light -> low; heavy -> l; }\n"
     "  node l = look() { left -> high; right -> last; neither -> drop; }\n"
     "}\n"
@@ -57,7 +58,8 @@ static const char nested[] =
     "  start first; node first = one(x = y) { low -> yes; high -> second; last -> no; }\n"
     "  node second = one(x = y + 1, s = 0.25) { low -> yes; otherwise -> no; }\n"
     "}\n"
-    "graph three(z : flux in [0, inf]) exits (out) { start t; node t = two(y = z) { otherwise -> out; } }\n"
+    "graph three(z : flux in [0, inf]) exits (out) { start t; node t = two(y = z) { otherwise -> "
+    "out; } }\n"
     "oracle o { param p : flux = 1 in [0, inf]; start a;\n"
     "  node a = three(z = p) { out -> b; }\n"
     "  node b = one(x = lamp) { low -> a__t__first__w; otherwise -> keep; }\n"
@@ -71,7 +73,8 @@ START_TEST(three_deep)
     ck_assert_int_eq(dag->branch_count, 3);
     ck_assert_int_eq(oracle->nodes.count, 7);
     ck_assert_int_eq(oracle->order.count, 7);
-    for (int i = 0; i < oracle->nodes.count; i++) { /* nothing but tools, decisions and nodes is left */
+    /* nothing but tools, decisions and nodes is left */
+    for (int i = 0; i < oracle->nodes.count; i++) {
         const struct node *node = &dag->nodes[oracle->nodes.first + i];
         ck_assert_int_ge(node->tool, 0);
         ck_assert_int_eq(node->branch, -1);
@@ -101,7 +104,8 @@ START_TEST(three_deep)
     ck_assert_int_eq(node_named(dag, "a__t__first__w")->use, -1);
     /* (p + 1) * 2, and the exits' kinds */
     const struct node *second = node_named(dag, "a__t__second__w");
-    const struct expression *e = &dag->expressions[dag->arguments[second->arguments.first].expression];
+    const struct expression *e =
+        &dag->expressions[dag->arguments[second->arguments.first].expression];
     ck_assert_int_eq(e->kind, EXPRESSION_MULTIPLY);
     ck_assert_int_eq(dag->expressions[e->left].kind, EXPRESSION_ADD);
     e = &dag->expressions[dag->expressions[e->left].left];
@@ -126,15 +130,18 @@ static uint64_t fingerprint(const char *text)
 
 START_TEST(same_as_by_hand)
 {
-    static const char branch[] =
-        "graph g(s : ratio in [0, 1]) exits (x, y) { start w; node w = weigh(share = s, most = lamp * s) "
-        "{ light -> x; heavy -> y; } }\n"
-        "oracle o { start a; node a = g(s = 0.5) { x -> b; y -> drop; } node b = g(s = 1) { otherwise -> keep; } }";
+    static const char branch[] = "graph g(s : ratio in [0, 1]) exits (x, y) { start w; node w = "
+                                 "weigh(share = s, most = lamp * s) "
+                                 "{ light -> x; heavy -> y; } }\n"
+                                 "oracle o { start a; node a = g(s = 0.5) { x -> b; y -> drop; } "
+                                 "node b = g(s = 1) { otherwise -> keep; } }";
     static const char plain[] =
-        "oracle o { start a; node a = weigh(share = 0.5, most = lamp * 0.5) { light -> b; heavy -> drop; } "
+        "oracle o { start a; node a = weigh(share = 0.5, most = lamp * 0.5) { light -> b; heavy -> "
+        "drop; } "
         "node b = weigh(share = 1, most = lamp * 1) { otherwise -> keep; } }";
     static const char other[] =
-        "oracle o { start a; node a = weigh(share = 0.5, most = 0.5 * lamp) { light -> b; heavy -> drop; } "
+        "oracle o { start a; node a = weigh(share = 0.5, most = 0.5 * lamp) { light -> b; heavy -> "
+        "drop; } "
         "node b = weigh(share = 1, most = lamp * 1) { otherwise -> keep; } }";
     ck_assert(fingerprint(branch) == fingerprint(plain));
     ck_assert(fingerprint(other) != fingerprint(plain));
@@ -143,9 +150,11 @@ END_TEST
 
 START_TEST(reads)
 {
-    struct dag *dag = load("extern outside(where, size >= fine) : flux;\n"
-                           "oracle o { start a; node a = weigh(share = 1, most = max(abs(outside) * size / times, 0)) "
-                           "{ otherwise -> keep; } }", stderr);
+    struct dag *dag = load(
+        "extern outside(where, size >= fine) : flux;\n"
+        "oracle o { start a; node a = weigh(share = 1, most = max(abs(outside) * size / times, 0)) "
+        "{ otherwise -> keep; } }",
+        stderr);
     ck_assert_ptr_nonnull(dag);
     const struct node *a = node_named(dag, "a");
     const struct need *needs = &dag->needs[a->reads.first];
@@ -165,9 +174,12 @@ START_TEST(imports)
     char place[] = "/tmp/check_language.XXXXXX", path[256];
     ck_assert_ptr_nonnull(mkdtemp(place));
     run("mkdir %s/lib && echo 'import \"g.dag\"; graph g() exits (x) { start q; node q = look() "
-        "{ otherwise -> x; } }' >%s/lib/g.dag%s", place, place, "");
-    run("echo 'import \"g.dag\"; import \"lib/g.dag\"; oracle o { start q; node q = g() { x -> keep; } }' "
-        ">%s/o.dag%s%s", place, "", "");
+        "{ otherwise -> x; } }' >%s/lib/g.dag%s",
+        place, place, "");
+    run("echo 'import \"g.dag\"; import \"lib/g.dag\"; oracle o { start q; node q = g() { x -> "
+        "keep; } }' "
+        ">%s/o.dag%s%s",
+        place, "", "");
     snprintf(path, sizeof path, "%s/lib", place);
     const char *folders[] = {"no/such/folder", path};
     struct dag_options options = {0};
@@ -197,13 +209,35 @@ static int pick(int count);
 
 START_TEST(mutations)
 {
-    static const char *const pieces[] = {"graph g(", ") exits (x)", "import \"x\";", "import standard;", "one(", "three(",
-                                         "x * ", " / (", "min(", "sqrt(", "-", ".", "start", "{", "}", ";", "size.fine",
-                                         "fact a.b : ", "extern e() : flux;", "lamp", "inf", "= p", "two", "low", "w"};
+    static const char *const pieces[] = {"graph g(",
+                                         ") exits (x)",
+                                         "import \"x\";",
+                                         "import standard;",
+                                         "one(",
+                                         "three(",
+                                         "x * ",
+                                         " / (",
+                                         "min(",
+                                         "sqrt(",
+                                         "-",
+                                         ".",
+                                         "start",
+                                         "{",
+                                         "}",
+                                         ";",
+                                         "size.fine",
+                                         "fact a.b : ",
+                                         "extern e() : flux;",
+                                         "lamp",
+                                         "inf",
+                                         "= p",
+                                         "two",
+                                         "low",
+                                         "w"};
     FILE *nowhere = fopen("/dev/null", "w");
     for (int i = 0; i < 20000; i++) {
-        char text[4096];
         size_t length = strlen(nested);
+        char text[4096];
         memcpy(text, nested, length + 1);
         for (int k = 1 + pick(3); k > 0; k--) {
             const char *piece = pieces[pick((int)(sizeof pieces / sizeof *pieces))];
@@ -305,12 +339,16 @@ enum { ORACLES = 40, NODES = 8 };
 
 static void print_oracle(FILE *out, int number)
 {
-    fprintf(out, "graph way%d(pf : flux in [0, inf], ps : ratio in [0, 1], pc : count in [0, 50],\n"
-                 "  gf : flux in [0, inf]) exits (a, b) { start n;\n  node n = ", number);
+    fprintf(out,
+            "graph way%d(pf : flux in [0, inf], ps : ratio in [0, 1], pc : count in [0, 50],\n"
+            "  gf : flux in [0, inf]) exits (a, b) { start n;\n  node n = ",
+            number);
     print_arguments(out, 1);
-    fprintf(out, " { light -> a; heavy -> b; } }\n"
-                 "oracle g%d { param pf : flux = 0.3 in [0, inf]; param ps : ratio = 0.7 in [0, 1];\n"
-                 "  param pc : count = 9 in [0, 50]; start n0;\n", number);
+    fprintf(out,
+            " { light -> a; heavy -> b; } }\n"
+            "oracle g%d { param pf : flux = 0.3 in [0, inf]; param ps : ratio = 0.7 in [0, 1];\n"
+            "  param pc : count = 9 in [0, 50]; start n0;\n",
+            number);
     for (int i = 0; i < NODES; i++) {
         int kind = i == 0 ? 3 : pick(4);
         fprintf(out, "  node n%d = ", i);
@@ -351,19 +389,25 @@ START_TEST(same_bits)
     fclose(out);
     snprintf(path, sizeof path, "%s/list.c", place);
     out = fopen(path, "w");
-    fprintf(out, "#include \"oracles.h\"\nextern const struct oracle *const oracles[];\nextern const int oracle_count;\n"
+    fprintf(out, "#include \"oracles.h\"\nextern const struct oracle *const oracles[];\nextern "
+                 "const int oracle_count;\n"
                  "const struct oracle *const oracles[] = {");
     for (int i = 0; i < oracles; i++)
         fprintf(out, "&g%d_oracle,", i);
     fprintf(out, "};\nconst int oracle_count = %d;\n", oracles);
     fclose(out);
-    run("cp -r tests/dagc/runtime/* tests/dagc/compare/main.c runtime/oracle.h %s%s%s", place, "", "");
+    run("cp -r tests/dagc/runtime/* tests/dagc/compare/main.c runtime/oracle.h %s%s%s", place, "",
+        "");
     run("mkdir %s/oracle %s/util && cp runtime/util/messages.[ch] %s/util", place, place, place);
-    run("cp runtime/oracle/tool_table.h runtime/oracle/program.h runtime/oracle/refiner.[ch] runtime/oracle/interpreter.c "
-        "runtime/oracle/arguments.c runtime/oracle/statistics.[ch] runtime/oracle/load_graph.[ch] %s/oracle%s%s", place, "", "");
+    run("cp runtime/oracle/tool_table.h runtime/oracle/program.h runtime/oracle/refiner.[ch] "
+        "runtime/oracle/interpreter.c "
+        "runtime/oracle/arguments.c runtime/oracle/statistics.[ch] runtime/oracle/load_graph.[ch] "
+        "%s/oracle%s%s",
+        place, "", "");
     run("%s --emit=catalog-h -o %s/catalog.h %s", dagc, place, catalog);
     run("%s --emit=catalog-c -o %s/catalog.c %s", dagc, place, catalog);
-    snprintf(top, sizeof top, "%s -Wno-all --catalog %s --header %s/oracles.h", dagc, catalog, place);
+    snprintf(top, sizeof top, "%s -Wno-all --catalog %s --header %s/oracles.h", dagc, catalog,
+             place);
     run("%s -o %s/oracles.c %s/g.dag", top, place, place);
     snprintf(top, sizeof top, "%.*s", (int)(strrchr(dagc, '/') - dagc), dagc);
     const char *const compilers[] = {"gcc", "clang"}, *const levels[] = {"-O2", "-O0"};
@@ -375,11 +419,14 @@ START_TEST(same_bits)
             continue;
         }
         snprintf(compile, sizeof compile,
-                 "%s -std=c11 %s -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -ffp-contract=off $SANITIZE",
+                 "%s -std=c11 %s -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror "
+                 "-ffp-contract=off $SANITIZE",
                  compilers[i], levels[i]);
         char command[16384];
-        snprintf(command, sizeof command, "%s -I%s -I%s/oracle -Idagc -o %s/compare %s/*.c %s/oracle/*.c %s/util/*.c %s/../libdagc.a -lm", compile,
-                 place, place, place, place, place, place, top);
+        snprintf(command, sizeof command,
+                 "%s -I%s -I%s/oracle -Idagc -o %s/compare %s/*.c %s/oracle/*.c %s/util/*.c "
+                 "%s/../libdagc.a -lm",
+                 compile, place, place, place, place, place, place, top);
         run("%s%s%s", command, "", "");
         run("%s/compare %s/g.dag %s", place, place, catalog);
     }
@@ -394,7 +441,8 @@ START_TEST(user_tool)
     char top[4096], place[] = "/tmp/check_language.XXXXXX";
     ck_assert_ptr_nonnull(mkdtemp(place));
     snprintf(top, sizeof top, "%.*s", (int)(strrchr(dagc, '/') - dagc), dagc);
-    run("make -s -C examples/user_tool OUT=%s DAGC=\"$(realpath %s)\" LIBDAGC=\"$(realpath %s/../libdagc.a)\"",
+    run("make -s -C examples/user_tool OUT=%s DAGC=\"$(realpath %s)\" LIBDAGC=\"$(realpath "
+        "%s/../libdagc.a)\"",
         place, dagc, top);
     run("rm -r %s%s%s", place, "", "");
 }
@@ -407,7 +455,8 @@ int main(int count, char **arguments)
     if (given != NULL)
         snprintf(dagc, sizeof dagc, "%s", given);
     else
-        snprintf(dagc, sizeof dagc, "%.*s/../bin/dagc", slash == NULL ? 1 : (int)(slash - arguments[0]),
+        snprintf(dagc, sizeof dagc, "%.*s/../bin/dagc",
+                 slash == NULL ? 1 : (int)(slash - arguments[0]),
                  slash == NULL ? "." : arguments[0]);
     Suite *suite = suite_create("language");
     TCase *library = tcase_create("library"), *programs = tcase_create("programs");

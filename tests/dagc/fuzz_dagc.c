@@ -56,7 +56,7 @@ static void emit_catalog(struct dag *dag)
 static void emit_oracles(struct dag *dag)
 {
     static const struct emit_options plain, watched = {1, 1, 1, 0, NULL, NULL, 0, NULL},
-                                     alone = {1, 1, 1, 1, "p", folders, 2, NULL};
+                                            alone = {1, 1, 1, 1, "p", folders, 2, NULL};
     struct text out = {0}, header = {0};
     dag_fingerprint(dag);
     for (int pass = 0; pass < PASSES; pass++)

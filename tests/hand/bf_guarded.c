@@ -21,11 +21,13 @@ static void range(const struct element *e, const struct element *plane, double *
     }
 }
 
-/* F_rs as good as refinement needs it: the emitter as a disc, seen from the receiver's centre, unless the two are near. */
+/* F_rs as good as refinement needs it: the emitter as a disc, seen from the receiver's centre,
+ * unless the two are near. */
 static double estimate(const struct element *r, const struct element *s, int *known)
 {
     double reach = r->radius + s->radius;
-    double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1], z = s->centre[2] - r->centre[2];
+    double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1],
+           z = s->centre[2] - r->centre[2];
     double q = x * x + y * y + z * z;
     if (q < reach * reach) {
         *known = FORM_FACTOR_POLYGON;
@@ -41,21 +43,23 @@ static enum decision refine(const void *state, struct discussion *d)
     const struct parameters *p = state;
     const struct element *r = d->receiver, *s = d->emitter;
     const struct host *host = d->host;
-    double f = d->terms.form_factor, low_r, high_r, low_s, high_s;
-    int known = d->terms.form_factor_level, r_crosses, s_crosses;
+    double f = d->terms.form_factor;
+    int known = d->terms.form_factor_level;
 
     if (!r->vertices || !s->vertices)
         return hand_open_clusters(r, s, host);
 
     double flat = host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double low_r, high_r;
     range(r, s, &low_r, &high_r);
     if (high_r <= flat)
         return DECISION_STOP;
+    double low_s, high_s;
     range(s, r, &low_s, &high_s);
     if (high_s <= flat)
         return DECISION_STOP;
-    r_crosses = low_r < -flat;
-    s_crosses = low_s < -flat;
+    int r_crosses = low_r < -flat;
+    int s_crosses = low_s < -flat;
     int r_first = r->area > s->area || (r->area == s->area && r->id <= s->id);
     if (r_crosses && s_crosses)
         *(r_first ? &s_crosses : &r_crosses) = 0;
@@ -81,16 +85,23 @@ static enum decision refine(const void *state, struct discussion *d)
     }
     if (brought > limit && (split_r || split_s)) {
         if (r_crosses || s_crosses)
-            return (r_crosses ? split_r : !split_s) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
-        return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+            return (r_crosses ? split_r : !split_s) ? DECISION_SUBDIVIDE_RECEIVER
+                                                    : DECISION_SUBDIVIDE_EMITTER;
+        return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER
+                                                : DECISION_SUBDIVIDE_EMITTER;
     }
     int stuck = brought > limit;
 
     int bright = brought > faint;
-    int level = !bright || p->rays <= 4 ? VISIBILITY_RAYS_4 : p->rays <= 16 ? VISIBILITY_RAYS_16 : VISIBILITY_RAYS_64;
+    int level = !bright || p->rays <= 4 ? VISIBILITY_RAYS_4
+                : p->rays <= 16         ? VISIBILITY_RAYS_16
+                                        : VISIBILITY_RAYS_64;
     double v = d->terms.visibility;
     if (d->terms.visibility_level < level)
-        v = hand_visibility(r, s, host, level == VISIBILITY_RAYS_4 ? 4 : level == VISIBILITY_RAYS_16 ? 16 : 64);
+        v = hand_visibility(r, s, host,
+                            level == VISIBILITY_RAYS_4    ? 4
+                            : level == VISIBILITY_RAYS_16 ? 16
+                                                          : 64);
     else
         level = d->terms.visibility_level;
     int doubtful = v <= 0;
@@ -106,7 +117,8 @@ static enum decision refine(const void *state, struct discussion *d)
     }
     if (bright && (doubtful || v < 1) && brought > half) {
         if (split_r || split_s)
-            return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
+            return split_r && (!split_s || r_first) ? DECISION_SUBDIVIDE_RECEIVER
+                                                    : DECISION_SUBDIVIDE_EMITTER;
         stuck = 1;
     }
 
@@ -123,19 +135,28 @@ static enum decision refine(const void *state, struct discussion *d)
 
 static void defaults(void *at)
 {
-    *(struct parameters *)at = (struct parameters){ .relative = 0.05, .shadow = 0.005, .faint = 2e-4, .min_share = 2e-5, .rays = 16 };
+    *(struct parameters *)at = (struct parameters){
+        .relative = 0.05, .shadow = 0.005, .faint = 2e-4, .min_share = 2e-5, .rays = 16};
 }
 
 static const struct oracle_parameter table[] = {
-    { "epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon), ROLE_NONE },
-    { "relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative), ROLE_NONE },
-    { "shadow", "", "", 0.005, 0, INFINITY, 0, offsetof(struct parameters, shadow), ROLE_NONE },
-    { "faint", "", "", 2e-4, 0, INFINITY, 0, offsetof(struct parameters, faint), ROLE_NONE },
-    { "min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area), ROLE_NONE },
-    { "min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share), ROLE_NONE },
-    { "rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays), ROLE_NONE },
+    {"epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon), ROLE_NONE},
+    {"relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative), ROLE_NONE},
+    {"shadow", "", "", 0.005, 0, INFINITY, 0, offsetof(struct parameters, shadow), ROLE_NONE},
+    {"faint", "", "", 2e-4, 0, INFINITY, 0, offsetof(struct parameters, faint), ROLE_NONE},
+    {"min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area), ROLE_NONE},
+    {"min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share), ROLE_NONE},
+    {"rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays), ROLE_NONE},
 };
 
-const struct oracle hand_bf_guarded = {
-    RUNTIME_ABI, "bf_guarded", "written by hand", "", table, 7, sizeof(struct parameters), defaults, refine, NULL, 0
-};
+const struct oracle hand_bf_guarded = {RUNTIME_ABI,
+                                       "bf_guarded",
+                                       "written by hand",
+                                       "",
+                                       table,
+                                       7,
+                                       sizeof(struct parameters),
+                                       defaults,
+                                       refine,
+                                       NULL,
+                                       0};

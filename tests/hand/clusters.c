@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "hand.h"
 
-/* Half the width of e's box along a: a surface has none along its own normal, and at most its radius along another. */
+/* Half the width of e's box along a: a surface has none along its own normal, and at most its
+ * radius along another. */
 static double half_width(const struct element *e, const double a[3], int own, double m)
 {
     if (e->vertices)
@@ -13,8 +14,8 @@ static double half_width(const struct element *e, const double a[3], int own, do
     return m;
 }
 
-static int turned_away(const struct element *e, const struct element *other, double x, double y, double z,
-                       double longest, double flat)
+static int turned_away(const struct element *e, const struct element *other, double x, double y,
+                       double z, double longest, double flat)
 {
     const double *a = e->normal;
     if (e->cone <= 0)
@@ -28,9 +29,11 @@ static int turned_away(const struct element *e, const struct element *other, dou
     return m * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0) <= flat;
 }
 
-enum decision hand_open_clusters(const struct element *r, const struct element *s, const struct host *host)
+enum decision hand_open_clusters(const struct element *r, const struct element *s,
+                                 const struct host *host)
 {
-    double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1], z = s->centre[2] - r->centre[2];
+    double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1],
+           z = s->centre[2] - r->centre[2];
     double reach = sqrt(x * x + y * y + z * z) + r->radius + s->radius;
     double flat = host->flat + (1 / 65536.0) * (r->radius + s->radius);
     if (turned_away(r, s, x, y, z, reach, flat) || turned_away(s, r, -x, -y, -z, reach, flat))

@@ -16,9 +16,11 @@ extern const struct oracle *const hand_releases[]; /* all of them; ends with NUL
 double hand_form_factor(const struct element *r, const struct element *s);
 
 /* The visible fraction by 4, 16 or 64 rays. */
-double hand_visibility(const struct element *r, const struct element *s, const struct host *host, int rays);
+double hand_visibility(const struct element *r, const struct element *s, const struct host *host,
+                       int rays);
 
 /* What both oracles do to a pair that holds a cluster. */
-enum decision hand_open_clusters(const struct element *r, const struct element *s, const struct host *host);
+enum decision hand_open_clusters(const struct element *r, const struct element *s,
+                                 const struct host *host);
 
 #endif

@@ -1,11 +1,12 @@
 /* check_accuracy.c - whole solutions at the defaults against traced particles: make check-accuracy.
  *
- * What `radiosity solve --faces` writes is compared with what path_reference.h finds, which knows nothing of form factors,
- * links and elements. Judged are the light reflected per face of the file, as the relative L1 error over faces and bands
- * (sum of |rho A (H - H_ref)| over the sum of rho A H_ref), and the same sums with their sign. Noise of the reference can
- * only raise the first in the mean; its part is told, and may be a third of the bound. Standard errors come from the
- * independent batches of the reference, by the jackknife. Bounds are what was measured and a fifth: to lower with the errors.
- * ACCURACY_ONLY=SCENE leaves out the others.
+ * What `radiosity solve --faces` writes is compared with what path_reference.h finds, which knows
+ * nothing of form factors, links and elements. Judged are the light reflected per face of the file,
+ * as the relative L1 error over faces and bands (sum of |rho A (H - H_ref)| over the sum of rho A
+ * H_ref), and the same sums with their sign. Noise of the reference can only raise the first in the
+ * mean; its part is told, and may be a third of the bound. Standard errors come from the
+ * independent batches of the reference, by the jackknife. Bounds are what was measured and a fifth:
+ * to lower with the errors. ACCURACY_ONLY=SCENE leaves out the others.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -21,14 +22,14 @@
 static const struct accuracy {
     const char *scene, *path;
     int particles;
-    double l1, power; /* bounds, relative */
+    double l1, power;  /* bounds, relative */
     int known_failure; /* panels: what shines into a gap of 1 mm is given to the whole ceiling */
 } accuracies[] = {
-    { "cornell", "examples/scenes/cornell.obj", 1 << 22, 0.027, 0.022, 0 },
-    { "room", "examples/scenes/room.obj", 1 << 24, 0.0156, 0.0097, 0 },
-    { "maze_8", "examples/scenes/maze_8.obj", 1 << 22, 0.0397, 0.0056, 0 },
-    { "sejour", "examples/scenes/sejour.obj", 1 << 24, 0.0444, 0.0204, 0 },
-    { "panels", "tests/runtime/panels.obj", 1 << 22, 0.03, 0.03, 1 },
+    {"cornell", "examples/scenes/cornell.obj", 1 << 22, 0.027, 0.022, 0},
+    {"room", "examples/scenes/room.obj", 1 << 24, 0.0156, 0.0097, 0},
+    {"maze_8", "examples/scenes/maze_8.obj", 1 << 22, 0.0397, 0.0056, 0},
+    {"sejour", "examples/scenes/sejour.obj", 1 << 24, 0.0444, 0.0204, 0},
+    {"panels", "tests/runtime/panels.obj", 1 << 22, 0.03, 0.03, 1},
 };
 
 enum { SCENES = sizeof accuracies / sizeof *accuracies };
@@ -42,7 +43,8 @@ static double *solved_powers(const char *path, uint32_t faces, uint32_t bands)
     int column[7], columns = 0, file = mkstemp(table);
     ck_assert_int_ge(file, 0);
     FILE *in = fdopen(file, "r");
-    snprintf(command, sizeof command, "%s solve %s -q --faces %s", program ? program : "build/bin/radiosity", path, table);
+    snprintf(command, sizeof command, "%s solve %s -q --faces %s",
+             program ? program : "build/bin/radiosity", path, table);
     ck_assert_int_eq(system(command), 0);
     in = freopen(table, "r", in); /* the command has put another file there */
     ck_assert_ptr_nonnull(fgets(line, sizeof line, in));
@@ -61,14 +63,15 @@ static double *solved_powers(const char *path, uint32_t faces, uint32_t bands)
         }
     ck_assert(column[0] >= 0 && column[3] >= 0 && column[6] >= 0);
     for (uint32_t f = 0; f < faces; f++) {
-        double value[64] = { 0 };
+        double value[64] = {0};
         ck_assert_ptr_nonnull(fgets(line, sizeof line, in));
         int i = 0;
         for (char *at = line; at && i < 64; at = strchr(at, ','), at += at != NULL, i++)
             value[i] = strtod(at, NULL);
         ck_assert_int_eq(i, columns);
         for (uint32_t k = 0; k < bands; k++)
-            power[(size_t)f * bands + k] = value[column[k]] * value[column[6]] * value[column[3 + k]];
+            power[(size_t)f * bands + k] =
+                value[column[k]] * value[column[6]] * value[column[3 + k]];
     }
     fclose(in);
     unlink(table);
@@ -80,35 +83,39 @@ struct errors {
 };
 
 /* Against the mean of all batches but `without`; -1: of all. */
-static struct errors errors(const double *solved, const double *sum, const double *batch, int without, size_t values)
+static struct errors errors(const double *solved, const double *sum, const double *batch,
+                            int without, size_t values)
 {
     double count = without < 0 ? BATCHES : BATCHES - 1, wrong = 0, more = 0, all = 0;
     for (size_t i = 0; i < values; i++) {
-        double reference = (without < 0 ? sum[i] : sum[i] - batch[(size_t)without * values + i]) / count;
+        double reference =
+            (without < 0 ? sum[i] : sum[i] - batch[(size_t)without * values + i]) / count;
         wrong += fabs(solved[i] - reference);
         more += solved[i] - reference;
         all += reference;
     }
-    return (struct errors){ wrong / all, more / all };
+    return (struct errors){wrong / all, more / all};
 }
 
 START_TEST(test_accuracy)
 {
     const struct accuracy *want = &accuracies[_i];
-    const struct scene_options how = { 0, 1 };
-    struct scene scene;
+    const struct scene_options how = {0, 1};
     if (getenv("ACCURACY_ONLY") && strcmp(getenv("ACCURACY_ONLY"), want->scene) != 0)
         return;
     fprintf(stderr, "accuracy: %s ...\n", want->scene);
+    struct scene scene;
     ck_assert_int_eq(scene_read(&scene, want->path, &how), 0);
     uint32_t bands = scene.bands;
     size_t values = (size_t)scene.input_count * bands;
-    double *area = malloc(scene.face_count * sizeof *area), *powers = path_powers(&scene, want->particles, area);
+    double *area = malloc(scene.face_count * sizeof *area),
+           *powers = path_powers(&scene, want->particles, area);
     double *batch = calloc(BATCHES * values, sizeof *batch), *sum = calloc(values, sizeof *sum);
     for (size_t b = 0; b < BATCHES; b++)
         for (uint32_t f = 0; f < scene.face_count; f++)
             for (uint32_t k = 0; k < bands; k++) {
-                double reflected = scene.materials[scene.faces[f].material].reflectance[k] * powers[(b * scene.face_count + f) * bands + k];
+                double reflected = scene.materials[scene.faces[f].material].reflectance[k]
+                                   * powers[(b * scene.face_count + f) * bands + k];
                 batch[b * values + (size_t)scene.faces[f].input * bands + k] += reflected;
                 sum[(size_t)scene.faces[f].input * bands + k] += reflected;
             }
@@ -120,7 +127,8 @@ START_TEST(test_accuracy)
         noise += sqrt(2 / M_PI * squares / (BATCHES * (BATCHES - 1.0)));
         all += mean;
     }
-    struct errors found = errors(solved, sum, batch, -1, values), spread = { 0, 0 }, part[BATCHES], mean = { 0, 0 };
+    struct errors found = errors(solved, sum, batch, -1, values), spread = {0, 0}, part[BATCHES],
+                  mean = {0, 0};
     for (int b = 0; b < BATCHES; b++) {
         part[b] = errors(solved, sum, batch, b, values);
         mean.l1 += part[b].l1 / BATCHES;
@@ -132,11 +140,16 @@ START_TEST(test_accuracy)
     }
     spread.l1 = sqrt(spread.l1 * (BATCHES - 1) / BATCHES);
     spread.power = sqrt(spread.power * (BATCHES - 1) / BATCHES);
-    int right = found.l1 - 3 * spread.l1 <= want->l1 && fabs(found.power) - 3 * spread.power <= want->power;
-    printf("accuracy %-8s %6u faces  L1 %6.3f %% +- %.3f, of it noise at most %.3f, bound %.2f;  power %+6.3f %% +- %.3f, bound %.2f  %s\n",
-           want->scene, scene.input_count, 100 * found.l1, 100 * spread.l1, 100 * noise / all, 100 * want->l1, 100 * found.power,
-           100 * spread.power, 100 * want->power,
-           right ? want->known_failure ? "passes, though a known failure: judge it from now on" : "passed" : want->known_failure ? "KNOWN FAILURE" : "FAILED");
+    int right =
+        found.l1 - 3 * spread.l1 <= want->l1 && fabs(found.power) - 3 * spread.power <= want->power;
+    printf("accuracy %-8s %6u faces  L1 %6.3f %% +- %.3f, of it noise at most %.3f, bound %.2f;  "
+           "power %+6.3f %% +- %.3f, bound %.2f  %s\n",
+           want->scene, scene.input_count, 100 * found.l1, 100 * spread.l1, 100 * noise / all,
+           100 * want->l1, 100 * found.power, 100 * spread.power, 100 * want->power,
+           right ? want->known_failure ? "passes, though a known failure: judge it from now on"
+                                       : "passed"
+           : want->known_failure ? "KNOWN FAILURE"
+                                 : "FAILED");
     fflush(stdout);
     ck_assert_msg(noise / all <= want->l1 / 3, "the reference is too noisy to judge by");
     ck_assert(right != want->known_failure);

@@ -1,6 +1,8 @@
-/* check_api.c - libradiosity as a program sees it: linked with the archive alone, by radiosity.h alone.
+/* check_api.c - libradiosity as a program sees it: linked with the archive alone, by radiosity.h
+ * alone.
  *
- * Furnaces have the exact solution B = E / (1 - rho); the cube's view factors are Howell's C-11 and C-14.
+ * Furnaces have the exact solution B = E / (1 - rho); the cube's view factors are Howell's C-11 and
+ * C-14.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -11,21 +13,29 @@
 #include "suite.h"
 
 /* The unit cube seen from inside: ceiling, floor, walls. */
-static const double corners[24] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1 };
-static const uint32_t sides[24] = { 4, 7, 6, 5, 0, 1, 2, 3, 0, 4, 5, 1, 1, 5, 6, 2, 2, 6, 7, 3, 3, 7, 4, 0 };
-static const uint32_t lamp_above[6] = { 0, 1, 1, 1, 1, 1 };
+static const double corners[24] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
+                                   0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
+static const uint32_t sides[24] = {4, 7, 6, 5, 0, 1, 2, 3, 0, 4, 5, 1,
+                                   1, 5, 6, 2, 2, 6, 7, 3, 3, 7, 4, 0};
+static const uint32_t lamp_above[6] = {0, 1, 1, 1, 1, 1};
 
 static struct RadPolygons cube(const uint32_t *materials)
 {
-    return (struct RadPolygons){ .positions = corners, .position_count = 8, .indices = sides, .size = 4, .materials = materials, .count = 6 };
+    return (struct RadPolygons){.positions = corners,
+                                .position_count = 8,
+                                .indices = sides,
+                                .size = 4,
+                                .materials = materials,
+                                .count = 6};
 }
 
 static struct RadMaterial grey(double rho, double exitance)
 {
-    return (struct RadMaterial){ { rho, rho, rho }, { exitance, exitance, exitance }, 0 };
+    return (struct RadMaterial){{rho, rho, rho}, {exitance, exitance, exitance}, 0};
 }
 
-static RadScene make_scene(RadDevice device, const struct RadPolygons *polygons, const struct RadMaterial *materials, uint32_t count)
+static RadScene make_scene(RadDevice device, const struct RadPolygons *polygons,
+                           const struct RadMaterial *materials, uint32_t count)
 {
     RadScene scene = radNewScene(device);
     ck_assert_ptr_nonnull(scene);
@@ -38,7 +48,7 @@ static RadScene make_scene(RadDevice device, const struct RadPolygons *polygons,
 /* The cube with a lamp for its ceiling. */
 static RadScene lamp_scene(RadDevice device, double rho)
 {
-    const struct RadMaterial materials[2] = { grey(rho, 1), grey(rho, 0) };
+    const struct RadMaterial materials[2] = {grey(rho, 1), grey(rho, 0)};
     const struct RadPolygons p = cube(lamp_above);
     return make_scene(device, &p, materials, 2);
 }
@@ -64,15 +74,14 @@ static void expect_error(RadDevice device, enum RadError code, const char *part)
 
 START_TEST(test_furnace)
 {
-    const struct RadMaterial m = { { 0.5, 0.2, 0.8 }, { 1, 2, 0.25 }, 0 };
+    const struct RadMaterial m = {{0.5, 0.2, 0.8}, {1, 2, 0.25}, 0};
     const struct RadPolygons p = cube(NULL);
-    const struct RadSolveOptions closed = { .closure = RAD_CLOSURE_ROWS, .tolerance = 1e-6 };
+    const struct RadSolveOptions closed = {.closure = RAD_CLOSURE_ROWS, .tolerance = 1e-6};
     RadDevice device = radNewDevice(NULL);
     RadScene scene = make_scene(device, &p, &m, 1);
     RadOracle oracle = default_oracle(device);
     RadSolution solution = radNewSolution(scene, oracle, &closed);
     struct RadSceneReport s;
-    struct RadReport r;
     ck_assert_int_eq(radGetSceneReport(scene, &s), 0);
     ck_assert_uint_eq(s.bands, RAD_COLOUR);
     ck_assert_uint_eq(s.polygons, 6);
@@ -81,6 +90,7 @@ START_TEST(test_furnace)
     ck_assert_double_eq(s.high[2], 1);
     ck_assert_double_eq(radGetScenePolygonAreas(scene)[3], 1);
     ck_assert_int_eq(radSolve(solution), 0);
+    struct RadReport r;
     radGetReport(solution, &r);
     ck_assert_int_eq(r.converged, 1);
     ck_assert_int_eq(r.closed, 1);
@@ -108,13 +118,14 @@ START_TEST(test_steps)
     RadDevice device = radNewDevice(NULL);
     RadScene scene = lamp_scene(device, 0.5);
     RadOracle oracle = default_oracle(device);
-    RadSolution at_once = radNewSolution(scene, oracle, NULL), by_steps = radNewSolution(scene, oracle, NULL);
+    RadSolution at_once = radNewSolution(scene, oracle, NULL),
+                by_steps = radNewSolution(scene, oracle, NULL);
     double a[6], b[6];
-    int more;
     ck_assert_int_eq(radSolve(at_once), 0);
     ck_assert_int_eq(radRefine(by_steps), 0);
     ck_assert_int_eq(radRefine(by_steps), -1);
     expect_error(device, RAD_ERROR_INVALID_OPERATION, "radRefine");
+    int more;
     do {
         more = radStep(by_steps);
     } while (more == 1);
@@ -136,7 +147,8 @@ static double row_of(const struct RadElements *x, const struct RadLinks *links, 
     double sum = 0;
     for (;; e = x->elements[e].parent) {
         for (size_t l = links->first[e]; l < links->first[e + 1]; l++)
-            sum += (double)links->links[l].form_factor * links->links[l].visibility / RAD_LINK_VISIBLE;
+            sum +=
+                (double)links->links[l].form_factor * links->links[l].visibility / RAD_LINK_VISIBLE;
         if (x->elements[e].parent == e)
             return sum;
     }
@@ -148,16 +160,16 @@ START_TEST(test_views)
     RadScene scene = lamp_scene(device, 0.5);
     RadOracle oracle = default_oracle(device);
     RadSolution solution = radNewSolution(scene, oracle, NULL);
-    struct RadElements x;
     struct RadLinks links;
-    struct RadReport r;
     radGetLinks(solution, &links);
     ck_assert_uint_eq(links.count, 0);
+    struct RadElements x;
     radGetElements(solution, &x);
     ck_assert_double_eq(x.radiosity[x.face_element[0]], 1);
     ck_assert_int_eq(radSolve(solution), 0);
     radGetElements(solution, &x);
     radGetLinks(solution, &links);
+    struct RadReport r;
     radGetReport(solution, &r);
     ck_assert_uint_eq(x.count, r.elements);
     ck_assert_uint_eq(links.count, r.links);
@@ -190,20 +202,28 @@ END_TEST
 /* Bent, concave, two-sided and empty polygons; the arrays may go after the commit. */
 START_TEST(test_polygons)
 {
-    static const uint32_t sizes[5] = { 4, 5, 3, 2, 4 };
+    static const uint32_t sizes[5] = {4, 5, 3, 2, 4};
     double *p = malloc(sizeof(double) * 3 * 12);
-    uint32_t indices[18] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 1, 0, 1, 9, 10, 11, 2 }, materials[5] = { 0, 1, 0, 0, 2 };
-    const double at[36] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,               /* a square */
-                            5, 0, 0, 7, 0, 0, 7, 2, 0, 6, 1, 0, 5, 2, 0,      /* concave, 3 m2, two-sided */
-                            1, 0, 3, 0, 0, 3, 0, 1, 3.5 };                    /* bent, with (1 1 0) */
-    const struct RadMaterial m[3] = { grey(0.5, 1), { { 0.5, 0.5, 0.5 }, { 0, 0, 0 }, 1 }, grey(0, 0) };
+    uint32_t indices[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 1, 0, 1, 9, 10, 11, 2},
+             materials[5] = {0, 1, 0, 0, 2};
+    const double at[36] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, /* a square */
+                           /* concave, 3 m2, two-sided */
+                           5, 0, 0, 7, 0, 0, 7, 2, 0, 6, 1, 0, 5, 2, 0,
+                           /* bent, with (1 1 0) */
+                           1, 0, 3, 0, 0, 3, 0, 1, 3.5};
+    const struct RadMaterial m[3] = {grey(0.5, 1), {{0.5, 0.5, 0.5}, {0, 0, 0}, 1}, grey(0, 0)};
     RadDevice device = radNewDevice(NULL);
-    struct RadSceneReport r;
     memcpy(p, at, sizeof at);
-    const struct RadPolygons polygons = { .positions = p, .position_count = 12, .indices = indices, .sizes = sizes, .materials = materials, .count = 5 };
+    const struct RadPolygons polygons = {.positions = p,
+                                         .position_count = 12,
+                                         .indices = indices,
+                                         .sizes = sizes,
+                                         .materials = materials,
+                                         .count = 5};
     RadScene scene = make_scene(device, &polygons, m, 3);
     free(p);
     memset(indices, 0xff, sizeof indices);
+    struct RadSceneReport r;
     ck_assert_int_eq(radGetSceneReport(scene, &r), 0);
     ck_assert_uint_eq(r.polygons, 5);
     ck_assert_uint_eq(r.dropped, 2);
@@ -238,11 +258,10 @@ START_TEST(test_exchange)
     RadDevice device = radNewDevice(NULL);
     RadScene scene = lamp_scene(device, 0.5);
     for (int closure = RAD_CLOSURE_NONE; closure <= RAD_CLOSURE_RECIPROCAL; closure++) {
-        const struct RadExchangeOptions o = { .closure = (enum RadClosure)closure };
+        const struct RadExchangeOptions o = {.closure = (enum RadClosure)closure};
         RadExchange x = radNewExchange(scene, NULL, &o);
-        struct RadExchangeReport r;
-        double f[6][6];
         ck_assert_ptr_nonnull(x);
+        double f[6][6];
         for (uint32_t i = 0; i < 6; i++) {
             double sum = radGetExchangeRow(x, i, f[i]), added = 0;
             for (int j = 0; j < 6; j++)
@@ -256,6 +275,7 @@ START_TEST(test_exchange)
                 ck_assert_double_eq_tol(f[i][j], i == j ? 0 : across ? opposite : beside, 1e-4);
                 ck_assert_double_eq_tol(f[i][j], f[j][i], 1e-12);
             }
+        struct RadExchangeReport r;
         radGetExchangeReport(x, &r);
         ck_assert_uint_eq(r.rows_closed, 6);
         ck_assert_uint_eq(r.rows_open, 0);
@@ -294,10 +314,13 @@ START_TEST(test_oracles)
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "release");
     ck_assert_ptr_null(radLoadOracle(device, "nowhere.dag", NULL, RAD_RELEASE_DAG));
     expect_error(device, RAD_ERROR_INVALID_ORACLE, "nowhere.dag");
-    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start b; }", NULL, RAD_RELEASE_DAG));
+    ck_assert_ptr_null(
+        radParseOracle(device, "mine", "oracle a { start b; }", NULL, RAD_RELEASE_DAG));
     expect_error(device, RAD_ERROR_INVALID_ORACLE, "mine:1:");
-    RadOracle own = radParseOracle(device, "mine", "oracle a \"one\" { param x : ratio = 0.25 in [0, 1]; start t;"
-                                   " node t = transfer(relative = x) { otherwise -> stop; } }", NULL, RAD_RELEASE_DAG);
+    RadOracle own = radParseOracle(device, "mine",
+                                   "oracle a \"one\" { param x : ratio = 0.25 in [0, 1]; start t;"
+                                   " node t = transfer(relative = x) { otherwise -> stop; } }",
+                                   NULL, RAD_RELEASE_DAG);
     ck_assert_msg(own != NULL, "%s", radGetDeviceErrorMessage(device));
     radGetOracleReport(own, &r);
     ck_assert_str_eq(r.doc, "one");
@@ -313,15 +336,21 @@ START_TEST(test_oracles)
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no parameter 'y'; it has x");
     ck_assert_double_nan(radGetOracleParameter(own, "y"));
     radReleaseOracle(own);
-    RadOracle flat = radParseOracle(device, "mine", "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL, RAD_RELEASE_FLAT);
+    RadOracle flat = radParseOracle(
+        device, "mine",
+        "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL,
+        RAD_RELEASE_FLAT);
     ck_assert_msg(flat != NULL, "%s", radGetDeviceErrorMessage(device));
     radGetOracleReport(flat, &r);
     ck_assert_str_eq(r.release, "flat");
     ck_assert_int_gt((int)strlen(r.fingerprint), 0);
     radReleaseOracle(flat);
     radReleaseDevice(device);
-    device = radNewDevice(&(struct RadDeviceOptions){ .compiler = "no-such-compiler" });
-    ck_assert_ptr_null(radParseOracle(device, "mine", "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL, RAD_RELEASE_FLAT));
+    device = radNewDevice(&(struct RadDeviceOptions){.compiler = "no-such-compiler"});
+    ck_assert_ptr_null(radParseOracle(
+        device, "mine",
+        "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL,
+        RAD_RELEASE_FLAT));
     expect_error(device, RAD_ERROR_UNSUPPORTED, "no-such-compiler");
     radReleaseDevice(device);
 }
@@ -335,12 +364,19 @@ static void nothing(void *parameters)
 static enum decision link_all(const void *parameters, struct discussion *d)
 {
     (void)parameters;
-    return d->receiver == d->emitter && !d->receiver->vertices ? DECISION_SUBDIVIDE_BOTH : DECISION_STOP;
+    return d->receiver == d->emitter && !d->receiver->vertices ? DECISION_SUBDIVIDE_BOTH
+                                                               : DECISION_STOP;
 }
 
 START_TEST(test_registered)
 {
-    struct oracle hand = { .abi = RUNTIME_ABI, .name = "mine", .doc = "", .fingerprint = "", .parameters_size = 1, .defaults = nothing, .refine = link_all };
+    struct oracle hand = {.abi = RUNTIME_ABI,
+                          .name = "mine",
+                          .doc = "",
+                          .fingerprint = "",
+                          .parameters_size = 1,
+                          .defaults = nothing,
+                          .refine = link_all};
     RadDevice device = radNewDevice(NULL);
     ck_assert_int_eq(radHasOracle(device, "mine", RAD_RELEASE_HAND), 0);
     ck_assert_int_eq(radRegisterOracle(device, &hand), 0);
@@ -374,10 +410,11 @@ START_TEST(test_statistics)
 {
     RadDevice device = radNewDevice(NULL);
     RadScene scene = lamp_scene(device, 0.5);
-    RadOracle oracle = radNewOracle(device, radGetDefaultOracle(), RAD_RELEASE_DAG), flat = default_oracle(device);
-    RadSolution solution = radNewSolution(scene, oracle, NULL), same = radNewSolution(scene, flat, NULL);
+    RadOracle oracle = radNewOracle(device, radGetDefaultOracle(), RAD_RELEASE_DAG),
+              flat = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL),
+                same = radNewSolution(scene, flat, NULL);
     struct RadStatistics s;
-    struct RadReport r;
     double a[6], b[6];
     ck_assert_int_eq(radGetOracleStatistics(oracle, &s), -1);
     expect_error(device, RAD_ERROR_INVALID_OPERATION, "radCountOracle");
@@ -387,6 +424,7 @@ START_TEST(test_statistics)
     ck_assert_int_eq(radSolve(solution), 0);
     ck_assert_int_eq(radSolve(same), 0);
     ck_assert_int_eq(radGetOracleStatistics(oracle, &s), 0);
+    struct RadReport r;
     radGetReport(solution, &r);
     ck_assert_int_gt(s.node_count, 1);
     ck_assert_uint_eq(s.nodes[0].calls, r.pairs);
@@ -398,7 +436,8 @@ START_TEST(test_statistics)
     }
     ck_assert_int_eq(radGetPolygonValues(solution, 0, a, NULL), 0);
     ck_assert_int_eq(radGetPolygonValues(same, 0, b, NULL), 0);
-    ck_assert_int_eq(memcmp(a, b, sizeof a), 0); /* the two releases decide alike, and counting changes nothing */
+    /* the two releases decide alike, and counting changes nothing */
+    ck_assert_int_eq(memcmp(a, b, sizeof a), 0);
     radReleaseSolution(solution);
     radReleaseSolution(same);
     radReleaseOracle(oracle);
@@ -412,15 +451,7 @@ END_TEST
 
 START_TEST(test_no_handle)
 {
-    struct RadReport report;
-    struct RadLinks links;
-    struct RadElements elements;
-    struct RadOracleReport oracle;
-    struct RadExchangeReport exchange;
-    struct RadStatistics statistics;
-    struct RadSceneReport scene;
-    double row[6];
-    ck_assert_ptr_null(radNewDevice(&(struct RadDeviceOptions){ .threads = -1 }));
+    ck_assert_ptr_null(radNewDevice(&(struct RadDeviceOptions){.threads = -1}));
     expect_error(NULL, RAD_ERROR_INVALID_ARGUMENT, "threads");
     radRetainDevice(NULL);
     radReleaseDevice(NULL);
@@ -432,6 +463,7 @@ START_TEST(test_no_handle)
     ck_assert_int_eq(radSetSceneMaterials(NULL, NULL, 0), -1);
     ck_assert_int_eq(radSetSceneSharedPolygons(NULL, NULL), -1);
     ck_assert_int_eq(radCommitScene(NULL), -1);
+    struct RadSceneReport scene;
     ck_assert_int_eq(radGetSceneReport(NULL, &scene), -1);
     ck_assert_ptr_null(radGetSceneFaces(NULL));
     ck_assert_ptr_null(radGetScenePolygonAreas(NULL));
@@ -444,12 +476,14 @@ START_TEST(test_no_handle)
     ck_assert_int_eq(radHasOracle(NULL, NULL, RAD_RELEASE_FLAT), 0);
     radRetainOracle(NULL);
     radReleaseOracle(NULL);
+    struct RadOracleReport oracle;
     radGetOracleReport(NULL, &oracle);
     ck_assert_int_eq(oracle.parameter_count, 0);
     ck_assert_int_eq(radSetOracleParameter(NULL, "x", 1), -1);
     ck_assert_double_nan(radGetOracleParameter(NULL, "x"));
     ck_assert_int_eq(radAskOracle(NULL, NULL), DECISION_STOP);
     ck_assert_int_eq(radCountOracle(NULL), -1);
+    struct RadStatistics statistics;
     ck_assert_int_eq(radGetOracleStatistics(NULL, &statistics), -1);
     ck_assert_ptr_null(radNewSolution(NULL, NULL, NULL));
     radRetainSolution(NULL);
@@ -457,15 +491,20 @@ START_TEST(test_no_handle)
     ck_assert_int_eq(radRefine(NULL), -1);
     ck_assert_int_eq(radStep(NULL), -1);
     ck_assert_int_eq(radSolve(NULL), -1);
+    double row[6];
     ck_assert_int_eq(radGetPolygonValues(NULL, 0, row, row), -1);
+    struct RadElements elements;
     radGetElements(NULL, &elements);
+    struct RadLinks links;
     radGetLinks(NULL, &links);
+    struct RadReport report;
     radGetReport(NULL, &report);
     ck_assert_uint_eq(elements.count + links.count + report.elements, 0);
     ck_assert_ptr_null(radNewExchange(NULL, NULL, NULL));
     radRetainExchange(NULL);
     radReleaseExchange(NULL);
     ck_assert_double_eq(radGetExchangeRow(NULL, 0, row), -1);
+    struct RadExchangeReport exchange;
     radGetExchangeReport(NULL, &exchange);
     ck_assert_uint_eq(exchange.links, 0);
     ck_assert_ptr_null(radGetClusteringDoc("nobody"));
@@ -475,7 +514,8 @@ START_TEST(test_no_handle)
 }
 END_TEST
 
-static void expect_bad_scene(RadDevice device, const struct RadPolygons *polygons, const struct RadMaterial *material, const char *part)
+static void expect_bad_scene(RadDevice device, const struct RadPolygons *polygons,
+                             const struct RadMaterial *material, const char *part)
 {
     RadScene scene = radNewScene(device);
     ck_assert_int_eq(radSetSceneMaterials(scene, material, 1), 0);
@@ -493,8 +533,6 @@ START_TEST(test_bad_scenes)
     const struct RadMaterial good = grey(0.5, 1);
     struct RadMaterial m = grey(1, 0);
     struct RadPolygons p = cube(NULL);
-    double positions[24];
-    uint32_t indices[24];
     expect_bad_scene(device, &p, &m, "material 0 has reflectance 1");
     m = grey(-0.5, 0);
     expect_bad_scene(device, &p, &m, "material 0 has reflectance -0.5");
@@ -504,15 +542,45 @@ START_TEST(test_bad_scenes)
     expect_bad_scene(device, &p, &m, "exitance -1");
     m = grey(0.5, (double)INFINITY);
     expect_bad_scene(device, &p, &m, "exitance inf");
-    expect_bad_scene(device, &(struct RadPolygons){ .positions = corners, .position_count = 8, .indices = sides, .size = 4, .materials = lamp_above, .count = 6 }, &good, "material 1");
+    expect_bad_scene(device,
+                     &(struct RadPolygons){.positions = corners,
+                                           .position_count = 8,
+                                           .indices = sides,
+                                           .size = 4,
+                                           .materials = lamp_above,
+                                           .count = 6},
+                     &good, "material 1");
+    double positions[24];
     memcpy(positions, corners, sizeof positions);
     positions[7] = (double)NAN;
-    expect_bad_scene(device, &(struct RadPolygons){ .positions = positions, .position_count = 8, .indices = sides, .size = 4, .materials = NULL, .count = 6 }, &good, "not finite");
+    expect_bad_scene(device,
+                     &(struct RadPolygons){.positions = positions,
+                                           .position_count = 8,
+                                           .indices = sides,
+                                           .size = 4,
+                                           .materials = NULL,
+                                           .count = 6},
+                     &good, "not finite");
+    uint32_t indices[24];
     memcpy(indices, sides, sizeof indices);
     indices[9] = 8;
-    expect_bad_scene(device, &(struct RadPolygons){ .positions = corners, .position_count = 8, .indices = indices, .size = 4, .materials = NULL, .count = 6 }, &good, "8");
+    expect_bad_scene(device,
+                     &(struct RadPolygons){.positions = corners,
+                                           .position_count = 8,
+                                           .indices = indices,
+                                           .size = 4,
+                                           .materials = NULL,
+                                           .count = 6},
+                     &good, "8");
     memset(positions, 0, sizeof positions);
-    expect_bad_scene(device, &(struct RadPolygons){ .positions = positions, .position_count = 8, .indices = sides, .size = 4, .materials = NULL, .count = 6 }, &good, "degenerate");
+    expect_bad_scene(device,
+                     &(struct RadPolygons){.positions = positions,
+                                           .position_count = 8,
+                                           .indices = sides,
+                                           .size = 4,
+                                           .materials = NULL,
+                                           .count = 6},
+                     &good, "degenerate");
 
     RadScene scene = radNewScene(device);
     ck_assert_int_eq(radCommitScene(scene), -1);
@@ -522,7 +590,7 @@ START_TEST(test_bad_scenes)
     ck_assert_int_eq(radSetSceneMaterials(scene, &good, 1), 0);
     ck_assert_int_eq(radCommitScene(scene), -1);
     expect_error(device, RAD_ERROR_INVALID_OPERATION, "polygons");
-    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &(struct RadPolygons){ 0 }), -1);
+    ck_assert_int_eq(radSetSceneSharedPolygons(scene, &(struct RadPolygons){0}), -1);
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "one polygon");
     p.size = 2;
     ck_assert_int_eq(radSetSceneSharedPolygons(scene, &p), -1);
@@ -548,11 +616,18 @@ START_TEST(test_bad_options)
     RadDevice device = radNewDevice(NULL);
     RadScene scene = lamp_scene(device, 0.5);
     RadOracle oracle = default_oracle(device);
-    struct RadCamera camera = { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, { 0, 0, 1 }, { 0, 2, 0 }, 0.5, 0.5 };
-    const struct { struct RadSolveOptions o; const char *part; } bad[] = {
-        { { .tolerance = -1 }, "tolerance is -1" }, { { .tolerance = (double)NAN }, "tolerance is" }, { { .tolerance = 1 }, "tolerance is 1" },
-        { { .iterations = -1 }, "iterations is -1" }, { { .closure = RAD_CLOSURE_RECIPROCAL }, "closure" },
-        { { .clustering = "heap" }, "no clustering 'heap'" }, { { .camera = &camera }, "length 1" },
+    struct RadCamera camera = {{0.5, 0.5, 0.5}, {1, 0, 0}, {0, 0, 1}, {0, 2, 0}, 0.5, 0.5};
+    const struct {
+        struct RadSolveOptions o;
+        const char *part;
+    } bad[] = {
+        {{.tolerance = -1}, "tolerance is -1"},
+        {{.tolerance = (double)NAN}, "tolerance is"},
+        {{.tolerance = 1}, "tolerance is 1"},
+        {{.iterations = -1}, "iterations is -1"},
+        {{.closure = RAD_CLOSURE_RECIPROCAL}, "closure"},
+        {{.clustering = "heap"}, "no clustering 'heap'"},
+        {{.camera = &camera}, "length 1"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         ck_assert_ptr_null(radNewSolution(scene, oracle, &bad[i].o));
@@ -560,13 +635,14 @@ START_TEST(test_bad_options)
     }
     camera.ahead[1] = 1;
     camera.wide = 0;
-    ck_assert_ptr_null(radNewSolution(scene, oracle, &(struct RadSolveOptions){ .camera = &camera }));
+    ck_assert_ptr_null(radNewSolution(scene, oracle, &(struct RadSolveOptions){.camera = &camera}));
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "above 0");
     ck_assert_ptr_null(radNewSolution(scene, NULL, NULL));
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "oracle");
-    ck_assert_ptr_null(radNewExchange(scene, NULL, &(struct RadExchangeOptions){ .tolerance = 2 }));
+    ck_assert_ptr_null(radNewExchange(scene, NULL, &(struct RadExchangeOptions){.tolerance = 2}));
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "tolerance is 2");
-    ck_assert_ptr_null(radNewExchange(scene, NULL, &(struct RadExchangeOptions){ .closure = (enum RadClosure)9 }));
+    ck_assert_ptr_null(
+        radNewExchange(scene, NULL, &(struct RadExchangeOptions){.closure = (enum RadClosure)9}));
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "closure");
     RadSolution solution = radNewSolution(scene, oracle, NULL);
     double b[6];
@@ -590,7 +666,7 @@ static void count_messages(void *user, enum RadError code, const char *message)
 
 START_TEST(test_first_error)
 {
-    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = 1 });
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 1});
     int heard = 0;
     radSetDeviceMessageFunction(device, count_messages, &heard);
     ck_assert_ptr_null(radNewOracle(device, "first", RAD_RELEASE_FLAT));
@@ -622,17 +698,17 @@ START_TEST(test_cancel)
     RadDevice device = radNewDevice(NULL);
     RadScene scene = lamp_scene(device, 0.8);
     RadOracle oracle = default_oracle(device);
-    struct patience patience = { 0, 1 << 30, NULL };
-    struct RadLinks links;
-    double b[6];
+    struct patience patience = {0, 1 << 30, NULL};
     radSetDeviceProgressFunction(device, lose_patience, &patience);
     RadSolution whole = radNewSolution(scene, oracle, NULL);
     ck_assert_int_eq(radSolve(whole), 0);
     ck_assert_int_gt(patience.calls, 10);
     radReleaseSolution(whole);
+    struct RadLinks links;
+    double b[6];
     for (int last = patience.calls, most = 1; most <= last; most += 1 + most / 4) {
         RadSolution solution = radNewSolution(scene, oracle, NULL);
-        patience = (struct patience){ 0, most, NULL };
+        patience = (struct patience){0, most, NULL};
         ck_assert_int_eq(radSolve(solution), -1);
         ck_assert_int_eq(patience.calls, most); /* not asked again */
         expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
@@ -644,9 +720,9 @@ START_TEST(test_cancel)
         radReleaseSolution(solution);
         expect_error(device, RAD_ERROR_INVALID_OPERATION, "release it");
     }
-    static const char *const phases[] = { "refine", "factors" };
+    static const char *const phases[] = {"refine", "factors"};
     for (int i = 0; i < 2; i++) {
-        patience = (struct patience){ 0, 1, phases[i] };
+        patience = (struct patience){0, 1, phases[i]};
         ck_assert_ptr_null(radNewExchange(scene, NULL, NULL));
         ck_assert_int_eq(patience.calls, 1);
         expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
@@ -681,13 +757,14 @@ static void *solve_job(void *argument)
 START_TEST(test_side_by_side)
 {
     enum { JOBS = 4 };
-    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = 2 });
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 2});
     struct job alone[JOBS], together[JOBS], inside[JOBS];
-    pthread_t thread[JOBS];
     for (int i = 0; i < JOBS; i++) {
-        alone[i] = together[i] = inside[i] = (struct job){ .device = device, .rho = 0.3 + 0.2 * (i % 2) };
+        alone[i] = together[i] = inside[i] =
+            (struct job){.device = device, .rho = 0.3 + 0.2 * (i % 2)};
         solve_job(&alone[i]);
     }
+    pthread_t thread[JOBS];
     for (int i = 0; i < JOBS; i++)
         ck_assert_int_eq(pthread_create(&thread[i], NULL, solve_job, &together[i]), 0);
     for (int i = 0; i < JOBS; i++)
@@ -704,11 +781,12 @@ START_TEST(test_side_by_side)
 }
 END_TEST
 
-/* Two threads, two counting oracles, from threads of a caller's team that is larger than the device's. */
+/* Two threads, two counting oracles, from threads of a caller's team that is larger than the
+ * device's. */
 START_TEST(test_count_side_by_side)
 {
     enum { JOBS = 4 };
-    RadDevice device = radNewDevice(&(struct RadDeviceOptions){ .threads = 1 });
+    RadDevice device = radNewDevice(&(struct RadDeviceOptions){.threads = 1});
     uint64_t calls[JOBS];
 #pragma omp parallel for num_threads(JOBS) schedule(static, 1)
     for (int i = 0; i < JOBS; i++) {

@@ -16,7 +16,8 @@ static const struct RadMaterial grey = {{0.5, 0.5, 0.5}, {1, 1, 1}, 0};
 
 static struct RadPolygons one_square(void)
 {
-    return (struct RadPolygons){.positions = square, .position_count = 4, .indices = around, .size = 4, .count = 1};
+    return (struct RadPolygons){
+        .positions = square, .position_count = 4, .indices = around, .size = 4, .count = 1};
 }
 
 static double area_of(const struct face *face)
@@ -43,14 +44,24 @@ START_TEST(test_square)
 }
 END_TEST
 
-/* Sizes that differ, materials that differ, two sides, no area, too few corners, the same place under two indices. */
+/* Sizes that differ, materials that differ, two sides, no area, too few corners, the same place
+ * under two indices. */
 START_TEST(test_mixed)
 {
     const double at[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, 0, 1, 0, 0};
-    const uint32_t sizes[] = {4, 3, 3, 2, 5, 0, 4}, indices[] = {0, 1, 2, 3, 0, 1, 2, 0, 4, 1, 0, 1, 0, 4, 1, 2, 3, 0, 1, 5, 2};
+    const uint32_t sizes[] = {4, 3, 3, 2, 5, 0, 4},
+                   indices[] = {0, 1, 2, 3, 0, 1, 2, 0, 4, 1, 0, 1, 0, 4, 1, 2, 3, 0, 1, 5, 2};
     const uint32_t materials[] = {0, 1, 0, 0, 2, 0, 2};
-    const struct RadMaterial of[] = {grey, {{0, 0, 0}, {0, 0, 0}, 1}, {{0.1, 0.2, 0.3}, {0, 0, 0}, 0}, {{2, 2, 2}, {-1, 0, 0}, 0}};
-    const struct RadPolygons p = {.positions = at, .position_count = 6, .indices = indices, .sizes = sizes, .materials = materials, .count = 7};
+    const struct RadMaterial of[] = {grey,
+                                     {{0, 0, 0}, {0, 0, 0}, 1},
+                                     {{0.1, 0.2, 0.3}, {0, 0, 0}, 0},
+                                     {{2, 2, 2}, {-1, 0, 0}, 0}};
+    const struct RadPolygons p = {.positions = at,
+                                  .position_count = 6,
+                                  .indices = indices,
+                                  .sizes = sizes,
+                                  .materials = materials,
+                                  .count = 7};
     struct scene s;
     struct scene_error error;
     ck_assert_int_eq(scene_build(&s, &p, of, 4, 1, &error), 0); /* nobody has the last material */
@@ -94,7 +105,8 @@ START_TEST(test_many_corners)
             const double *a = &at[3 * i], *b = &at[3 * ((i + 1) % N)];
             shoelace += 0.5 * (a[0] * b[1] - b[0] * a[1]);
         }
-        const struct RadPolygons p = {.positions = at, .position_count = N, .indices = indices, .size = N, .count = 1};
+        const struct RadPolygons p = {
+            .positions = at, .position_count = N, .indices = indices, .size = N, .count = 1};
         struct scene s;
         struct scene_error error;
         ck_assert_int_eq(scene_build(&s, &p, &grey, 1, 1, &error), 0);
@@ -107,20 +119,27 @@ START_TEST(test_many_corners)
 }
 END_TEST
 
-/* A tilted square of 1 m whose corners have been floats, 3 km from the origin: they bend it by up to 2^-13 m, which is flat enough for a
- * scene of 1 km but not for one of 2 m, where rays keep 2^-17 m off. As doubles the same corners are what they say. */
+/* A tilted square of 1 m whose corners have been floats, 3 km from the origin: they bend it by up
+ * to 2^-13 m, which is flat enough for a scene of 1 km but not for one of 2 m, where rays keep
+ * 2^-17 m off. As doubles the same corners are what they say. */
 START_TEST(test_rounded)
 {
     const double extent[] = {2, 1024};
     for (int i = 0; i < 4; i++) {
-        double at[21] = {3000.1, 3000.1, 3000.1, 3000.9, 3000.5, 3000.7, 3000.5, 3001.3, 3001.1, 2999.7, 3000.9, 3000.5};
+        double at[21] = {3000.1, 3000.1, 3000.1, 3000.9, 3000.5, 3000.7,
+                         3000.5, 3001.3, 3001.1, 2999.7, 3000.9, 3000.5};
         const uint32_t indices[] = {0, 1, 2, 3, 4, 5, 6}, sizes[] = {4, 3};
         for (int k = 0; k < 12; k++)
             at[k] = (double)(float)at[k];
         for (int k = 0; k < 9; k++)
             at[12 + k] = (k % 3 == 2 ? 3005 : 3000) + (k == 3 || k == 7 ? extent[i / 2] : 0);
         at[11] += ldexp(1, -13);
-        const struct RadPolygons p = {.positions = at, .position_count = 7, .indices = indices, .sizes = sizes, .count = 2, .single_precision = i % 2};
+        const struct RadPolygons p = {.positions = at,
+                                      .position_count = 7,
+                                      .indices = indices,
+                                      .sizes = sizes,
+                                      .count = 2,
+                                      .single_precision = i % 2};
         struct scene s;
         struct scene_error error;
         ck_assert_int_eq(scene_build(&s, &p, &grey, 1, 1, &error), 0);
@@ -130,13 +149,20 @@ START_TEST(test_rounded)
 }
 END_TEST
 
-/* A strip as thin as floats are apart at 3 km has no area when it has been floats, and has one in doubles. */
+/* A strip as thin as floats are apart at 3 km has no area when it has been floats, and has one
+ * in doubles. */
 START_TEST(test_thin)
 {
-    const double at[] = {3000, 0, 0, 3000.0002, 0, 0, 3000.0002, 0.3, 0, 3000, 0.3, 0, 3000, 0, 0, 3000, 0, 1, 3000, 1, 1, 3000, 1, 0};
+    const double at[] = {3000, 0, 0, 3000.0002, 0, 0, 3000.0002, 0.3, 0, 3000, 0.3, 0,
+                         3000, 0, 0, 3000,      0, 1, 3000,      1,   1, 3000, 1,   0};
     const uint32_t indices[] = {0, 1, 2, 3, 4, 5, 6, 7};
     for (int single = 0; single < 2; single++) {
-        const struct RadPolygons p = {.positions = at, .position_count = 8, .indices = indices, .size = 4, .count = 2, .single_precision = single};
+        const struct RadPolygons p = {.positions = at,
+                                      .position_count = 8,
+                                      .indices = indices,
+                                      .size = 4,
+                                      .count = 2,
+                                      .single_precision = single};
         struct scene s;
         struct scene_error error;
         ck_assert_int_eq(scene_build(&s, &p, &grey, 1, 1, &error), 0);
@@ -146,7 +172,8 @@ START_TEST(test_thin)
 }
 END_TEST
 
-static void expect_refusal(const struct RadPolygons *p, const struct RadMaterial *materials, uint32_t count, const char *text)
+static void expect_refusal(const struct RadPolygons *p, const struct RadMaterial *materials,
+                           uint32_t count, const char *text)
 {
     struct scene s;
     struct scene_error error;
@@ -164,7 +191,6 @@ START_TEST(test_refused)
     struct RadPolygons p = good;
     struct RadMaterial m = grey;
     uint32_t index[4] = {0, 1, 2, 4}, material[1] = {1};
-    double at[12];
     p.count = 0;
     expect_refusal(&p, &grey, 1, "there is no face");
     p = good;
@@ -177,6 +203,7 @@ START_TEST(test_refused)
     p.materials = material;
     expect_refusal(&p, &grey, 1, "polygon 0 has material 1, but there are 1");
     expect_refusal(&good, NULL, 0, "polygon 0 has material 0, but there are 0");
+    double at[12];
     for (int i = 0; i < 3; i++) {
         memcpy(at, square, sizeof at);
         at[7] = i == 0 ? NAN : i == 1 ? -INFINITY : 1e39;

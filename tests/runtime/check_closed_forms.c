@@ -1,5 +1,6 @@
-/* check_closed_forms.c - the finest form factor against every closed form there is for two things with nothing between,
- * at random dimensions; and the coarse levels against the errors they are known to make.
+/* check_closed_forms.c - the finest form factor against every closed form there is for two things
+ * with nothing between, at random dimensions; and the coarse levels against the errors they are
+ * known to make.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "study/closed_forms.h"
@@ -13,19 +14,21 @@ static double exact(const struct two *t)
     return term_form_factor(&d, FORM_FACTOR_CONTOUR);
 }
 
-/* The listed values, to all their digits: what the formulas below were copied wrong from would show here. */
+/* The listed values, to all their digits: what the formulas below were copied wrong from would
+ * show here. */
 START_TEST(test_listed)
 {
-    static const double plates[][2] = { { 0.01, 0.9804166029 }, { 0.1, 0.8269945224 }, { 1, 0.1998248956983874 }, { 2, 0.0685895888 } };
-    static const double strips[][2] = { { 10, 0.3863824893 }, { 100, 0.4114200245 }, { 1000, 0.4139341982 } };
+    static const double plates[][2] = {
+        {0.01, 0.9804166029}, {0.1, 0.8269945224}, {1, 0.1998248956983874}, {2, 0.0685895888}};
+    static const double strips[][2] = {
+        {10, 0.3863824893}, {100, 0.4114200245}, {1000, 0.4139341982}};
     struct two t;
-    int i;
-    for (i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++) {
         two_parallel(&t, 1, 1, plates[i][0]);
         ck_assert_double_eq_tol(exact(&t), plates[i][1], 1e-10);
         two_close(&t);
     }
-    for (i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++) {
         two_parallel(&t, 1, strips[i][0], 1);
         ck_assert_double_eq_tol(exact(&t), strips[i][1], 1e-9);
         two_close(&t);
@@ -46,27 +49,27 @@ END_TEST
 START_TEST(test_rectangles)
 {
     unsigned state = 3;
-    double worst[2] = { 0, 0 };
-    int i;
-    for (i = 0; i < 4000; i++) {
-        double a = random_size(&state, 100), b = random_size(&state, 100), c = random_size(&state, 100), e, f;
-        const struct element *swap;
+    double worst[2] = {0, 0};
+    for (int i = 0; i < 4000; i++) {
+        double a = random_size(&state, 100), b = random_size(&state, 100),
+               c = random_size(&state, 100);
         struct two t;
         two_parallel(&t, a, b, c);
-        e = fabs(exact(&t) - closed_parallel(a, b, c));
+        double e = fabs(exact(&t) - closed_parallel(a, b, c));
         worst[0] = e > worst[0] ? e : worst[0];
         two_close(&t);
         two_perpendicular(&t, a, b, c);
-        f = closed_perpendicular(a, b, c);
+        double f = closed_perpendicular(a, b, c);
         e = fabs(exact(&t) - f);
-        swap = t.a;
+        const struct element *swap = t.a;
         t.a = t.b;
         t.b = swap;
         e = fmax(e, fabs(exact(&t) - closed_perpendicular(b, a, c)));
         worst[1] = e > worst[1] ? e : worst[1];
         two_close(&t);
     }
-    printf("4,000 dimensions each: error of F at the most %.1e parallel, %.1e perpendicular\n", worst[0], worst[1]);
+    printf("4,000 dimensions each: error of F at the most %.1e parallel, %.1e perpendicular\n",
+           worst[0], worst[1]);
     ck_assert_double_lt(worst[0], 1e-9);
     ck_assert_double_lt(worst[1], 1e-9);
 }
@@ -76,15 +79,17 @@ END_TEST
 START_TEST(test_slivers)
 {
     unsigned state = 5;
-    int i;
-    for (i = 0; i < 300; i++) {
-        double l = random_size(&state, 10), w = 1e-4 * l, d = l * pow(10, -5 + 5 * random_unit(&state));
+    for (int i = 0; i < 300; i++) {
+        double l = random_size(&state, 10), w = 1e-4 * l,
+               d = l * pow(10, -5 + 5 * random_unit(&state));
         struct two t;
         two_parallel(&t, l, w, d);
-        ck_assert_double_eq_tol(exact(&t), closed_parallel(l, w, d), 1e-6 * closed_parallel(l, w, d));
+        ck_assert_double_eq_tol(exact(&t), closed_parallel(l, w, d),
+                                1e-6 * closed_parallel(l, w, d));
         two_close(&t);
         two_perpendicular(&t, w, d, l);
-        ck_assert_double_eq_tol(exact(&t), closed_perpendicular(w, d, l), 1e-6 * closed_perpendicular(w, d, l));
+        ck_assert_double_eq_tol(exact(&t), closed_perpendicular(w, d, l),
+                                1e-6 * closed_perpendicular(w, d, l));
         two_close(&t);
         two_perpendicular(&t, l, d, w);
         ck_assert_double_eq_tol(exact(&t), closed_perpendicular(l, d, w), 1e-8);
@@ -93,54 +98,64 @@ START_TEST(test_slivers)
 }
 END_TEST
 
-/* From the centre of a small square, which may stand anywhere and be turned: every rectangle at a point is a sum of four corners. */
+/* From the centre of a small square, which may stand anywhere and be turned: every rectangle at
+ * a point is a sum of four corners. */
 START_TEST(test_point)
 {
     unsigned state = 7;
-    int i;
-    for (i = 0; i < 2000; i++) {
-        double w = random_size(&state, 10), l = random_size(&state, 10), h = random_size(&state, 10);
-        double x = w * random_unit(&state), y = l * random_unit(&state), f;
+    for (int i = 0; i < 2000; i++) {
+        double w = random_size(&state, 10), l = random_size(&state, 10),
+               h = random_size(&state, 10);
+        double x = w * random_unit(&state), y = l * random_unit(&state);
         struct two t;
-        struct discussion d;
         two_start(&t);
         made_quad(&t.scene, 0, x - 0.1, y - 0.1, 0, 0.2, 0, 0, 0, 0.2, 0);
         made_quad(&t.scene, 0, 0, 0, h, 0, l, 0, w, 0, 0);
         two_open(&t);
+        struct discussion d;
         d = two_discussion(&t);
-        f = closed_corner(x, y, h) + closed_corner(w - x, y, h) + closed_corner(x, l - y, h) + closed_corner(w - x, l - y, h);
+        double f = closed_corner(x, y, h) + closed_corner(w - x, y, h) + closed_corner(x, l - y, h)
+                   + closed_corner(w - x, l - y, h);
         ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_POINT), f, 1e-12);
         two_close(&t);
     }
 }
 END_TEST
 
-/* Two strips of length L; what the finite length takes is c / L + O(1 / L^2), so F = 2 F(2L) - F(L). */
+/* Two strips of length L; what the finite length takes is c / L + O(1 / L^2), so F = 2 F(2L) -
+ * F(L). */
 START_TEST(test_strips)
 {
     unsigned state = 9;
-    int i, n = 0;
-    for (i = 0; i < 300; i++) {
-        double p[4][2], f[2], length = 2000, strings;
-        int j;
-        for (j = 0; j < 4; j++) {
+    int n = 0;
+    for (int i = 0; i < 300; i++) {
+        double p[4][2], f[2], length = 2000;
+        for (int j = 0; j < 4; j++) {
             p[j][0] = random_unit(&state) - 0.5;
             p[j][1] = random_unit(&state) + (j < 2 ? -1.1 : 0.1);
         }
         if (p[0][0] > p[1][0] || p[2][0] < p[3][0]) /* fronts: up, and down */
             continue;
-        for (j = 0; j < 2; j++, length *= 2) {
+        for (int j = 0; j < 2; j++, length *= 2) {
+            const double a[4][3] = {{p[0][0], 0, p[0][1]},
+                                    {p[1][0], 0, p[1][1]},
+                                    {p[1][0], length, p[1][1]},
+                                    {p[0][0], length, p[0][1]}};
+            const double b[4][3] = {{p[2][0], 0, p[2][1]},
+                                    {p[3][0], 0, p[3][1]},
+                                    {p[3][0], length, p[3][1]},
+                                    {p[2][0], length, p[2][1]}};
             struct two t;
-            const double a[4][3] = { { p[0][0], 0, p[0][1] }, { p[1][0], 0, p[1][1] }, { p[1][0], length, p[1][1] }, { p[0][0], length, p[0][1] } };
-            const double b[4][3] = { { p[2][0], 0, p[2][1] }, { p[3][0], 0, p[3][1] }, { p[3][0], length, p[3][1] }, { p[2][0], length, p[2][1] } };
             two_start(&t);
             made_face(&t.scene, 0, 4, a);
             made_face(&t.scene, 0, 4, b);
             two_open(&t);
             f[j] = exact(&t);
             if (j == 0) {
-                double h[4] = { height3(a[0], t.b->centre, t.b->normal), height3(a[1], t.b->centre, t.b->normal),
-                                height3(b[0], t.a->centre, t.a->normal), height3(b[1], t.a->centre, t.a->normal) };
+                double h[4] = {height3(a[0], t.b->centre, t.b->normal),
+                               height3(a[1], t.b->centre, t.b->normal),
+                               height3(b[0], t.a->centre, t.a->normal),
+                               height3(b[1], t.a->centre, t.a->normal)};
                 f[0] = h[0] > 0 && h[1] > 0 && h[2] > 0 && h[3] > 0 ? f[0] : -1;
             }
             two_close(&t);
@@ -148,23 +163,27 @@ START_TEST(test_strips)
         if (f[0] < 0) /* one crosses the other's plane: not the strings' case */
             continue;
         n++;
-        strings = closed_strips(p[0], p[1], p[2], p[3]);
+        double strings = closed_strips(p[0], p[1], p[2], p[3]);
         ck_assert_double_eq_tol(2 * f[1] - f[0], strings, 1e-6);
     }
     ck_assert_int_gt(n, 20);
 }
 END_TEST
 
-/* Two coaxial regular polygons of n sides with the discs' areas, cut into triangles: all their exchange. */
+/* Two coaxial regular polygons of n sides with the discs' areas, cut into triangles: all their
+ * exchange. */
 static double polygons(double r, double s, double h, int n)
 {
     double grow = sqrt(2 * M_PI / n / sin(2 * M_PI / n)), sum = 0;
-    struct two t;
-    int i;
-    for (i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++) {
         double a = 2 * M_PI / n * i, b = 2 * M_PI / n * (i + 1);
-        const double low[3][3] = { { 0, 0, 0 }, { grow * r, 0, 0 }, { grow * r * cos(2 * M_PI / n), grow * r * sin(2 * M_PI / n), 0 } };
-        const double high[3][3] = { { 0, 0, h }, { grow * s * cos(b), grow * s * sin(b), h }, { grow * s * cos(a), grow * s * sin(a), h } };
+        const double low[3][3] = {{0, 0, 0},
+                                  {grow * r, 0, 0},
+                                  {grow * r * cos(2 * M_PI / n), grow * r * sin(2 * M_PI / n), 0}};
+        const double high[3][3] = {{0, 0, h},
+                                   {grow * s * cos(b), grow * s * sin(b), h},
+                                   {grow * s * cos(a), grow * s * sin(a), h}};
+        struct two t;
         two_start(&t);
         made_face(&t.scene, 0, 3, low);
         made_face(&t.scene, 0, 3, high);
@@ -179,9 +198,9 @@ static double polygons(double r, double s, double h, int n)
 START_TEST(test_discs)
 {
     unsigned state = 11;
-    int i;
-    for (i = 0; i < 12; i++) {
-        double r = i ? random_size(&state, 3) : 1, s = i ? random_size(&state, 3) : 1, h = i ? random_size(&state, 3) : 1;
+    for (int i = 0; i < 12; i++) {
+        double r = i ? random_size(&state, 3) : 1, s = i ? random_size(&state, 3) : 1,
+               h = i ? random_size(&state, 3) : 1;
         double coarse = polygons(r, s, h, 48), fine = polygons(r, s, h, 96);
         ck_assert_double_eq_tol(fine, closed_discs(r, s, h), 2e-5);
         ck_assert_double_eq_tol(fine + (fine - coarse) / 15, closed_discs(r, s, h), 1e-6);
@@ -192,16 +211,14 @@ END_TEST
 /* Nearer and nearer, F tends to 1 from below. */
 START_TEST(test_close)
 {
-    double d, last = 0;
-    for (d = 0.1; d > 1e-8; d /= 4) {
+    double last = 0;
+    for (double d = 0.1; d > 1e-8; d /= 4) {
         struct two t;
-        struct discussion e;
-        int level;
         two_parallel(&t, 1, 1, d);
-        for (level = FORM_FACTOR_POLYGON; level <= FORM_FACTOR_CONTOUR; level++) {
-            double f;
+        struct discussion e;
+        for (int level = FORM_FACTOR_POLYGON; level <= FORM_FACTOR_CONTOUR; level++) {
             e = two_discussion(&t);
-            f = term_form_factor(&e, (enum form_factor_level)level);
+            double f = term_form_factor(&e, (enum form_factor_level)level);
             ck_assert(f <= 1);
             if (level == FORM_FACTOR_CONTOUR) {
                 ck_assert_double_eq_tol(f, closed_parallel(1, 1, d), 1e-9);
@@ -218,68 +235,76 @@ END_TEST
 /* What a level makes of the perpendicular squares, each side cut into 2^k. */
 static double cut(enum form_factor_level level, int k)
 {
-    struct two t;
-    uint32_t i, j, first, count;
     double sum = 0;
+    struct two t;
     two_perpendicular(&t, 1, 1, 1);
-    for (first = t.h.face_element[0] < t.h.face_element[1] ? t.h.face_element[0] : t.h.face_element[1]; k > 0; k--) {
-        count = t.h.count;
-        for (i = first; i < count; i++)
+    uint32_t first;
+    for (first = t.h.face_element[0] < t.h.face_element[1] ? t.h.face_element[0]
+                                                           : t.h.face_element[1];
+         k > 0; k--) {
+        uint32_t count = t.h.count;
+        for (uint32_t i = first; i < count; i++)
             ck_assert_int_eq(hierarchy_split(&t.h, i), 0);
         first = count;
     }
-    for (i = first; i < t.h.count; i++)
-        for (j = first; j < t.h.count; j++) {
+    for (uint32_t i = first; i < t.h.count; i++)
+        for (uint32_t j = first; j < t.h.count; j++) {
             struct discussion d = two_discussion(&t);
             d.receiver = &t.h.elements[i];
             d.emitter = &t.h.elements[j];
             if (d.receiver->face == 0 && d.emitter->face == 1)
-                sum += d.receiver->area * (level == FORM_FACTOR_DISC ? form_factor_disc(&d) : term_form_factor(&d, level));
+                sum += d.receiver->area
+                       * (level == FORM_FACTOR_DISC ? form_factor_disc(&d)
+                                                    : term_form_factor(&d, level));
         }
     two_close(&t);
     return sum / closed_perpendicular(1, 1, 1) - 1;
 }
 
-/* Perpendicular with a common edge: cutting finer does not help the disc at first, so halving misleads; one point
- * converges, slowly; the polygon and the contour are right at once. */
+/* Perpendicular with a common edge: cutting finer does not help the disc at first, so halving
+ * misleads; one point converges, slowly; the polygon and the contour are right at once. */
 START_TEST(test_shared_edge)
 {
-    static const double disc[] = { -0.028, -0.044, -0.036, -0.023, -0.013 };
-    int k;
-    for (k = 0; k < 5; k++)
+    static const double disc[] = {-0.028, -0.044, -0.036, -0.023, -0.013};
+    for (int k = 0; k < 5; k++)
         ck_assert_double_eq_tol(cut(FORM_FACTOR_DISC, k), disc[k], 0.0006);
     ck_assert_double_eq_tol(cut(FORM_FACTOR_POINT, 0), -0.0495, 0.0001);
     ck_assert_double_lt(fabs(cut(FORM_FACTOR_POINT, 3)), 0.01);
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         ck_assert_double_lt(fabs(cut(FORM_FACTOR_POLYGON, k)), 1e-6);
         ck_assert_double_lt(fabs(cut(FORM_FACTOR_CONTOUR, k)), 1e-10);
     }
 }
 END_TEST
 
-/* Close parallel squares: +17 % at .1, +35 % at .5 by disc, as much by one point; and the rows of a cube of six elements. */
+/* Close parallel squares: +17 % at .1, +35 % at .5 by disc, as much by one point; and the rows
+ * of a cube of six elements. */
 START_TEST(test_close_disc)
 {
-    static const double wrong[][3] = { { 0.01, 0.0197, 0.0196 }, { 0.1, 0.172, 0.171 }, { 0.5, 0.349, 0.334 }, { 1, 0.208, 0.198 }, { 2, 0.0747, 0.0713 } };
-    double opposite = 0, beside;
+    static const double wrong[][3] = {{0.01, 0.0197, 0.0196},
+                                      {0.1, 0.172, 0.171},
+                                      {0.5, 0.349, 0.334},
+                                      {1, 0.208, 0.198},
+                                      {2, 0.0747, 0.0713}};
+    double opposite = 0;
     struct two t;
     struct discussion d;
-    int i;
-    for (i = 0; i < 5; i++) {
+    for (int i = 0; i < 5; i++) {
         double f = closed_parallel(1, 1, wrong[i][0]);
         two_parallel(&t, 1, 1, wrong[i][0]);
         d = two_discussion(&t);
         ck_assert_double_eq_tol(form_factor_disc(&d) / f - 1, wrong[i][1], 0.001);
         if (i == 3)
             opposite = form_factor_disc(&d);
-        ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_POINT) / f - 1, wrong[i][2], 0.001);
+        ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_POINT) / f - 1, wrong[i][2],
+                                0.001);
         d = two_discussion(&t);
         ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_POLYGON), f, 1e-6);
         two_close(&t);
     }
     two_perpendicular(&t, 1, 1, 1);
     d = two_discussion(&t);
-    beside = form_factor_disc(&d);
+    double beside = form_factor_disc(&d);
     two_close(&t);
     ck_assert_double_eq_tol(4 * beside + opposite, 1.01942, 1e-5);
     ck_assert_double_eq_tol(4 * closed_perpendicular(1, 1, 1) + closed_parallel(1, 1, 1), 1, 1e-14);
@@ -290,17 +315,15 @@ END_TEST
 START_TEST(test_reciprocity)
 {
     unsigned state = 13;
-    int i, level;
-    for (i = 0; i < 3000; i++) {
+    for (int i = 0; i < 3000; i++) {
         struct two t;
         two_random(&t, i % 3 == 0, (i % 5) * 0.5, 1, &state);
-        for (level = FORM_FACTOR_POLYGON; level <= FORM_FACTOR_CONTOUR; level++) {
+        for (int level = FORM_FACTOR_POLYGON; level <= FORM_FACTOR_CONTOUR; level++) {
             struct discussion d = two_discussion(&t), e = d;
-            double there, back;
             e.receiver = t.b;
             e.emitter = t.a;
-            there = t.a->area * term_form_factor(&d, (enum form_factor_level)level);
-            back = t.b->area * term_form_factor(&e, (enum form_factor_level)level);
+            double there = t.a->area * term_form_factor(&d, (enum form_factor_level)level);
+            double back = t.b->area * term_form_factor(&e, (enum form_factor_level)level);
             ck_assert_double_le(fabs(there - back), 4e-16 * there);
         }
         two_close(&t);
@@ -308,22 +331,22 @@ START_TEST(test_reciprocity)
 }
 END_TEST
 
-/* The exchange of the whole is the sum of the exchanges of its parts: of the receiver's, the emitter's and both, where planes cut too. */
+/* The exchange of the whole is the sum of the exchanges of its parts: of the receiver's, the
+ * emitter's and both, where planes cut too. */
 START_TEST(test_parts)
 {
     unsigned state = 17;
-    int i, j, k;
-    for (i = 0; i < 300; i++) {
+    for (int i = 0; i < 300; i++) {
+        double parts = 0;
         struct two t;
-        double whole, parts = 0;
         two_random(&t, i % 3 == 0, 0.7 * (i % 2), 1, &state);
-        whole = t.a->area * exact(&t);
+        double whole = t.a->area * exact(&t);
         ck_assert_int_eq(hierarchy_split(&t.h, t.h.face_element[0]), 0);
         if (i % 2)
             ck_assert_int_eq(hierarchy_split(&t.h, t.h.face_element[1]), 0);
         two_find(&t);
-        for (j = 0; j < 4; j++)
-            for (k = 0; k < (i % 2 ? 4 : 1); k++) {
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < (i % 2 ? 4 : 1); k++) {
                 struct discussion d = two_discussion(&t);
                 d.receiver = &t.h.elements[t.a->child + (uint32_t)j];
                 d.emitter = i % 2 ? &t.h.elements[t.b->child + (uint32_t)k] : t.b;

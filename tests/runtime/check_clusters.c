@@ -1,4 +1,5 @@
-/* check_clusters.c - links between groups of faces: they must change nothing in small scenes, little in large ones, and leak nothing.
+/* check_clusters.c - links between groups of faces: they must change nothing in small scenes,
+ * little in large ones, and leak nothing.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -11,55 +12,61 @@
 #include "suite.h"
 
 /* The parallelogram o, a, b as n x n faces. */
-static void grid(struct scene *s, uint32_t material, int n, const double o[3], const double a[3], const double b[3])
+static void grid(struct scene *s, uint32_t material, int n, const double o[3], const double a[3],
+                 const double b[3])
 {
-    int i, j;
-    for (i = 0; i < n; i++)
-        for (j = 0; j < n; j++)
-            made_quad(s, material, o[0] + (i * a[0] + j * b[0]) / n, o[1] + (i * a[1] + j * b[1]) / n, o[2] + (i * a[2] + j * b[2]) / n,
-                      a[0] / n, a[1] / n, a[2] / n, b[0] / n, b[1] / n, b[2] / n);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            made_quad(s, material, o[0] + (i * a[0] + j * b[0]) / n,
+                      o[1] + (i * a[1] + j * b[1]) / n, o[2] + (i * a[2] + j * b[2]) / n, a[0] / n,
+                      a[1] / n, a[2] / n, b[0] / n, b[1] / n, b[2] / n);
 }
 
 /* A box, seen from inside or from outside, each side n x n faces. */
-static void box(struct scene *s, uint32_t material, int n, double x, double y, double z, double sx, double sy, double sz, int outside)
+static void box(struct scene *s, uint32_t material, int n, double x, double y, double z, double sx,
+                double sy, double sz, int outside)
 {
-    const double o[3] = { x, y, z }, p[3] = { x + sx, y + sy, z + sz };
-    const double u[3][3] = { { sx, 0, 0 }, { 0, sy, 0 }, { 0, 0, sz } }, w[3][3] = { { -sx, 0, 0 }, { 0, -sy, 0 }, { 0, 0, -sz } };
-    int k;
-    for (k = 0; k < 3; k++) {
+    const double o[3] = {x, y, z}, p[3] = {x + sx, y + sy, z + sz};
+    const double u[3][3] = {{sx, 0, 0}, {0, sy, 0}, {0, 0, sz}},
+                 w[3][3] = {{-sx, 0, 0}, {0, -sy, 0}, {0, 0, -sz}};
+    for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         grid(s, material, n, o, outside ? u[j] : u[i], outside ? u[i] : u[j]);
         grid(s, material, n, p, outside ? w[i] : w[j], outside ? w[j] : w[i]);
     }
 }
 
-static struct solve *released(struct solve *s, const struct scene *scene, const char *oracle, enum release release, int threads,
-                              enum closure closure, const char *set)
+static struct solve *released(struct solve *s, const struct scene *scene, const char *oracle,
+                              enum release release, int threads, enum closure closure,
+                              const char *set)
 {
-    struct solve_options how = { .tolerance = 1e-5, .iterations = 2000, .threads = threads, .closure = closure };
+    struct solve_options how = {
+        .tolerance = 1e-5, .iterations = 2000, .threads = threads, .closure = closure};
     struct refiner *r = oracles_open(oracle, release);
-    const char *cause;
     char setting[64];
-    char *settings[1] = { setting };
+    char *settings[1] = {setting};
     ck_assert_ptr_nonnull(r);
     snprintf(setting, sizeof setting, "%s", set ? set : "");
     ck_assert_int_eq(oracles_set(r, settings, set != NULL), 0);
+    const char *cause;
     ck_assert_int_eq(solve_open(s, scene, &how, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
     refiner_close(r);
     return s;
 }
 
-static struct solve *solved(struct solve *s, const struct scene *scene, const char *oracle, int threads, enum closure closure, const char *set)
+static struct solve *solved(struct solve *s, const struct scene *scene, const char *oracle,
+                            int threads, enum closure closure, const char *set)
 {
     return released(s, scene, oracle, RELEASE_FLAT, threads, closure, set);
 }
 
 static size_t group_links(const struct solve *s)
 {
-    size_t i, n = 0;
-    for (i = 0; i < s->refinement.link_count; i++)
-        n += !s->hierarchy.elements[s->refinement.links[i].receiver].vertices || !s->hierarchy.elements[s->refinement.links[i].emitter].vertices;
+    size_t n = 0;
+    for (size_t i = 0; i < s->refinement.link_count; i++)
+        n += !s->hierarchy.elements[s->refinement.links[i].receiver].vertices
+             || !s->hierarchy.elements[s->refinement.links[i].emitter].vertices;
     return n;
 }
 
@@ -72,8 +79,7 @@ static double face_value(const struct solve *s, uint32_t face)
 static double difference(const struct solve *s, const struct solve *t)
 {
     double off = 0, all = 0;
-    uint32_t i;
-    for (i = 0; i < s->problem.scene->face_count; i++) {
+    for (uint32_t i = 0; i < s->problem.scene->face_count; i++) {
         double a = s->hierarchy.elements[s->hierarchy.face_element[i]].area;
         off += a * fabs(face_value(s, i) - face_value(t, i));
         all += a * face_value(t, i);
@@ -81,7 +87,8 @@ static double difference(const struct solve *s, const struct solve *t)
     return off / all;
 }
 
-/* A room of 4 x 3 x 2.5 with a lamp below the ceiling and two boxes on the floor; `n` sets how finely all is cut. */
+/* A room of 4 x 3 x 2.5 with a lamp below the ceiling and two boxes on the floor; `n` sets how
+ * finely all is cut. */
 static void room(struct scene *s, int n)
 {
     ck_assert_int_eq(made_open(s), 0);
@@ -94,46 +101,60 @@ static void room(struct scene *s, int n)
     made_quad(s, 2, 1.8, 1.2, 2.4, 0, 0.5, 0, 0.5, 0, 0);
 }
 
-/* Below `from_faces` the oracle decides as bf_guarded does: the same links and the same light, bit for bit. */
+/* Below `from_faces` the oracle decides as bf_guarded does: the same links and the same light,
+ * bit for bit. */
 START_TEST(test_small)
 {
-    struct scene scene;
     struct solve a, b;
+    struct scene scene;
     room(&scene, 3);
     ck_assert(scene.face_count > 150 && scene.face_count < 1500);
     solved(&a, &scene, "clusters", 2, CLOSURE_NONE, NULL);
     solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
     ck_assert_uint_eq(group_links(&a), 0);
     ck_assert_uint_eq(a.refinement.link_count, b.refinement.link_count);
-    ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links, a.refinement.link_count * sizeof *a.refinement.links), 0);
+    ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links,
+                            a.refinement.link_count * sizeof *a.refinement.links),
+                     0);
     ck_assert_uint_eq(a.hierarchy.count, b.hierarchy.count);
-    ck_assert_int_eq(memcmp(a.state.radiosity, b.state.radiosity, (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.radiosity), 0);
-    ck_assert_int_eq(memcmp(a.state.irradiance, b.state.irradiance, (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.irradiance), 0);
+    ck_assert_int_eq(
+        memcmp(a.state.radiosity, b.state.radiosity,
+               (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.radiosity),
+        0);
+    ck_assert_int_eq(
+        memcmp(a.state.irradiance, b.state.irradiance,
+               (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.irradiance),
+        0);
     solve_close(&a);
     solve_close(&b);
     made_close(&scene);
 }
 END_TEST
 
-/* In a scene of many faces: fewer links, and nearly the same light. The same links whatever the threads and the release. */
+/* In a scene of many faces: fewer links, and nearly the same light. The same links whatever the
+ * threads and the release. */
 START_TEST(test_large)
 {
-    struct scene scene;
     struct solve with, without, one;
+    struct scene scene;
     room(&scene, 10);
     ck_assert_uint_gt(scene.face_count, 1500);
     solved(&with, &scene, "clusters", 2, CLOSURE_NONE, NULL);
     released(&one, &scene, "clusters", RELEASE_DAG, 1, CLOSURE_NONE, NULL);
     solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
-    printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; power lost %.2g\n", scene.face_count,
-           with.refinement.link_count, group_links(&with), without.refinement.link_count, difference(&with, &without),
+    printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; "
+           "power lost %.2g\n",
+           scene.face_count, with.refinement.link_count, group_links(&with),
+           without.refinement.link_count, difference(&with, &without),
            1 - with.report.absorbed / with.report.emitted);
     ck_assert_uint_gt(group_links(&with), 1000);
     ck_assert_uint_lt(2 * with.refinement.link_count, without.refinement.link_count);
     ck_assert_double_le(difference(&with, &without), 0.015);
     ck_assert_double_le(fabs(1 - with.report.absorbed / with.report.emitted), 0.03);
     ck_assert_uint_eq(with.refinement.link_count, one.refinement.link_count);
-    ck_assert_int_eq(memcmp(with.refinement.links, one.refinement.links, one.refinement.link_count * sizeof *one.refinement.links), 0);
+    ck_assert_int_eq(memcmp(with.refinement.links, one.refinement.links,
+                            one.refinement.link_count * sizeof *one.refinement.links),
+                     0);
     solve_close(&with);
     solve_close(&one);
     solve_close(&without);
@@ -141,22 +162,27 @@ START_TEST(test_large)
 }
 END_TEST
 
-/* Fog loses some of the light, shadows that are averaged misplace some: near what clusters finds, but no nearer. */
+/* Fog loses some of the light, shadows that are averaged misplace some: near what clusters
+ * finds, but no nearer. */
 START_TEST(test_feature)
 {
-    struct scene scene;
     struct solve fog, one, rays;
+    struct scene scene;
     room(&scene, 10);
     solved(&fog, &scene, "clusters_feature", 2, CLOSURE_NONE, "min_share=5e-4");
     released(&one, &scene, "clusters_feature", RELEASE_DAG, 1, CLOSURE_NONE, "min_share=5e-4");
     solved(&rays, &scene, "clusters", 2, CLOSURE_NONE, "min_share=5e-4");
-    printf("room of %u faces through fog: %zu links, %zu of them of clusters; B differs by %.2g; power lost %.2g\n", scene.face_count,
-           fog.refinement.link_count, group_links(&fog), difference(&fog, &rays), 1 - fog.report.absorbed / fog.report.emitted);
+    printf("room of %u faces through fog: %zu links, %zu of them of clusters; B differs by %.2g; "
+           "power lost %.2g\n",
+           scene.face_count, fog.refinement.link_count, group_links(&fog), difference(&fog, &rays),
+           1 - fog.report.absorbed / fog.report.emitted);
     ck_assert_uint_gt(group_links(&fog), 1000);
     ck_assert_double_le(difference(&fog, &rays), 0.1);
     ck_assert_double_le(fabs(1 - fog.report.absorbed / fog.report.emitted), 0.1);
     ck_assert_uint_eq(fog.refinement.link_count, one.refinement.link_count);
-    ck_assert_int_eq(memcmp(fog.refinement.links, one.refinement.links, one.refinement.link_count * sizeof *one.refinement.links), 0);
+    ck_assert_int_eq(memcmp(fog.refinement.links, one.refinement.links,
+                            one.refinement.link_count * sizeof *one.refinement.links),
+                     0);
     solve_close(&fog);
     solve_close(&one);
     solve_close(&rays);
@@ -164,25 +190,25 @@ START_TEST(test_feature)
 }
 END_TEST
 
-/* White furnace: B = E / (1 - rho) everywhere, whatever stands in it. Closing rows makes it exact. */
+/* White furnace: B = E / (1 - rho) everywhere, whatever stands in it. Closing rows makes it
+ * exact. */
 START_TEST(test_furnace)
 {
     struct scene scene;
-    struct solve s;
     double worst[2], mean[2], gain[2];
-    int closure;
-    for (closure = 0; closure < 2; closure++) {
-        uint32_t i;
+    for (int closure = 0; closure < 2; closure++) {
         double all = 0;
         ck_assert_int_eq(made_open(&scene), 0);
         made_material(&scene, 0.5, 1);
         box(&scene, 0, 15, 0, 0, 0, 1, 1, 1, 0);
         box(&scene, 0, 6, 0.3, 0.35, 0.2, 0.3, 0.3, 0.3, 1);
+        struct solve s;
         solved(&s, &scene, "clusters", 2, closure ? CLOSURE_ROWS : CLOSURE_NONE, NULL);
         ck_assert_uint_gt(group_links(&s), 1000);
         worst[closure] = mean[closure] = gain[closure] = 0;
-        for (i = 0; i < scene.face_count; i++) {
-            double off = fabs(face_value(&s, i) / 2 - 1), a = s.hierarchy.elements[s.hierarchy.face_element[i]].area;
+        for (uint32_t i = 0; i < scene.face_count; i++) {
+            double off = fabs(face_value(&s, i) / 2 - 1),
+                   a = s.hierarchy.elements[s.hierarchy.face_element[i]].area;
             worst[closure] = off > worst[closure] ? off : worst[closure];
             mean[closure] += a * off;
             gain[closure] += a * (face_value(&s, i) / 2 - 1);
@@ -190,7 +216,8 @@ START_TEST(test_furnace)
         }
         mean[closure] /= all;
         gain[closure] /= all;
-        printf("furnace with a box, %s: B off by %.2g in the mean (%+.2g with its sign), %.2g at the worst face\n",
+        printf("furnace with a box, %s: B off by %.2g in the mean (%+.2g with its sign), %.2g at "
+               "the worst face\n",
                closure ? "rows closed" : "as it is", mean[closure], gain[closure], worst[closure]);
         solve_close(&s);
         made_close(&scene);
@@ -202,19 +229,20 @@ START_TEST(test_furnace)
 }
 END_TEST
 
-/* Two rooms behind a wall, a lamp in the first: no light in the second, though groups of faces span both. */
+/* Two rooms behind a wall, a lamp in the first: no light in the second, though groups of faces
+ * span both. */
 START_TEST(test_leak)
 {
     struct scene scene;
-    struct solve s;
-    uint32_t i, dark = 0;
+    uint32_t dark = 0;
     ck_assert_int_eq(made_open(&scene), 0);
     made_material(&scene, 0.7, 0);
     made_material(&scene, 0.7, 1);
     box(&scene, 1, 12, 0, 0, 0, 1, 1, 1, 0);
     box(&scene, 0, 12, 1.001, 0, 0, 1, 1, 1, 0);
+    struct solve s;
     solved(&s, &scene, "clusters", 2, CLOSURE_NONE, NULL);
-    for (i = 0; i < scene.face_count; i++)
+    for (uint32_t i = 0; i < scene.face_count; i++)
         if (scene.faces[i].material == 0) {
             dark++;
             ck_assert(face_value(&s, i) <= 0);
@@ -226,16 +254,16 @@ START_TEST(test_leak)
 }
 END_TEST
 
-/* A lamp far above a plate of many faces that is black underneath (0), and above two of them, one above the other (1). The
- * upper side gets the light of a lamp taken for a point, A B cos^2 / (pi d^2): a group does not shade itself wrongly. Undersides are
- * dark, and so is what lies in the shadow of its own group. */
+/* A lamp far above a plate of many faces that is black underneath (0), and above two of them, one
+ * above the other (1). The upper side gets the light of a lamp taken for a point, A B cos^2 / (pi
+ * d^2): a group does not shade itself wrongly. Undersides are dark, and so is what lies in the
+ * shadow of its own group. */
 START_TEST(test_self_shadow)
 {
-    const double across[3] = { 1, 0, 0 }, along[3] = { 0, 1, 0 }, upper[3] = { 0, 0, 0.1 }, lower[3] = { 0, 0, 0 };
+    const double across[3] = {1, 0, 0}, along[3] = {0, 1, 0}, upper[3] = {0, 0, 0.1},
+                 lower[3] = {0, 0, 0};
     struct scene scene;
-    struct solve s;
-    double got[3] = { 0, 0, 0 }, expected = 0, high = _i == 0 ? 8 : 1.6;
-    uint32_t i;
+    double got[3] = {0, 0, 0}, expected = 0, high = _i == 0 ? 8 : 1.6;
     ck_assert_int_eq(made_open(&scene), 0);
     made_material(&scene, 0.5, 0);
     made_material(&scene, 0.5, 0);
@@ -246,16 +274,20 @@ START_TEST(test_self_shadow)
     if (_i == 1)
         grid(&scene, 2, 24, lower, across, along);
     made_quad(&scene, 3, 0.49, 0.49, high, 0, 0.02, 0, 0.02, 0, 0);
-    for (i = 0; i < 24 * 24; i++) {
-        double x = (i / 24 + 0.5) / 24 - 0.5, y = (i % 24 + 0.5) / 24 - 0.5, z = high - 0.1, square = x * x + y * y + z * z;
+    for (uint32_t i = 0; i < 24 * 24; i++) {
+        double x = (i / 24 + 0.5) / 24 - 0.5, y = (i % 24 + 0.5) / 24 - 0.5, z = high - 0.1,
+               square = x * x + y * y + z * z;
         expected += 1000 * 0.0004 * z * z / (3.14159265358979323846 * square * square) / (24 * 24);
     }
+    struct solve s;
     solved(&s, &scene, "clusters", 2, CLOSURE_NONE, _i == 0 ? "from_faces=1" : NULL);
-    for (i = 0; i < scene.face_count; i++)
+    for (uint32_t i = 0; i < scene.face_count; i++)
         if (scene.faces[i].material < 3)
-            got[scene.faces[i].material] += s.state.irradiance[s.hierarchy.face_element[i]] / (24 * 24);
-    printf("plates: %.4f of the lamp's light above, %.2g underneath, %.2g below; %zu links of groups\n", got[0] / expected,
-           got[1] / expected, got[2] / expected, group_links(&s));
+            got[scene.faces[i].material] +=
+                s.state.irradiance[s.hierarchy.face_element[i]] / (24 * 24);
+    printf("plates: %.4f of the lamp's light above, %.2g underneath, %.2g below; %zu links of "
+           "groups\n",
+           got[0] / expected, got[1] / expected, got[2] / expected, group_links(&s));
     ck_assert_double_eq_tol(got[0] / expected, 1, 0.02);
     ck_assert_double_le(got[1] / expected, _i == 0 ? 0 : 0.02);
     ck_assert_double_le(got[2] / expected, 0.02);

@@ -1,5 +1,5 @@
-/* check_exchange.c - exchange areas where the graphs shipped do not lead: whatever an oracle links, the matrix holds what the
- * pairs of its faces exchange.
+/* check_exchange.c - exchange areas where the graphs shipped do not lead: whatever an oracle links,
+ * the matrix holds what the pairs of its faces exchange.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "engine/exchange.h"
@@ -8,8 +8,9 @@
 #include "scene/make_scene.h"
 #include "suite.h"
 
-/* Two unit squares at distance 1, cells x cells faces each, and 12 plates that hide a quarter of the plane between them, each a little
- * above the one before: no two are in one plane. Seen from one point, no more than a hundredth of them overlaps or parts. */
+/* Two unit squares at distance 1, cells x cells faces each, and 12 plates that hide a quarter of
+ * the plane between them, each a little above the one before: no two are in one plane. Seen from
+ * one point, no more than a hundredth of them overlaps or parts. */
 static void plates(struct scene *s, int cells)
 {
     made_open(s);
@@ -20,10 +21,12 @@ static void plates(struct scene *s, int cells)
     for (int i = 0; i < cells * cells; i++)
         made_quad(s, 0, i % cells * side, i / cells * side, 1, 0, side, 0, side, 0, 0);
     for (int i = 0; i < 12; i++)
-        made_quad(s, 0, i % 3 / 6.0, i / 3 / 8.0, 0.5 + (i - 6) * 2e-4, 1 / 6.0, 0, 0, 0, 1 / 8.0, 0);
+        made_quad(s, 0, i % 3 / 6.0, i / 3 / 8.0, 0.5 + (i - 6) * 2e-4, 1 / 6.0, 0, 0, 0, 1 / 8.0,
+                  0);
 }
 
-/* Links groups as soon as they turn to each other. `deep`: cuts one face of such a pair in four first. */
+/* Links groups as soon as they turn to each other. `deep`: cuts one face of such a pair in four
+ * first. */
 static enum decision link_groups(const void *state, struct discussion *d)
 {
     const int *deep = state;
@@ -34,7 +37,8 @@ static enum decision link_groups(const void *state, struct discussion *d)
         return DECISION_SUBDIVIDE_RECEIVER;
     if (!s->vertices)
         return DECISION_SUBDIVIDE_EMITTER;
-    if (!(height3(s->centre, r->centre, r->normal) > 0) || !(height3(r->centre, s->centre, s->normal) > 0))
+    if (!(height3(s->centre, r->centre, r->normal) > 0)
+        || !(height3(r->centre, s->centre, s->normal) > 0))
         return DECISION_STOP;
     if (*deep && r->group && (s->depth || s->group))
         return s->depth ? DECISION_LINK : DECISION_SUBDIVIDE_EMITTER;
@@ -51,13 +55,13 @@ static double wall_to_wall(int cells, int deep)
     struct scene scene;
     plates(&scene, cells);
     struct exchange_tree tree;
-    struct exchange_areas matrix;
-    struct refinement refinement;
     const char *cause;
     ck_assert_int_eq(exchange_tree_open(&tree, scene.faces, scene.face_count, 2, &cause), 0);
-    const struct refiner refiner = { .refine = link_groups, .state = &deep };
+    const struct refiner refiner = {.refine = link_groups, .state = &deep};
+    struct refinement refinement;
     ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
     ck_assert_int_eq(refinement_start(&refinement), 0);
+    struct exchange_areas matrix;
     ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, 2.5, 2), 0);
     uint32_t wall = (uint32_t)(cells * cells);
     double *row = calloc(scene.input_count, sizeof *row), sum = 0;
@@ -75,8 +79,8 @@ static double wall_to_wall(int cells, int deep)
     return sum;
 }
 
-/* F = 3/4 of the clear value, as in check_viewfactors.c, though twelve blockers stand in the shaft of the two groups and a list
- * holds eight. */
+/* F = 3/4 of the clear value, as in check_viewfactors.c, though twelve blockers stand in the shaft
+ * of the two groups and a list holds eight. */
 START_TEST(test_many_blockers)
 {
     ck_assert_double_eq_tol(wall_to_wall(4, 0) / 0.1498686718, 1, 5e-3);
@@ -97,20 +101,21 @@ static int stop_at(void *context, const struct exchange *x, const char *phase)
     return phase[0] == *(const char *)context;
 }
 
-/* The progress function ends it in either phase; then there is nothing, and no cause but that. Else rows of a cube are 1. */
+/* The progress function ends it in either phase; then there is nothing, and no cause but that.
+ * Else rows of a cube are 1. */
 START_TEST(test_cancel)
 {
-    static const char *const phases[] = { "refine", "factors", "none" };
+    static const char *const phases[] = {"refine", "factors", "none"};
+    static const uint32_t m[6] = {0};
     struct scene scene;
-    static const uint32_t m[6] = { 0 };
     made_open(&scene);
     made_material(&scene, 0.5, 0);
     made_room(&scene, m, 1, 1, 1);
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
     for (int i = 0; i < 3; i++) {
-        const struct exchange_options options = { 3e-4, CLOSURE_RECIPROCAL, 2, stop_at, (void *)(uintptr_t)phases[i] };
+        const struct exchange_options options = {3e-4, CLOSURE_RECIPROCAL, 2, stop_at,
+                                                 (void *)(uintptr_t)phases[i]};
         struct exchange x;
-        double row[6];
         const char *cause = "not set";
         ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options, &cause), i < 2 ? -1 : 0);
         if (i < 2) {
@@ -118,6 +123,7 @@ START_TEST(test_cancel)
             ck_assert_ptr_null(x.tree.rays);
             continue;
         }
+        double row[6];
         ck_assert_double_eq_tol(exchange_row(&x, 3, row), 1, 1e-11);
         ck_assert_double_eq_tol(row[0], 0.2000437760754032, 1e-5);
         ck_assert_uint_eq(x.report.rows_closed, 6);
@@ -136,7 +142,8 @@ START_TEST(test_tolerance)
     for (int i = 0; i < refiner->parameter_count; i++) {
         const struct oracle_parameter *p = &refiner->parameters[i];
         int limit = strcmp(p->name, "shadow") == 0 || strcmp(p->name, "group_shadow") == 0;
-        ck_assert_double_eq_tol(refiner_get(refiner, i), p->value * (limit ? 0.1 : 1), 1e-12 * p->value);
+        ck_assert_double_eq_tol(refiner_get(refiner, i), p->value * (limit ? 0.1 : 1),
+                                1e-12 * p->value);
     }
     refiner_close(refiner);
 }

@@ -8,10 +8,10 @@
 
 START_TEST(test_parallel)
 {
-    static const double size[][3] = { { 1, 1, 0.01 }, { 1, 1, 0.1 }, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 0.5, 0.3 }, { 1, 3, 5 },
-                                      { 1, 1, 20 }, { 0.03, 4, 0.7 } };
-    struct two t;
+    static const double size[][3] = {{1, 1, 0.01},  {1, 1, 0.1}, {1, 1, 1},  {1, 1, 2},
+                                     {2, 0.5, 0.3}, {1, 3, 5},   {1, 1, 20}, {0.03, 4, 0.7}};
     double f = closed_parallel(size[_i][0], size[_i][1], size[_i][2]);
+    struct two t;
     two_parallel(&t, size[_i][0], size[_i][1], size[_i][2]);
     ck_assert_double_eq_tol(polygon_factor(t.a, t.b, 1), f, 1e-10);
     ck_assert_double_eq_tol(polygon_factor(t.a, t.b, 0), f, 1e-4 * f);
@@ -22,9 +22,10 @@ END_TEST
 
 START_TEST(test_perpendicular)
 {
-    static const double size[][3] = { { 1, 1, 1 }, { 1, 0.1, 1 }, { 0.1, 1, 1 }, { 3, 0.5, 2 }, { 1, 1, 10 }, { 5, 5, 0.1 } };
-    struct two t;
+    static const double size[][3] = {{1, 1, 1},   {1, 0.1, 1}, {0.1, 1, 1},
+                                     {3, 0.5, 2}, {1, 1, 10},  {5, 5, 0.1}};
     double f = closed_perpendicular(size[_i][0], size[_i][1], size[_i][2]);
+    struct two t;
     two_perpendicular(&t, size[_i][0], size[_i][1], size[_i][2]);
     ck_assert_double_eq_tol(polygon_factor(t.a, t.b, 1), f, 1e-10);
     ck_assert_double_eq_tol(polygon_factor(t.a, t.b, 0), f, 1e-4 * f);
@@ -43,10 +44,11 @@ END_TEST
 /* A point under the corner of a rectangle. */
 START_TEST(test_point)
 {
-    struct polygon q = { 4, { { 0, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 0, 1 } } };
-    const double p[3] = { 0, 0, 0 }, n[3] = { 0, 0, 1 }, centre[3] = { 0.5, 0.5, 0 };
-    ck_assert_double_eq_tol(lambert_sum(p, n, (const double (*)[3])q.v, q.n), 0.1385316060, 1e-10);
-    ck_assert_double_eq_tol(lambert_sum(centre, n, (const double (*)[3])q.v, q.n), 0.2394564705, 1e-10);
+    struct polygon q = {4, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}};
+    const double p[3] = {0, 0, 0}, n[3] = {0, 0, 1}, centre[3] = {0.5, 0.5, 0};
+    ck_assert_double_eq_tol(lambert_sum(p, n, (const double(*)[3])q.v, q.n), 0.1385316060, 1e-10);
+    ck_assert_double_eq_tol(lambert_sum(centre, n, (const double(*)[3])q.v, q.n), 0.2394564705,
+                            1e-10);
 }
 END_TEST
 
@@ -54,13 +56,11 @@ END_TEST
 START_TEST(test_reciprocity)
 {
     unsigned state = 7;
-    int i;
-    for (i = 0; i < 2000; i++) {
+    for (int i = 0; i < 2000; i++) {
         struct two t;
-        double f, g;
         two_random(&t, 0, 0.7, 1, &state);
-        f = polygon_factor(t.a, t.b, 0);
-        g = polygon_factor(t.b, t.a, 0);
+        double f = polygon_factor(t.a, t.b, 0);
+        double g = polygon_factor(t.b, t.a, 0);
         ck_assert(f >= 0 && f <= 1 && g >= 0 && g <= 1);
         ck_assert_double_eq_tol(t.a->area * f, t.b->area * g, 1e-15);
         ck_assert(f == hand_form_factor(t.a, t.b) && g == hand_form_factor(t.b, t.a));
@@ -73,15 +73,14 @@ END_TEST
 START_TEST(test_additive)
 {
     unsigned state = 11;
-    int i, c;
-    for (i = 0; i < 300; i++) {
+    for (int i = 0; i < 300; i++) {
+        double parts = 0;
         struct two t;
-        double whole, parts = 0;
         two_random(&t, 0, 0.7, 1, &state);
-        whole = t.a->area * polygon_factor(t.a, t.b, 1);
+        double whole = t.a->area * polygon_factor(t.a, t.b, 1);
         ck_assert_int_eq(hierarchy_split(&t.h, t.h.face_element[0]), 0);
         two_find(&t);
-        for (c = 0; c < 4; c++) {
+        for (int c = 0; c < 4; c++) {
             const struct element *e = &t.h.elements[t.a->child + (uint32_t)c];
             parts += e->area * polygon_factor(e, t.b, 1);
         }
@@ -95,14 +94,12 @@ END_TEST
 START_TEST(test_scale)
 {
     unsigned state = 13;
-    int i;
-    for (i = 0; i < 300; i++) {
-        struct two t;
+    for (int i = 0; i < 300; i++) {
         double f[3];
-        int k;
         unsigned same = state;
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             state = same;
+            struct two t;
             two_random(&t, 0, 0.7, 1, &state);
             hierarchy_free(&t.h);
             made_scale(&t.scene, k == 0 ? 1 : k == 1 ? 1024 : 1 / 1024.0);
@@ -118,15 +115,19 @@ END_TEST
 /* The disc's known failures stay what they were measured to be. */
 START_TEST(test_disc_fails)
 {
+    struct discussion d = {0};
     struct two t;
-    struct discussion d = { 0 };
     two_parallel(&t, 1, 1, 0.1);
     d.receiver = t.a;
     d.emitter = t.b;
     ck_assert_double_eq_tol(form_factor_disc(&d) / closed_parallel(1, 1, 0.1) - 1, 0.17, 0.01);
-    ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_DISC), closed_parallel(1, 1, 0.1), 1e-8); /* so near, the polygon */
+    /* so near, the polygon */
+    ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_DISC), closed_parallel(1, 1, 0.1),
+                            1e-8);
     ck_assert_int_eq(d.terms.form_factor_level, FORM_FACTOR_POLYGON);
-    ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_DISC), closed_parallel(1, 1, 0.1), 1e-8); /* never falls back */
+    /* never falls back */
+    ck_assert_double_eq_tol(term_form_factor(&d, FORM_FACTOR_DISC), closed_parallel(1, 1, 0.1),
+                            1e-8);
     two_close(&t);
 }
 END_TEST

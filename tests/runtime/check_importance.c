@@ -1,5 +1,6 @@
-/* check_importance.c - what the solver tells oracles of a view and of errors: importance against a direct solution and by
- * duality, the residual of a leaf against its definition, error control against a known solution.
+/* check_importance.c - what the solver tells oracles of a view and of errors: importance against a
+ * direct solution and by duality, the residual of a leaf against its definition, error control
+ * against a known solution.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@
 /* BF with a threshold by importance; `%s`: that threshold. */
 static const char weighted[] =
     "oracle weighted \"bf for a view\" { start level;\n"
-    "  node level = clusters() { surfaces -> planes;  apart -> stop;  receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node level = clusters() { surfaces -> planes;  apart -> stop;  receiver -> "
+    "subdivide_receiver;  emitter -> subdivide_emitter; }\n"
     "  node planes = support_planes() { away -> stop;  otherwise -> energy; }\n"
     "  node energy = transfer(relative = %s) { dark -> stop;  below -> few;  above -> guard; }\n"
     "  node guard = can_split(min_share = 2e-4) { both -> side;  neither -> few;\n"
@@ -22,15 +24,16 @@ static const char weighted[] =
     "  node form = form_factor() { done -> link; }\n"
     "}\n";
 
-static void solve_view(struct solve *s, const struct scene *scene, const char *threshold, struct solve_options options)
+static void solve_view(struct solve *s, const struct scene *scene, const char *threshold,
+                       struct solve_options options)
 {
     char text[2048];
-    const char *cause;
-    struct refiner *r;
     snprintf(text, sizeof text, weighted, threshold);
-    r = interpreted("weighted.dag", text, NULL);
+    struct refiner *r = interpreted("weighted.dag", text, NULL);
     ck_assert_ptr_nonnull(r);
-    ck_assert(refiner_reads(r, FACT_RECEIVER_IMPORTANCE) && !refiner_reads(r, FACT_RECEIVER_TOLERANCE));
+    ck_assert(refiner_reads(r, FACT_RECEIVER_IMPORTANCE)
+              && !refiner_reads(r, FACT_RECEIVER_TOLERANCE));
+    const char *cause;
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
     ck_assert_int_eq(s->report.converged, 1);
@@ -40,12 +43,11 @@ static void solve_view(struct solve *s, const struct scene *scene, const char *t
 /* x := A^-1 x, by elimination with pivots; A [n * n] is lost. */
 static void eliminate(double *a, double *x, size_t n)
 {
-    size_t i, j, k;
-    for (k = 0; k < n; k++) {
+    for (size_t k = 0; k < n; k++) {
         size_t p = k;
-        for (i = k + 1; i < n; i++)
+        for (size_t i = k + 1; i < n; i++)
             p = fabs(a[i * n + k]) > fabs(a[p * n + k]) ? i : p;
-        for (j = k; p != k && j < n; j++) {
+        for (size_t j = k; p != k && j < n; j++) {
             double keep = a[k * n + j];
             a[k * n + j] = a[p * n + j];
             a[p * n + j] = keep;
@@ -55,15 +57,15 @@ static void eliminate(double *a, double *x, size_t n)
             x[k] = x[p];
             x[p] = keep;
         }
-        for (i = k + 1; i < n; i++) {
+        for (size_t i = k + 1; i < n; i++) {
             double f = a[i * n + k] / a[k * n + k];
-            for (j = k; j < n && f != 0; j++)
+            for (size_t j = k; j < n && f != 0; j++)
                 a[i * n + j] -= f * a[k * n + j];
             x[i] -= f * x[k];
         }
     }
-    for (k = n; k-- > 0;) {
-        for (j = k + 1; j < n; j++)
+    for (size_t k = n; k-- > 0;) {
+        for (size_t j = k + 1; j < n; j++)
             x[k] -= a[k * n + j] * x[j];
         x[k] /= a[k * n + k];
     }
@@ -75,63 +77,75 @@ static double part_of(const struct solve *s, uint32_t j, uint32_t e)
     uint32_t up = j;
     while (up > e)
         up = s->hierarchy.elements[up].parent;
-    return up == e ? s->hierarchy.elements[j].area * s->operator.uncovered[j] / (s->hierarchy.elements[e].area * s->operator.uncovered[e]) : 0;
+    return up == e ? s->hierarchy.elements[j].area
+                         * s->operator.uncovered[j] /(s->hierarchy.elements[e].area
+                                                      * s->operator.uncovered[e])
+                   : 0;
 }
 
 struct view {
     double eye[3], at[3], fov; /* m, degrees */
 };
-static const struct view into_the_corner = { { 3.9, 4.9, 2.9 }, { 0, 0, 0 }, 25 };
+static const struct view into_the_corner = {{3.9, 4.9, 2.9}, {0, 0, 0}, 25};
 
 static struct camera camera_of(const struct view *view, double aspect)
 {
     return made_camera(view->eye, view->at, view->fov, aspect);
 }
 
-
-/* Importance by sweeps over the links is that of the same links written out as one matrix and solved at once. */
+/* Importance by sweeps over the links is that of the same links written out as one matrix and
+ * solved at once. */
 START_TEST(test_importance_dense)
 {
-    struct scene scene;
-    struct solve s;
     struct solve_options options = quick(1);
-    uint32_t *leaf, n = 0, i, j, up;
-    double *a, *y, worst = 0;
-    size_t l;
+    uint32_t n = 0;
+    double worst = 0;
     options.tolerance = 1e-9;
     options.closure = CLOSURE_ROWS; /* no gifts among leaves, which a matrix row does not show */
+    struct scene scene;
     furnished(&scene, 1);
     const struct camera camera = camera_of(&into_the_corner, 1.5);
     options.camera = &camera;
+    struct solve s;
     solve_view(&s, &scene, "0.1 / max(receiver.importance, 0.01)", options);
+    uint32_t *leaf;
     leaf = malloc(s.hierarchy.count * sizeof *leaf);
-    for (i = 0; i < s.hierarchy.count; i++)
+    for (uint32_t i = 0; i < s.hierarchy.count; i++)
         if (s.hierarchy.elements[i].vertices && !s.hierarchy.elements[i].children)
             leaf[n++] = i;
+    double *a;
     a = calloc((size_t)n * n, sizeof *a);
+    double *y;
     y = calloc(n, sizeof *y);
     ck_assert_uint_gt(n, 100);
-    for (i = 0; i < n; i++) {
+    for (uint32_t i = 0; i < n; i++) {
         a[(size_t)i * n + i] = 1;
         y[i] = s.importance.response[leaf[i]];
-        ck_assert(s.operator.row_share[leaf[i]] == 0 || !(s.operator.uncovered[leaf[i]] > 0));
-        for (up = leaf[i]; s.operator.uncovered[leaf[i]] > 0 && s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
-            for (l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++) {
+        ck_assert(s.operator.row_share[leaf[i]] == 0 || !(s.operator.uncovered[leaf[i]]> 0));
+        for (uint32_t up = leaf[i];
+             s.operator.uncovered[leaf[i]]> 0 && s.hierarchy.elements[up].vertices;
+             up = s.hierarchy.elements[up].parent)
+            for (size_t l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++) {
                 const struct link *link = &s.refinement.links[l];
-                double f = (double)link->form_factor * link->visibility / LINK_VISIBLE * s.operator.row_scale[leaf[i]] / s.operator.uncovered[leaf[i]];
-                for (j = 0; j < n; j++)
-                    a[(size_t)i * n + j] -= f * part_of(&s, leaf[j], link->emitter) * s.hierarchy.elements[leaf[j]].reflectance;
+                double f = (double)link->form_factor * link->visibility / LINK_VISIBLE
+                           * s.operator.row_scale[leaf[i]] / s.operator.uncovered[leaf[i]];
+                for (uint32_t j = 0; j < n; j++)
+                    a[(size_t)i * n + j] -= f * part_of(&s, leaf[j], link->emitter)
+                                            * s.hierarchy.elements[leaf[j]].reflectance;
             }
     }
     eliminate(a, y, n);
-    for (i = 0; i < n; i++)
-        worst = s.operator.uncovered[leaf[i]] > 0 ? fmax(worst, fabs(s.importance.value[leaf[i]] - y[i])) : worst;
-    printf("importance of %u leaves: at most %.1e from the direct solution; from %.3g in the mean to %.3g\n", n, worst,
-           s.importance.mean, s.importance.largest);
+    for (uint32_t i = 0; i < n; i++)
+        worst = s.operator.uncovered[leaf[i]]> 0
+                    ? fmax(worst, fabs(s.importance.value[leaf[i]] - y[i]))
+                    : worst;
+    printf("importance of %u leaves: at most %.1e from the direct solution; from %.3g in the mean "
+           "to %.3g\n",
+           n, worst, s.importance.mean, s.importance.largest);
     ck_assert_double_le(worst, 1e-6 * s.importance.largest);
     ck_assert_double_gt(s.importance.seen, 0.5);
     ck_assert_double_lt(s.importance.seen, 0.5 * rays_host(s.problem.rays)->area);
-    for (i = 0; i < s.hierarchy.count; i++) {
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         double share = fmax(s.importance.value[i] / s.importance.largest, 1e-4);
         ck_assert_double_le(fabs(s.hierarchy.elements[i].importance - share), 0.0201 * share);
     }
@@ -143,17 +157,16 @@ START_TEST(test_importance_dense)
 }
 END_TEST
 
-/* <r, B> = <Y, E>: what the picture holds is what the light that is emitted means to it. Exact to rounding where links
- * are reciprocal: two plates, linked alike both ways. In a room as good as its links. */
+/* <r, B> = <Y, E>: what the picture holds is what the light that is emitted means to it. Exact to
+ * rounding where links are reciprocal: two plates, linked alike both ways. In a room as good as its
+ * links. */
 START_TEST(test_importance_dual)
 {
-    static const struct view down = { { 0.5, 0.5, 0.9 }, { 0.4, 0.5, 0 }, 40 };
-    struct scene scene;
-    struct solve s;
+    static const struct view down = {{0.5, 0.5, 0.9}, {0.4, 0.5, 0}, 40};
     struct solve_options options = quick(1);
     double left = 0, right = 0;
-    uint32_t i;
     options.tolerance = 1e-9;
+    struct scene scene;
     if (_i) {
         furnished(&scene, 1);
     } else {
@@ -164,13 +177,15 @@ START_TEST(test_importance_dual)
     }
     const struct camera camera = camera_of(_i ? &into_the_corner : &down, 1);
     options.camera = &camera;
+    struct solve s;
     solve_view(&s, &scene, "0.05 + 0 * receiver.importance", options);
-    for (i = 0; i < s.hierarchy.count; i++) {
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
         if (e->children || !e->vertices)
             continue;
         left += e->area * s.operator.uncovered[i] * s.importance.response[i] * s.state.radiosity[i];
-        right += e->area * s.operator.uncovered[i] * s.importance.value[i] * s.problem.exitance[e->face];
+        right +=
+            e->area * s.operator.uncovered[i] * s.importance.value[i] * s.problem.exitance[e->face];
     }
     printf("what the picture holds: %.9g W by light, %.9g W by importance\n", left, right);
     ck_assert_double_gt(left, 0.1);
@@ -180,48 +195,51 @@ START_TEST(test_importance_dual)
 }
 END_TEST
 
-/* An oracle that weighs by importance spends less on what the picture does not hold, and gets the picture's light as
- * well as the oracle that refines everywhere. */
+/* An oracle that weighs by importance spends less on what the picture does not hold, and gets the
+ * picture's light as well as the oracle that refines everywhere. */
 START_TEST(test_importance_pays)
 {
-    struct scene scene;
-    struct solve s[2];
     struct solve_options options = quick(1);
-    double sum[2] = { 0, 0 };
-    uint32_t i;
-    int k;
+    double sum[2] = {0, 0};
+    struct scene scene;
     furnished(&scene, 1);
     const struct camera camera = camera_of(&into_the_corner, 1);
     options.camera = &camera;
-    for (k = 0; k < 2; k++) {
-        solve_view(&s[k], &scene, k ? "0.02 / max(receiver.importance, 0.01)" : "0.02 + 0 * receiver.importance", options);
-        for (i = 0; i < s[k].hierarchy.count; i++)
+    struct solve s[2];
+    for (int k = 0; k < 2; k++) {
+        solve_view(&s[k], &scene,
+                   k ? "0.02 / max(receiver.importance, 0.01)" : "0.02 + 0 * receiver.importance",
+                   options);
+        for (uint32_t i = 0; i < s[k].hierarchy.count; i++)
             if (s[k].hierarchy.elements[i].vertices && !s[k].hierarchy.elements[i].children)
-                sum[k] += s[k].hierarchy.elements[i].area * s[k].importance.response[i] * s[k].state.radiosity[i];
+                sum[k] += s[k].hierarchy.elements[i].area * s[k].importance.response[i]
+                          * s[k].state.radiosity[i];
     }
-    printf("in the picture %.5g W by %zu links, %.5g W by %zu links of importance\n", sum[0], s[0].refinement.link_count,
-           sum[1], s[1].refinement.link_count);
+    printf("in the picture %.5g W by %zu links, %.5g W by %zu links of importance\n", sum[0],
+           s[0].refinement.link_count, sum[1], s[1].refinement.link_count);
     ck_assert_double_le(fabs(sum[1] / sum[0] - 1), 0.03);
-    ck_assert_double_le((double)s[1].refinement.link_count, 0.75 * (double)s[0].refinement.link_count);
-    for (k = 0; k < 2; k++)
+    ck_assert_double_le((double)s[1].refinement.link_count,
+                        0.75 * (double)s[0].refinement.link_count);
+    for (int k = 0; k < 2; k++)
         solve_close(&s[k]);
     made_close(&scene);
 }
 END_TEST
 
-/* F at the point x of a leaf with normal n, by the midpoint rule of N x N points over the emitter's quad. */
+/* F at the point x of a leaf with normal n, by the midpoint rule of N x N points over the
+ * emitter's quad. */
 static double factor_at(const double x[3], const double n[3], const struct element *s, int N)
 {
     double sum = 0;
-    int i, j, k;
-    for (i = 0; i < N; i++)
-        for (j = 0; j < N; j++) {
-            double u = (i + 0.5) / N, v = (j + 0.5) / N, w[3], q, a, b;
-            for (k = 0; k < 3; k++)
-                w[k] = s->vertex[0][k] + u * (s->vertex[1][k] - s->vertex[0][k]) + v * (s->vertex[3][k] - s->vertex[0][k]) - x[k];
-            q = dot3(w, w);
-            a = dot3(w, n);
-            b = -dot3(w, s->normal);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            double u = (i + 0.5) / N, v = (j + 0.5) / N, w[3];
+            for (int k = 0; k < 3; k++)
+                w[k] = s->vertex[0][k] + u * (s->vertex[1][k] - s->vertex[0][k])
+                       + v * (s->vertex[3][k] - s->vertex[0][k]) - x[k];
+            double q = dot3(w, w);
+            double a = dot3(w, n);
+            double b = -dot3(w, s->normal);
             sum += a > 0 && b > 0 ? a * b / (M_PI * q * q) : 0;
         }
     return sum * s->area / ((double)N * N);
@@ -230,37 +248,38 @@ static double factor_at(const double x[3], const double n[3], const struct eleme
 /* A leaf's residual against its definition, links and integrals written out. */
 START_TEST(test_residual)
 {
-    static char *settings[] = { "relative=0.05", "min_share=1e-3", NULL };
+    static char *settings[] = {"relative=0.05", "min_share=1e-3", NULL};
+    uint32_t found = 0;
     struct scene scene;
-    struct solve s;
-    uint32_t i, found = 0;
     made_open(&scene);
     made_material(&scene, 0.5, 1);
     made_material(&scene, 0.7, 0);
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     made_quad(&scene, 1, 0.3, 0, 1, 0, 1, 0, 1, 0, 0);
+    struct solve s;
     solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, quick(1));
-    for (i = 0; i < s.hierarchy.count && found < 3; i++) {
+    for (uint32_t i = 0; i < s.hierarchy.count && found < 3; i++) {
         const struct element *e = &s.hierarchy.elements[i];
         double worst = 0;
-        uint32_t up, links = 0;
-        struct leaf_residual d;
-        size_t l;
-        int k;
+        uint32_t links = 0;
         if (!e->vertices || e->children || e->face != 1)
             continue;
-        for (k = 0; k < 5; k++) {
+        for (int k = 0; k < 5; k++) {
             const double *x = k < 4 ? e->vertex[k] : e->centre;
             double sum = 0;
             links = 0;
-            for (up = i; s.hierarchy.elements[up].vertices; up = s.hierarchy.elements[up].parent)
-                for (l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++, links++) {
+            for (uint32_t up = i; s.hierarchy.elements[up].vertices;
+                 up = s.hierarchy.elements[up].parent)
+                for (size_t l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1];
+                     l++, links++) {
                     const struct link *link = &s.refinement.links[l];
                     sum += s.state.radiosity[link->emitter] * link->visibility / LINK_VISIBLE
-                         * (factor_at(x, e->normal, &s.hierarchy.elements[link->emitter], 300) - (double)link->form_factor);
+                           * (factor_at(x, e->normal, &s.hierarchy.elements[link->emitter], 300)
+                              - (double)link->form_factor);
                 }
             worst = fmax(worst, 0.7 * fabs(sum));
         }
+        struct leaf_residual d;
         d = residual_of_leaf(&s.operator, s.state.radiosity, i);
         ck_assert_uint_eq(d.links, links);
         ck_assert_double_eq_tol(d.all, worst, 2e-5);
@@ -274,38 +293,39 @@ START_TEST(test_residual)
 }
 END_TEST
 
-/* Error control: what was asked for is held by every leaf that is not given up, and by the face means of a cube whose
- * solution is known; tolerances start where they should, only fall, and a parent's is the least of its children's. */
+/* Error control: what was asked for is held by every leaf that is not given up, and by the face
+ * means of a cube whose solution is known; tolerances start where they should, only fall, and a
+ * parent's is the least of its children's. */
 START_TEST(test_error_control)
 {
-    static char *wanted[3][4] = { { "relative=0", "epsilon=0.1", "min_share=1e-4", NULL }, { "relative=0", "epsilon=0.05", "min_share=1e-4", NULL },
-                                  { "relative=0", "epsilon=0.025", "min_share=1e-4", NULL } };
-    static const double eps[3] = { 0.1, 0.05, 0.025 };
+    static char *wanted[3][4] = {{"relative=0", "epsilon=0.1", "min_share=1e-4", NULL},
+                                 {"relative=0", "epsilon=0.05", "min_share=1e-4", NULL},
+                                 {"relative=0", "epsilon=0.025", "min_share=1e-4", NULL}};
+    static const double eps[3] = {0.1, 0.05, 0.025};
     size_t links[3];
-    int k, c;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
+        uint32_t m[6], given_up = 0, fallen = 0;
         struct scene scene;
-        struct solve s;
-        uint32_t m[6], f, i, given_up = 0, fallen = 0;
-        double off;
         made_open(&scene);
         made_material(&scene, 0.5, 0);
         made_material(&scene, 0.5, 1);
-        for (f = 0; f < 6; f++)
+        for (uint32_t f = 0; f < 6; f++)
             m[f] = f == 1;
         made_room(&scene, m, 1, 1, 1);
+        struct solve s;
         solve_with(&s, &scene, "error_control", RELEASE_FLAT, wanted[k], quick(1));
         links[k] = s.refinement.link_count;
         ck_assert_double_eq_tol(s.error.target, eps[k], 1e-15);
-        for (i = 0; i < s.hierarchy.count; i++) {
+        for (uint32_t i = 0; i < s.hierarchy.count; i++) {
             const struct element *e = &s.hierarchy.elements[i];
             double least = INFINITY;
             ck_assert_double_le(e->tolerance, 0.5 * eps[k]);
             fallen += e->vertices && e->tolerance < 0.49 * eps[k];
-            for (c = 0; c < e->children; c++)
+            for (int c = 0; c < e->children; c++)
                 least = fmin(least, s.hierarchy.elements[e->child + (uint32_t)c].tolerance);
             if (e->children)
-                ck_assert(least >= e->tolerance && (e->depth > 0 || !e->vertices || least <= 0.5 * eps[k]));
+                ck_assert(least >= e->tolerance
+                          && (e->depth > 0 || !e->vertices || least <= 0.5 * eps[k]));
             if (!e->vertices || e->children)
                 continue;
             struct leaf_residual left = residual_of_leaf(&s.operator, s.state.radiosity, i);
@@ -314,11 +334,14 @@ START_TEST(test_error_control)
                 ck_assert(left.guarded > eps[k] || e->tolerance * left.links < 0.25 * eps[k]);
             }
         }
-        off = fmax(fabs(face_radiosity(&s, 1) - 1.1043616), fabs(face_radiosity(&s, 0) - 0.1712161));
-        for (f = 2; f < 6; f++)
+        double off =
+            fmax(fabs(face_radiosity(&s, 1) - 1.1043616), fabs(face_radiosity(&s, 0) - 0.1712161));
+        for (uint32_t f = 2; f < 6; f++)
             off = fmax(off, fabs(face_radiosity(&s, f) - 0.1811056));
-        printf("error asked %.3f: %zu links, %d passes, estimate %.3f, %u of %u leaves given up, %u elements lowered, face means off by %.1e\n",
-               eps[k], links[k], s.report.passes, s.error.largest, given_up, s.report.rows.leaves, fallen, off);
+        printf("error asked %.3f: %zu links, %d passes, estimate %.3f, %u of %u leaves given up, "
+               "%u elements lowered, face means off by %.1e\n",
+               eps[k], links[k], s.report.passes, s.error.largest, given_up, s.report.rows.leaves,
+               fallen, off);
         ck_assert((s.error.area > 0) == (given_up > 0));
         ck_assert(k < 2 || fallen > 0);
         ck_assert_double_le(off, eps[k]);
@@ -330,15 +353,19 @@ START_TEST(test_error_control)
 }
 END_TEST
 
-/* Groups of faces count, too: a lamp of 16 faces over a floor, linked as a group while the floor's tolerance bears it. Every
- * leaf is then within eps at its corners by the faces themselves, but for what taking the group for a point leaves out. */
+/* Groups of faces count, too: a lamp of 16 faces over a floor, linked as a group while the floor's
+ * tolerance bears it. Every leaf is then within eps at its corners by the faces themselves, but for
+ * what taking the group for a point leaves out. */
 static const char grouped[] =
-    "oracle grouped \"links of groups by tolerance\" { param epsilon : flux = 0 in [0, inf] role error_tolerance;\n"
+    "oracle grouped \"links of groups by tolerance\" { param epsilon : flux = 0 in [0, inf] role "
+    "error_tolerance;\n"
     "  start level;\n"
     "  node level = clusters() { surfaces -> form;  apart -> stop;  receiver | emitter -> far; }\n"
-    "  node far   = cluster_gap(absolute = 32 * min(receiver.tolerance, epsilon)) { dark -> stop;  near | above -> open;  below -> sight; }\n"
+    "  node far   = cluster_gap(absolute = 32 * min(receiver.tolerance, epsilon)) { dark -> stop;  "
+    "near | above -> open;  below -> sight; }\n"
     "  node sight = cluster_visibility() { none -> stop;  partial | all -> link_clusters; }\n"
-    "  node open  = opens(ratio = 1, min_share = 1e-4) { receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node open  = opens(ratio = 1, min_share = 1e-4) { receiver -> subdivide_receiver;  emitter "
+    "-> subdivide_emitter; }\n"
     "  node form  = form_factor() { done -> see; }\n"
     "  node see   = visibility(rays = 4) { none | partial | all -> link; }\n"
     "}\n";
@@ -347,40 +374,41 @@ START_TEST(test_residual_groups)
 {
     static const double eps = 0.002;
     struct solve_options options = quick(1);
-    struct scene scene;
-    struct solve s;
-    struct refiner *r;
-    const char *cause;
-    uint32_t i, leaves = 0, groups = 0;
+    uint32_t leaves = 0, groups = 0;
     double worst = 0;
+    struct scene scene;
     made_open(&scene);
     made_material(&scene, 0, 20);
     made_material(&scene, 0.5, 0);
     made_quad(&scene, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-    for (i = 0; i < 16; i++)
-        made_quad(&scene, 0, 0.5 + 0.025 * (i % 4), 0.4 + 0.025 * (i / 4), 1, 0, 0.02, 0, 0.02, 0, 0);
-    r = interpreted("grouped.dag", grouped, NULL);
+    for (uint32_t i = 0; i < 16; i++)
+        made_quad(&scene, 0, 0.5 + 0.025 * (i % 4), 0.4 + 0.025 * (i / 4), 1, 0, 0.02, 0, 0.02, 0,
+                  0);
+    struct refiner *r = interpreted("grouped.dag", grouped, NULL);
     ck_assert_ptr_nonnull(r);
     ck_assert_int_eq(refiner_set(r, "epsilon", eps, NULL), 0);
+    struct solve s;
+    const char *cause;
     ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(&s, r, &cause), 0);
-    for (i = 0; i < s.refinement.link_count; i++)
+    for (uint32_t i = 0; i < s.refinement.link_count; i++)
         groups += !s.hierarchy.elements[s.refinement.links[i].emitter].vertices;
-    for (i = 0; i < s.hierarchy.count; i++) {
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
-        int k;
         if (!e->vertices || e->children || e->face != 0)
             continue;
         leaves++;
-        for (k = 0; k < 4; k++) {
+        for (int k = 0; k < 4; k++) {
             double sum = 0;
-            uint32_t f;
-            for (f = 1; f <= 16; f++)
-                sum += 20 * factor_at(e->vertex[k], e->normal, &s.hierarchy.elements[s.hierarchy.face_element[f]], 2);
+            for (uint32_t f = 1; f <= 16; f++)
+                sum += 20
+                       * factor_at(e->vertex[k], e->normal,
+                                   &s.hierarchy.elements[s.hierarchy.face_element[f]], 2);
             worst = fmax(worst, 0.5 * fabs(sum - s.state.irradiance[i]));
         }
     }
-    printf("groups: %u leaves, %u links of groups, off by %.2g of %.2g at the corners\n", leaves, groups, worst, eps);
+    printf("groups: %u leaves, %u links of groups, off by %.2g of %.2g at the corners\n", leaves,
+           groups, worst, eps);
     ck_assert_uint_gt(leaves, 4);
     ck_assert_uint_gt(groups, 0);
     ck_assert_double_le(worst, 1.25 * eps);

@@ -1,10 +1,11 @@
-/* check_oracles.c - every oracle of examples/oracles: its releases decide alike, its error falls with its threshold, and
- * thermal keeps its promise.
+/* check_oracles.c - every oracle of examples/oracles: its releases decide alike, its error falls
+ * with its threshold, and thermal keeps its promise.
  *
  * References: closed forms where there are some, else path tracing (path_reference.h).
- * ORACLES_TABLE=1 build/tests/check_oracles SCENE... prints instead what each oracle costs and how wrong it is, at its
- * default parameters: the table in examples/oracles/README.md. ORACLES_ONLY="NAME ..." leaves the others out,
- * ORACLES_SET="PARAM=VALUE ..." sets parameters, ORACLES_PATHS is the number of particles of the reference.
+ * ORACLES_TABLE=1 build/tests/check_oracles SCENE... prints instead what each oracle costs and how
+ * wrong it is, at its default parameters: the table in examples/oracles/README.md.
+ * ORACLES_ONLY="NAME ..." leaves the others out, ORACLES_SET="PARAM=VALUE ..." sets parameters,
+ * ORACLES_PATHS is the number of particles of the reference.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -29,27 +30,29 @@ static void must(int done, const char *what)
 }
 
 /* Solve with an oracle; settings end with NULL. */
-static void solve_with(struct solve *s, const struct scene *scene, const char *oracle, char *const *settings)
+static void solve_with(struct solve *s, const struct scene *scene, const char *oracle,
+                       char *const *settings)
 {
-    struct solve_options options = { .tolerance = 1e-5, .iterations = 100000, .threads = 2 };
+    struct solve_options options = {.tolerance = 1e-5, .iterations = 100000, .threads = 2};
     struct refiner *r = oracles_open(oracle, RELEASE_FLAT);
-    const char *cause;
     int n = 0;
     while (settings && settings[n])
         n++;
     must(r && oracles_set(r, settings, n) == 0, oracle);
+    const char *cause;
     must(solve_open(s, scene, &options, &cause) == 0, "solve_open");
     must(solve_run(s, r, &cause) == 0, "solve_run");
     refiner_close(r);
 }
 
-/* Sum over the faces of |rho A (H - H_ref)| in one band (W), and the same of all that they reflect. */
-static double power_error(const struct solve *s, const double *reference, uint32_t band, double *all)
+/* Sum over the faces of |rho A (H - H_ref)| in one band (W), and the same of all that they
+ * reflect. */
+static double power_error(const struct solve *s, const double *reference, uint32_t band,
+                          double *all)
 {
     double sum = 0;
-    uint32_t i;
     *all = 0;
-    for (i = 0; i < s->problem.scene->face_count; i++) {
+    for (uint32_t i = 0; i < s->problem.scene->face_count; i++) {
         size_t at = (size_t)i * s->problem.bands + band, element = s->hierarchy.face_element[i];
         double power = s->problem.reflectance[at] * s->hierarchy.elements[element].area;
         sum += power * fabs(s->state.irradiance[element * s->problem.bands + band] - reference[at]);
@@ -60,33 +63,44 @@ static double power_error(const struct solve *s, const double *reference, uint32
 
 static int table(const char *path)
 {
-    struct scene_options how = { 0, 1 };
+    struct scene_options how = {0, 1};
     struct scene scene;
-    const struct builtin *b;
-    double *reference, *noise, quiet = 0, all;
-    size_t i;
+    double quiet = 0;
     if (scene_read(&scene, path, &how) < 0)
         return 1;
+    double *reference;
     reference = calloc((size_t)scene.face_count * scene.bands, sizeof *reference);
+    double *noise;
     noise = calloc((size_t)scene.face_count * scene.bands, sizeof *noise);
-    path_reference(&scene, getenv("ORACLES_PATHS") ? atoi(getenv("ORACLES_PATHS")) : 1 << 23, reference, noise);
-    for (b = builtins; b->name; b++) {
-        char *settings[16] = { 0 }, *given = getenv("ORACLES_SET") ? strdup(getenv("ORACLES_SET")) : NULL, *word;
-        struct solve s;
-        double error;
+    path_reference(&scene, getenv("ORACLES_PATHS") ? atoi(getenv("ORACLES_PATHS")) : 1 << 23,
+                   reference, noise);
+    double all;
+    size_t i;
+    for (const struct builtin *b = builtins; b->name; b++) {
+        char *settings[16] = {0},
+             *given = getenv("ORACLES_SET") ? strdup(getenv("ORACLES_SET")) : NULL;
         int n = 0;
-        for (word = given ? strtok(given, " ") : NULL; word; word = strtok(NULL, " "))
+        for (char *word = given ? strtok(given, " ") : NULL; word; word = strtok(NULL, " "))
             settings[n++] = word;
-        if (strcmp(b->name, "viewfactors") == 0 || (getenv("ORACLES_ONLY") && !strstr(getenv("ORACLES_ONLY"), b->name)))
+        if (strcmp(b->name, "viewfactors") == 0
+            || (getenv("ORACLES_ONLY") && !strstr(getenv("ORACLES_ONLY"), b->name)))
             continue;
+        struct solve s;
         solve_with(&s, &scene, b->name, settings);
         free(given);
-        error = power_error(&s, reference, 0, &all);
+        double error = power_error(&s, reference, 0, &all);
         for (quiet = 0, i = 0; i < scene.face_count; i++)
-            quiet += s.problem.reflectance[i * s.problem.bands] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[i * s.problem.bands];
-        printf("%-15s %9zu links %9.0f rays %7.2f s  error %.3f %% of %.4g W (reference's noise %.3f %%), %llu kept by a guard; %.3g of its tolerance\n", b->name,
-               s.refinement.link_count, (double)rays_count(s.problem.rays).rays, s.report.seconds.refine + s.report.seconds.iterate, 100 * error / all,
-               all, 100 * quiet / all, (unsigned long long)s.refinement.marked[1], error / (0.02 * rays_host(s.problem.rays)->irradiance * rays_host(s.problem.rays)->area));
+            quiet += s.problem.reflectance[i * s.problem.bands]
+                     * s.hierarchy.elements[s.hierarchy.face_element[i]].area
+                     * noise[i * s.problem.bands];
+        printf(
+            "%-15s %9zu links %9.0f rays %7.2f s  error %.3f %% of %.4g W (reference's noise %.3f "
+            "%%), %llu kept by a guard; %.3g of its tolerance\n",
+            b->name, s.refinement.link_count, (double)rays_count(s.problem.rays).rays,
+            s.report.seconds.refine + s.report.seconds.iterate, 100 * error / all, all,
+            100 * quiet / all, (unsigned long long)s.refinement.marked[1],
+            error
+                / (0.02 * rays_host(s.problem.rays)->irradiance * rays_host(s.problem.rays)->area));
         fflush(stdout);
         solve_close(&s);
     }
@@ -98,27 +112,32 @@ static int table(const char *path)
 
 /* ---- releases */
 
-/* Every built-in oracle on small scenes, coarsely: interpreted, compiled and hand-written release decide alike. */
+/* Every built-in oracle on small scenes, coarsely: interpreted, compiled and hand-written
+ * release decide alike. */
 START_TEST(test_releases)
 {
-    static const char *const scenes[] = { "cornell", "furnace", "room" };
+    static const char *const scenes[] = {"cornell", "furnace", "room"};
     const char *program = getenv("RADIOSITY");
-    const struct builtin *b;
-    char command[512];
-    for (b = builtins; b->name; b++) {
-        snprintf(command, sizeof command, "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set min_share=%s > /dev/null",
-                 program ? program : "build/bin/radiosity", scenes[_i], b->name, _i == 2 ? "1" : "3e-2");
+    for (const struct builtin *b = builtins; b->name; b++) {
+        char command[512];
+        snprintf(command, sizeof command,
+                 "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set min_share=%s > "
+                 "/dev/null",
+                 program ? program : "build/bin/radiosity", scenes[_i], b->name,
+                 _i == 2 ? "1" : "3e-2");
         ck_assert_msg(system(command) == 0, "%s", command);
     }
 }
 END_TEST
 
-/* What compiled oracles say of themselves is what their graphs say: facts that are read, roles of parameters. */
+/* What compiled oracles say of themselves is what their graphs say: facts that are read, roles
+ * of parameters. */
 START_TEST(test_declared)
 {
     int reading = 0, roles = 0;
     for (const struct builtin *b = builtins; b->name; b++) {
-        struct refiner *flat = oracles_open(b->name, RELEASE_FLAT), *dag = oracles_open(b->name, RELEASE_DAG);
+        struct refiner *flat = oracles_open(b->name, RELEASE_FLAT),
+                       *dag = oracles_open(b->name, RELEASE_DAG);
         ck_assert(flat && dag);
         ck_assert_int_eq(flat->read_count, dag->read_count);
         for (int i = 0; i < flat->read_count; i++)
@@ -129,10 +148,14 @@ START_TEST(test_declared)
             roles += flat->parameters[i].role != ROLE_NONE;
         }
         reading += flat->read_count > 0;
-        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_IMPORTANCE), strcmp(b->name, "importance") == 0);
-        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_TOLERANCE), strcmp(b->name, "error_control") == 0);
-        ck_assert_int_eq(refiner_find_role(flat, ROLE_ERROR_TOLERANCE, -1) >= 0, strcmp(b->name, "error_control") == 0);
-        ck_assert_int_eq(refiner_find_role(flat, ROLE_SHADOW_TOLERANCE, -1) >= 0, strcmp(b->name, "viewfactors") == 0);
+        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_IMPORTANCE),
+                         strcmp(b->name, "importance") == 0);
+        ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_TOLERANCE),
+                         strcmp(b->name, "error_control") == 0);
+        ck_assert_int_eq(refiner_find_role(flat, ROLE_ERROR_TOLERANCE, -1) >= 0,
+                         strcmp(b->name, "error_control") == 0);
+        ck_assert_int_eq(refiner_find_role(flat, ROLE_SHADOW_TOLERANCE, -1) >= 0,
+                         strcmp(b->name, "viewfactors") == 0);
         refiner_close(flat);
         refiner_close(dag);
     }
@@ -149,35 +172,52 @@ static const struct falling {
     const char *coarse[2], *fine[2], *finest[2];
     double left[3]; /* cube, parallel plates, perpendicular plates */
 } falling[] = {
-    { "ff", { "limit=0.3" }, { "limit=0.1" }, { "limit=0.02" }, { 1.5e-3, 2e-4, 1.2e-3 } },
-    { "bf", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
-    { "bf_guarded", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
-    { "clusters", { "relative=0.25", "from_faces=1" }, { "relative=0.05", "from_faces=1" }, { "relative=0.01", "from_faces=1" }, { 3e-3, 2e-4, 1.2e-3 } },
-    { "bfv", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
-    { "relative", { "exitance=0.1" }, { "exitance=0.02" }, { "exitance=0.004" }, { 2.5e-3, 2e-4, 6e-4 } },
-    { "gap", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 1e-3, 2e-4, 3e-4 } },
-    { "error_control", { "relative=1" }, { "relative=0.3" }, { "relative=0.1" }, { 2e-3, 2e-4, 5e-3 } },
-    { "smooth", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 1.5e-3, 2e-4, 1e-3 } },
-    { "importance", { "relative=0.25" }, { "relative=0.05" }, { "relative=0.01" }, { 1e-3, 2e-4, 3e-4 } },
-    { "feature", { "relative=0.5", "energy=0.5" }, { "relative=0.1", "energy=0.1" }, { "relative=0.02", "energy=0.02" }, { 1e-3, 2e-4, 3e-4 } },
-    { "clusters_feature", { "relative=0.5", "energy=0.5" }, { "relative=0.1", "energy=0.1" }, { "relative=0.02", "energy=0.02" }, { 1e-3, 2e-4, 3e-4 } },
-    { "gibson_hubbold", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 1.5e-3, 2e-4, 5e-4 } },
-    { "thermal", { "share=3" }, { "share=0.3" }, { "share=0.03" }, { 4e-3, 2e-4, 5e-3 } },
-    { "shadows", { "relative=0.5", "visible=0.5" }, { "relative=0.1", "visible=0.1" }, { "relative=0.02", "visible=0.02" }, { 1e-3, 2e-4, 3e-4 } },
-    { "tester", { "relative=0.5" }, { "relative=0.1" }, { "relative=0.02" }, { 3e-3, 2e-4, 1.2e-3 } },
+    {"ff", {"limit=0.3"}, {"limit=0.1"}, {"limit=0.02"}, {1.5e-3, 2e-4, 1.2e-3}},
+    {"bf", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
+    {"bf_guarded", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
+    {"clusters",
+     {"relative=0.25", "from_faces=1"},
+     {"relative=0.05", "from_faces=1"},
+     {"relative=0.01", "from_faces=1"},
+     {3e-3, 2e-4, 1.2e-3}},
+    {"bfv", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
+    {"relative", {"exitance=0.1"}, {"exitance=0.02"}, {"exitance=0.004"}, {2.5e-3, 2e-4, 6e-4}},
+    {"gap", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {1e-3, 2e-4, 3e-4}},
+    {"error_control", {"relative=1"}, {"relative=0.3"}, {"relative=0.1"}, {2e-3, 2e-4, 5e-3}},
+    {"smooth", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {1.5e-3, 2e-4, 1e-3}},
+    {"importance", {"relative=0.25"}, {"relative=0.05"}, {"relative=0.01"}, {1e-3, 2e-4, 3e-4}},
+    {"feature",
+     {"relative=0.5", "energy=0.5"},
+     {"relative=0.1", "energy=0.1"},
+     {"relative=0.02", "energy=0.02"},
+     {1e-3, 2e-4, 3e-4}},
+    {"clusters_feature",
+     {"relative=0.5", "energy=0.5"},
+     {"relative=0.1", "energy=0.1"},
+     {"relative=0.02", "energy=0.02"},
+     {1e-3, 2e-4, 3e-4}},
+    {"gibson_hubbold", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {1.5e-3, 2e-4, 5e-4}},
+    {"thermal", {"share=3"}, {"share=0.3"}, {"share=0.03"}, {4e-3, 2e-4, 5e-3}},
+    {"shadows",
+     {"relative=0.5", "visible=0.5"},
+     {"relative=0.1", "visible=0.1"},
+     {"relative=0.02", "visible=0.02"},
+     {1e-3, 2e-4, 3e-4}},
+    {"tester", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
 };
 
 enum { FALLING = sizeof falling / sizeof *falling };
 
-/* A cube with E = 1 on its ceiling, or two unit squares with E = 1: parallel at the distance 1, or with a common edge. All rho = .5. */
+/* A cube with E = 1 on its ceiling, or two unit squares with E = 1: parallel at the distance 1,
+ * or with a common edge. All rho = .5. */
 static void make_known(struct scene *s, int which, double *known)
 {
-    uint32_t wall, lamp, m[6], f;
     made_open(s);
-    wall = made_material(s, 0.5, which ? 1 : 0);
+    uint32_t wall = made_material(s, 0.5, which ? 1 : 0);
     if (which == 0) {
-        lamp = made_material(s, 0.5, 1);
-        for (f = 0; f < 6; f++) {
+        uint32_t lamp = made_material(s, 0.5, 1);
+        uint32_t m[6];
+        for (uint32_t f = 0; f < 6; f++) {
             m[f] = f == 1 ? lamp : wall;
             known[f] = f == 0 ? 0.1712161 : f == 1 ? 1.1043616 : 0.1811056;
         }
@@ -195,26 +235,30 @@ static void make_known(struct scene *s, int which, double *known)
 START_TEST(test_falling)
 {
     const struct falling *f = &falling[_i / 3];
-    const char *const *steps[3] = { f->coarse, f->fine, f->finest };
-    double known[6], worst[3] = { 0, 0, 0 };
-    size_t links[3] = { 0, 0, 0 };
+    const char *const *steps[3] = {f->coarse, f->fine, f->finest};
+    double known[6], worst[3] = {0, 0, 0};
+    size_t links[3] = {0, 0, 0};
     int finest = thorough() || _i % 3 > 0, i; /* of the cube it takes a hundred thousand links */
     for (i = 0; i < 2 + finest; i++) {
-        char *settings[4] = { (char *)"min_share=1e-4", (char *)steps[i][0], (char *)steps[i][1], NULL };
+        char *settings[4] = {(char *)"min_share=1e-4", (char *)steps[i][0], (char *)steps[i][1],
+                             NULL};
         struct scene scene;
-        struct solve s;
-        uint32_t k;
         make_known(&scene, _i % 3, known);
+        struct solve s;
         solve_with(&s, &scene, f->oracle, settings);
         worst[i] = 0;
-        for (k = 0; k < scene.face_count; k++)
-            worst[i] = fmax(worst[i], fabs(s.state.radiosity[s.hierarchy.face_element[k]] - known[k]));
+        for (uint32_t k = 0; k < scene.face_count; k++)
+            worst[i] =
+                fmax(worst[i], fabs(s.state.radiosity[s.hierarchy.face_element[k]] - known[k]));
         links[i] = s.refinement.link_count;
         solve_close(&s);
         made_close(&scene);
     }
     printf("%-14s %s: error %.1e %.1e %.1e by %zu, %zu, %zu links\n", f->oracle,
-           _i % 3 == 0 ? "cube" : _i % 3 == 1 ? "parallel" : "perpendicular", worst[0], worst[1], worst[2], links[0], links[1], links[2]);
+           _i % 3 == 0   ? "cube"
+           : _i % 3 == 1 ? "parallel"
+                         : "perpendicular",
+           worst[0], worst[1], worst[2], links[0], links[1], links[2]);
     ck_assert_uint_le(links[0], links[1]);
     /* Within what quadrature leaves, 1e-4, it never rises. */
     ck_assert_double_le(worst[1], worst[0] + 1e-4);
@@ -228,33 +272,41 @@ END_TEST
 
 /* ---- thermal's promise */
 
-/* Sum over the faces of what radiosity times area is wrong, in every band, within the tolerance, against a
- * reference whose standard errors come to no more than a quarter of that, together. Its noise adds to what is found. */
+/* Sum over the faces of what radiosity times area is wrong, in every band, within the tolerance,
+ * against a reference whose standard errors come to no more than a quarter of that, together. Its
+ * noise adds to what is found. */
 START_TEST(test_promise)
 {
-    static const struct { const char *scene; double watts; } promise[] = {
-        { "furnace", 0.3 }, { "cornell", 0.05 }, { "maze_8", 60 }, { "room", 16 }, { "furnace_4", 0.4 },
+    static const struct {
+        const char *scene;
+        double watts;
+    } promise[] = {
+        {"furnace", 0.3}, {"cornell", 0.05}, {"maze_8", 60}, {"room", 16}, {"furnace_4", 0.4},
     };
-    char setting[64], path[128], *settings[3] = { setting, (char *)"share=0", NULL };
-    struct scene_options how = { 0, 1 };
-    struct scene scene;
-    struct solve s;
-    double *reference, *noise, all;
-    uint32_t k;
+    char setting[64], path[128], *settings[3] = {setting, (char *)"share=0", NULL};
+    struct scene_options how = {0, 1};
     snprintf(setting, sizeof setting, "tolerance_watts=%g", promise[_i].watts);
     snprintf(path, sizeof path, "examples/scenes/%s.obj", promise[_i].scene);
+    struct scene scene;
     ck_assert_int_eq(scene_read(&scene, path, &how), 0);
+    double *reference;
     reference = calloc((size_t)scene.face_count * scene.bands, sizeof *reference);
+    double *noise;
     noise = calloc((size_t)scene.face_count * scene.bands, sizeof *noise);
     path_reference(&scene, 1 << 18, reference, noise);
+    struct solve s;
     solve_with(&s, &scene, "thermal", settings);
-    for (k = 0; k < scene.bands; k++) {
+    double all;
+    for (uint32_t k = 0; k < scene.bands; k++) {
         double wrong = power_error(&s, reference, k, &all), unsure = 0;
-        uint32_t i;
-        for (i = 0; i < scene.face_count; i++)
-            unsure += s.problem.reflectance[(size_t)i * s.problem.bands + k] * s.hierarchy.elements[s.hierarchy.face_element[i]].area * noise[(size_t)i * s.problem.bands + k];
-        printf("thermal %s, band %u: %.3g W wrong (reference +- %.2g W), %g W promised, of %.4g W; %zu links, %llu whole by a guard\n", promise[_i].scene,
-               k, wrong, unsure, promise[_i].watts, all, s.refinement.link_count, (unsigned long long)s.refinement.marked[1]);
+        for (uint32_t i = 0; i < scene.face_count; i++)
+            unsure += s.problem.reflectance[(size_t)i * s.problem.bands + k]
+                      * s.hierarchy.elements[s.hierarchy.face_element[i]].area
+                      * noise[(size_t)i * s.problem.bands + k];
+        printf("thermal %s, band %u: %.3g W wrong (reference +- %.2g W), %g W promised, of %.4g W; "
+               "%zu links, %llu whole by a guard\n",
+               promise[_i].scene, k, wrong, unsure, promise[_i].watts, all, s.refinement.link_count,
+               (unsigned long long)s.refinement.marked[1]);
         ck_assert_double_le(unsure, 0.25 * promise[_i].watts);
         ck_assert_double_le(wrong, promise[_i].watts);
     }
@@ -270,9 +322,9 @@ int main(int count, char **arguments)
 {
     Suite *suite = suite_create("oracles");
     TCase *c = tcase_create("oracles");
-    int i, status = 0;
+    int status = 0;
     if (getenv("ORACLES_TABLE")) {
-        for (i = 1; i < count; i++)
+        for (int i = 1; i < count; i++)
             status |= table(arguments[i]);
         return status;
     }

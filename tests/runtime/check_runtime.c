@@ -24,12 +24,11 @@ static double random_unit(unsigned *state)
 /* n random small quads in the unit cube, some of them coplanar with others. */
 static void clutter(struct scene *s, int n, unsigned seed)
 {
-    int i, k;
     made_open(s);
     made_material(s, 0.5, 1);
-    for (i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++) {
         double v[9];
-        for (k = 0; k < 9; k++)
+        for (int k = 0; k < 9; k++)
             v[k] = k < 3 ? random_unit(&seed) : 0.2 * (random_unit(&seed) - 0.5);
         if (i % 3 == 0)
             v[2] = 0.25, v[5] = v[8] = 0; /* in the plane z = 1/4 */
@@ -37,30 +36,31 @@ static void clutter(struct scene *s, int n, unsigned seed)
     }
 }
 
-/* Every element lies within its parent, areas add up, identities are unique, every face is there once. */
+/* Every element lies within its parent, areas add up, identities are unique, every face is there
+ * once. */
 START_TEST(test_hierarchy)
 {
+    uint32_t faces = 0;
     struct scene s;
-    struct hierarchy h;
-    uint32_t i, j, faces = 0;
-    int c, k, n;
     clutter(&s, 200, 5);
+    struct hierarchy h;
     ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    for (i = 0; i < h.count; i++) {
+    for (uint32_t i = 0; i < h.count; i++) {
         const struct element *e = &h.elements[i];
         double area = 0;
         faces += e->vertices > 0;
         if (e->vertices)
             ck_assert_uint_eq(h.face_element[e->face], i);
-        for (j = 0; j < i; j++)
+        for (uint32_t j = 0; j < i; j++)
             ck_assert(h.elements[j].id != e->id);
-        for (c = 0; c < e->children; c++) {
+        for (int c = 0; c < e->children; c++) {
             const struct element *x = &h.elements[e->child + (uint32_t)c];
             ck_assert_uint_eq(x->parent, i);
             area += x->area;
-            for (n = 0; n < (x->vertices ? x->vertices : 2); n++)
-                for (k = 0; k < 3; k++)
-                    ck_assert(x->vertex[n][k] >= e->vertex[0][k] && x->vertex[n][k] <= e->vertex[1][k]);
+            for (int n = 0; n < (x->vertices ? x->vertices : 2); n++)
+                for (int k = 0; k < 3; k++)
+                    ck_assert(x->vertex[n][k] >= e->vertex[0][k]
+                              && x->vertex[n][k] <= e->vertex[1][k]);
         }
         if (e->children)
             ck_assert_double_eq_tol(area, e->area, 1e-12);
@@ -74,23 +74,24 @@ END_TEST
 /* Splits in another order give the same parts under the same identities. */
 START_TEST(test_split_order)
 {
-    struct scene s;
     struct hierarchy a, b;
-    int i, k;
+    struct scene s;
     clutter(&s, 2, 9);
     ck_assert_int_eq(hierarchy_build(&a, s.faces, s.face_count), 0);
     ck_assert_int_eq(hierarchy_build(&b, s.faces, s.face_count), 0);
-    for (i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         ck_assert_int_eq(hierarchy_split(&a, a.face_element[i]), 0);
         ck_assert_int_eq(hierarchy_split(&b, b.face_element[1 - i]), 0);
         ck_assert_int_eq(hierarchy_split(&a, a.face_element[i]), 0); /* again: nothing */
     }
     ck_assert_uint_eq(a.count, b.count);
-    for (i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         double area = 0;
-        for (k = 0; k < 4; k++) {
-            const struct element *x = &a.elements[a.elements[a.face_element[i]].child + (uint32_t)k];
-            const struct element *y = &b.elements[b.elements[b.face_element[i]].child + (uint32_t)k];
+        for (int k = 0; k < 4; k++) {
+            const struct element *x =
+                &a.elements[a.elements[a.face_element[i]].child + (uint32_t)k];
+            const struct element *y =
+                &b.elements[b.elements[b.face_element[i]].child + (uint32_t)k];
             ck_assert(x->id == y->id && x->depth == 1);
             ck_assert(memcmp(x->vertex, y->vertex, sizeof x->vertex) == 0);
             area += x->area;
@@ -106,9 +107,9 @@ END_TEST
 static void random_point(const struct face *f, unsigned *seed, double p[3])
 {
     double s = random_unit(seed), t = random_unit(seed);
-    int k;
-    for (k = 0; k < 3; k++)
-        p[k] = f->vertex[0][k] + s * (f->vertex[1][k] - f->vertex[0][k]) + t * (f->vertex[3][k] - f->vertex[0][k]);
+    for (int k = 0; k < 3; k++)
+        p[k] = f->vertex[0][k] + s * (f->vertex[1][k] - f->vertex[0][k])
+               + t * (f->vertex[3][k] - f->vertex[0][k]);
 }
 
 /* Could light go from a point of a face below `from` to one of a face below `to`? */
@@ -116,15 +117,14 @@ static int exchange(const struct hierarchy *h, uint32_t from, uint32_t to, unsig
 {
     const struct element *a = &h->elements[from], *b = &h->elements[to];
     double p[3], q[3], v[3];
-    int c;
     if (!a->vertices) {
-        for (c = 0; c < a->children; c++)
+        for (int c = 0; c < a->children; c++)
             if (exchange(h, a->child + (uint32_t)c, to, seed))
                 return 1;
         return 0;
     }
     if (!b->vertices) {
-        for (c = 0; c < b->children; c++)
+        for (int c = 0; c < b->children; c++)
             if (exchange(h, from, b->child + (uint32_t)c, seed))
                 return 1;
         return 0;
@@ -138,17 +138,17 @@ static int exchange(const struct hierarchy *h, uint32_t from, uint32_t to, unsig
 /* `apart` and `away` are precise answers: no segment may prove them wrong. */
 START_TEST(test_precise)
 {
-    struct scene s;
-    struct hierarchy h;
-    struct host host = { 0 };
+    struct host host = {0};
     unsigned seed = 17;
-    uint32_t i, j;
-    int apart = 0, away = 0, n;
+    int apart = 0, away = 0;
+    struct scene s;
     clutter(&s, 120, 23);
+    struct hierarchy h;
     ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    for (i = 0; i < h.count; i++)
-        for (j = 0; j < h.count; j++) {
-            struct discussion d = { .receiver = &h.elements[i], .emitter = &h.elements[j], .host = &host };
+    for (uint32_t i = 0; i < h.count; i++)
+        for (uint32_t j = 0; j < h.count; j++) {
+            struct discussion d = {
+                .receiver = &h.elements[i], .emitter = &h.elements[j], .host = &host};
             enum clusters_answer answer = tool_clusters(&d);
             int none = answer == CLUSTERS_APART;
             apart += none;
@@ -156,8 +156,9 @@ START_TEST(test_precise)
                 away++;
                 none = 1;
             }
-            for (n = 0; none && n < 10; n++)
-                ck_assert_msg(!exchange(&h, i, j, &seed), "elements %u and %u do exchange light", i, j);
+            for (int n = 0; none && n < 10; n++)
+                ck_assert_msg(!exchange(&h, i, j, &seed), "elements %u and %u do exchange light", i,
+                              j);
         }
     printf("%d pairs of clusters apart, %d pairs of faces away\n", apart, away);
     ck_assert_int_gt(apart, 100);
@@ -170,13 +171,8 @@ END_TEST
 /* Two squares, between them half a wall without thickness, its front to either side. */
 START_TEST(test_visibility)
 {
+    const double zero[3] = {0, 0, 0};
     struct scene s;
-    struct hierarchy h;
-    struct rays *rays;
-    const char *cause;
-    const double zero[3] = { 0, 0, 0 };
-    const struct element *a, *b;
-    double v, w;
     made_open(&s);
     made_material(&s, 0.5, 1);
     made_quad(&s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
@@ -185,15 +181,18 @@ START_TEST(test_visibility)
         made_quad(&s, 0, -1, -1, 0.5, 1.5, 0, 0, 0, 3, 0); /* x < 1/2 */
     else
         made_quad(&s, 0, -1, -1, 0.5, 0, 3, 0, 1.5, 0, 0);
+    struct hierarchy h;
     ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    rays = rays_open(&h, zero, zero, 1, &cause);
+    const char *cause;
+    struct rays *rays = rays_open(&h, zero, zero, 1, &cause);
     ck_assert_ptr_nonnull(rays);
-    a = &h.elements[h.face_element[0]];
-    b = &h.elements[h.face_element[1]];
-    v = visibility_rays(a, b, rays_host(rays), 64);
-    w = visibility_rays(b, a, rays_host(rays), 64);
+    const struct element *a = &h.elements[h.face_element[0]];
+    const struct element *b = &h.elements[h.face_element[1]];
+    double v = visibility_rays(a, b, rays_host(rays), 64);
+    double w = visibility_rays(b, a, rays_host(rays), 64);
     ck_assert(v == w);
-    ck_assert_double_eq_tol(v, 0.5, 0.1); /* by symmetry; sigma sqrt(v (1 - v) / N) = .06 at random, a net does better */
+    /* by symmetry; sigma sqrt(v (1 - v) / N) = .06 at random, a net does better */
+    ck_assert_double_eq_tol(v, 0.5, 0.1);
     ck_assert_uint_eq(rays_count(rays).rays, 128);
     rays_close(rays);
     hierarchy_free(&h);
@@ -201,15 +200,13 @@ START_TEST(test_visibility)
 }
 END_TEST
 
-/* A box without a bottom stands on a quarter of the floor: that quarter is in contact. Still so (1) when a shelf reaches into
- * the box, whose underside faces the floor and takes two of the eight rays from each point. */
+/* A box without a bottom stands on a quarter of the floor: that quarter is in contact. Still so (1)
+ * when a shelf reaches into the box, whose underside faces the floor and takes two of the eight
+ * rays from each point. */
 START_TEST(test_contact)
 {
+    const double zero[7] = {0};
     struct scene s;
-    struct hierarchy h;
-    struct rays *rays;
-    const char *cause;
-    const double zero[7] = { 0 };
     made_open(&s);
     made_material(&s, 0.5, 1);
     made_quad(&s, 0, 0, 0, 0, 2, 0, 0, 0, 2, 0);
@@ -220,8 +217,10 @@ START_TEST(test_contact)
     made_quad(&s, 0, 1.5, 0.5, 0, 0, 1, 0, 0, 0, 1);
     if (_i == 1)
         made_quad(&s, 0, 0.5, 0.5, 0.9, 0, 1, 0, 1, 0, 0);
+    struct hierarchy h;
     ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    rays = rays_open(&h, zero, zero, 1, &cause);
+    const char *cause;
+    struct rays *rays = rays_open(&h, zero, zero, 1, &cause);
     ck_assert_ptr_nonnull(rays);
     ck_assert_double_eq_tol(contact_fraction(rays, &h.elements[h.face_element[0]]), 0.25, 1e-12);
     ck_assert_double_eq_tol(contact_fraction(rays, &h.elements[h.face_element[1]]), 0, 1e-12);
@@ -234,13 +233,12 @@ END_TEST
 /* A link is 16 bytes and gives back what rays found: all stays all, none stays none. */
 START_TEST(test_link)
 {
-    static const double v[] = { 0, 1, 0.5, 0.0625, 1e-9, 1 - 1e-9 };
-    size_t i;
+    static const double v[] = {0, 1, 0.5, 0.0625, 1e-9, 1 - 1e-9};
     ck_assert_uint_le(sizeof(struct link), 16);
-    for (i = 0; i < sizeof v / sizeof *v; i++) {
+    for (size_t i = 0; i < sizeof v / sizeof *v; i++) {
         struct terms in, out;
-        struct link link;
         memset(&in, 0, sizeof in);
+        struct link link;
         memset(&link, 0, sizeof link);
         in.form_factor = 0.1;
         in.form_factor_level = FORM_FACTOR_POLYGON;
@@ -259,22 +257,24 @@ END_TEST
 
 extern const struct oracle bf_guarded_oracle;
 
-/* A_r F_rs = A_s F_sr, to the rounding of two floats, and V the same, for every two elements linked both ways. */
+/* A_r F_rs = A_s F_sr, to the rounding of two floats, and V the same, for every two elements
+ * linked both ways. */
 START_TEST(test_reciprocity)
 {
-    struct solve_options how = { .tolerance = 1e-4, .iterations = 100, .threads = 2 };
-    struct scene scene;
-    struct solve s;
+    struct solve_options how = {.tolerance = 1e-4, .iterations = 100, .threads = 2};
     struct refiner *refiner = refiner_compiled(&bf_guarded_oracle, "flat");
-    const char *cause;
-    size_t i, j, mutual = 0;
+    size_t mutual = 0;
+    struct scene scene;
     clutter(&scene, 100, 5);
+    struct solve s;
+    const char *cause;
     ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
     ck_assert_int_eq(solve_run(&s, refiner, &cause), 0);
-    for (i = 0; i < s.refinement.link_count; i++) {
+    for (size_t i = 0; i < s.refinement.link_count; i++) {
         const struct link *there = &s.refinement.links[i];
         const struct element *elements = s.hierarchy.elements;
-        for (j = s.refinement.first_link[there->emitter]; j < s.refinement.first_link[there->emitter + 1]; j++) {
+        for (size_t j = s.refinement.first_link[there->emitter];
+             j < s.refinement.first_link[there->emitter + 1]; j++) {
             const struct link *back = &s.refinement.links[j];
             double a = elements[there->receiver].area * (double)there->form_factor;
             double b = elements[back->receiver].area * (double)back->form_factor;

@@ -1,5 +1,6 @@
-/* check_scale.c - the unit of length is nobody's business: all lengths times a power of two, parameters with a unit of length
- * too, and every oracle decides the same, links the same and leaves the same radiosities, to the bit. Powers grow with the area.
+/* check_scale.c - the unit of length is nobody's business: all lengths times a power of two,
+ * parameters with a unit of length too, and every oracle decides the same, links the same and
+ * leaves the same radiosities, to the bit. Powers grow with the area.
  *
  * The built-in oracles use all tools but a few; `rest` asks those.
  * SPDX-License-Identifier: MIT */
@@ -11,17 +12,20 @@
 #include "make_camera.h"
 #include "suite.h"
 
-static const int powers[] = { -20, 20 };
+static const int powers[] = {-20, 20};
 enum { POWERS = sizeof powers / sizeof *powers };
 
 static const char rest[] =
     "oracle rest \"what the others do not ask\" { param reach : length = 0.3 in [0, inf];\n"
     "  param small : area = 0.05 in [0, inf];\n"
     "  start level;\n"
-    "  node level  = clusters() { surfaces -> boxes;  apart -> stop;  receiver | emitter -> lamps; }\n"
-    "  node lamps  = dominates(share = 0.5) { none | emitter -> groups;  receiver | both -> groups; }\n"
+    "  node level  = clusters() { surfaces -> boxes;  apart -> stop;  receiver | emitter -> lamps; "
+    "}\n"
+    "  node lamps  = dominates(share = 0.5) { none | emitter -> groups;  receiver | both -> "
+    "groups; }\n"
     "  node groups = alpha_gap(relative = 0.5) { below | above -> open; }\n"
-    "  node open   = opens(ratio = inf) { receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node open   = opens(ratio = inf) { receiver -> subdivide_receiver;  emitter -> "
+    "subdivide_emitter; }\n"
     "  node boxes  = overlap() { apart | overlapping -> lamp; }\n"
     "  node lamp   = dominates(share = 0.6) { none | receiver | emitter | both -> wide; }\n"
     "  node wide   = receiver_size(below = reach, share = 0) { small | big -> planes; }\n"
@@ -53,14 +57,15 @@ static const char rest[] =
 /* How a quantity of this unit grows with the unit of length. */
 static double grown(const char *unit, double length)
 {
-    return strcmp(unit, "m") == 0 ? length : strcmp(unit, "m2") == 0 || strcmp(unit, "W") == 0 ? length * length : 1;
+    return strcmp(unit, "m") == 0                              ? length
+           : strcmp(unit, "m2") == 0 || strcmp(unit, "W") == 0 ? length * length
+                                                               : 1;
 }
 
 /* Coarse enough for a test, every threshold with a unit at work. */
 static void set(struct refiner *r, double length)
 {
-    int i;
-    for (i = 0; i < r->parameter_count; i++) {
+    for (int i = 0; i < r->parameter_count; i++) {
         const struct oracle_parameter *p = &r->parameters[i];
         double value = refiner_get(r, i);
         if (strcmp(p->name, "min_share") == 0)
@@ -77,23 +82,23 @@ static void set(struct refiner *r, double length)
     }
 }
 
-static void run(struct solve *s, struct scene *scene, struct refiner *r, struct camera *camera, double length)
+static void run(struct solve *s, struct scene *scene, struct refiner *r, struct camera *camera,
+                double length)
 {
     struct solve_options options = quick(2);
-    const char *cause;
-    int i;
     furnished(scene, 1);
-    for (i = 0; i < 8; i++) { /* two groups far from each other */
+    for (int i = 0; i < 8; i++) { /* two groups far from each other */
         double high = i < 4 ? 0.3 : 2.7, along = 0.1 * (i % 4);
-        made_quad(scene, 2, i < 4 ? 0.3 : 3.5, (i < 4 ? 0.3 : 4.3) + along, high, i < 4 ? 0.1 : 0, i < 4 ? 0 : 0.08, 0, i < 4 ? 0 : 0.1,
-                  i < 4 ? 0.08 : 0, 0);
+        made_quad(scene, 2, i < 4 ? 0.3 : 3.5, (i < 4 ? 0.3 : 4.3) + along, high, i < 4 ? 0.1 : 0,
+                  i < 4 ? 0 : 0.08, 0, i < 4 ? 0 : 0.1, i < 4 ? 0.08 : 0, 0);
     }
     made_scale(scene, length);
-    const double eye[3] = { 3.9 * length, 4.9 * length, 2.9 * length }, at[3] = { 0, 0, 0 };
+    const double eye[3] = {3.9 * length, 4.9 * length, 2.9 * length}, at[3] = {0, 0, 0};
     *camera = made_camera(eye, at, 60, 1);
     options.camera = camera;
     options.closure = CLOSURE_ROWS;
     set(r, length);
+    const char *cause;
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
     ck_assert_int_eq(s->report.converged, 1);
@@ -104,26 +109,30 @@ static void same_solution(const struct solve *a, const struct solve *b, double l
     size_t values = (size_t)a->hierarchy.count * a->problem.bands;
     same_links(a, b);
     ck_assert_uint_eq(a->refinement.pairs, b->refinement.pairs);
-    ck_assert(memcmp(a->refinement.decided, b->refinement.decided, sizeof a->refinement.decided) == 0);
+    ck_assert(memcmp(a->refinement.decided, b->refinement.decided, sizeof a->refinement.decided)
+              == 0);
     ck_assert(memcmp(a->refinement.marked, b->refinement.marked, sizeof a->refinement.marked) == 0);
     ck_assert(memcmp(a->state.radiosity, b->state.radiosity, values * sizeof(double)) == 0);
     ck_assert(memcmp(a->state.irradiance, b->state.irradiance, values * sizeof(double)) == 0);
     ck_assert_int_eq(a->report.passes, b->report.passes);
     ck_assert_int_eq(a->report.sweeps, b->report.sweeps);
     ck_assert_int_eq(a->problem.closed, b->problem.closed);
-    ck_assert(a->report.rows.defect_mean == b->report.rows.defect_mean && a->report.residual == b->report.residual);
-    ck_assert(a->report.emitted * length * length == b->report.emitted && a->report.absorbed * length * length == b->report.absorbed);
+    ck_assert(a->report.rows.defect_mean == b->report.rows.defect_mean
+              && a->report.residual == b->report.residual);
+    ck_assert(a->report.emitted * length * length == b->report.emitted
+              && a->report.absorbed * length * length == b->report.absorbed);
 }
 
 /* Every node gave each of its answers as often, and the same was recorded. */
 static void same_answers(const struct statistics *a, const struct statistics *b)
 {
-    int i, k;
     ck_assert_int_eq(a->node_count, b->node_count);
-    for (i = 0; i < a->node_count; i++)
-        for (k = 0; k < a->nodes[i].answer_count; k++)
-            ck_assert_msg(a->nodes[i].answers[k].count == b->nodes[i].answers[k].count, "%s answers %s, %llu times and %llu times",
-                          a->nodes[i].name, a->nodes[i].answers[k].name, (unsigned long long)a->nodes[i].answers[k].count,
+    for (int i = 0; i < a->node_count; i++)
+        for (int k = 0; k < a->nodes[i].answer_count; k++)
+            ck_assert_msg(a->nodes[i].answers[k].count == b->nodes[i].answers[k].count,
+                          "%s answers %s, %llu times and %llu times", a->nodes[i].name,
+                          a->nodes[i].answers[k].name,
+                          (unsigned long long)a->nodes[i].answers[k].count,
                           (unsigned long long)b->nodes[i].answers[k].count);
     ck_assert(memcmp(a->counts, b->counts, sizeof a->counts) == 0);
     ck_assert(memcmp(a->records, b->records, sizeof a->records) == 0);
@@ -137,13 +146,13 @@ START_TEST(test_oracle)
     struct solve s[POWERS + 1];
     struct statistics said[POWERS + 1];
     struct refiner *r[POWERS + 1]; /* whose names the statistics use */
-    int p, i, k, answers = 0;
-    for (p = 0; p <= POWERS; p++) {
+    int answers = 0;
+    for (int p = 0; p <= POWERS; p++) {
         double length = p ? ldexp(1, powers[p - 1]) : 1;
-        struct camera camera;
         r[p] = interpreted("scale.dag", oracle->name ? oracle->text : rest, oracle->name);
         ck_assert_ptr_nonnull(r[p]);
         ck_assert_int_eq(refiner_count(r[p]), 0);
+        struct camera camera;
         run(&s[p], &scene[p], r[p], &camera, length);
         ck_assert_int_eq(statistics_take(&said[p], r[p]), 0);
         if (p > 0) {
@@ -151,15 +160,17 @@ START_TEST(test_oracle)
             same_solution(&s[0], &s[p], length);
         }
     }
-    for (i = 0; i < said[0].node_count; i++)
-        for (k = 0; k < said[0].nodes[i].answer_count; k++)
+    for (int i = 0; i < said[0].node_count; i++)
+        for (int k = 0; k < said[0].nodes[i].answer_count; k++)
             answers += said[0].nodes[i].answers[k].count > 0;
-    printf("%-15s %zu links, %llu discussions, %d answers of %d nodes, %d passes\n", oracle->name ? oracle->name : "rest",
-           s[0].refinement.link_count, (unsigned long long)s[0].refinement.pairs, answers, said[0].node_count, s[0].report.passes);
+    printf("%-15s %zu links, %llu discussions, %d answers of %d nodes, %d passes\n",
+           oracle->name ? oracle->name : "rest", s[0].refinement.link_count,
+           (unsigned long long)s[0].refinement.pairs, answers, said[0].node_count,
+           s[0].report.passes);
     ck_assert_uint_gt(s[0].refinement.link_count, 100);
     if (oracle->name && strncmp(oracle->name, "clusters", 8) == 0) /* clusters_feature, too */
         ck_assert_uint_gt(s[0].refinement.decided[DECISION_LINK_CLUSTERS], 0);
-    for (p = 0; p <= POWERS; p++) {
+    for (int p = 0; p <= POWERS; p++) {
         statistics_free(&said[p]);
         refiner_close(r[p]);
         solve_close(&s[p]);

@@ -1,4 +1,5 @@
-/* check_separable_links.c - what two groups of faces exchange over links between them, against the sum over all pairs of points of their faces.
+/* check_separable_links.c - what two groups of faces exchange over links between them, against the
+ * sum over all pairs of points of their faces.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -28,77 +29,83 @@ static void quad(const double a[3], const double b[3], const double c[3], const 
 /* An n x n grid over the parallelogram at o with sides u and v, moved by `at`. */
 static void grid(int n, const double at[3], const double o[3], const double u[3], const double v[3])
 {
-    int i, j, k, c;
-    for (i = 0; i < n; i++)
-        for (j = 0; j < n; j++) {
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
             double p[4][3];
-            for (k = 0; k < 4; k++)
-                for (c = 0; c < 3; c++)
-                    p[k][c] = at[c] + o[c] + ((i + (k == 1 || k == 2)) * u[c] + (j + (k == 2 || k == 3)) * v[c]) / n;
+            for (int k = 0; k < 4; k++)
+                for (int c = 0; c < 3; c++)
+                    p[k][c] =
+                        at[c] + o[c]
+                        + ((i + (k == 1 || k == 2)) * u[c] + (j + (k == 2 || k == 3)) * v[c]) / n;
             quad(p[0], p[1], p[2], p[3]);
         }
 }
 
-/* Bodies about `at`, the largest about 1 across: a box, an inner corner, a plate, a plate that is only one face, and a small face. */
+/* Bodies about `at`, the largest about 1 across: a box, an inner corner, a plate, a plate that
+ * is only one face, and a small face. */
 enum { BOX, CORNER, PLATE, SLAB, SPECK, BODIES };
-static const char *const body_name[BODIES] = { "box", "corner", "plate", "slab", "speck" };
+static const char *const body_name[BODIES] = {"box", "corner", "plate", "slab", "speck"};
 
 static void body(int which, const double at[3], int mirrored)
 {
     const double m = mirrored ? -1 : 1;
     if (which == BOX) {
-        int k;
-        for (k = 0; k < 3; k++) {
-            double o[3] = { -0.3, -0.3, -0.3 }, p[3] = { 0.3, 0.3, 0.3 }, u[3] = { 0 }, v[3] = { 0 }, w[3] = { 0 }, x[3] = { 0 };
+        for (int k = 0; k < 3; k++) {
+            double o[3] = {-0.3, -0.3, -0.3}, p[3] = {0.3, 0.3, 0.3}, u[3] = {0}, v[3] = {0},
+                   w[3] = {0}, x[3] = {0};
             u[(k + 1) % 3] = v[(k + 2) % 3] = 0.6;
             w[(k + 1) % 3] = x[(k + 2) % 3] = -0.6;
             grid(4, at, o, v, u); /* normals outwards */
             grid(4, at, p, w, x);
         }
     } else if (which == CORNER) { /* opens towards m (1, 1, 0) */
-        grid(6, at, (double[3]){ -0.25 * m, -0.25 * m, -0.25 }, (double[3]){ 0, 0.5 * m, 0 }, (double[3]){ 0, 0, 0.5 });
-        grid(6, at, (double[3]){ -0.25 * m, -0.25 * m, -0.25 }, (double[3]){ 0, 0, 0.5 }, (double[3]){ 0.5 * m, 0, 0 });
+        grid(6, at, (double[3]){-0.25 * m, -0.25 * m, -0.25}, (double[3]){0, 0.5 * m, 0},
+             (double[3]){0, 0, 0.5});
+        grid(6, at, (double[3]){-0.25 * m, -0.25 * m, -0.25}, (double[3]){0, 0, 0.5},
+             (double[3]){0.5 * m, 0, 0});
     } else {
         const double s = which == SPECK ? 0.01 : 0.6;
         const int n = which == PLATE ? 6 : 1;
-        grid(n, at, (double[3]){ 0, -0.5 * s * m, -0.5 * s }, (double[3]){ 0, s * m, 0 }, (double[3]){ -0.3 * s * m, 0, s });
+        grid(n, at, (double[3]){0, -0.5 * s * m, -0.5 * s}, (double[3]){0, s * m, 0},
+             (double[3]){-0.3 * s * m, 0, s});
     }
 }
 
-/* A_j F_ji pi of two faces, not looking at what stands between; midpoints of POINTS x POINTS parts of each. */
+/* A_j F_ji pi of two faces, not looking at what stands between; midpoints of POINTS x POINTS
+ * parts of each. */
 static double pair(const struct element *a, const struct element *b)
 {
     double sum = 0, p[2][POINTS * POINTS][3];
-    int i, j, k, e;
-    for (e = 0; e < 2; e++)
-        for (i = 0; i < POINTS * POINTS; i++)
-            for (k = 0; k < 3; k++) {
+    for (int e = 0; e < 2; e++)
+        for (int i = 0; i < POINTS * POINTS; i++)
+            for (int k = 0; k < 3; k++) {
                 const double(*v)[3] = (e ? b : a)->vertex;
-                p[e][i][k] = v[0][k] + (i / POINTS + 0.5) / POINTS * (v[1][k] - v[0][k]) + (i % POINTS + 0.5) / POINTS * (v[3][k] - v[0][k]);
+                p[e][i][k] = v[0][k] + (i / POINTS + 0.5) / POINTS * (v[1][k] - v[0][k])
+                             + (i % POINTS + 0.5) / POINTS * (v[3][k] - v[0][k]);
             }
-    for (i = 0; i < POINTS * POINTS; i++)
-        for (j = 0; j < POINTS * POINTS; j++) {
-            double v[3], near, far, square;
+    for (int i = 0; i < POINTS * POINTS; i++)
+        for (int j = 0; j < POINTS * POINTS; j++) {
+            double v[3];
             sub3(v, p[1][j], p[0][i]);
-            near = dot3(a->normal, v);
-            far = -dot3(b->normal, v);
-            square = dot3(v, v);
+            double near = dot3(a->normal, v);
+            double far = -dot3(b->normal, v);
+            double square = dot3(v, v);
             sum += near > 0 && far > 0 ? near * far / (square * square) : 0;
         }
     return sum * a->area * b->area / (POINTS * POINTS * POINTS * POINTS);
 }
 
-/* The elements that hold faces from `first` to `last` - 1 only, and whose parents hold others, too. */
+/* The elements that hold faces from `first` to `last` - 1 only, and whose parents hold others,
+ * too. */
 static int tops(const struct hierarchy *h, uint32_t first, uint32_t last, uint32_t *list)
 {
     int n = 0;
-    uint32_t e, i;
-    for (e = 1; e < h->built; e++) {
+    for (uint32_t e = 1; e < h->built; e++) {
         int all = 1, above = 1;
         const struct face_range own = h->range[e], up = h->range[h->elements[e].parent];
-        for (i = own.from; i < own.to; i++)
+        for (uint32_t i = own.from; i < own.to; i++)
             all &= h->order[i] >= first && h->order[i] < last;
-        for (i = up.from; i < up.to; i++)
+        for (uint32_t i = up.from; i < up.to; i++)
             above &= h->order[i] >= first && h->order[i] < last;
         if (all && !above)
             list[n++] = e;
@@ -106,45 +113,48 @@ static int tops(const struct hierarchy *h, uint32_t first, uint32_t last, uint32
     return n;
 }
 
-/* Link all of the first `receivers` faces to all of the others. What arrives (times pi, m2), what should, and the sum of the
- * differences by face. */
+/* Link all of the first `receivers` faces to all of the others. What arrives (times pi, m2), what
+ * should, and the sum of the differences by face. */
 static void link_all(uint32_t receivers, double *got, double *should, double *differ)
 {
     struct hierarchy h;
-    struct refinement r;
-    struct separable_links light;
-    uint32_t r_list[MOST], s_list[MOST], i, j;
-    unsigned char alone[MOST] = { 0 }; /* faces that the builder put beside the other body's: a link between two of them is not separable */
+    uint32_t r_list[MOST], s_list[MOST];
+    /* faces that the builder put beside the other body's: a link between two of them is not
+     * separable */
+    unsigned char alone[MOST] = {0};
     double sum = 0, truth = 0, off = 0;
-    int n, m, k;
     ck_assert_int_eq(hierarchy_build(&h, faces, faces_count), 0);
-    for (i = 0; i < h.count; i++)
+    for (uint32_t i = 0; i < h.count; i++)
         h.elements[i].radiosity = 1;
-    n = tops(&h, 0, receivers, r_list);
-    m = tops(&h, receivers, faces_count, s_list);
+    int n = tops(&h, 0, receivers, r_list);
+    int m = tops(&h, receivers, faces_count, s_list);
     ck_assert_int_gt(n * m, 0);
-    for (k = 0; k < n + m; k++) {
+    for (int k = 0; k < n + m; k++) {
         const struct element *e = &h.elements[k < n ? r_list[k] : s_list[k - n]];
         if (e->vertices)
             alone[e->face] = 1;
     }
+    struct refinement r;
     memset(&r, 0, sizeof r);
     r.links = calloc((size_t)(n * m), sizeof *r.links);
     r.first_link = calloc((size_t)h.count + 1, sizeof *r.first_link);
-    for (i = 0; i < h.count; i++) {
-        int a, b;
+    for (uint32_t i = 0; i < h.count; i++) {
         r.first_link[i] = r.link_count;
-        for (a = 0; a < n; a++)
-            for (b = 0; b < m && r_list[a] == i; b++)
-                r.links[r.link_count++] = (struct link){ .receiver = i, .emitter = s_list[b], .visibility = LINK_VISIBLE };
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < m && r_list[a] == i; b++)
+                r.links[r.link_count++] =
+                    (struct link){.receiver = i, .emitter = s_list[b], .visibility = LINK_VISIBLE};
     }
     r.first_link[h.count] = r.link_count;
+    struct separable_links light;
     ck_assert_int_eq(separable_links_open(&light, &h, &r, 1, 1), 0);
-    for (i = 0; i < receivers; i++) {
+    for (uint32_t i = 0; i < receivers; i++) {
         const struct element *x = &h.elements[h.face_element[i]];
         double row = x->area * separable_links_row(&light, h.face_element[i]), known = 0;
-        for (j = receivers; j < faces_count; j++)
-            known += alone[i] && alone[j] ? 0 : pair(x, &h.elements[h.face_element[j]]) / 3.14159265358979323846;
+        for (uint32_t j = receivers; j < faces_count; j++)
+            known += alone[i] && alone[j]
+                         ? 0
+                         : pair(x, &h.elements[h.face_element[j]]) / 3.14159265358979323846;
         sum += row;
         truth += known;
         off += fabs(row - known);
@@ -158,37 +168,40 @@ static void link_all(uint32_t receivers, double *got, double *should, double *di
     hierarchy_free(&h);
 }
 
-/* Two bodies. What arrives over the truth, less 1: in all, and summed over the faces without regard to sign. */
-static void exchange(int receiver, int emitter, double distance, const double towards[3], double *total, double *mean)
+/* Two bodies. What arrives over the truth, less 1: in all, and summed over the faces without
+ * regard to sign. */
+static void exchange(int receiver, int emitter, double distance, const double towards[3],
+                     double *total, double *mean)
 {
-    uint32_t receivers;
-    double at[3], got, should, differ;
-    int k;
+    double at[3];
     faces_count = 0;
-    body(receiver, (double[3]){ 0, 0, 0 }, 0);
-    receivers = faces_count;
-    for (k = 0; k < 3; k++)
+    body(receiver, (double[3]){0, 0, 0}, 0);
+    uint32_t receivers = faces_count;
+    for (int k = 0; k < 3; k++)
         at[k] = distance * towards[k];
     body(emitter, at, 1);
+    double got, should, differ;
     link_all(receivers, &got, &should, &differ);
     *total = got / should - 1;
     *mean = differ / should;
 }
 
-/* The error is of second order in size over distance, whatever the shapes; a side that is small makes the other's size harmless. */
+/* The error is of second order in size over distance, whatever the shapes; a side that is small
+ * makes the other's size harmless. */
 START_TEST(test_exchange)
 {
-    static const double directions[3][3] = { { 1, 0, 0 }, { 0.8, 0.6, 0 }, { 0.72, 0.48, 0.50119856344 } };
-    static const double limit[2][2] = { { 0.05, 0.002 }, { 0.055, 0.0025 } }; /* in all, over the faces; near, far */
-    int receiver = _i / BODIES, emitter = _i % BODIES, d;
+    static const double directions[3][3] = {{1, 0, 0}, {0.8, 0.6, 0}, {0.72, 0.48, 0.50119856344}};
+    /* in all, over the faces; near, far */
+    static const double limit[2][2] = {{0.05, 0.002}, {0.055, 0.0025}};
+    int receiver = _i / BODIES, emitter = _i % BODIES;
     if (receiver >= SLAB && emitter >= SLAB)
         return; /* two surfaces are no matter of groups */
-    for (d = 0; d < 3; d++) {
+    for (int d = 0; d < 3; d++) {
         double total[2], mean[2];
         exchange(receiver, emitter, 1.5, directions[d], &total[0], &mean[0]);
         exchange(receiver, emitter, 4, directions[d], &total[1], &mean[1]);
-        printf("%s from %s, direction %d: %+.1e %+.1e in all, %.1e %.1e by face\n", body_name[receiver], body_name[emitter], d,
-               total[0], total[1], mean[0], mean[1]);
+        printf("%s from %s, direction %d: %+.1e %+.1e in all, %.1e %.1e by face\n",
+               body_name[receiver], body_name[emitter], d, total[0], total[1], mean[0], mean[1]);
         fflush(stdout);
         ck_assert_double_le(fabs(total[0]), limit[0][0]);
         ck_assert_double_le(fabs(total[1]), limit[0][1]);
@@ -200,20 +213,20 @@ START_TEST(test_exchange)
 }
 END_TEST
 
-/* Walls of many faces in one plane, but for rounding, or by less than any ray would notice: nothing is exchanged, and no number
- * overflows for all that is nearly 0. The emitter faces as the receiver does (0), the other way (1), or lies on edge in its plane (2). */
+/* Walls of many faces in one plane, but for rounding, or by less than any ray would notice: nothing
+ * is exchanged, and no number overflows for all that is nearly 0. The emitter faces as the receiver
+ * does (0), the other way (1), or lies on edge in its plane (2). */
 START_TEST(test_grazing)
 {
-    static const double apart[] = { 0, 1e-300, 1e-40, 1e-20, 1e-17, 1e-12, 1e-9, -1e-17, -1e-9 };
-    uint32_t receivers;
-    size_t i;
-    for (i = 0; i < sizeof apart / sizeof *apart; i++) {
-        const double at[3] = { 2.5, 0.1, apart[i] }, x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, z[3] = { 0, 0, -1 };
-        double got, should, differ;
+    static const double apart[] = {0, 1e-300, 1e-40, 1e-20, 1e-17, 1e-12, 1e-9, -1e-17, -1e-9};
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++) {
+        const double at[3] = {2.5, 0.1, apart[i]}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0},
+                     z[3] = {0, 0, -1};
         faces_count = 0;
-        grid(9, (double[3]){ 0, 0, 0 }, (double[3]){ 0, 0, 0 }, x, y);
-        receivers = faces_count;
-        grid(9, at, (double[3]){ 0, 0, 0 }, _i == 0 ? x : y, _i == 0 ? y : _i == 1 ? x : z);
+        grid(9, (double[3]){0, 0, 0}, (double[3]){0, 0, 0}, x, y);
+        uint32_t receivers = faces_count;
+        grid(9, at, (double[3]){0, 0, 0}, _i == 0 ? x : y, _i == 0 ? y : _i == 1 ? x : z);
+        double got, should, differ;
         link_all(receivers, &got, &should, &differ);
         ck_assert(isfinite(got));
         ck_assert_double_le(differ, 1e-7);
@@ -221,18 +234,17 @@ START_TEST(test_grazing)
 }
 END_TEST
 
-/* A terrace whose mean normal is turned square to a box below its level: 12 squares lean away from it, 18 look up past it, and
- * 6 look at it. The box lies wholly behind the plane that the terrace has in the mean, yet light passes. */
+/* A terrace whose mean normal is turned square to a box below its level: 12 squares lean away from
+ * it, 18 look up past it, and 6 look at it. The box lies wholly behind the plane that the terrace
+ * has in the mean, yet light passes. */
 START_TEST(test_on_edge)
 {
     const double s = 0.08, slope = sqrt(1.09);
-    double got, should, differ;
-    uint32_t receivers;
     faces_count = 0;
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++) {
-            const double at[3] = { 0.1 * i - 0.25, 0.1 * j - 0.25, 0 }, across[3] = { 0, s, 0 };
-            double along[3] = { s, 0, 0 }, corner[3];
+            const double at[3] = {0.1 * i - 0.25, 0.1 * j - 0.25, 0}, across[3] = {0, s, 0};
+            double along[3] = {s, 0, 0}, corner[3];
             if (i < 2) { /* normal (-1, 0, 0.3) / slope */
                 along[0] = 0.3 * s / slope;
                 along[2] = s / slope;
@@ -244,8 +256,9 @@ START_TEST(test_on_edge)
                 corner[k] = -0.5 * (along[k] + across[k]);
             grid(1, at, corner, along, across);
         }
-    receivers = faces_count;
-    body(BOX, (double[3]){ 1.2, 0, -0.37 }, 0);
+    uint32_t receivers = faces_count;
+    body(BOX, (double[3]){1.2, 0, -0.37}, 0);
+    double got, should, differ;
     link_all(receivers, &got, &should, &differ);
     printf("on edge: %+.1e in all, %.1e by face\n", got / should - 1, differ / should);
     ck_assert_double_le(fabs(got / should - 1), 0.015);

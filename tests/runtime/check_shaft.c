@@ -1,9 +1,9 @@
-/* check_shaft.c - precise answers of the shaft are true, whatever segment is tried; candidates are the same inherited
- * or found anew; exact visible parts against closed forms.
+/* check_shaft.c - precise answers of the shaft are true, whatever segment is tried; candidates are
+ * the same inherited or found anew; exact visible parts against closed forms.
  *
- * A ray caster in single precision may find a hit where a segment ends within its rounding of a face that it does not
- * cross. Such an end lies less than GRAZE of ray_offset from the face's plane; segments with one
- * are put to the test in double precision alone, and counted.
+ * A ray caster in single precision may find a hit where a segment ends within its rounding of a
+ * face that it does not cross. Such an end lies less than GRAZE of ray_offset from the face's
+ * plane; segments with one are put to the test in double precision alone, and counted.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -44,7 +44,9 @@ static double between(uint64_t *seed, double low, double high)
 /* ---- scenes */
 
 enum { KINDS = 11, LOADED = 8 };
-static const char *const kinds[KINDS] = { "room with boxes", "rotated room", "quads", "triangles", "tiles", "wedges", "bent quads", "far room", "cornell", "maze_8", "room" };
+static const char *const kinds[KINDS] = {
+    "room with boxes", "rotated room", "quads",   "triangles", "tiles", "wedges",
+    "bent quads",      "far room",     "cornell", "maze_8",    "room"};
 
 /* A closed box that stands on z, front outside. */
 static void add_box(struct scene *s, double x, double y, double z, double a, double b, double c)
@@ -60,13 +62,11 @@ static void add_box(struct scene *s, double x, double y, double z, double a, dou
 static void rotate(struct scene *s, uint64_t *seed)
 {
     double turn[3];
-    uint32_t i, j;
-    int k;
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         turn[k] = between(seed, 0, 6);
-    for (k = 0; k < 3; k++)
-        for (i = 0; i < s->face_count; i++)
-            for (j = 0; j < s->faces[i].vertices; j++) {
+    for (int k = 0; k < 3; k++)
+        for (uint32_t i = 0; i < s->face_count; i++)
+            for (uint32_t j = 0; j < s->faces[i].vertices; j++) {
                 double *v = s->faces[i].vertex[j], a = v[k], b = v[(k + 1) % 3];
                 v[k] = cos(turn[k]) * a - sin(turn[k]) * b;
                 v[(k + 1) % 3] = sin(turn[k]) * a + cos(turn[k]) * b;
@@ -75,18 +75,18 @@ static void rotate(struct scene *s, uint64_t *seed)
 
 static void make(struct scene *s, int kind, uint64_t *seed)
 {
-    static const uint32_t wall[6] = { 0, 0, 0, 0, 0, 0 };
-    int i, k;
+    static const uint32_t wall[6] = {0, 0, 0, 0, 0, 0};
     made_open(s);
     made_material(s, 0.5, 1);
+    int i, k;
     switch (kind) {
     case 0:
     case 1:
     case 7:
         made_room(s, wall, 4, 5, 3);
         for (i = 0; i < 5; i++)
-            add_box(s, between(seed, 0, 3), between(seed, 0, 4), i < 3 ? 0 : between(seed, 0, 2), between(seed, 0.1, 1),
-                    between(seed, 0.1, 1), between(seed, 0.1, 1));
+            add_box(s, between(seed, 0, 3), between(seed, 0, 4), i < 3 ? 0 : between(seed, 0, 2),
+                    between(seed, 0.1, 1), between(seed, 0.1, 1), between(seed, 0.1, 1));
         add_box(s, 0, 0, 0, 0.5, 1, 1); /* flush with two walls and the floor */
         if (kind > 0)
             rotate(s, seed);
@@ -105,7 +105,7 @@ static void make(struct scene *s, int kind, uint64_t *seed)
                 p[3][k] = v[k] + v[6 + k];
                 p[2][k] = v[k] + v[3 + k] + v[6 + k] + 5e-5 * (random_unit(seed) - 0.5);
             }
-            made_face(s, 0, 4, (const double (*)[3])p);
+            made_face(s, 0, 4, (const double(*)[3])p);
         }
         break;
     case 2:
@@ -122,11 +122,14 @@ static void make(struct scene *s, int kind, uint64_t *seed)
         for (i = 0; i < 60; i++) {
             double p[3][3];
             for (k = 0; k < 9; k++)
-                p[k / 3][k % 3] = k < 3 ? random_unit(seed) : p[0][k % 3] + 0.6 * (random_unit(seed) - 0.5);
-            made_face(s, 0, 3, (const double (*)[3])p);
+                p[k / 3][k % 3] =
+                    k < 3 ? random_unit(seed) : p[0][k % 3] + 0.6 * (random_unit(seed) - 0.5);
+            made_face(s, 0, 3, (const double(*)[3])p);
         }
         break;
-    case 4: /* a tiled box: neighbours in one plane, T-junctions, and walls that stand on the lines between tiles */
+    /* a tiled box: neighbours in one plane, T-junctions, and walls that stand on the lines
+     * between tiles */
+    case 4:
         for (i = 0; i < 16; i++) {
             made_quad(s, 0, i % 4, i / 4, 0, 1, 0, 0, 0, 1, 0);
             made_quad(s, 0, i % 4, i / 4, 4, 0, 1, 0, 1, 0, 0);
@@ -135,12 +138,14 @@ static void make(struct scene *s, int kind, uint64_t *seed)
         }
         made_quad(s, 0, 0, 0, 0, 0, 4, 0, 0, 0, 4);
         made_quad(s, 0, 4, 0, 0, 0, 0, 4, 0, 4, 0);
-        made_quad(s, 0, 1, 2, 0, 2, 0, 0, 0, 0, 2); /* a wall without thickness, both its sides listed */
+        /* a wall without thickness, both its sides listed */
+        made_quad(s, 0, 1, 2, 0, 2, 0, 0, 0, 0, 2);
         made_quad(s, 0, 1, 2, 0, 0, 0, 2, 2, 0, 0);
         s->faces[s->face_count - 1].back = 1;
         s->faces[s->face_count - 1].input = s->faces[s->face_count - 2].input;
         break;
-    default: /* pairs that meet at an edge, at angles down to 6 degrees, and faces that touch their ends */
+    /* pairs that meet at an edge, at angles down to 6 degrees, and faces that touch their ends */
+    default:
         for (i = 0; i < 20; i++) {
             double x = 2 * i, angle = between(seed, 0.1, 3.0);
             made_quad(s, 0, x, 0, 0, 1, 0, 0, 0, 1, 0);
@@ -164,9 +169,9 @@ struct world {
 
 static void start_world(struct world *w, int threads)
 {
-    const char *cause;
     double *zero = calloc(w->scene.face_count, sizeof *zero);
     ck_assert_int_eq(hierarchy_build(&w->h, w->scene.faces, w->scene.face_count), 0);
+    const char *cause;
     w->rays = rays_open(&w->h, zero, zero, threads, &cause);
     ck_assert_ptr_nonnull(w->rays);
     w->host = rays_host(w->rays);
@@ -179,8 +184,8 @@ static void open_world(struct world *w, int kind, uint64_t *seed, double scale)
     if (kind < LOADED) {
         make(&w->scene, kind, seed);
     } else {
+        struct scene_options quiet = {0, 1};
         char path[64];
-        struct scene_options quiet = { 0, 1 };
         snprintf(path, sizeof path, "examples/scenes/%s.obj", kinds[kind]);
         ck_assert_int_eq(scene_read(&w->scene, path, &quiet), 0);
         w->loaded = 1;
@@ -208,78 +213,81 @@ static uint32_t descend(struct world *w, uint32_t e, uint64_t *seed)
 
 static void random_pair(struct world *w, uint64_t *seed, int deepest, uint32_t pair[2])
 {
-    int i, n;
-    for (i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         pair[i] = w->h.face_element[(uint32_t)(random_unit(seed) * w->h.face_count)];
-        for (n = (int)(random_unit(seed) * (deepest + 1)); n > 0; n--)
+        for (int n = (int)(random_unit(seed) * (deepest + 1)); n > 0; n--)
             pair[i] = descend(w, pair[i], seed);
     }
 }
 
 /* ---- segments */
 
-/* A point of the part of e in front of other's plane, moved off e as rays are; `sharp`: mostly near the border. Returns 0
- * when it lies behind. Of a bent quad, a point between the corners of that part: it has no plane to be in. */
-static int random_point(const struct element *e, const struct element *other, double offset, int sharp, uint64_t *seed, double p[3])
+/* A point of the part of e in front of other's plane, moved off e as rays are; `sharp`: mostly near
+ * the border. Returns 0 when it lies behind. Of a bent quad, a point between the corners of that
+ * part: it has no plane to be in. */
+static int random_point(const struct element *e, const struct element *other, double offset,
+                        int sharp, uint64_t *seed, double p[3])
 {
     double u[POLYGON_MAX], sum = 0, h = 0, bend = 0;
-    struct polygon part;
-    int i, k;
-    for (i = 0; i < e->vertices; i++)
+    for (int i = 0; i < e->vertices; i++)
         bend = fmax(bend, fabs(height3(e->vertex[i], e->centre, e->normal)));
+    struct polygon part;
     if (bend > 1e-9 * e->radius) {
-        polygon_clip(&part, (const double (*)[3])e->vertex, e->vertices, other->centre, other->normal);
+        polygon_clip(&part, (const double(*)[3])e->vertex, e->vertices, other->centre,
+                     other->normal);
     } else {
         part.n = e->vertices;
         memcpy(part.v, e->vertex, sizeof e->vertex);
     }
     if (part.n == 0)
         return 0;
-    for (i = 0; i < part.n; i++) {
+    for (int i = 0; i < part.n; i++) {
         u[i] = random_unit(seed);
         if (sharp)
             u[i] *= u[i] * u[i] * u[i];
         sum += u[i];
     }
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         p[k] = 0;
-        for (i = 0; i < part.n; i++)
+        for (int i = 0; i < part.n; i++)
             p[k] += u[i] / sum * part.v[i][k];
     }
     if (!(bend > 1e-9 * e->radius))
         h = height3(p, other->centre, other->normal);
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         p[k] += offset * e->normal[k];
     return h >= 0;
 }
 
-static int random_segment(const struct world *w, const uint32_t pair[2], int sharp, uint64_t *seed, struct segment *g)
+static int random_segment(const struct world *w, const uint32_t pair[2], int sharp, uint64_t *seed,
+                          struct segment *g)
 {
     const struct element *r = &w->h.elements[pair[0]], *s = &w->h.elements[pair[1]];
-    return random_point(r, s, w->host->ray_offset, sharp, seed, g->from) & random_point(s, r, w->host->ray_offset, sharp, seed, g->to);
+    return random_point(r, s, w->host->ray_offset, sharp, seed, g->from)
+           & random_point(s, r, w->host->ray_offset, sharp, seed, g->to);
 }
 
 /* Does the segment cross a triangle? In double precision; `slack` (m) beyond the border is in. */
-static int crosses_triangle(const struct segment *g, const double *a, const double *b, const double *c, double slack, double thin)
+static int crosses_triangle(const struct segment *g, const double *a, const double *b,
+                            const double *c, double slack, double thin)
 {
-    const double *v[3] = { a, b, c };
-    double e[3], f[3], n[3], size, from, to, p[3];
-    int i, k;
+    const double *v[3] = {a, b, c};
+    double e[3], f[3], n[3], p[3];
     sub3(e, b, a);
     sub3(f, c, a);
     cross3(n, e, f);
-    size = length3(n);
-    for (k = 0; k < 3; k++)
+    double size = length3(n);
+    for (int k = 0; k < 3; k++)
         n[k] /= size;
-    from = height3(g->from, a, n);
-    to = height3(g->to, a, n);
+    double from = height3(g->from, a, n);
+    double to = height3(g->to, a, n);
     if (!(from > thin && to < -thin) && !(from < -thin && to > thin))
         return 0;
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         p[k] = g->from[k] + from / (from - to) * (g->to[k] - g->from[k]);
-    for (i = 0; i < 3; i++) {
-        double side[3];
+    for (int i = 0; i < 3; i++) {
         sub3(e, v[(i + 1) % 3], v[i]);
+        double side[3];
         cross3(side, n, e);
         if (height3(p, v[i], side) < -slack * length3(side))
             return 0;
@@ -289,24 +297,24 @@ static int crosses_triangle(const struct segment *g, const double *a, const doub
 
 static int crosses_any(const struct world *w, const struct segment *g, double slack, double thin)
 {
-    uint32_t i;
-    for (i = 0; i < w->h.face_count; i++) {
+    for (uint32_t i = 0; i < w->h.face_count; i++) {
         const struct face *f = &w->h.faces[i];
-        const double (*v)[3] = (const double (*)[3])f->vertex;
+        const double(*v)[3] = (const double(*)[3])f->vertex;
         if (f->back)
             continue;
         if (f->vertices == 3 ? crosses_triangle(g, v[0], v[1], v[2], slack, thin)
-                             : crosses_triangle(g, v[0], v[1], v[3], slack, thin) || crosses_triangle(g, v[2], v[3], v[1], slack, thin))
+                             : crosses_triangle(g, v[0], v[1], v[3], slack, thin)
+                                   || crosses_triangle(g, v[2], v[3], v[1], slack, thin))
             return 1;
     }
     return 0;
 }
 
-/* Does an end lie so near to a face's plane that single precision may take it for the other side? */
+/* Does an end lie so near to a face's plane that single precision may take it for the other
+ * side? */
 static int grazes(const struct world *w, const struct segment *g)
 {
-    uint32_t i;
-    for (i = 0; i < w->h.face_count; i++) {
+    for (uint32_t i = 0; i < w->h.face_count; i++) {
         const struct element *e = &w->h.elements[w->h.face_element[i]];
         if (fabs(height3(g->from, e->centre, e->normal)) < GRAZE * w->host->ray_offset
             || fabs(height3(g->to, e->centre, e->normal)) < GRAZE * w->host->ray_offset)
@@ -318,16 +326,16 @@ static int grazes(const struct world *w, const struct segment *g)
 static enum shaft_answer ask(const struct world *w, const uint32_t pair[2], struct blockers *list)
 {
     struct discussion d;
-    enum shaft_answer answer;
     memset(&d, 0, sizeof d);
     d.receiver = &w->h.elements[pair[0]];
     d.emitter = &w->h.elements[pair[1]];
     d.host = w->host;
     d.blockers = list;
-    answer = tool_shaft(&d);
+    enum shaft_answer answer = tool_shaft(&d);
     if (answer == SHAFT_VISIBLE || answer == SHAFT_INVISIBLE) {
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_EXACT);
-        ck_assert(tool_visibility(&d, 1024) == (answer == SHAFT_VISIBLE ? VISIBILITY_ALL : VISIBILITY_NONE));
+        ck_assert(tool_visibility(&d, 1024)
+                  == (answer == SHAFT_VISIBLE ? VISIBILITY_ALL : VISIBILITY_NONE));
         ck_assert(term_visibility_error(&d) == 0);
     } else {
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_ABSENT);
@@ -335,26 +343,25 @@ static enum shaft_answer ask(const struct world *w, const uint32_t pair[2], stru
     return answer;
 }
 
-/* Nobody may prove a precise answer wrong: not the ray caster, not a test in double precision. And there must be many. */
+/* Nobody may prove a precise answer wrong: not the ray caster, not a test in double precision.
+ * And there must be many. */
 START_TEST(test_truth)
 {
-    /* Pairs that face each other: at least so many in a thousand are known to be visible, invisible. */
-    static const int least[KINDS][2] = { { 400, 15 }, { 400, 30 }, { 150, 80 }, { 120, 60 }, { 500, 50 },
-                                        { 50, 200 }, { 80, 0 }, { 400, 30 }, { 250, 15 }, { 50, 250 }, { 200, 50 } };
+    /* Pairs that face each other: at least so many in a thousand are known to be visible,
+     * invisible. */
+    static const int least[KINDS][2] = {{400, 15}, {400, 30}, {150, 80}, {120, 60},
+                                        {500, 50}, {50, 200}, {80, 0},   {400, 30},
+                                        {250, 15}, {50, 250}, {200, 50}};
     enum { PAIRS = 12000, BATCH = SEGMENTS_MAX, BATCHES = 4, DOUBLE = 2, WORLDS = 4 };
-    uint64_t seed = 1 + (uint64_t)_i, segments = 0, grazing[2] = { 0, 0 };
-    int count[4] = { 0, 0, 0, 0 }, lies = 0, world, worlds = _i < LOADED ? WORLDS : 1, i, n, batch, facing = 0;
-    for (world = 0; world < worlds; world++) {
+    uint64_t seed = 1 + (uint64_t)_i, segments = 0, grazing[2] = {0, 0};
+    int count[4] = {0, 0, 0, 0}, lies = 0, worlds = _i < LOADED ? WORLDS : 1, n, facing = 0;
+    for (int world = 0; world < worlds; world++) {
         struct world w;
         open_world(&w, _i, &seed, 1);
-        for (i = 0; i < PAIRS / worlds; i++) {
-            struct segment g[BATCH];
-            struct discussion d;
+        for (int i = 0; i < PAIRS / worlds; i++) {
             uint32_t pair[2];
-            uint64_t hit;
-            enum shaft_answer answer;
-            int tries;
             random_pair(&w, &seed, i % 2 ? 3 : 6, pair);
+            struct discussion d;
             memset(&d, 0, sizeof d);
             d.receiver = &w.h.elements[pair[0]];
             d.emitter = &w.h.elements[pair[1]];
@@ -362,17 +369,19 @@ START_TEST(test_truth)
             if (tool_support_planes(&d) == SUPPORT_PLANES_AWAY)
                 continue;
             facing++;
-            answer = ask(&w, pair, NULL);
+            enum shaft_answer answer = ask(&w, pair, NULL);
             count[answer]++;
             if (answer != SHAFT_VISIBLE && answer != SHAFT_INVISIBLE)
                 continue;
-            for (batch = 0; batch < BATCHES; batch++) {
+            struct segment g[BATCH];
+            int tries;
+            for (int batch = 0; batch < BATCHES; batch++) {
                 int sharp = batch & 1;
                 for (n = tries = 0; n < BATCH && tries < 16 * BATCH; tries++)
                     n += random_segment(&w, pair, sharp, &seed, &g[n]);
                 if (n == 0)
                     break;
-                hit = w.host->occluded(w.host, n, g);
+                uint64_t hit = w.host->occluded(w.host, n, g);
                 segments += (uint64_t)n;
                 while (n-- > 0) {
                     int met = (int)(hit >> n & 1), wrong = 0;
@@ -384,22 +393,27 @@ START_TEST(test_truth)
                         if (n < DOUBLE || met)
                             wrong |= crosses_any(&w, &g[n], 0, w.host->ray_offset / 8192);
                     } else {
-                        wrong = !met || (n < DOUBLE && !crosses_any(&w, &g[n], w.host->ray_offset / 8192, 0));
+                        wrong = !met
+                                || (n < DOUBLE
+                                    && !crosses_any(&w, &g[n], w.host->ray_offset / 8192, 0));
                     }
                     lies += wrong;
                     if (wrong && lies < 5)
-                        printf("%s: %s is a lie: elements %u and %u, (%.17g %.17g %.17g) to (%.17g %.17g %.17g) met %d\n", kinds[_i],
-                               answer == SHAFT_VISIBLE ? "visible" : "invisible", pair[0], pair[1], g[n].from[0], g[n].from[1],
-                               g[n].from[2], g[n].to[0], g[n].to[1], g[n].to[2], met);
+                        printf("%s: %s is a lie: elements %u and %u, (%.17g %.17g %.17g) to (%.17g "
+                               "%.17g %.17g) met %d\n",
+                               kinds[_i], answer == SHAFT_VISIBLE ? "visible" : "invisible",
+                               pair[0], pair[1], g[n].from[0], g[n].from[1], g[n].from[2],
+                               g[n].to[0], g[n].to[1], g[n].to[2], met);
                 }
             }
         }
         close_world(&w);
     }
-    printf("%-16s %5d pairs face: %2d %% visible, %2d %% invisible, %2d %% uncertain, %2d %% too complex; %.2g segments, %llu and %llu grazing, %d lies\n",
-           kinds[_i], facing, 100 * count[0] / facing, 100 * count[1] / facing, 100 * count[2] / facing, 100 * count[3] / facing,
-           (double)segments, (unsigned long long)grazing[0],
-           (unsigned long long)grazing[1], lies);
+    printf("%-16s %5d pairs face: %2d %% visible, %2d %% invisible, %2d %% uncertain, %2d %% too "
+           "complex; %.2g segments, %llu and %llu grazing, %d lies\n",
+           kinds[_i], facing, 100 * count[0] / facing, 100 * count[1] / facing,
+           100 * count[2] / facing, 100 * count[3] / facing, (double)segments,
+           (unsigned long long)grazing[0], (unsigned long long)grazing[1], lies);
     fflush(stdout);
     ck_assert_int_eq(lies, 0);
     ck_assert_int_ge(1000 * count[SHAFT_VISIBLE], least[_i][0] * facing);
@@ -411,36 +425,37 @@ END_TEST
 static int same_list(const struct blockers *a, const struct blockers *b)
 {
     return a->count == b->count && a->covered == b->covered
-        && (a->count > BLOCKERS_MAX || memcmp(a->face, b->face, (size_t)a->count * sizeof *a->face) == 0);
+           && (a->count > BLOCKERS_MAX
+               || memcmp(a->face, b->face, (size_t)a->count * sizeof *a->face) == 0);
 }
 
-/* A list that came down from pair to pair is the list made anew, either way round, and so is the answer. */
+/* A list that came down from pair to pair is the list made anew, either way round, and so is the
+ * answer. */
 START_TEST(test_inherited)
 {
     enum { DESCENTS = 500, LEVELS = 8 };
     uint64_t seed = 100 + (uint64_t)_i;
-    int i, level, compared = 0, kept = 0;
+    int compared = 0, kept = 0;
     struct world w;
     open_world(&w, _i, &seed, 1);
-    for (i = 0; i < DESCENTS; i++) {
-        struct blockers down = { 0 };
+    for (int i = 0; i < DESCENTS; i++) {
+        struct blockers down = {0};
         uint32_t pair[2];
         random_pair(&w, &seed, 0, pair);
-        for (level = 0; level <= LEVELS; level++) {
-            struct blockers anew = { 0 }, back = { 0 };
+        for (int level = 0; level <= LEVELS; level++) {
+            struct blockers anew = {0}, back = {0};
             uint32_t turned[2];
-            enum shaft_answer answer;
-            int inherited = down.known == BLOCKERS_INHERITED, split;
+            int inherited = down.known == BLOCKERS_INHERITED;
             turned[0] = pair[1];
             turned[1] = pair[0];
-            answer = ask(&w, pair, &anew);
+            enum shaft_answer answer = ask(&w, pair, &anew);
             ck_assert_int_eq(ask(&w, turned, &back), answer);
             ck_assert_int_eq(ask(&w, pair, &down), answer);
             ck_assert(same_list(&anew, &back) && same_list(&anew, &down));
             compared += inherited;
             kept += inherited && anew.count > 0;
             down.known = down.handed ? BLOCKERS_INHERITED : BLOCKERS_UNKNOWN;
-            split = (int)(3 * random_unit(&seed));
+            int split = (int)(3 * random_unit(&seed));
             if (split != 1)
                 pair[0] = descend(&w, pair[0], &seed);
             if (split != 0)
@@ -457,15 +472,14 @@ END_TEST
 /* All lengths times a power of two: the same lists and answers. */
 START_TEST(test_scale)
 {
-    static const int power[2] = { -20, 17 };
-    int k, i;
-    for (k = 0; k < 2; k++) {
-        uint64_t seed[2] = { 200 + (uint64_t)_i, 200 + (uint64_t)_i };
+    static const int power[2] = {-20, 17};
+    for (int k = 0; k < 2; k++) {
+        uint64_t seed[2] = {200 + (uint64_t)_i, 200 + (uint64_t)_i};
         struct world w[2];
         open_world(&w[0], _i, &seed[0], 1);
         open_world(&w[1], _i, &seed[1], ldexp(1, power[k]));
-        for (i = 0; i < 700; i++) {
-            struct blockers list[2] = { { 0 }, { 0 } };
+        for (int i = 0; i < 700; i++) {
+            struct blockers list[2] = {{0}, {0}};
             uint32_t pair[2][2];
             random_pair(&w[0], &seed[0], 4, pair[0]);
             random_pair(&w[1], &seed[1], 4, pair[1]);
@@ -507,36 +521,41 @@ static enum decision spy(const void *state, struct discussion *d)
     return s->refiner->refine(s->refiner->state, d);
 }
 
-/* Links, their order and their values are the same whether lists are handed on or not, for any number of
- * threads, interpreted and compiled. */
+/* Links, their order and their values are the same whether lists are handed on or not, for any
+ * number of threads, interpreted and compiled. */
 START_TEST(test_refined)
 {
-    static const struct { int flat, threads, forget; } ways[] = {
-        { 0, 1, 0 }, { 0, 1, 1 }, { 1, 2, 0 }, { 0, 2, 0 }, { 1, 1, 1 },
+    static const struct {
+        int flat, threads, forget;
+    } ways[] = {
+        {0, 1, 0}, {0, 1, 1}, {1, 2, 0}, {0, 2, 0}, {1, 1, 1},
     };
-    struct refinement first = { 0 };
+    struct refinement first = {0};
     struct world w[2];
-    size_t i;
-    uint32_t k;
-    for (i = 0; i < (thorough() ? sizeof ways / sizeof *ways : 3); i++) {
-        struct spy s = { ways[i].flat ? flat_peer() : interpreted("tests/runtime/peer.dag", NULL, NULL), ways[i].forget, 0 }, *at = &s;
-        struct refiner watched = { .refine = spy, .state = &at };
-        struct refinement r;
+    for (size_t i = 0; i < (thorough() ? sizeof ways / sizeof *ways : 3); i++) {
+        struct spy s = {ways[i].flat ? flat_peer()
+                                     : interpreted("tests/runtime/peer.dag", NULL, NULL),
+                        ways[i].forget, 0},
+                   *at = &s;
+        struct refiner watched = {.refine = spy, .state = &at};
         struct world *now = &w[i > 0];
         uint64_t seed = 7;
         ck_assert_ptr_nonnull(s.refiner);
         open_world(now, 10, &seed, 1); /* the room */
-        for (k = 0; k < now->h.count; k++)
+        for (uint32_t k = 0; k < now->h.count; k++)
             now->h.elements[k].radiosity = 1;
-        ck_assert_int_eq(refinement_open(&r, &now->h, rays_host(now->rays), &watched, ways[i].threads), 0);
+        struct refinement r;
+        ck_assert_int_eq(
+            refinement_open(&r, &now->h, rays_host(now->rays), &watched, ways[i].threads), 0);
         ck_assert_int_eq(refinement_start(&r), 0);
         ck_assert_int_gt((int)r.link_count, 10000);
-        for (k = 1; k < r.pool_count; k++)
+        for (uint32_t k = 1; k < r.pool_count; k++)
             ck_assert_uint_eq(r.pool[k].references, 0); /* every list was released */
         if (i == 0) {
-            printf("refined: %zu links from %llu discussions, %llu with an inherited list, %u lists at once, %llu rays\n", r.link_count,
-                   (unsigned long long)r.pairs, (unsigned long long)s.inherited, r.pool_count,
-                   (unsigned long long)rays_count(now->rays).rays);
+            printf("refined: %zu links from %llu discussions, %llu with an inherited list, %u "
+                   "lists at once, %llu rays\n",
+                   r.link_count, (unsigned long long)r.pairs, (unsigned long long)s.inherited,
+                   r.pool_count, (unsigned long long)rays_count(now->rays).rays);
             fflush(stdout);
             ck_assert(s.inherited * 5 > r.pairs);
             first = r;
@@ -585,25 +604,26 @@ static double exact(struct world *w, enum exact_visibility_answer *answer)
     *answer = tool_exact_visibility(&d);
     ck_assert_int_eq(tool_exact_visibility(&back), *answer);
     ck_assert(d.terms.visibility == back.terms.visibility);
-    ck_assert(d.terms.visibility_level == (*answer == EXACT_VISIBILITY_TOO_COMPLEX ? VISIBILITY_RAYS_64 : VISIBILITY_EXACT));
+    ck_assert(d.terms.visibility_level
+              == (*answer == EXACT_VISIBILITY_TOO_COMPLEX ? VISIBILITY_RAYS_64 : VISIBILITY_EXACT));
     close_world(w);
     return d.terms.visibility;
 }
 
-/* By symmetry each quarter of the middle plane hides a quarter of the light, V F = 3/4 F = .1498686718; any partition of it
- * hides all, each part once; two parts of it hide what the two do. */
+/* By symmetry each quarter of the middle plane hides a quarter of the light, V F = 3/4 F =
+ * .1498686718; any partition of it hides all, each part once; two parts of it hide what the two
+ * do. */
 START_TEST(test_partition)
 {
     enum exact_visibility_answer answer;
     uint64_t seed = 3;
-    int i, j, round;
-    for (i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++) {
         struct world w;
         open_squares(&w);
         made_quad(&w.scene, 0, i % 2 * 0.5, i / 2 * 0.5, 0.5, 0.5, 0, 0, 0, 0.5, 0);
         ck_assert_double_eq_tol(exact(&w, &answer), 0.75, 1e-6);
         ck_assert_int_eq(answer, EXACT_VISIBILITY_PARTIAL);
-        for (j = 0; j < i; j++) { /* two quarters, side by side or across */
+        for (int j = 0; j < i; j++) { /* two quarters, side by side or across */
             open_squares(&w);
             made_quad(&w.scene, 0, i % 2 * 0.5, i / 2 * 0.5, 0.5, 0.5, 0, 0, 0, 0.5, 0);
             made_quad(&w.scene, 0, j % 2 * 0.5, j / 2 * 0.5, 0.5, 0, 0.5, 0, 0.5, 0, 0);
@@ -611,14 +631,14 @@ START_TEST(test_partition)
         }
     }
     ck_assert_double_eq_tol(0.75 * 0.1998248956983874, 0.1498686718, 1e-10);
-    for (round = 0; round < 3; round++) {
+    for (int round = 0; round < 3; round++) {
         double x = between(&seed, 0.1, 0.9), y = between(&seed, 0.1, 0.9), hidden = 0, pair = 0;
-        for (i = 0; i < 4; i++) {
-            double a = i % 2 ? x : 0, b = i % 2 ? 1 : x, c = i / 2 ? y : 0, e = i / 2 ? 1 : y, v;
+        for (int i = 0; i < 4; i++) {
+            double a = i % 2 ? x : 0, b = i % 2 ? 1 : x, c = i / 2 ? y : 0, e = i / 2 ? 1 : y;
             struct world w;
             open_squares(&w);
             made_quad(&w.scene, 0, a, c, 0.5, b - a, 0, 0, 0, e - c, 0);
-            v = exact(&w, &answer);
+            double v = exact(&w, &answer);
             hidden += 1 - v;
             pair += i < 2 ? 1 - v : 0;
         }
@@ -631,7 +651,8 @@ START_TEST(test_partition)
             ck_assert_double_eq_tol(1 - exact(&w, &answer), pair, 2e-6);
         }
     }
-    for (i = 0; i < 3; i++) { /* the whole plane; a neighbour of it, which only touches the shaft; and nothing */
+    /* the whole plane; a neighbour of it, which only touches the shaft; and nothing */
+    for (int i = 0; i < 3; i++) {
         struct world w;
         open_squares(&w);
         if (i < 2)
@@ -642,7 +663,7 @@ START_TEST(test_partition)
     {
         struct world w;
         open_squares(&w);
-        for (i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++)
             made_quad(&w.scene, 0, 0.3 * i, 0.3, 0.5, 0.2, 0, 0, 0, 0.2, 0);
         (void)exact(&w, &answer);
         ck_assert_int_eq(answer, EXACT_VISIBILITY_TOO_COMPLEX);
@@ -650,40 +671,43 @@ START_TEST(test_partition)
 }
 END_TEST
 
-/* One and two tilted blockers anywhere, against 400,000 random segments weighted by what they carry: within four and a half
- * standard deviations (significance 4e-5 for the six cases together; the seed is fixed). */
+/* One and two tilted blockers anywhere, against 400,000 random segments weighted by what they
+ * carry: within four and a half standard deviations (significance 4e-5 for the six cases together;
+ * the seed is fixed). */
 START_TEST(test_random_parts)
 {
     enum { SEGMENTS = 400000 };
     uint64_t seed = 40 + (uint64_t)_i;
+    double p[3][3], all = 0, seen = 0, square[2] = {0, 0};
     struct world w;
-    enum exact_visibility_answer answer;
-    double p[3][3], v, all = 0, seen = 0, square[2] = { 0, 0 }, error;
-    int i, k, f;
     open_squares(&w);
+    int f;
     for (f = 0; f <= _i % 2; f++) {
-        for (k = 0; k < 9; k++)
+        for (int k = 0; k < 9; k++)
             p[k / 3][k % 3] = between(&seed, 0.1, 0.9);
-        made_face(&w.scene, 0, 3, (const double (*)[3])p);
+        made_face(&w.scene, 0, 3, (const double(*)[3])p);
     }
     start_world(&w, 1);
-    for (i = 0; i < SEGMENTS; i++) {
-        struct segment g = { { random_unit(&seed), random_unit(&seed), 0 }, { random_unit(&seed), random_unit(&seed), 1 } };
-        double d[3], weight;
+    for (int i = 0; i < SEGMENTS; i++) {
+        struct segment g = {{random_unit(&seed), random_unit(&seed), 0},
+                            {random_unit(&seed), random_unit(&seed), 1}};
+        double d[3];
         sub3(d, g.to, g.from);
-        weight = 1 / (dot3(d, d) * dot3(d, d));
+        double weight = 1 / (dot3(d, d) * dot3(d, d));
         all += weight;
         for (f = 2; f < (int)w.scene.face_count; f++)
-            if (crosses_triangle(&g, w.scene.faces[f].vertex[0], w.scene.faces[f].vertex[1], w.scene.faces[f].vertex[2], 0, 0))
+            if (crosses_triangle(&g, w.scene.faces[f].vertex[0], w.scene.faces[f].vertex[1],
+                                 w.scene.faces[f].vertex[2], 0, 0))
                 break;
         if (f == (int)w.scene.face_count)
             seen += weight;
         square[f == (int)w.scene.face_count] += weight * weight;
     }
-    v = seen / all; /* of a ratio of sums: sum w^2 (I - V)^2 */
-    error = 4.5 * sqrt(square[1] * (1 - v) * (1 - v) + square[0] * v * v) / all;
+    double v = seen / all; /* of a ratio of sums: sum w^2 (I - V)^2 */
+    double error = 4.5 * sqrt(square[1] * (1 - v) * (1 - v) + square[0] * v * v) / all;
     rays_close(w.rays);
     hierarchy_free(&w.h);
+    enum exact_visibility_answer answer;
     v = exact(&w, &answer);
     printf("%d blockers: V = %.6f, by segments %.6f +- %.6f\n", 1 + _i % 2, v, seen / all, error);
     ck_assert_int_eq(answer, EXACT_VISIBILITY_PARTIAL);
@@ -691,20 +715,18 @@ START_TEST(test_random_parts)
 }
 END_TEST
 
-/* Point values of a penumbra as limits of a tiny receiver: source a unit square at z = 2, occluder of side .75 at z = 1. */
+/* Point values of a penumbra as limits of a tiny receiver: source a unit square at z = 2,
+ * occluder of side .75 at z = 1. */
 START_TEST(test_penumbra)
 {
-    static const double at[] = { 0.25, 0.5, 0.75, 1, 1.5 };
-    static const double right[] = { 0, 0.0189169153, 0.0337198400, 0.0405845563, 0.0326632655 };
-    static const int power[] = { 0, -20, 17 };
-    size_t i;
-    int k;
-    for (i = 0; i < sizeof at / sizeof *at; i++) {
+    static const double at[] = {0.25, 0.5, 0.75, 1, 1.5};
+    static const double right[] = {0, 0.0189169153, 0.0337198400, 0.0405845563, 0.0326632655};
+    static const int power[] = {0, -20, 17};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
         double v[3];
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             const double side = 1e-5;
             struct world w;
-            struct discussion d;
             memset(&w, 0, sizeof w);
             made_open(&w.scene);
             made_material(&w.scene, 0.5, 1);
@@ -713,14 +735,17 @@ START_TEST(test_penumbra)
             made_quad(&w.scene, 0, -0.375, -0.375, 1, 0.75, 0, 0, 0, 0.75, 0);
             made_scale(&w.scene, ldexp(1, power[k]));
             start_world(&w, 1);
+            struct discussion d;
             d = discuss_faces(&w, 0, 1);
             ck_assert(tool_exact_visibility(&d) != EXACT_VISIBILITY_TOO_COMPLEX);
             v[k] = d.terms.visibility * polygon_factor(d.receiver, d.emitter, 1);
-            ck_assert_double_eq_tol(v[k], right[i], i ? 1e-9 : 1e-6); /* the first is where the umbra ends */
+            /* the first is where the umbra ends */
+            ck_assert_double_eq_tol(v[k], right[i], i ? 1e-9 : 1e-6);
             d = discuss_faces(&w, 0, 1);
             (void)tool_visibility(&d, 1024);
             ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_RAYS_1024);
-            ck_assert_double_eq_tol(d.terms.visibility * polygon_factor(d.receiver, d.emitter, 1), right[i], 1e-3);
+            ck_assert_double_eq_tol(d.terms.visibility * polygon_factor(d.receiver, d.emitter, 1),
+                                    right[i], 1e-3);
             close_world(&w);
         }
         ck_assert(v[1] == v[0] && v[2] == v[0]);
@@ -731,38 +756,44 @@ END_TEST
 /* More rays, more levels; sigma_V is what the formula says and about what the rays do. */
 START_TEST(test_levels)
 {
-    static const struct { int asked, cast; enum visibility_level level; } way[] = {
-        { 4, 4, VISIBILITY_RAYS_4 }, { 5, 16, VISIBILITY_RAYS_16 }, { 64, 64, VISIBILITY_RAYS_64 }, { 65, 256, VISIBILITY_RAYS_256 },
-        { 256, 256, VISIBILITY_RAYS_256 }, { 1000, 1024, VISIBILITY_RAYS_1024 }, { 1024, 1024, VISIBILITY_RAYS_1024 },
+    static const struct {
+        int asked, cast;
+        enum visibility_level level;
+    } way[] = {
+        {4, 4, VISIBILITY_RAYS_4},          {5, 16, VISIBILITY_RAYS_16},
+        {64, 64, VISIBILITY_RAYS_64},       {65, 256, VISIBILITY_RAYS_256},
+        {256, 256, VISIBILITY_RAYS_256},    {1000, 1024, VISIBILITY_RAYS_1024},
+        {1024, 1024, VISIBILITY_RAYS_1024},
     };
-    enum exact_visibility_answer answer;
     struct world w;
-    double v;
-    size_t i;
     open_squares(&w);
     made_quad(&w.scene, 0, 0.2, 0.1, 0.4, 0.5, 0, 0.2, 0, 0.6, 0);
-    v = exact(&w, &answer);
+    enum exact_visibility_answer answer;
+    double v = exact(&w, &answer);
     open_squares(&w);
     made_quad(&w.scene, 0, 0.2, 0.1, 0.4, 0.5, 0, 0.2, 0, 0.6, 0);
     start_world(&w, 1);
-    for (i = 0; i < sizeof way / sizeof *way; i++) {
+    for (size_t i = 0; i < sizeof way / sizeof *way; i++) {
         struct discussion d = discuss_faces(&w, 0, 1);
         uint64_t before = rays_count(w.rays).rays;
-        double sigma;
         ck_assert(term_visibility_error(&d) == 0.5);
         (void)tool_visibility(&d, way[i].asked);
         ck_assert_int_eq((int)(rays_count(w.rays).rays - before), way[i].cast);
         ck_assert_int_eq(d.terms.visibility_level, way[i].level);
-        sigma = term_visibility_error(&d);
-        ck_assert_double_eq_tol(sigma, sqrt(d.terms.visibility * (1 - d.terms.visibility) / way[i].cast), 1e-15);
-        ck_assert_double_eq_tol(d.terms.visibility, v, 3 * sigma); /* a net does better than chance; the pair is fixed */
+        double sigma = term_visibility_error(&d);
+        ck_assert_double_eq_tol(
+            sigma, sqrt(d.terms.visibility * (1 - d.terms.visibility) / way[i].cast), 1e-15);
+        /* a net does better than chance; the pair is fixed */
+        ck_assert_double_eq_tol(d.terms.visibility, v, 3 * sigma);
         (void)tool_visibility(&d, 4); /* known better already */
         ck_assert_int_eq((int)(rays_count(w.rays).rays - before), way[i].cast);
         (void)tool_extinction(&d);
         ck_assert_int_eq(d.terms.visibility_level, way[i].level);
     }
-    ck_assert(visibility_error_of(1, VISIBILITY_RAYS_16) == 1 / 16.0 && visibility_error_of(0, VISIBILITY_RAYS_256) == 1 / 256.0);
-    ck_assert(visibility_error_of(0.3, VISIBILITY_EXACT) == 0 && visibility_error_of(0.5, VISIBILITY_EXTINCTION) == 0.5);
+    ck_assert(visibility_error_of(1, VISIBILITY_RAYS_16) == 1 / 16.0
+              && visibility_error_of(0, VISIBILITY_RAYS_256) == 1 / 256.0);
+    ck_assert(visibility_error_of(0.3, VISIBILITY_EXACT) == 0
+              && visibility_error_of(0.5, VISIBILITY_EXTINCTION) == 0.5);
     { /* the reference leaves the visibility alone */
         struct discussion d = discuss_faces(&w, 0, 1);
         uint64_t before = rays_count(w.rays).rays;
@@ -788,12 +819,12 @@ END_TEST
 START_TEST(test_feature)
 {
     uint64_t seed = 77;
-    int i, big = 0;
-    for (i = 0; i < 200; i++) {
-        double s = between(&seed, 0.2, 1), c = between(&seed, 0.2, 1), far = between(&seed, 1, 4), t = far * between(&seed, 0.2, 0.8);
+    int big = 0;
+    for (int i = 0; i < 200; i++) {
+        double s = between(&seed, 0.2, 1), c = between(&seed, 0.2, 1), far = between(&seed, 1, 4),
+               t = far * between(&seed, 0.2, 0.8);
         double f = s + far / t * (c - s);
         struct world w;
-        struct discussion d;
         memset(&w, 0, sizeof w);
         made_open(&w.scene);
         made_material(&w.scene, 0.5, 1);
@@ -801,9 +832,11 @@ START_TEST(test_feature)
         made_quad(&w.scene, 0, -s / 2, -s, far, 0, 2 * s, 0, s, 0, 0); /* twice as long as wide */
         made_quad(&w.scene, 0, -c / 2, -c / 2, far - t, c, 0, 0, 0, c, 0);
         start_world(&w, 1);
+        struct discussion d;
         d = discuss_faces(&w, 0, 1);
         if (f > 0) {
-            double longest = tool_feature_size(&d, f * 1.2) == FEATURE_SIZE_SMALL, least = tool_feature_size(&d, f * 0.8) == FEATURE_SIZE_BIG;
+            double longest = tool_feature_size(&d, f * 1.2) == FEATURE_SIZE_SMALL,
+                   least = tool_feature_size(&d, f * 0.8) == FEATURE_SIZE_BIG;
             ck_assert(longest > 0 && least > 0);
             big++;
         } else {
@@ -821,14 +854,14 @@ END_TEST
 START_TEST(test_extinction)
 {
     uint64_t seed = 9;
+    int fog = 0;
     struct world w;
-    int i, j, c, k, fog = 0;
     open_world(&w, 2, &seed, 1);
-    for (i = 0; i < 40; i++) {
+    for (int i = 0; i < 40; i++) {
         uint32_t pair[2];
-        struct discussion d;
         double depth = 0;
         random_pair(&w, &seed, 0, pair);
+        struct discussion d;
         memset(&d, 0, sizeof d);
         d.receiver = &w.h.elements[pair[0]];
         d.emitter = &w.h.elements[pair[1]];
@@ -839,13 +872,13 @@ START_TEST(test_extinction)
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_EXTINCTION);
         (void)tool_presume_visible(&d); /* which leaves what is known alone */
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_EXTINCTION);
-        for (j = 0; j < (int)w.h.count; j++) {
+        for (int j = 0; j < (int)w.h.count; j++) {
             const struct element *e = &w.h.elements[j];
             double area = 0, volume = 1, v[3];
-            int own = 0, n, in = 0;
+            int own = 0, in = 0;
             if (e->vertices)
                 continue;
-            for (c = 0; c < e->children; c++) {
+            for (int c = 0; c < e->children; c++) {
                 uint32_t x = e->child + (uint32_t)c;
                 own |= x == pair[0] || x == pair[1];
                 area += w.h.elements[x].vertices ? w.h.elements[x].area : 0;
@@ -853,15 +886,15 @@ START_TEST(test_extinction)
             if (own || area <= 0)
                 continue;
             sub3(v, d.emitter->centre, d.receiver->centre);
-            for (n = 0; n < 10000; n++) {
+            for (int n = 0; n < 10000; n++) {
                 int inside = 1;
-                for (k = 0; k < 3; k++) {
+                for (int k = 0; k < 3; k++) {
                     double x = d.receiver->centre[k] + (n + 0.5) / 10000 * v[k];
                     inside &= x >= e->vertex[0][k] && x <= e->vertex[1][k];
                 }
                 in += inside;
             }
-            for (k = 0; k < 3; k++)
+            for (int k = 0; k < 3; k++)
                 volume *= e->vertex[1][k] - e->vertex[0][k];
             if (in)
                 depth += area / (4 * volume) * length3(v) * in / 10000;

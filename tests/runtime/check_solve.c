@@ -1,6 +1,7 @@
-/* check_solve.c - solutions against exact ones, and what must not change them: threads, releases, units.
- * Sources: furnace, plates and cube from closed forms and converged integral-equation solutions
- * (two parallel unit squares, two perpendicular unit squares, a cube with one emitting face).
+/* check_solve.c - solutions against exact ones, and what must not change them: threads, releases,
+ * units. Sources: furnace, plates and cube from closed forms and converged integral-equation
+ * solutions (two parallel unit squares, two perpendicular unit squares, a cube with one emitting
+ * face).
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -13,48 +14,51 @@
 /* B = E / (1 - rho) in any closed shape, at the default parameters. */
 START_TEST(test_furnace)
 {
-    static void (*const shape[3])(struct scene *, double) = { furnace_cube, furnace_prism, furnace_octahedron };
-    static const char *const name[3] = { "cube", "prism", "octahedron" };
-    static const double rho[3] = { 0.5, 0.9, 0.99 };
-    static const char *const oracle[2] = { "bf_guarded", "bf" };
+    static void (*const shape[3])(struct scene *, double) = {furnace_cube, furnace_prism,
+                                                             furnace_octahedron};
+    static const char *const name[3] = {"cube", "prism", "octahedron"};
+    static const double rho[3] = {0.5, 0.9, 0.99};
+    static const char *const oracle[2] = {"bf_guarded", "bf"};
     struct scene scene;
-    struct solve s;
     double worst = 0;
-    uint32_t i;
     shape[_i % 3](&scene, rho[_i / 3 % 3]);
+    struct solve s;
     solve_with(&s, &scene, oracle[_i / 9], RELEASE_FLAT, NULL, quick(2));
-    for (i = 0; i < s.hierarchy.count; i++)
+    for (uint32_t i = 0; i < s.hierarchy.count; i++)
         if (s.hierarchy.elements[i].vertices)
             worst = fmax(worst, fabs(s.state.radiosity[i] * (1 - rho[_i / 3 % 3]) - 1));
-    printf("furnace %s rho %.2f %s: worst element off by %.1e; rows %.4f to %.4f before the cap\n", name[_i % 3],
-           rho[_i / 3 % 3], oracle[_i / 9], worst, s.report.rows.low, s.report.rows.high);
+    printf("furnace %s rho %.2f %s: worst element off by %.1e; rows %.4f to %.4f before the cap\n",
+           name[_i % 3], rho[_i / 3 % 3], oracle[_i / 9], worst, s.report.rows.low,
+           s.report.rows.high);
     ck_assert_double_le(worst, 1e-3);
     solve_close(&s);
     made_close(&scene);
 }
 END_TEST
 
-/* A cube, ceiling E = 1, rho = .5: the continuous solution's means. The error falls with epsilon. */
+/* A cube, ceiling E = 1, rho = .5: the continuous solution's means. The error falls with
+ * epsilon. */
 START_TEST(test_cube)
 {
-    static char *settings[3][5] = { { "relative=0", "epsilon=0.1", "min_share=1e-6", NULL },
-                                    { "relative=0", "epsilon=0.01", "min_share=1e-6", NULL },
-                                    { "relative=0", "epsilon=0.002", "min_share=1e-6", NULL } };
+    static char *settings[3][5] = {{"relative=0", "epsilon=0.1", "min_share=1e-6", NULL},
+                                   {"relative=0", "epsilon=0.01", "min_share=1e-6", NULL},
+                                   {"relative=0", "epsilon=0.002", "min_share=1e-6", NULL}};
     double error[3];
-    int steps = thorough() ? 3 : 2, i;
-    for (i = 0; i < steps; i++) {
+    int steps = thorough() ? 3 : 2;
+    for (int i = 0; i < steps; i++) {
+        uint32_t m[6];
         struct scene scene;
-        struct solve s;
-        uint32_t wall, lamp, m[6], f;
         made_open(&scene);
-        wall = made_material(&scene, 0.5, 0);
-        lamp = made_material(&scene, 0.5, 1);
-        for (f = 0; f < 6; f++)
+        uint32_t wall = made_material(&scene, 0.5, 0);
+        uint32_t lamp = made_material(&scene, 0.5, 1);
+        for (uint32_t f = 0; f < 6; f++)
             m[f] = f == 1 ? lamp : wall;
         made_room(&scene, m, 1, 1, 1);
+        struct solve s;
         solve_with(&s, &scene, "bf", RELEASE_FLAT, settings[i], quick(2));
-        error[i] = fmax(fabs(face_radiosity(&s, 1) - 1.1043616), fabs(face_radiosity(&s, 0) - 0.1712161));
-        for (f = 2; f < 6; f++)
+        error[i] =
+            fmax(fabs(face_radiosity(&s, 1) - 1.1043616), fabs(face_radiosity(&s, 0) - 0.1712161));
+        for (uint32_t f = 2; f < 6; f++)
             error[i] = fmax(error[i], fabs(face_radiosity(&s, f) - 0.1811056));
         printf("cube epsilon %s: worst face mean off by %.1e\n", settings[i][1], error[i]);
         solve_close(&s);
@@ -70,9 +74,8 @@ END_TEST
 /* Open scenes: two parallel, then two perpendicular unit squares, E = 1, rho = .5. */
 START_TEST(test_plates)
 {
-    static char *settings[] = { "relative=0.003", "min_share=1e-6", NULL };
+    static char *settings[] = {"relative=0.003", "min_share=1e-6", NULL};
     struct scene scene;
-    struct solve s;
     made_open(&scene);
     made_material(&scene, 0.5, 1);
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
@@ -80,6 +83,7 @@ START_TEST(test_plates)
         made_quad(&scene, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
     else
         made_quad(&scene, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0);
+    struct solve s;
     solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, settings, quick(2));
     ck_assert_double_eq_tol(face_radiosity(&s, 0), _i == 0 ? 1.111165244298 : 1.1159537, 5e-4);
     ck_assert_double_eq_tol(face_radiosity(&s, 1), face_radiosity(&s, 0), 2e-4);
@@ -91,16 +95,21 @@ END_TEST
 /* Threads, releases and methods give the same links to the bit. */
 START_TEST(test_same_links)
 {
-    static const char *const oracle[2] = { "bf", "bf_guarded" };
-    struct scene scene;
+    static const char *const oracle[2] = {"bf", "bf_guarded"};
     struct solve one, other;
-    int k;
+    struct scene scene;
     furnished(&scene, 1);
     solve_with(&one, &scene, oracle[_i], RELEASE_FLAT, NULL, quick(1));
-    for (k = 0; k < 4; k++) {
-        solve_with(&other, &scene, oracle[_i], k == 1 ? RELEASE_DAG : k == 2 ? RELEASE_HAND : RELEASE_FLAT, NULL, quick(k == 3 ? 5 : 2));
+    for (int k = 0; k < 4; k++) {
+        solve_with(&other, &scene, oracle[_i],
+                   k == 1   ? RELEASE_DAG
+                   : k == 2 ? RELEASE_HAND
+                            : RELEASE_FLAT,
+                   NULL, quick(k == 3 ? 5 : 2));
         same_links(&one, &other);
-        ck_assert(memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double)) == 0);
+        ck_assert(
+            memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double))
+            == 0);
         solve_close(&other);
     }
     solve_close(&one);
@@ -111,9 +120,10 @@ END_TEST
 /* Brightness and epsilon times 1000: the same links. */
 START_TEST(test_brightness)
 {
-    static char *dim[] = { "relative=0", "epsilon=0.05", NULL }, *bright[] = { "relative=0", "epsilon=50", NULL };
-    struct scene scene;
+    static char *dim[] = {"relative=0", "epsilon=0.05", NULL},
+                *bright[] = {"relative=0", "epsilon=50", NULL};
     struct solve one, other;
+    struct scene scene;
     furnished(&scene, 1);
     solve_with(&one, &scene, "bf", RELEASE_FLAT, dim, quick(2));
     made_close(&scene);
@@ -127,7 +137,8 @@ START_TEST(test_brightness)
 }
 END_TEST
 
-/* All lengths times 2^10 and 2^-10: the same links and radiosities, to the bit, without touching a parameter. */
+/* All lengths times 2^10 and 2^-10: the same links and radiosities, to the bit, without touching
+ * a parameter. */
 START_TEST(test_scale)
 {
     struct scene scene, scaled;
@@ -138,7 +149,9 @@ START_TEST(test_scale)
     solve_with(&one, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick(2));
     solve_with(&other, &scaled, "bf_guarded", RELEASE_FLAT, NULL, quick(2));
     same_links(&one, &other);
-    ck_assert(memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double)) == 0);
+    ck_assert(
+        memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double))
+        == 0);
     solve_close(&one);
     solve_close(&other);
     made_close(&scene);
@@ -149,15 +162,14 @@ END_TEST
 /* Jacobi and Gauss-Seidel agree, and power is conserved to a few percent. */
 START_TEST(test_methods)
 {
-    struct scene scene;
     struct solve one, other;
     struct solve_options jacobi = quick(2);
-    uint32_t i;
     jacobi.jacobi = 1;
+    struct scene scene;
     furnished(&scene, 1);
     solve_with(&one, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick(2));
     solve_with(&other, &scene, "bf_guarded", RELEASE_FLAT, NULL, jacobi);
-    for (i = 0; i < scene.face_count; i++)
+    for (uint32_t i = 0; i < scene.face_count; i++)
         ck_assert_double_eq_tol(face_radiosity(&one, i) / face_radiosity(&other, i), 1, 1e-3);
     ck_assert_int_lt(one.report.sweeps, other.report.sweeps);
     ck_assert_double_eq_tol(one.report.absorbed / one.report.emitted, 1, 0.03);
@@ -167,16 +179,16 @@ START_TEST(test_methods)
 }
 END_TEST
 
-/* A wall without thickness between a lit and a dark room, its front to either side: nothing passes. */
+/* A wall without thickness between a lit and a dark room, its front to either side: nothing
+ * passes. */
 START_TEST(test_wall)
 {
     struct scene scene;
-    struct solve s;
-    uint32_t grey, lamp, side, i;
     made_open(&scene);
-    grey = made_material(&scene, 0.7, 0);
-    lamp = made_material(&scene, 0.5, 10);
-    for (side = 0; side < 2; side++) { /* the dark room from x = 0 to 1, the lit one to 2 */
+    uint32_t grey = made_material(&scene, 0.7, 0);
+    uint32_t lamp = made_material(&scene, 0.5, 10);
+    /* the dark room from x = 0 to 1, the lit one to 2 */
+    for (uint32_t side = 0; side < 2; side++) {
         double x = side;
         made_quad(&scene, grey, x, 0, 0, 1, 0, 0, 0, 1, 0);
         made_quad(&scene, grey, x, 0, 1, 0, 1, 0, 1, 0, 0);
@@ -189,8 +201,9 @@ START_TEST(test_wall)
         made_quad(&scene, grey, 1, 0, 0, 0, 1, 0, 0, 0, 1); /* faces the lamp */
     else
         made_quad(&scene, grey, 1, 0, 0, 0, 0, 1, 0, 1, 0); /* turns its black back on it */
+    struct solve s;
     solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick(2));
-    for (i = 0; i < 4; i++) {
+    for (uint32_t i = 0; i < 4; i++) {
         ck_assert(face_radiosity(&s, i) == 0);
         ck_assert_double_gt(face_radiosity(&s, i + 4), 0.5);
     }
@@ -204,12 +217,15 @@ END_TEST
 /* The paper's scenes: every release of both oracles decides alike (run as the user would). */
 START_TEST(test_compare)
 {
-    static const char *const scene[] = { "cornell", "room", "maze_8", "furnace", "td" };
-    static const char *const oracle[] = { "bf", "bf_guarded" };
+    static const char *const scene[] = {"cornell", "room", "maze_8", "furnace", "td"};
+    static const char *const oracle[] = {"bf", "bf_guarded"};
     const char *program = getenv("RADIOSITY");
     char command[512];
-    snprintf(command, sizeof command, "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set relative=0.5 --set min_share=1e-3%s > /dev/null",
-             program ? program : "build/bin/radiosity", scene[_i / 2], oracle[_i % 2], _i % 2 ? " --set shadow=0.1 --set faint=1e-3" : "");
+    snprintf(command, sizeof command,
+             "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set relative=0.5 --set "
+             "min_share=1e-3%s > /dev/null",
+             program ? program : "build/bin/radiosity", scene[_i / 2], oracle[_i % 2],
+             _i % 2 ? " --set shadow=0.1 --set faint=1e-3" : "");
     ck_assert_int_eq(system(command), 0);
 }
 END_TEST

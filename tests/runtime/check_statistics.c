@@ -10,7 +10,8 @@
 /* An oracle that counts depths and records what links bring. */
 static const char counting[] =
     "oracle counting \"bf, counted\" { start level;\n"
-    "  node level = clusters() { surfaces -> planes;  apart -> stop;  receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
+    "  node level = clusters() { surfaces -> planes;  apart -> stop;  receiver -> "
+    "subdivide_receiver;  emitter -> subdivide_emitter; }\n"
     "  node planes = support_planes() { away -> stop;  otherwise -> deep; }\n"
     "  node deep = count(as = receiver.depth) { done -> energy; }\n"
     "  node energy = transfer(relative = 0.2) { dark -> stop;  below -> few;  above -> guard; }\n"
@@ -19,29 +20,30 @@ static const char counting[] =
     "  node side = larger() { receiver -> subdivide_receiver;  emitter -> subdivide_emitter; }\n"
     "  node few = visibility(rays = 16) { none -> stop;  partial | all -> form; }\n"
     "  node form = form_factor() { done -> note; }\n"
-    "  node note = record(value = emitter.radiosity * form_factor / scene.irradiance, slot = 3) { done -> known; }\n"
+    "  node note = record(value = emitter.radiosity * form_factor / scene.irradiance, slot = 3) { "
+    "done -> known; }\n"
     "  node known = record(value = 0.75) { done -> link; }\n"
     "}\n";
 
-/* Counting changes nothing, and the counts are those of the refinement: every pair came in at the start, every node was
- * asked as often as arcs led to it, every decision taken as often as it was carried out. */
+/* Counting changes nothing, and the counts are those of the refinement: every pair came in at the
+ * start, every node was asked as often as arcs led to it, every decision taken as often as it was
+ * carried out. */
 START_TEST(test_statistics)
 {
-    static const char *const decisions[] = { "link", "stop", "subdivide_receiver", "subdivide_emitter", "subdivide_both" };
-    struct scene scene;
+    static const char *const decisions[] = {"link", "stop", "subdivide_receiver",
+                                            "subdivide_emitter", "subdivide_both"};
     struct solve s, plain;
     struct solve_options options = quick(2);
-    struct statistics counted;
-    struct refiner *r, *other;
-    const char *cause;
-    uint64_t deep = 0, noted = 0, sum[5] = { 0 };
-    int i, k, j;
+    uint64_t deep = 0, noted = 0, sum[5] = {0};
+    struct scene scene;
     furnished(&scene, 1);
-    r = interpreted("counting.dag", counting, NULL);
-    other = interpreted("counting.dag", counting, NULL);
+    struct refiner *r = interpreted("counting.dag", counting, NULL);
+    struct refiner *other = interpreted("counting.dag", counting, NULL);
     ck_assert_ptr_nonnull(r);
+    struct statistics counted;
     ck_assert_int_eq(statistics_take(&counted, r), -1); /* not asked for */
     ck_assert_int_eq(refiner_count(r), 0);
+    const char *cause;
     ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(&s, r, &cause), 0);
     ck_assert_int_eq(solve_open(&plain, &scene, &options, &cause), 0);
@@ -50,15 +52,17 @@ START_TEST(test_statistics)
     ck_assert_int_eq(statistics_take(&counted, r), 0);
     ck_assert_str_eq(counted.nodes[0].name, "level");
     ck_assert_uint_eq(counted.nodes[0].calls, s.refinement.pairs);
-    for (i = 0; i < counted.node_count; i++) {
+    for (int i = 0; i < counted.node_count; i++) {
         const struct node_statistics *n = &counted.nodes[i];
         uint64_t in = i == 0 ? s.refinement.pairs : 0, out = 0;
-        for (j = 0; j < counted.node_count; j++)
-            for (k = 0; k < counted.nodes[j].answer_count; k++)
-                in += strcmp(counted.nodes[j].answers[k].target, n->name) == 0 ? counted.nodes[j].answers[k].count : 0;
-        for (k = 0; k < n->answer_count; k++) {
+        for (int j = 0; j < counted.node_count; j++)
+            for (int k = 0; k < counted.nodes[j].answer_count; k++)
+                in += strcmp(counted.nodes[j].answers[k].target, n->name) == 0
+                          ? counted.nodes[j].answers[k].count
+                          : 0;
+        for (int k = 0; k < n->answer_count; k++) {
             out += n->answers[k].count;
-            for (j = 0; j < 5; j++)
+            for (int j = 0; j < 5; j++)
                 sum[j] += strcmp(n->answers[k].target, decisions[j]) == 0 ? n->answers[k].count : 0;
         }
         ck_assert_uint_eq(in, n->calls);
@@ -68,20 +72,22 @@ START_TEST(test_statistics)
         if (strcmp(n->name, "note") == 0)
             noted = n->calls;
     }
-    for (j = 0; j < 5; j++)
+    for (int j = 0; j < 5; j++)
         ck_assert_uint_eq(sum[j], s.refinement.decided[j]);
-    for (i = 0; i < STATISTICS_COUNTS; i++)
+    for (int i = 0; i < STATISTICS_COUNTS; i++)
         deep -= counted.counts[i];
     ck_assert_uint_eq(deep, 0);
     ck_assert_uint_gt(counted.counts[0], 0);
     ck_assert_uint_gt(counted.counts[1], 0);
     ck_assert_uint_eq(counted.counts[25], 0); /* can_split ends at 24 */
     ck_assert_uint_gt(noted, 100);
-    ck_assert_uint_eq(counted.records[0].bins[-1 - STATISTICS_LOW], noted); /* 0.75 lies in [1/2, 1) */
+    /* 0.75 lies in [1/2, 1) */
+    ck_assert_uint_eq(counted.records[0].bins[-1 - STATISTICS_LOW], noted);
     noted -= counted.records[3].zero;
-    for (i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
+    for (int i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
         noted -= counted.records[3].bins[i];
-        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.problem.rays)->irradiance) /* no B is above 20 W/m2, and F <= 1 */
+        /* no B is above 20 W/m2, and F <= 1 */
+        if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.problem.rays)->irradiance)
             ck_assert_uint_eq(counted.records[3].bins[i], 0);
     }
     ck_assert_uint_eq(noted, 0);
@@ -104,11 +110,17 @@ struct asked {
 static void *ask_in_turns(void *at)
 {
     const struct asked *asked = at;
-    const struct host host = { .occluded = NULL, .area = 1, .extent = 1, .exitance = 1, .irradiance = 1, .radiosity = 1, .importance = 1 };
+    const struct host host = {.occluded = NULL,
+                              .area = 1,
+                              .extent = 1,
+                              .exitance = 1,
+                              .irradiance = 1,
+                              .radiosity = 1,
+                              .importance = 1};
     for (int i = 0; i < ASKED; i++) {
         const struct refiner *r = asked->refiners[i % 3 == 0];
-        struct element element = { .area = 1, .radius = 1, .depth = (uint8_t)(i & 3) };
-        struct discussion d = { .receiver = &element, .emitter = &element, .host = &host };
+        struct element element = {.area = 1, .radius = 1, .depth = (uint8_t)(i & 3)};
+        struct discussion d = {.receiver = &element, .emitter = &element, .host = &host};
         (void)r->refine(r->state, &d);
     }
     return NULL;
@@ -116,19 +128,19 @@ static void *ask_in_turns(void *at)
 
 START_TEST(test_threads)
 {
-    static const char text[] =
-        "oracle turns { start deep;\n"
-        "  node deep = count(as = receiver.depth) { done -> kind; }\n"
-        "  node kind = larger() { receiver | emitter -> stop; } }\n";
-    const uint64_t wanted[2] = { THREADS * (ASKED - (ASKED + 2) / 3), THREADS * ((ASKED + 2) / 3) };
+    static const char text[] = "oracle turns { start deep;\n"
+                               "  node deep = count(as = receiver.depth) { done -> kind; }\n"
+                               "  node kind = larger() { receiver | emitter -> stop; } }\n";
+    const uint64_t wanted[2] = {THREADS * (ASKED - (ASKED + 2) / 3), THREADS * ((ASKED + 2) / 3)};
     struct asked asked;
-    pthread_t threads[THREADS];
-    struct statistics counted;
     for (int k = 0; k < 2; k++) {
         asked.refiners[k] = interpreted("turns.dag", text, NULL);
         ck_assert_ptr_nonnull(asked.refiners[k]);
     }
-    for (int again = 0; again < 2; again++) { /* the second time from 0, by threads that know the first */
+    pthread_t threads[THREADS];
+    struct statistics counted;
+    /* the second time from 0, by threads that know the first */
+    for (int again = 0; again < 2; again++) {
         for (int k = 0; k < 2; k++)
             ck_assert_int_eq(refiner_count(asked.refiners[k]), 0);
         for (int t = 1; t < THREADS; t++)

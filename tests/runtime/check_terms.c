@@ -1,5 +1,6 @@
-/* check_terms.c - what tools say of a pair's geometry is true: no point of either element may prove an enclosure or a
- * precise answer wrong; derivatives agree with differences; and no value depends on the unit of length.
+/* check_terms.c - what tools say of a pair's geometry is true: no point of either element may prove
+ * an enclosure or a precise answer wrong; derivatives agree with differences; and no value depends
+ * on the unit of length.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "study/closed_forms.h"
@@ -20,30 +21,32 @@
 #include "tools/straddle.h"
 #include "tools/support_planes.h"
 
-/* low <= F(x) <= high for every x, tight where the two are far from each other; the sampled range is inside. */
+/* low <= F(x) <= high for every x, tight where the two are far from each other; the sampled
+ * range is inside. */
 START_TEST(test_range)
 {
     unsigned state = 5;
-    double width[2] = { 0, 0 };
-    int i, n;
-    for (i = 0; i < 1500; i++) {
-        struct two t;
-        struct discussion d;
-        struct polygon q;
+    double width[2] = {0, 0};
+    for (int i = 0; i < 1500; i++) {
         double sampled[2], bound[2], low = INFINITY, high = 0;
         int apart = i % 6;
+        struct two t;
         two_random(&t, i % 5 == 4, apart, 1, &state);
+        struct discussion d;
         d = two_discussion(&t);
         memcpy(sampled, term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED), sizeof sampled);
         memcpy(bound, term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED), sizeof bound);
         ck_assert_int_eq(d.terms.form_factor_range_level, FORM_FACTOR_RANGE_BOUNDED);
-        ck_assert(0 <= bound[0] && bound[0] <= sampled[0] && sampled[0] <= sampled[1] && sampled[1] <= bound[1] && bound[1] <= 1);
+        ck_assert(0 <= bound[0] && bound[0] <= sampled[0] && sampled[0] <= sampled[1]
+                  && sampled[1] <= bound[1] && bound[1] <= 1);
+        struct polygon q;
         point_factor_clip(&q, t.a, t.b);
-        for (n = 0; n < 100; n++) {
-            double x[3], f;
+        for (int n = 0; n < 100; n++) {
+            double x[3];
             random_point(t.a, &state, x);
-            f = point_factor_at(x, t.a, t.b, &q);
-            ck_assert_msg(f >= bound[0] && f <= bound[1], "pair %d: F = %.17g outside [%.17g, %.17g]", i, f, bound[0], bound[1]);
+            double f = point_factor_at(x, t.a, t.b, &q);
+            ck_assert_msg(f >= bound[0] && f <= bound[1],
+                          "pair %d: F = %.17g outside [%.17g, %.17g]", i, f, bound[0], bound[1]);
             low = f < low ? f : low;
             high = f > high ? f : high;
         }
@@ -52,26 +55,29 @@ START_TEST(test_range)
             width[1] += bound[1] - bound[0];
         }
         d = two_discussion(&t);
-        ck_assert(term_form_factor(&d, FORM_FACTOR_CONTOUR) <= bound[1] + 1e-9); /* the mean is no larger than the largest */
+        /* the mean is no larger than the largest */
+        ck_assert(term_form_factor(&d, FORM_FACTOR_CONTOUR) <= bound[1] + 1e-9);
         ck_assert(term_form_factor(&d, FORM_FACTOR_CONTOUR) >= bound[0] - 1e-9);
         two_close(&t);
     }
-    printf("150,000 points in their range; two sizes apart and more it is %.2f times as wide as needed\n", width[1] / width[0]);
+    printf("150,000 points in their range; two sizes apart and more it is %.2f times as wide as "
+           "needed\n",
+           width[1] / width[0]);
     ck_assert_double_lt(width[1], 1.5 * width[0]);
 }
 END_TEST
 
-/* Where squares touch, the largest F is that of the whole half plane. Where they are close, the corners see a quarter of what the
- * middle would see of squares twice as long. */
+/* Where squares touch, the largest F is that of the whole half plane. Where they are close, the
+ * corners see a quarter of what the middle would see of squares twice as long. */
 START_TEST(test_range_near)
 {
     struct two t;
-    struct discussion d;
-    const double *range;
     two_perpendicular(&t, 1, 1, 1);
+    struct discussion d;
     d = two_discussion(&t);
-    range = term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED);
-    ck_assert_double_eq_tol(range[1], 0.375, 1e-5); /* at the ends of the edge, from the middle: three quarters of 1/2 */
+    const double *range = term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED);
+    /* at the ends of the edge, from the middle: three quarters of 1/2 */
+    ck_assert_double_eq_tol(range[1], 0.375, 1e-5);
     range = term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED);
     ck_assert_double_eq_tol(range[1], 0.5, 1e-12);
     two_close(&t);
@@ -84,22 +90,22 @@ START_TEST(test_range_near)
 }
 END_TEST
 
-/* A lamp over the middle of a large floor: the largest F is inside. Corners and centre see it here; moved by a quarter, only the bound does. */
+/* A lamp over the middle of a large floor: the largest F is inside. Corners and centre see it
+ * here; moved by a quarter, only the bound does. */
 START_TEST(test_interior)
 {
+    const double under[3] = {2.5, 2.5, 0};
     struct two t;
-    struct discussion d;
-    struct polygon q;
-    const double under[3] = { 2.5, 2.5, 0 };
-    double most, sampled;
     two_start(&t);
     made_quad(&t.scene, 0, 0, 0, 0, 10, 0, 0, 0, 10, 0);
     made_quad(&t.scene, 0, 2, 2, 2, 0, 1, 0, 1, 0, 0);
     two_open(&t);
+    struct discussion d;
     d = two_discussion(&t);
+    struct polygon q;
     point_factor_clip(&q, t.a, t.b);
-    most = point_factor_at(under, t.a, t.b, &q);
-    sampled = term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED)[1];
+    double most = point_factor_at(under, t.a, t.b, &q);
+    double sampled = term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED)[1];
     ck_assert_double_lt(sampled, 0.3 * most);
     ck_assert(term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED)[1] >= most);
     ck_assert_double_lt(term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED)[1], 2 * most);
@@ -111,29 +117,31 @@ END_TEST
 START_TEST(test_gradient)
 {
     unsigned state = 19;
-    int i, k, clipped = 0, n = 0;
-    for (i = 0; i < 2000; i++) {
+    int clipped = 0, n = 0;
+    for (int i = 0; i < 2000; i++) {
+        double difference[3], error = 0, heights[2];
         struct two t;
-        struct discussion d;
-        double difference[3], error = 0, size, heights[2];
         two_random(&t, i % 4 == 3, i % 4, 1, &state);
+        struct discussion d;
         d = two_discussion(&t);
-        if (!(term_form_factor(&d, FORM_FACTOR_POINT) > 0) || distance_corners(t.a, t.b) < 0.05 || distance_corners(t.b, t.a) < 0.05
+        if (!(term_form_factor(&d, FORM_FACTOR_POINT) > 0) || distance_corners(t.a, t.b) < 0.05
+            || distance_corners(t.b, t.a) < 0.05
             || height3(t.a->centre, t.b->centre, t.b->normal) < 0.01) {
             two_close(&t);
             continue;
         }
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             struct element left = *t.a, right = *t.a;
             double step = 1e-4;
             left.centre[k] -= step;
             right.centre[k] += step;
             difference[k] = (point_factor(&right, t.b) - point_factor(&left, t.b)) / (2 * step);
         }
-        size = length3(term_gradient(&d));
-        for (k = 0; k < 3; k++)
+        double size = length3(term_gradient(&d));
+        for (int k = 0; k < 3; k++)
             error += pow(d.terms.gradient[k] - difference[k], 2);
-        ck_assert_msg(sqrt(error) < 1e-4 * size + 1e-6, "pair %d: gradient of length %g is wrong by %g", i, size, sqrt(error));
+        ck_assert_msg(sqrt(error) < 1e-4 * size + 1e-6,
+                      "pair %d: gradient of length %g is wrong by %g", i, size, sqrt(error));
         plane_side_heights(t.b, t.a, &heights[0], &heights[1]);
         clipped += heights[0] < 0;
         n++;
@@ -145,7 +153,8 @@ START_TEST(test_gradient)
 END_TEST
 
 /* Random points of two elements, faces or clusters of faces. */
-static void any_point(const struct hierarchy *h, const struct element *e, unsigned *state, double p[3], double n[3])
+static void any_point(const struct hierarchy *h, const struct element *e, unsigned *state,
+                      double p[3], double n[3])
 {
     while (e->children)
         e = &h->elements[e->child + (uint32_t)(random_unit(state) * e->children)];
@@ -153,22 +162,26 @@ static void any_point(const struct hierarchy *h, const struct element *e, unsign
     memcpy(n, e->normal, 3 * sizeof *n);
 }
 
-static void prove(const struct hierarchy *h, struct discussion *d, unsigned *state, int points, double seen[6])
+static void prove(const struct hierarchy *h, struct discussion *d, unsigned *state, int points,
+                  double seen[6])
 {
-    const double *distance = term_distance(d, DISTANCE_BOUND), *at_r = term_receiver_cosine(d, RECEIVER_COSINE_BOUND);
+    const double *distance = term_distance(d, DISTANCE_BOUND),
+                 *at_r = term_receiver_cosine(d, RECEIVER_COSINE_BOUND);
     const double *at_s = term_emitter_cosine(d, EMITTER_COSINE_BOUND);
-    int i;
-    for (i = 0; i < points; i++) {
-        double x[3], y[3], n_r[3], n_s[3], v[3], size, c, s;
+    for (int i = 0; i < points; i++) {
+        double x[3], y[3], n_r[3], n_s[3], v[3];
         any_point(h, d->receiver, state, x, n_r);
         any_point(h, d->emitter, state, y, n_s);
         sub3(v, y, x);
-        size = length3(v);
-        c = dot3(n_r, v) / size;
-        s = -dot3(n_s, v) / size;
-        ck_assert_msg(size >= distance[0] && size <= distance[1], "%g not in [%g, %g]", size, distance[0], distance[1]);
-        ck_assert_msg(c >= at_r[0] && c <= at_r[1], "receiver: %.17g not in [%.17g, %.17g]", c, at_r[0], at_r[1]);
-        ck_assert_msg(s >= at_s[0] && s <= at_s[1], "emitter: %.17g not in [%.17g, %.17g]", s, at_s[0], at_s[1]);
+        double size = length3(v);
+        double c = dot3(n_r, v) / size;
+        double s = -dot3(n_s, v) / size;
+        ck_assert_msg(size >= distance[0] && size <= distance[1], "%g not in [%g, %g]", size,
+                      distance[0], distance[1]);
+        ck_assert_msg(c >= at_r[0] && c <= at_r[1], "receiver: %.17g not in [%.17g, %.17g]", c,
+                      at_r[0], at_r[1]);
+        ck_assert_msg(s >= at_s[0] && s <= at_s[1], "emitter: %.17g not in [%.17g, %.17g]", s,
+                      at_s[0], at_s[1]);
         seen[0] = fmin(seen[0], size);
         seen[1] = fmax(seen[1], size);
         seen[2] = fmin(seen[2], c);
@@ -176,59 +189,65 @@ static void prove(const struct hierarchy *h, struct discussion *d, unsigned *sta
     }
 }
 
-/* No two points of two surfaces are nearer, farther, or at other cosines than the bounds say, and random points come near to these. */
+/* No two points of two surfaces are nearer, farther, or at other cosines than the bounds say,
+ * and random points come near to these. */
 START_TEST(test_bounds)
 {
     unsigned state = 23;
-    double slack[4] = { 0, 0, 0, 0 };
-    int i, k, n = 0;
-    for (i = 0; i < (thorough() ? 1000 : 200); i++) {
+    double slack[4] = {0, 0, 0, 0};
+    int n = 0;
+    for (int i = 0; i < (thorough() ? 1000 : 200); i++) {
+        double seen[6] = {INFINITY, 0, 1, -1}, bound[4];
         struct two t;
-        struct discussion d;
-        double seen[6] = { INFINITY, 0, 1, -1 }, bound[4];
         two_random(&t, i % 5 == 4, i % 3, 1, &state);
+        struct discussion d;
         d = two_discussion(&t);
         ck_assert(term_distance(&d, DISTANCE_CENTRE)[0] == length3(term_axis(&d)));
-        ck_assert(term_receiver_cosine(&d, RECEIVER_COSINE_CENTRE)[0] == dot3(t.a->normal, d.terms.axis) / length3(d.terms.axis));
-        ck_assert(term_emitter_cosine(&d, EMITTER_COSINE_CENTRE)[1] == -dot3(t.b->normal, d.terms.axis) / length3(d.terms.axis));
+        ck_assert(term_receiver_cosine(&d, RECEIVER_COSINE_CENTRE)[0]
+                  == dot3(t.a->normal, d.terms.axis) / length3(d.terms.axis));
+        ck_assert(term_emitter_cosine(&d, EMITTER_COSINE_CENTRE)[1]
+                  == -dot3(t.b->normal, d.terms.axis) / length3(d.terms.axis));
         prove(&t.h, &d, &state, 1000, seen);
         memcpy(bound, d.terms.distance, sizeof d.terms.distance);
         memcpy(bound + 2, d.terms.receiver_cosine, sizeof d.terms.receiver_cosine);
-        for (k = 0; k < 4; k++)
+        for (int k = 0; k < 4; k++)
             slack[k] += fabs(seen[k] - bound[k]);
         n++;
         two_close(&t);
     }
-    printf("mean distance of the bounds from what 1,000 random segments show: %.2f %.2f m, cosine %.2f %.2f\n",
+    printf("mean distance of the bounds from what 1,000 random segments show: %.2f %.2f m, cosine "
+           "%.2f %.2f\n",
            slack[0] / n, slack[1] / n, slack[2] / n, slack[3] / n);
-    ck_assert(slack[0] < 0.15 * n && slack[1] < 0.15 * n && slack[2] < 0.2 * n && slack[3] < 0.2 * n);
+    ck_assert(slack[0] < 0.15 * n && slack[1] < 0.15 * n && slack[2] < 0.2 * n
+              && slack[3] < 0.2 * n);
 }
 END_TEST
 
-/* The least distance of parallelograms is exact: against coordinate descent over both's two parameters each. */
+/* The least distance of parallelograms is exact: against coordinate descent over both's two
+ * parameters each. */
 START_TEST(test_distance)
 {
     unsigned state = 29;
-    int i, n, j, k;
-    for (i = 0; i < 500; i++) {
+    for (int i = 0; i < 500; i++) {
+        double way[4][3], at[4] = {0.5, 0.5, 0.5, 0.5}, v[3], least = INFINITY;
         struct two t;
-        struct discussion d;
-        double way[4][3], at[4] = { 0.5, 0.5, 0.5, 0.5 }, v[3], least = INFINITY, last;
         two_random(&t, 0, (i % 4) * 0.4, 1, &state);
+        struct discussion d;
         d = two_discussion(&t);
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             way[0][k] = t.a->vertex[1][k] - t.a->vertex[0][k];
             way[1][k] = t.a->vertex[3][k] - t.a->vertex[0][k];
             way[2][k] = t.b->vertex[0][k] - t.b->vertex[1][k];
             way[3][k] = t.b->vertex[0][k] - t.b->vertex[3][k];
-            v[k] = t.a->vertex[0][k] - t.b->vertex[0][k] + 0.5 * (way[0][k] + way[1][k] + way[2][k] + way[3][k]);
+            v[k] = t.a->vertex[0][k] - t.b->vertex[0][k]
+                   + 0.5 * (way[0][k] + way[1][k] + way[2][k] + way[3][k]);
         }
-        for (n = 0; n < 100000; n++) {
-            last = least;
-            for (j = 0; j < 4; j++) {
+        for (int n = 0; n < 100000; n++) {
+            double last = least;
+            for (int j = 0; j < 4; j++) {
                 double to = at[j] - dot3(v, way[j]) / dot3(way[j], way[j]);
                 to = to < 0 ? 0 : to > 1 ? 1 : to;
-                for (k = 0; k < 3; k++)
+                for (int k = 0; k < 3; k++)
                     v[k] += (to - at[j]) * way[j][k];
                 at[j] = to;
             }
@@ -246,29 +265,28 @@ END_TEST
 /* Clusters: boxes bound what they hold. Precise answers on them too. */
 START_TEST(test_clusters)
 {
-    struct scene s;
-    struct hierarchy h;
-    struct host host;
     unsigned state = 31;
-    uint32_t i, j;
     int apart = 0, far = 0, certain = 0;
+    struct host host;
     memset(&host, 0, sizeof host);
+    struct scene s;
     made_open(&s);
     made_material(&s, 0.5, 1);
-    for (i = 0; i < 60; i++) {
+    for (uint32_t i = 0; i < 60; i++) {
         double v[9];
-        int k;
-        for (k = 0; k < 9; k++)
+        for (int k = 0; k < 9; k++)
             v[k] = random_unit(&state) - (k < 3 ? 0 : 0.5);
         if (i < 20) /* some clusters get narrow cones */
             v[5] = v[8] = 0.01 * v[5];
         made_quad(&s, 0, 6 * v[0], 6 * v[1], 6 * v[2], v[3], v[4], v[5], v[6], v[7], v[8]);
     }
+    struct hierarchy h;
     ck_assert_int_eq(hierarchy_build(&h, s.faces, s.face_count), 0);
-    for (i = 0; i < h.count; i++)
-        for (j = 0; j < h.count; j++) {
-            struct discussion d = { .receiver = &h.elements[i], .emitter = &h.elements[j], .host = &host };
-            double seen[6] = { INFINITY, 0, 1, -1 };
+    for (uint32_t i = 0; i < h.count; i++)
+        for (uint32_t j = 0; j < h.count; j++) {
+            struct discussion d = {
+                .receiver = &h.elements[i], .emitter = &h.elements[j], .host = &host};
+            double seen[6] = {INFINITY, 0, 1, -1};
             if (d.receiver->vertices && d.emitter->vertices)
                 continue;
             prove(&h, &d, &state, 40, seen);
@@ -297,25 +315,26 @@ struct said {
 
 static void say(const struct two *t, double flat, double unit, struct said *said)
 {
-    struct discussion d;
     struct host host = t->host;
-    int level, k;
     memset(said, 0, sizeof *said);
     host.flat = flat * unit;
-    for (level = FORM_FACTOR_DISC; level <= FORM_FACTOR_CONTOUR; level++) {
+    struct discussion d;
+    for (int level = FORM_FACTOR_DISC; level <= FORM_FACTOR_CONTOUR; level++) {
         d = two_discussion(t);
         said->f[level - 1] = term_form_factor(&d, (enum form_factor_level)level);
     }
     d.host = &host;
-    memcpy(said->sampled, term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED), sizeof said->sampled);
-    memcpy(said->bounded, term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED), sizeof said->bounded);
+    memcpy(said->sampled, term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED),
+           sizeof said->sampled);
+    memcpy(said->bounded, term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED),
+           sizeof said->bounded);
     memcpy(said->at_r, term_receiver_cosine(&d, RECEIVER_COSINE_BOUND), sizeof said->at_r);
     memcpy(said->at_s, term_emitter_cosine(&d, EMITTER_COSINE_BOUND), sizeof said->at_s);
     term_distance(&d, DISTANCE_BOUND);
     term_gradient(&d);
-    for (k = 0; k < 2; k++)
+    for (int k = 0; k < 2; k++)
         said->distance[k] = d.terms.distance[k] / unit;
-    for (k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         said->gradient[k] = d.terms.gradient[k] * unit;
     host.area = 4 * unit * unit;
     said->answer[0] = (int)tool_near(&d, 0.5);
@@ -337,24 +356,24 @@ enum { NUMBERS = 17 };
 /* The unit of length, any power of two from 2^-20 to 2^40, changes no bit. */
 START_TEST(test_scale)
 {
-    static const int powers[] = { -20, -7, 10, 40 };
+    static const int powers[] = {-20, -7, 10, 40};
     unsigned state = 37;
-    int i, p, k;
     ck_assert(offsetof(struct said, answer) == NUMBERS * sizeof(double));
-    for (i = 0; i < 400; i++) {
+    for (int i = 0; i < 400; i++) {
         unsigned same = state;
         struct said one, other;
         struct two t;
         two_random(&t, i % 3 == 0, i % 4 * 0.6, 1, &state);
         say(&t, 1e-9, 1, &one);
         two_close(&t);
-        for (p = 0; p < 4; p++) {
+        for (int p = 0; p < 4; p++) {
             double unit = ldexp(1, powers[p]);
             unsigned again = same;
             two_random(&t, i % 3 == 0, i % 4 * 0.6, unit, &again);
             say(&t, 1e-9, unit, &other);
-            for (k = 0; k < NUMBERS; k++)
-                ck_assert_msg(numbers(&one)[k] == numbers(&other)[k], "pair %d at 2^%d: number %d", i, powers[p], k);
+            for (int k = 0; k < NUMBERS; k++)
+                ck_assert_msg(numbers(&one)[k] == numbers(&other)[k], "pair %d at 2^%d: number %d",
+                              i, powers[p], k);
             ck_assert(memcmp(one.answer, other.answer, sizeof one.answer) == 0);
             two_close(&t);
         }
@@ -362,47 +381,55 @@ START_TEST(test_scale)
 }
 END_TEST
 
-/* Elements that touch, coincide, stand back to back or have two corners in one place: nothing is NaN, and ranges stay ranges. */
+/* Elements that touch, coincide, stand back to back or have two corners in one place: nothing is
+ * NaN, and ranges stay ranges. */
 START_TEST(test_degenerate)
 {
     static const double p[][4][3] = {
-        { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } },       /* the floor */
-        { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 1, 0, 0 } },       /* its back */
-        { { 1, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 1, 0 } },       /* beside it */
-        { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 0, 0 } },       /* a wall on its edge */
-        { { 0.5, 0, 0 }, { 0.5, 0, 1 }, { 0.5, 1, 1 }, { 0.5, 1, 0 } },   /* a wall in its middle */
-        { { 0.5, 0, -1 }, { 0.5, 0, 1 }, { 0.5, 1, 1 }, { 0.5, 1, -1 } }, /* through it */
-        { { 0, 0, 0 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 0, 0 } },       /* a roof on its edge */
-        { { 0.5, 0.5, 1e-300 }, { 0.5, 0.6, 1e-300 }, { 0.6, 0.6, 1e-300 }, { 0.6, 0.5, 1e-300 } },
-        { { 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 1 }, { 1, 0, 1 } },       /* a corner twice */
-        { { 0, 0, 1e-18 }, { 1, 0, -1e-18 }, { 1, 1, 1e-18 }, { 0, 1, -1e-18 } }, /* crosses the floor's plane four times */
-        { { 0.25, 0.25, 0.5 }, { 0.25, 0.25 + 1e-12, 0.5 }, { 0.25 + 1e-12, 0.25 + 1e-12, 0.5 }, { 0.25 + 1e-12, 0.25, 0.5 } },
-        { { -1e9, -1e9, 1 }, { -1e9, 1e9, 1 }, { 1e9, 1e9, 1 }, { 1e9, -1e9, 1 } },
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},           /* the floor */
+        {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}},           /* its back */
+        {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}},           /* beside it */
+        {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}},           /* a wall on its edge */
+        {{0.5, 0, 0}, {0.5, 0, 1}, {0.5, 1, 1}, {0.5, 1, 0}},   /* a wall in its middle */
+        {{0.5, 0, -1}, {0.5, 0, 1}, {0.5, 1, 1}, {0.5, 1, -1}}, /* through it */
+        {{0, 0, 0}, {0, 1, 1}, {1, 1, 1}, {1, 0, 0}},           /* a roof on its edge */
+        {{0.5, 0.5, 1e-300}, {0.5, 0.6, 1e-300}, {0.6, 0.6, 1e-300}, {0.6, 0.5, 1e-300}},
+        {{0, 0, 1}, {0, 1, 1}, {0, 1, 1}, {1, 0, 1}}, /* a corner twice */
+        /* crosses the floor's plane four times */
+        {{0, 0, 1e-18}, {1, 0, -1e-18}, {1, 1, 1e-18}, {0, 1, -1e-18}},
+        {{0.25, 0.25, 0.5},
+         {0.25, 0.25 + 1e-12, 0.5},
+         {0.25 + 1e-12, 0.25 + 1e-12, 0.5},
+         {0.25 + 1e-12, 0.25, 0.5}},
+        {{-1e9, -1e9, 1}, {-1e9, 1e9, 1}, {1e9, 1e9, 1}, {1e9, -1e9, 1}},
     };
-    int n = (int)(sizeof p / sizeof *p), i, j, k;
-    for (i = 0; i < n; i++)
-        for (j = 0; j < n; j++) {
+    int n = (int)(sizeof p / sizeof *p);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
             struct two t;
-            struct said said;
             two_start(&t);
             made_face(&t.scene, 0, 4, p[i]);
             made_face(&t.scene, 0, 4, p[j]);
             two_open(&t);
+            struct said said;
             say(&t, 1e-9, 1, &said);
-            for (k = 0; k < NUMBERS; k++)
-                ck_assert_msg(isfinite(numbers(&said)[k]), "%d and %d: number %d is %g", i, j, k, numbers(&said)[k]);
-            for (k = 0; k < 4; k++)
+            for (int k = 0; k < NUMBERS; k++)
+                ck_assert_msg(isfinite(numbers(&said)[k]), "%d and %d: number %d is %g", i, j, k,
+                              numbers(&said)[k]);
+            for (int k = 0; k < 4; k++)
                 ck_assert(said.f[k] >= 0 && said.f[k] <= 1);
             ck_assert(said.bounded[0] <= said.sampled[0] && said.sampled[1] <= said.bounded[1]);
             if (j > i) {
                 struct discussion d = two_discussion(&t), e = d;
-                double there = t.a->area * term_form_factor(&d, FORM_FACTOR_CONTOUR), back;
+                double there = t.a->area * term_form_factor(&d, FORM_FACTOR_CONTOUR);
                 e.receiver = t.b;
                 e.emitter = t.a;
-                back = t.b->area * term_form_factor(&e, FORM_FACTOR_CONTOUR);
-                ck_assert_msg(fabs(there - back) <= 1e-6 * there, "%d and %d: %g and %g m2", i, j, there, back);
+                double back = t.b->area * term_form_factor(&e, FORM_FACTOR_CONTOUR);
+                ck_assert_msg(fabs(there - back) <= 1e-6 * there, "%d and %d: %g and %g m2", i, j,
+                              there, back);
             }
-            ck_assert(said.at_r[0] <= said.at_r[1] && said.at_s[0] <= said.at_s[1] && said.distance[0] <= said.distance[1]);
+            ck_assert(said.at_r[0] <= said.at_r[1] && said.at_s[0] <= said.at_s[1]
+                      && said.distance[0] <= said.distance[1]);
             two_close(&t);
         }
 }
@@ -419,20 +446,75 @@ START_TEST(test_answers)
         enum straddle_answer straddle;
         enum longer_answer longer;
     } with_floor[] = {
-        { { 0, 0, 1 }, { 0, 1, 0 }, { 1, 0, 0 }, NEAR_NEAR, OVERLAP_APART, COPLANAR_NO, STRADDLE_NONE, LONGER_RECEIVER },
-        { { 0, 0, 1.5 }, { 0, 1, 0 }, { 1, 0, 0 }, NEAR_FAR, OVERLAP_APART, COPLANAR_NO, STRADDLE_NONE, LONGER_RECEIVER },
-        { { 0, 0, 0 }, { 0, 0, 0.5 }, { 1, 0, 0 }, NEAR_TOUCHING, OVERLAP_OVERLAPPING, COPLANAR_NO, STRADDLE_NONE, LONGER_RECEIVER },
-        { { 2, 0, -1 }, { 0, 0, 2 }, { 0, 1, 0 }, NEAR_NEAR, OVERLAP_APART, COPLANAR_NO, STRADDLE_EMITTER, LONGER_EMITTER },
-        { { 0.5, 0.5, 1 }, { 0, 1, 0 }, { 0, 0, 1 }, NEAR_NEAR, OVERLAP_APART, COPLANAR_NO, STRADDLE_RECEIVER, LONGER_RECEIVER },
-        { { 0.5, 0, -1 }, { 0, 0, 2 }, { 0, 1, 0 }, NEAR_TOUCHING, OVERLAP_OVERLAPPING, COPLANAR_NO, STRADDLE_BOTH, LONGER_EMITTER },
-        { { 1, 0, 0 }, { 0.01, 0, 0 }, { 0, 3, 0 }, NEAR_TOUCHING, OVERLAP_OVERLAPPING, COPLANAR_YES, STRADDLE_NONE, LONGER_EMITTER },
-        { { 5, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, NEAR_FAR, OVERLAP_APART, COPLANAR_YES, STRADDLE_NONE, LONGER_RECEIVER },
+        {{0, 0, 1},
+         {0, 1, 0},
+         {1, 0, 0},
+         NEAR_NEAR,
+         OVERLAP_APART,
+         COPLANAR_NO,
+         STRADDLE_NONE,
+         LONGER_RECEIVER},
+        {{0, 0, 1.5},
+         {0, 1, 0},
+         {1, 0, 0},
+         NEAR_FAR,
+         OVERLAP_APART,
+         COPLANAR_NO,
+         STRADDLE_NONE,
+         LONGER_RECEIVER},
+        {{0, 0, 0},
+         {0, 0, 0.5},
+         {1, 0, 0},
+         NEAR_TOUCHING,
+         OVERLAP_OVERLAPPING,
+         COPLANAR_NO,
+         STRADDLE_NONE,
+         LONGER_RECEIVER},
+        {{2, 0, -1},
+         {0, 0, 2},
+         {0, 1, 0},
+         NEAR_NEAR,
+         OVERLAP_APART,
+         COPLANAR_NO,
+         STRADDLE_EMITTER,
+         LONGER_EMITTER},
+        {{0.5, 0.5, 1},
+         {0, 1, 0},
+         {0, 0, 1},
+         NEAR_NEAR,
+         OVERLAP_APART,
+         COPLANAR_NO,
+         STRADDLE_RECEIVER,
+         LONGER_RECEIVER},
+        {{0.5, 0, -1},
+         {0, 0, 2},
+         {0, 1, 0},
+         NEAR_TOUCHING,
+         OVERLAP_OVERLAPPING,
+         COPLANAR_NO,
+         STRADDLE_BOTH,
+         LONGER_EMITTER},
+        {{1, 0, 0},
+         {0.01, 0, 0},
+         {0, 3, 0},
+         NEAR_TOUCHING,
+         OVERLAP_OVERLAPPING,
+         COPLANAR_YES,
+         STRADDLE_NONE,
+         LONGER_EMITTER},
+        {{5, 0, 0},
+         {0, 1, 0},
+         {1, 0, 0},
+         NEAR_FAR,
+         OVERLAP_APART,
+         COPLANAR_YES,
+         STRADDLE_NONE,
+         LONGER_RECEIVER},
     };
-    int i;
-    for (i = 0; i < (int)(sizeof with_floor / sizeof *with_floor); i++) {
+    for (int i = 0; i < (int)(sizeof with_floor / sizeof *with_floor); i++) {
         const double *o = with_floor[i].o, *u = with_floor[i].u, *v = with_floor[i].v;
-        struct two t;
         struct discussion d, e;
+        struct two t;
         two_start(&t);
         made_quad(&t.scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
         made_quad(&t.scene, 0, o[0], o[1], o[2], u[0], u[1], u[2], v[0], v[1], v[2]);
@@ -448,21 +530,24 @@ START_TEST(test_answers)
         ck_assert_int_eq(tool_straddle(&d), with_floor[i].straddle);
         if (longer_square(t.a) < longer_square(t.b) || longer_square(t.a) > longer_square(t.b))
             ck_assert_int_eq(tool_longer(&d), with_floor[i].longer);
-        ck_assert((tool_longer(&d) == LONGER_RECEIVER) == (tool_longer(&e) == LONGER_EMITTER)); /* the same element both ways */
+        /* the same element both ways */
+        ck_assert((tool_longer(&d) == LONGER_RECEIVER) == (tool_longer(&e) == LONGER_EMITTER));
         two_close(&t);
     }
 }
 END_TEST
 
-/* A square of 1 m2 at 45 degrees to the line of centres: .707 m2, whichever of the two it is, and in shares of the scene. */
+/* A square of 1 m2 at 45 degrees to the line of centres: .707 m2, whichever of the two it is,
+ * and in shares of the scene. */
 START_TEST(test_projected_area)
 {
     struct two t;
-    struct discussion d;
     two_start(&t);
     made_quad(&t.scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-    made_quad(&t.scene, 0, 3, 0, 3, 0, 0.5, 0, 0.5, 0, 0); /* centres 3.25 - 0.5 apart in x, 3 in z */
+    /* centres 3.25 - 0.5 apart in x, 3 in z */
+    made_quad(&t.scene, 0, 3, 0, 3, 0, 0.5, 0, 0.5, 0, 0);
     two_open(&t);
+    struct discussion d;
     d = two_discussion(&t);
     term_axis(&d);
     {
@@ -477,48 +562,46 @@ START_TEST(test_projected_area)
 }
 END_TEST
 
-/* Two squares of one plane, near or far, turned at random, at any scale: away, coplanar, no link and not a single ray. */
+/* Two squares of one plane, near or far, turned at random, at any scale: away, coplanar, no link
+ * and not a single ray. */
 START_TEST(test_coplanar)
 {
-    static char *const oracles[] = { "bf", "bf_guarded", "viewfactors" };
+    static char *const oracles[] = {"bf", "bf_guarded", "viewfactors"};
     unsigned state = 41;
-    int i, k, power;
-    for (i = 0; i < 21; i++) {
-        struct two t;
-        struct discussion d;
-        struct solve s;
-        struct solve_options options = { .tolerance = 1e-6, .iterations = 100, .threads = 1 };
-        struct refiner *oracle;
-        const char *cause;
-        double u[3], v[3], n[3], size, o[3], gap = (i % 3) * 0.7;
-        power = i % 7 * 10 - 20;
-        for (k = 0; k < 3; k++) {
+    for (int i = 0; i < 21; i++) {
+        struct solve_options options = {.tolerance = 1e-6, .iterations = 100, .threads = 1};
+        double u[3], v[3], n[3], o[3], gap = (i % 3) * 0.7;
+        int power = i % 7 * 10 - 20;
+        for (int k = 0; k < 3; k++) {
             u[k] = random_unit(&state) - 0.5;
             v[k] = random_unit(&state) - 0.5;
             o[k] = 4 * random_unit(&state) - 2;
         }
         cross3(n, u, v);
         cross3(v, n, u);
-        size = length3(u);
-        for (k = 0; k < 3; k++)
+        double size = length3(u);
+        for (int k = 0; k < 3; k++)
             u[k] = ldexp(u[k] / size, power);
         size = length3(v);
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             v[k] = ldexp(v[k] / size, power);
             o[k] = ldexp(o[k], power);
         }
+        struct two t;
         two_start(&t);
-        t.scene.materials[0].exitance[0] = t.scene.materials[0].exitance[1] = t.scene.materials[0].exitance[2] = 1;
+        t.scene.materials[0].exitance[0] = t.scene.materials[0].exitance[1] =
+            t.scene.materials[0].exitance[2] = 1;
         made_quad(&t.scene, 0, o[0], o[1], o[2], u[0], u[1], u[2], v[0], v[1], v[2]);
-        for (k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++)
             o[k] += (1 + gap) * u[k] + 0.3 * gap * v[k];
         made_quad(&t.scene, 0, o[0], o[1], o[2], u[0], u[1], u[2], v[0], v[1], v[2]);
         two_open(&t);
+        struct discussion d;
         d = two_discussion(&t);
         ck_assert_int_eq(tool_coplanar(&d), COPLANAR_YES);
         ck_assert_int_eq(tool_support_planes(&d), SUPPORT_PLANES_AWAY);
         ck_assert_int_eq(tool_straddle(&d), STRADDLE_NONE);
-        for (k = FORM_FACTOR_POINT; k <= FORM_FACTOR_CONTOUR; k++) { /* by disc 1e-30 */
+        for (int k = FORM_FACTOR_POINT; k <= FORM_FACTOR_CONTOUR; k++) { /* by disc 1e-30 */
             d = two_discussion(&t);
             ck_assert(term_form_factor(&d, (enum form_factor_level)k) == 0);
         }
@@ -526,8 +609,10 @@ START_TEST(test_coplanar)
         ck_assert(term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED)[1] == 0);
         ck_assert(term_form_factor_range(&d, FORM_FACTOR_RANGE_BOUNDED)[1] == 0);
         ck_assert(length3(term_gradient(&d)) == 0);
-        oracle = oracles_open(oracles[i / 7], RELEASE_FLAT);
+        struct refiner *oracle = oracles_open(oracles[i / 7], RELEASE_FLAT);
         ck_assert_ptr_nonnull(oracle);
+        struct solve s;
+        const char *cause;
         ck_assert_int_eq(solve_open(&s, &t.scene, &options, &cause), 0);
         ck_assert_int_eq(solve_refine(&s, oracle, &cause), 0);
         ck_assert_uint_eq(s.refinement.link_count, 0);

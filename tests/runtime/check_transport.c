@@ -1,7 +1,8 @@
-/* check_transport.c - links that a test has set by hand, solved: against closed forms and against a dense matrix.
+/* check_transport.c - links that a test has set by hand, solved: against closed forms and against a
+ * dense matrix.
  *
- * The oracle is a C function here, which gives every link the form factor that the test wants; faces lie side by side in
- * one plane, so that nothing else is between them.
+ * The oracle is a C function here, which gives every link the form factor that the test wants;
+ * faces lie side by side in one plane, so that nothing else is between them.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -15,7 +16,8 @@
 #include "scene/make_scene.h"
 #include "suite.h"
 
-/* Which links there are: `splits` asks for a finer receiver, else the pair is linked with `factor`; not at all for 0. */
+/* Which links there are: `splits` asks for a finer receiver, else the pair is linked with
+ * `factor`; not at all for 0. */
 struct script {
     int (*splits)(const struct element *receiver, const struct element *emitter);
     double (*factor)(const struct element *receiver, const struct element *emitter);
@@ -27,7 +29,9 @@ static enum decision follow(const void *state, struct discussion *d)
     const struct script *script = state;
     const struct element *r = d->receiver, *e = d->emitter;
     if (!r->vertices || !e->vertices)
-        return r->vertices ? DECISION_SUBDIVIDE_EMITTER : e->vertices ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_BOTH;
+        return r->vertices   ? DECISION_SUBDIVIDE_EMITTER
+               : e->vertices ? DECISION_SUBDIVIDE_RECEIVER
+                             : DECISION_SUBDIVIDE_BOTH;
     if (r->face == e->face)
         return DECISION_STOP;
     if (script->splits && script->splits(r, e))
@@ -42,22 +46,25 @@ static enum decision follow(const void *state, struct discussion *d)
 
 static struct refiner scripted(const struct script *script)
 {
-    return (struct refiner){ .refine = follow, .state = script, .oracle = "scripted", .release = "hand" };
+    return (struct refiner){
+        .refine = follow, .state = script, .oracle = "scripted", .release = "hand"};
 }
 
 /* A square of that side beside the ones before; it has a material of its own. */
 static void add_square(struct scene *scene, double side, double rho, double exitance)
 {
-    made_quad(scene, made_material(scene, rho, exitance), 4.0 * scene->face_count, 0, 0, side, 0, 0, 0, side, 0);
+    made_quad(scene, made_material(scene, rho, exitance), 4.0 * scene->face_count, 0, 0, side, 0, 0,
+              0, side, 0);
 }
 
 static struct solve_options options(double tolerance, int jacobi)
 {
-    return (struct solve_options){ .tolerance = tolerance, .iterations = 100000, .threads = 1, .jacobi = jacobi };
+    return (struct solve_options){
+        .tolerance = tolerance, .iterations = 100000, .threads = 1, .jacobi = jacobi};
 }
 
-static void open_solve(struct solve *s, const struct scene *scene, const struct script *script, struct refiner *refiner,
-                       struct solve_options how)
+static void open_solve(struct solve *s, const struct scene *scene, const struct script *script,
+                       struct refiner *refiner, struct solve_options how)
 {
     const char *cause;
     *refiner = scripted(script);
@@ -65,7 +72,8 @@ static void open_solve(struct solve *s, const struct scene *scene, const struct 
     ck_assert_int_eq(solve_refine(s, refiner, &cause), 0);
 }
 
-static void run_solve(struct solve *s, const struct scene *scene, const struct script *script, struct solve_options how)
+static void run_solve(struct solve *s, const struct scene *scene, const struct script *script,
+                      struct solve_options how)
 {
     struct refiner refiner = scripted(script);
     const char *cause;
@@ -96,25 +104,26 @@ static int split_for_lamp(const struct element *r, const struct element *e)
 
 static double above_one(const struct element *r, const struct element *e)
 {
-    static const double own[4] = { 0.875, 0, 0.5, 0.5 };
+    static const double own[4] = {0.875, 0, 0.5, 0.5};
     return r->face != 0 ? 0 : e->face == 2 ? 0.25 : own[quarter(r)];
 }
 
-/* A face in four: all have 1/4 of a dim face over the whole one's link, and 7/8, 0, 1/2 and 1/2 of a bright lamp over
- * their own. The first row, 9/8, is cut to 1 at the cost of the dim light alone; what is cut, 1/8, goes to the two rows of
- * 3/4, none to that of 1/4, which is shadow. The face as a whole keeps its power. */
+/* A face in four: all have 1/4 of a dim face over the whole one's link, and 7/8, 0, 1/2 and 1/2 of
+ * a bright lamp over their own. The first row, 9/8, is cut to 1 at the cost of the dim light alone;
+ * what is cut, 1/8, goes to the two rows of 3/4, none to that of 1/4, which is shadow. The face as
+ * a whole keeps its power. */
 START_TEST(test_cap)
 {
-    static const struct script script = { split_for_lamp, above_one, 0 };
-    static const double lamp[4] = { 0.875, 0, 0.5, 0.5 }, dim[4] = { 0.125, 0.25, 0.3125, 0.3125 };
-    struct scene scene;
-    struct solve s;
+    static const struct script script = {split_for_lamp, above_one, 0};
+    static const double lamp[4] = {0.875, 0, 0.5, 0.5}, dim[4] = {0.125, 0.25, 0.3125, 0.3125};
     double power = 0;
     int found = 0;
+    struct scene scene;
     made_open(&scene);
     add_square(&scene, 2, 0.5, 0);
     add_square(&scene, 2, 0, 1024);
     add_square(&scene, 2, 0, 1);
+    struct solve s;
     run_solve(&s, &scene, &script, options(1e-9, 0));
     for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
@@ -142,23 +151,24 @@ static double each_other(const struct element *r, const struct element *e)
     return (r->face ^ 1) == e->face ? mutual : 0;
 }
 
-/* Two faces that see each other alone, F = 1, or 3/2, which the cap makes 1 + (1 - rho) / 2: B = E / (1 - q), and Jacobi's sweeps
- * come nearer by exactly q. What is left is at most the tolerance, and not much less: a bound that is any looser, or takes
- * rho for q, leaves more. */
+/* Two faces that see each other alone, F = 1, or 3/2, which the cap makes 1 + (1 - rho) / 2: B = E
+ * / (1 - q), and Jacobi's sweeps come nearer by exactly q. What is left is at most the tolerance,
+ * and not much less: a bound that is any looser, or takes rho for q, leaves more. */
 START_TEST(test_stop)
 {
-    static const struct script script = { NULL, each_other, 0 };
+    static const struct script script = {NULL, each_other, 0};
     const double rho = 0.9375, tolerance = 1e-2;
     const double q = _i == 0 ? rho : rho * (1 + 0.5 * (1 - rho)), known = 1 / (1 - q);
-    struct scene scene;
-    struct solve s;
     mutual = _i == 0 ? 1 : 1.5;
+    struct scene scene;
     made_open(&scene);
     add_square(&scene, 1, rho, 1);
     add_square(&scene, 1, rho, 1);
+    struct solve s;
     run_solve(&s, &scene, &script, options(tolerance, 1));
     double error = fabs(face_value(&s, 0) - known) / face_value(&s, 0);
-    printf("two faces, q %.4f: error %.5f of %.5f after %d sweeps\n", q, error, tolerance, s.report.sweeps);
+    printf("two faces, q %.4f: error %.5f of %.5f after %d sweeps\n", q, error, tolerance,
+           s.report.sweeps);
     ck_assert_double_le(error, tolerance * (1 + 1e-9));
     ck_assert_double_ge(error, 0.9 * tolerance);
     solve_close(&s);
@@ -171,17 +181,17 @@ static double chain(const struct element *r, const struct element *e)
     return r->face == e->face + 1;
 }
 
-/* Light comes to a large face over one of a millionth of its area: the sweep in which that small face changes moves next to
- * no power, and the next a fifth of all. */
+/* Light comes to a large face over one of a millionth of its area: the sweep in which that small
+ * face changes moves next to no power, and the next a fifth of all. */
 START_TEST(test_stop_small)
 {
-    static const struct script script = { NULL, chain, 0 };
+    static const struct script script = {NULL, chain, 0};
     struct scene scene;
-    struct solve s;
     made_open(&scene);
     add_square(&scene, 1, 0.5, 1);
     add_square(&scene, 1e-3, 0.5, 0);
     add_square(&scene, 1, 0.5, 0);
+    struct solve s;
     run_solve(&s, &scene, &script, options(1e-4, 1));
     ck_assert_double_eq_tol(face_value(&s, 1), 0.5, 1e-4);
     ck_assert_double_eq_tol(face_value(&s, 2), 0.25, 1e-4);
@@ -210,12 +220,14 @@ static double drawn(const struct element *r, const struct element *e)
 /* K over the leaves, from the links and row_sums.h's words: a[i * n + j]. */
 static void dense_operator(const struct solve *s, const uint32_t *leaf, int n, double *a)
 {
-    const struct operator *op = &s->operator;
+    const struct operator* op = & s->operator;
     const struct element *elements = s->hierarchy.elements;
-    double *raw = calloc((size_t)(n * n), sizeof *raw), *kept = calloc((size_t)(n * n), sizeof *kept);
+    double *raw = calloc((size_t)(n * n), sizeof *raw),
+           *kept = calloc((size_t)(n * n), sizeof *kept);
     for (int i = 0; i < n; i++) {
         for (uint32_t up = leaf[i]; elements[up].vertices; up = elements[up].parent)
-            for (size_t l = s->refinement.first_link[up]; l < s->refinement.first_link[up + 1]; l++) {
+            for (size_t l = s->refinement.first_link[up]; l < s->refinement.first_link[up + 1];
+                 l++) {
                 const struct link *link = &s->refinement.links[l];
                 const struct element *from = &elements[link->emitter];
                 double f = (double)link->form_factor;
@@ -223,7 +235,8 @@ static void dense_operator(const struct solve *s, const uint32_t *leaf, int n, d
                     if (elements[leaf[j]].face == from->face) {
                         double part = elements[leaf[j]].area / from->area;
                         raw[i * n + j] += f * part;
-                        kept[i * n + j] += f * part * (up == leaf[i] ? op->row_scale[up] : op->row_above[leaf[i]]);
+                        kept[i * n + j] +=
+                            f * part * (up == leaf[i] ? op->row_scale[up] : op->row_above[leaf[i]]);
                     }
             }
     }
@@ -233,7 +246,8 @@ static void dense_operator(const struct solve *s, const uint32_t *leaf, int n, d
             for (int m = 0; m < n; m++)
                 if (elements[leaf[m]].face == elements[leaf[i]].face)
                     shared += elements[leaf[m]].area * (raw[m * n + j] - kept[m * n + j]);
-            a[i * n + j] = elements[leaf[i]].reflectance * (kept[i * n + j] + op->row_share[leaf[i]] * shared);
+            a[i * n + j] =
+                elements[leaf[i]].reflectance * (kept[i * n + j] + op->row_share[leaf[i]] * shared);
         }
     free(raw);
     free(kept);
@@ -257,21 +271,22 @@ static void solve_dense(double *k, double *b, int n)
         b[i] /= k[i * n + i];
 }
 
-/* Eight faces, each linked to all others by numbers that were drawn: rows far above 1, so that the cap is at work in every
- * face, rho 0.97. What iteration leaves is within the tolerance of a dense matrix's solution, by both methods. */
+/* Eight faces, each linked to all others by numbers that were drawn: rows far above 1, so that the
+ * cap is at work in every face, rho 0.97. What iteration leaves is within the tolerance of a dense
+ * matrix's solution, by both methods. */
 START_TEST(test_dense)
 {
-    static const struct script script = { split_odd, drawn, 0 };
+    static const struct script script = {split_odd, drawn, 0};
     const double tolerance = 1e-2;
-    struct scene scene;
-    struct solve s;
-    uint32_t leaf[LEAVES];
     double known[LEAVES], k[LEAVES * LEAVES], off = 0, all = 0, capped = 0;
     int n = 0;
+    struct scene scene;
     made_open(&scene);
     for (int i = 0; i < FACES; i++)
         add_square(&scene, 2, 0.97, draw(1000, (uint64_t)i));
+    struct solve s;
     run_solve(&s, &scene, &script, options(tolerance, _i));
+    uint32_t leaf[LEAVES];
     for (uint32_t i = 0; i < s.hierarchy.count; i++)
         if (s.hierarchy.elements[i].vertices && !s.hierarchy.elements[i].children) {
             capped = fmax(capped, s.operator.row[i]);
@@ -292,7 +307,8 @@ START_TEST(test_dense)
         off += s.hierarchy.elements[leaf[i]].area * fabs(s.state.radiosity[leaf[i]] - known[i]);
         all += s.hierarchy.elements[leaf[i]].area * s.state.radiosity[leaf[i]];
     }
-    printf("dense, %s: error %.5f of %.5f after %d sweeps\n", _i ? "Jacobi" : "Gauss-Seidel", off / all, tolerance, s.report.sweeps);
+    printf("dense, %s: error %.5f of %.5f after %d sweeps\n", _i ? "Jacobi" : "Gauss-Seidel",
+           off / all, tolerance, s.report.sweeps);
     ck_assert_double_le(off / all, tolerance);
     solve_close(&s);
     made_close(&scene);
@@ -301,25 +317,26 @@ END_TEST
 
 /* ---- passes */
 
-/* What a rough pass leaves is less than what oracles notice; then the solve goes on to the tolerance. */
+/* What a rough pass leaves is less than what oracles notice; then the solve goes on to the
+ * tolerance. */
 START_TEST(test_rough)
 {
-    static const struct script script = { NULL, each_other, 1 };
+    static const struct script script = {NULL, each_other, 1};
     const double rho = 0.9375, known = 1 / (1 - rho);
-    struct scene scene;
-    struct solve s;
-    struct refiner refiner;
-    const char *cause;
-    int more;
     mutual = 1;
+    struct scene scene;
     made_open(&scene);
     add_square(&scene, 1, rho, 1);
     add_square(&scene, 1, rho, 1);
+    struct solve s;
+    struct refiner refiner;
     open_solve(&s, &scene, &script, &refiner, options(1e-7, 0));
+    const char *cause;
     ck_assert_int_eq(solve_step(&s, &cause), 1);
     ck_assert_int_eq(s.report.converged, 0);
     printf("rough pass: %.4f off\n", fabs(face_value(&s, 0) / known - 1));
     ck_assert_double_le(fabs(face_value(&s, 0) / known - 1), 0.5 * HYSTERESIS);
+    int more;
     while ((more = solve_step(&s, &cause)) > 0)
         ;
     ck_assert_int_eq(more, 0);
@@ -332,7 +349,8 @@ END_TEST
 
 enum { LAMP = 1, SLOW = 2, PASSERS_BY = 4 };
 
-/* Face 0 wants finer links from the lamp as soon as the light over the ones it has is seen, down to depth 3. */
+/* Face 0 wants finer links from the lamp as soon as the light over the ones it has is seen, down
+ * to depth 3. */
 static int split_when_lit(const struct element *r, const struct element *e)
 {
     return r->face == 0 && e->face == LAMP && r->depth < 3 && r->radiosity > 0.9 * (1 << r->depth);
@@ -344,19 +362,18 @@ static double doubling(const struct element *r, const struct element *e)
         return e->face == LAMP ? 0.125 * (1 << r->depth) : 0;
     if (r->face >= PASSERS_BY && e->face >= PASSERS_BY)
         return 0x1p-20;
-    return (r->face == SLOW && e->face == SLOW + 1) || (r->face == SLOW + 1 && e->face == SLOW) ? 1 : 0;
+    return (r->face == SLOW && e->face == SLOW + 1) || (r->face == SLOW + 1 && e->face == SLOW) ? 1
+                                                                                                : 0;
 }
 
-/* Every pass changes a link, until the lamp's face is in 64 parts, among many links that do not change (0) or few (1). While any
- * changes the answer is not called converged, however few; and while more than one in SETTLED do, passes are rough. */
+/* Every pass changes a link, until the lamp's face is in 64 parts, among many links that do not
+ * change (0) or few (1). While any changes the answer is not called converged, however few; and
+ * while more than one in SETTLED do, passes are rough. */
 START_TEST(test_converged)
 {
-    static const struct script script = { split_when_lit, doubling, 1 };
+    static const struct script script = {split_when_lit, doubling, 1};
+    int sweeps[2], leaves = 0;
     struct scene scene;
-    struct solve s;
-    struct refiner refiner;
-    const char *cause;
-    int more, sweeps[2], leaves = 0;
     made_open(&scene);
     add_square(&scene, 1, 0.5, 0);
     add_square(&scene, 1, 0, 16);
@@ -367,13 +384,16 @@ START_TEST(test_converged)
         made_quad(&scene, grey, 4.0 * scene.face_count, 0, 0, 3, 0, 0, 0, 3, 0);
     if (_i == 1)
         scene.face_count = PASSERS_BY + 2;
+    struct solve s;
+    struct refiner refiner;
     open_solve(&s, &scene, &script, &refiner, options(1e-9, 0));
     ck_assert((s.refinement.link_count > SETTLED) == (_i == 0));
+    const char *cause;
     ck_assert_int_eq(solve_step(&s, &cause), 1);
     ck_assert_uint_eq(s.report.changing, 1);
     ck_assert_int_eq(s.report.converged, 0);
     sweeps[0] = s.report.sweeps;
-    more = solve_step(&s, &cause);
+    int more = solve_step(&s, &cause);
     sweeps[1] = s.report.sweeps - sweeps[0];
     ck_assert_int_eq(more, 1);
     ck_assert_uint_eq(s.report.changing, 4);
@@ -408,19 +428,19 @@ static int cancel(void *context, const struct solve *s, const char *phase)
 /* A progress function that says so ends the solve in either phase. */
 START_TEST(test_cancel)
 {
-    static const struct script script = { NULL, each_other, 0 };
-    static char phase[2][8] = { "refine", "solve" };
+    static const struct script script = {NULL, each_other, 0};
+    static char phase[2][8] = {"refine", "solve"};
     struct solve_options how = options(1e-6, 0);
     struct refiner refiner = scripted(&script);
-    struct scene scene;
-    struct solve s;
     const char *cause = NULL;
     mutual = 1;
     how.progress = cancel;
     how.context = phase[_i];
+    struct scene scene;
     made_open(&scene);
     add_square(&scene, 1, 0.5, 1);
     add_square(&scene, 1, 0.5, 1);
+    struct solve s;
     ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
     ck_assert_int_eq(solve_run(&s, &refiner, &cause), -1);
     ck_assert_str_eq(cause, "cancelled");

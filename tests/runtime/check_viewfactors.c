@@ -1,7 +1,8 @@
 /* check_viewfactors.c - the command `radiosity viewfactors` against closed forms.
  * Obstructed: two unit squares at distance 1, a quarter of the middle plane blocked, F = 3/4 of the
- * clear value (the example of View3D's manual). A room with a box: every pair of its faces against the contour integral or, where
- * the box stands between, against rays that know nothing of the project's code; formats, closure, open scenes.
+ * clear value (the example of View3D's manual). A room with a box: every pair of its faces against
+ * the contour integral or, where the box stands between, against rays that know nothing of the
+ * project's code; formats, closure, open scenes.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <jansson.h>
@@ -22,9 +23,8 @@ static char folder[] = "/tmp/viewfactors-XXXXXX";
 static void write_file(const char *name, const char *text)
 {
     char path[256];
-    FILE *f;
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    f = fopen(path, "w");
+    FILE *f = fopen(path, "w");
     ck_assert_ptr_nonnull(f);
     fputs(text, f);
     ck_assert_int_eq(fclose(f), 0);
@@ -35,17 +35,15 @@ static void matrix(const char *obj, const char *more, int n, double *f)
 {
     char command[1024], path[256];
     const char *program = getenv("RADIOSITY");
-    FILE *in;
-    int i;
     write_file("scene.mtl", "newmtl grey\nKd .5 .5 .5\n");
     write_file("scene.obj", obj);
-    snprintf(command, sizeof command, "%s viewfactors %s/scene.obj -q -o %s/out.csv %s", program ? program : "build/bin/radiosity",
-             folder, folder, more);
+    snprintf(command, sizeof command, "%s viewfactors %s/scene.obj -q -o %s/out.csv %s",
+             program ? program : "build/bin/radiosity", folder, folder, more);
     ck_assert_int_eq(system(command), 0);
     snprintf(path, sizeof path, "%s/out.csv", folder);
-    in = fopen(path, "r");
+    FILE *in = fopen(path, "r");
     ck_assert_ptr_nonnull(in);
-    for (i = 0; i < n * n; i++)
+    for (int i = 0; i < n * n; i++)
         ck_assert_int_eq(fscanf(in, i % n == n - 1 ? "%lf\n" : "%lf,", &f[i]), 1);
     ck_assert_int_eq(fgetc(in), EOF);
     fclose(in);
@@ -54,13 +52,16 @@ static void matrix(const char *obj, const char *more, int n, double *f)
 START_TEST(test_clear)
 {
     double f[4];
-    matrix("mtllib scene.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-           "f 1 2 3 4\nf 8 7 6 5\n", "", 2, f);
+    matrix("mtllib scene.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv "
+           "1 1 1\nv 0 1 1\n"
+           "f 1 2 3 4\nf 8 7 6 5\n",
+           "", 2, f);
     ck_assert_double_eq_tol(f[1], 0.1998248956983874, 1e-6);
     ck_assert_double_eq_tol(f[2], 0.1998248956983874, 1e-6);
     ck_assert(f[0] == 0 && f[3] == 0);
     matrix("mtllib scene.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
-           "f 1 2 3 4\nf 1 5 6 2\n", "", 2, f);
+           "f 1 2 3 4\nf 1 5 6 2\n",
+           "", 2, f);
     ck_assert_double_eq_tol(f[1], 0.2000437760754032, 1e-6);
 }
 END_TEST
@@ -68,8 +69,10 @@ END_TEST
 START_TEST(test_obstructed)
 {
     double f[9];
-    matrix("mtllib scene.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-           "v 0 0 .5\nv .5 0 .5\nv .5 .5 .5\nv 0 .5 .5\nf 1 2 3 4\nf 8 7 6 5\nf 9 10 11 12\n", "", 3, f);
+    matrix("mtllib scene.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv "
+           "1 1 1\nv 0 1 1\n"
+           "v 0 0 .5\nv .5 0 .5\nv .5 .5 .5\nv 0 .5 .5\nf 1 2 3 4\nf 8 7 6 5\nf 9 10 11 12\n",
+           "", 3, f);
     ck_assert_double_eq_tol(f[1] / 0.1498686718, 1, 1e-3);
     ck_assert_double_eq_tol(f[3] / 0.1498686718, 1, 1e-3);
 }
@@ -82,19 +85,18 @@ START_TEST(test_rows)
     static double f[N * N];
     char command[512], path[256];
     const char *program = getenv("RADIOSITY");
-    FILE *in;
-    int i, j;
     snprintf(path, sizeof path, "%s/out.csv", folder);
-    snprintf(command, sizeof command, "%s viewfactors examples/scenes/furnace_4.obj -q -o %s", program ? program : "build/bin/radiosity", path);
+    snprintf(command, sizeof command, "%s viewfactors examples/scenes/furnace_4.obj -q -o %s",
+             program ? program : "build/bin/radiosity", path);
     ck_assert_int_eq(system(command), 0);
-    in = fopen(path, "r");
+    FILE *in = fopen(path, "r");
     ck_assert_ptr_nonnull(in);
-    for (i = 0; i < N * N; i++)
+    for (int i = 0; i < N * N; i++)
         ck_assert_int_eq(fscanf(in, i % N == N - 1 ? "%lf\n" : "%lf,", &f[i]), 1);
     fclose(in);
-    for (i = 0; i < N; i++) {
+    for (int i = 0; i < N; i++) {
         double sum = 0;
-        for (j = 0; j < N; j++) {
+        for (int j = 0; j < N; j++) {
             sum += f[i * N + j];
             ck_assert_double_eq_tol(f[i * N + j], f[j * N + i], 1e-9);
         }
@@ -103,24 +105,22 @@ START_TEST(test_rows)
 }
 END_TEST
 
-
 /* ---- rooms of make_room.h */
 
 static const char *run_room(const struct room *r, int without, const char *more)
 {
     static char path[256];
     const char *program = getenv("RADIOSITY");
-    char command[1024];
-    FILE *out;
     write_file("room.mtl", "newmtl wall\nKd .5 .5 .5\nnewmtl box\nKd .5 .5 .5\n");
     snprintf(path, sizeof path, "%s/room.obj", folder);
-    out = fopen(path, "w");
+    FILE *out = fopen(path, "w");
     ck_assert_ptr_nonnull(out);
     room_write(r, without, out);
     ck_assert_int_eq(fclose(out), 0);
     snprintf(path, sizeof path, "%s/out", folder);
-    snprintf(command, sizeof command, "%s viewfactors %s/room.obj -q --json %s/out.json -o %s %s", program ? program : "build/bin/radiosity",
-             folder, folder, path, more);
+    char command[1024];
+    snprintf(command, sizeof command, "%s viewfactors %s/room.obj -q --json %s/out.json -o %s %s",
+             program ? program : "build/bin/radiosity", folder, folder, path, more);
     ck_assert_int_eq(system(command), 0);
     return path;
 }
@@ -128,19 +128,20 @@ static const char *run_room(const struct room *r, int without, const char *more)
 static json_t *read_json(void)
 {
     char path[256];
-    json_t *json;
     snprintf(path, sizeof path, "%s/out.json", folder);
-    json = json_load_file(path, 0, NULL);
+    json_t *json = json_load_file(path, 0, NULL);
     ck_assert_ptr_nonnull(json);
     return json;
 }
 
-/* f[n * n] from a sparse file with its numbers from `base`, after its head. Returns how many entries. */
+/* f[n * n] from a sparse file with its numbers from `base`, after its head. Returns how many
+ * entries. */
 static long read_entries(FILE *in, int n, int base, const char *form, double *f)
 {
-    int i, j, count = 0;
-    double x;
+    int count = 0;
     memset(f, 0, (size_t)n * (size_t)n * sizeof *f);
+    int i, j;
+    double x;
     while (fscanf(in, form, &i, &j, &x) == 3) {
         i -= base;
         j -= base;
@@ -159,24 +160,24 @@ static double *room_matrix(const struct room *r, int without, const char *more)
     int n = without < 0 ? r->faces : r->faces - r->side[without].cuts * r->side[without].cuts;
     double *f = malloc((size_t)n * (size_t)n * sizeof *f);
     char options[256];
-    FILE *in;
     snprintf(options, sizeof options, "--format coo %s", more);
-    in = fopen(run_room(r, without, options), "r");
+    FILE *in = fopen(run_room(r, without, options), "r");
     ck_assert_ptr_nonnull(f);
     ck_assert_ptr_nonnull(in);
     (void)read_entries(in, n, 0, "%d,%d,%lf", f);
     return f;
 }
 
-/* How far A_i F_ij is from A_j F_ji, relative; 1 when only one way is 0. Areas are those of corners rounded to floats, right to 5e-7. */
+/* How far A_i F_ij is from A_j F_ji, relative; 1 when only one way is 0. Areas are those of
+ * corners rounded to floats, right to 5e-7. */
 static double uneven(const struct room *r, const double *f)
 {
-    int n = r->faces, i, j;
+    int n = r->faces;
     double most = 0, *area = malloc((size_t)n * sizeof *area);
-    for (i = 0; i < n; i++)
+    for (int i = 0; i < n; i++)
         area[i] = room_area(r, i);
-    for (i = 0; i < n; i++)
-        for (j = 0; j < i; j++) {
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
             double there = area[i] * f[i * n + j], back = area[j] * f[j * n + i];
             if (there > 0 || back > 0)
                 most = fmax(most, fabs(there - back) / fmax(there, back));
@@ -185,15 +186,17 @@ static double uneven(const struct room *r, const double *f)
     return most;
 }
 
-/* The same to all digits, without areas: there are any that fit when F_ij F_jk F_ki = F_ik F_kj F_ji [Kolmogorov 1936]. */
+/* The same to all digits, without areas: there are any that fit when F_ij F_jk F_ki = F_ik F_kj
+ * F_ji [Kolmogorov 1936]. */
 static double uneven_cycles(const double *f, int n)
 {
     double most = 0;
     uint64_t state = 7;
-    int t;
-    for (t = 0; t < 200000; t++) {
-        int a = (int)(room_random(&state) * n), b = (int)(room_random(&state) * n), c = (int)(room_random(&state) * n);
-        double there = f[a * n + b] * f[b * n + c] * f[c * n + a], back = f[a * n + c] * f[c * n + b] * f[b * n + a];
+    for (int t = 0; t < 200000; t++) {
+        int a = (int)(room_random(&state) * n), b = (int)(room_random(&state) * n),
+            c = (int)(room_random(&state) * n);
+        double there = f[a * n + b] * f[b * n + c] * f[c * n + a],
+               back = f[a * n + c] * f[c * n + b] * f[b * n + a];
         if (there > 0)
             most = fmax(most, fabs(back / there - 1));
     }
@@ -203,18 +206,18 @@ static double uneven_cycles(const double *f, int n)
 /* The same numbers in all formats, and as many as the file says; a name per row. */
 START_TEST(test_formats)
 {
-    struct room r;
     char line[256], options[300];
-    double *csv, *coo, *mtx;
-    FILE *in;
-    int n, i, rows, columns, entries, names = 0;
+    int names = 0;
+    struct room r;
     room_make(&r, 3, 2, 20);
-    n = r.faces;
+    int n = r.faces;
+    double *csv;
     csv = malloc((size_t)n * (size_t)n * sizeof *csv);
+    double *mtx;
     mtx = malloc((size_t)n * (size_t)n * sizeof *mtx);
-    coo = room_matrix(&r, -1, "");
-    in = fopen(run_room(&r, -1, "--format csv"), "r");
-    for (i = 0; i < n * n; i++)
+    double *coo = room_matrix(&r, -1, "");
+    FILE *in = fopen(run_room(&r, -1, "--format csv"), "r");
+    for (int i = 0; i < n * n; i++)
         ck_assert_int_eq(fscanf(in, i % n == n - 1 ? "%lf\n" : "%lf,", &csv[i]), 1);
     ck_assert_int_eq(fgetc(in), EOF);
     fclose(in);
@@ -225,6 +228,7 @@ START_TEST(test_formats)
     do
         ck_assert_ptr_nonnull(fgets(line, sizeof line, in));
     while (*line == '%');
+    int rows, columns, entries;
     ck_assert_int_eq(sscanf(line, "%d %d %d", &rows, &columns, &entries), 3);
     ck_assert(rows == n && columns == n);
     ck_assert_int_eq(read_entries(in, n, 1, "%d %d %lf", mtx), entries);
@@ -245,38 +249,38 @@ START_TEST(test_formats)
 }
 END_TEST
 
-/* Without a box: all of 6 x 144 faces' pairs against the contour integral; pairs of one wall are 0 to the bit; walls as wholes
- * against closed forms. */
+/* Without a box: all of 6 x 144 faces' pairs against the contour integral; pairs of one wall are 0
+ * to the bit; walls as wholes against closed forms. */
 START_TEST(test_empty_room)
 {
+    double worst = 0, relative = 0, sum[3] = {0, 0, 0};
     struct room r;
-    double *f, worst = 0, relative = 0, sum[3] = { 0, 0, 0 };
-    int i, j, k;
     room_make(&r, 12, 0, 0);
-    f = room_matrix(&r, -1, "");
-    for (i = 0; i < r.faces; i++)
-        for (j = 0; j < r.faces; j++) {
+    double *f = room_matrix(&r, -1, "");
+    for (int i = 0; i < r.faces; i++)
+        for (int j = 0; j < r.faces; j++) {
             const struct room_side *s = room_side_of(&r, i), *t = room_side_of(&r, j);
             double e = room_area(&r, i) * f[i * r.faces + j];
             ck_assert(s != t || (f[i * r.faces + j] >= 0 && f[i * r.faces + j] <= 0));
-            if (s == &r.side[0] && t != s) /* the floor against the ceiling, and walls 3 m high and 4 or 5 m long */
+            /* the floor against the ceiling, and walls 3 m high and 4 or 5 m long */
+            if (s == &r.side[0] && t != s)
                 sum[t == &r.side[1] ? 0 : t == &r.side[2] || t == &r.side[3] ? 1 : 2] += e;
             if ((i * 7 + j) % 13 || j <= i)
                 continue;
             if (s != t) {
-                double p[2][4][3], exact;
-                struct two two;
-                static const int corner[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
-                for (k = 0; k < 4; k++) {
+                double p[2][4][3];
+                static const int corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+                for (int k = 0; k < 4; k++) {
                     int c = i - s->first, d = j - t->first;
                     room_corner(s, c % 12 + corner[k][0], c / 12 + corner[k][1], p[0][k]);
                     room_corner(t, d % 12 + corner[k][0], d / 12 + corner[k][1], p[1][k]);
                 }
+                struct two two;
                 two_start(&two);
-                made_face(&two.scene, 0, 4, (const double (*)[3])p[0]);
-                made_face(&two.scene, 0, 4, (const double (*)[3])p[1]);
+                made_face(&two.scene, 0, 4, (const double(*)[3])p[0]);
+                made_face(&two.scene, 0, 4, (const double(*)[3])p[1]);
                 two_open(&two);
-                exact = polygon_factor(two.a, two.b, 1);
+                double exact = polygon_factor(two.a, two.b, 1);
                 two_close(&two);
                 worst = fmax(worst, fabs(f[i * r.faces + j] - exact));
                 relative = fmax(relative, fabs(f[i * r.faces + j] / exact - 1));
@@ -292,31 +296,30 @@ START_TEST(test_empty_room)
 }
 END_TEST
 
-/* With a box, straight and turned: rows sum to 1 to the tolerance, nothing exceeds 1, both ways round are one number; rows of all
- * kinds of faces are what 150,000 rays say. A right row fails by chance once in 10^6 times; the rays are always the same. */
+/* With a box, straight and turned: rows sum to 1 to the tolerance, nothing exceeds 1, both ways
+ * round are one number; rows of all kinds of faces are what 150,000 rays say. A right row fails by
+ * chance once in 10^6 times; the rays are always the same. */
 START_TEST(test_box_in_room)
 {
-    static const int rows[] = { 0, 27, 36, 100, 200, 300, 384, 389, 400, 407 };
+    static const int rows[] = {0, 27, 36, 100, 200, 300, 384, 389, 400, 407};
     struct room r;
-    size_t k;
-    int i, j;
-    double *f;
     room_make(&r, 8, 2, _i * 30);
-    f = room_matrix(&r, -1, "");
-    for (i = 0; i < r.faces; i++) {
+    double *f = room_matrix(&r, -1, "");
+    for (int i = 0; i < r.faces; i++) {
         double sum = 0;
-        for (j = 0; j < r.faces; j++)
+        for (int j = 0; j < r.faces; j++)
             sum += f[i * r.faces + j];
         ck_assert_double_eq_tol(sum, 1, 1.5e-3);
     }
     ck_assert_double_lt(uneven(&r, f), 1e-6);
     ck_assert_double_lt(uneven_cycles(f, r.faces), 3.1e-11); /* six numbers of twelve digits */
-    for (k = 0; k < sizeof rows / sizeof *rows; k++) {
-        long hits[408] = { 0 };
-        double worst, chi;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        long hits[408] = {0};
         ck_assert_int_eq(room_rays(&r, rows[k], 150000, (uint64_t)rows[k], hits), 0);
-        chi = room_chi(&r, f + rows[k] * r.faces, hits, 150000, &worst);
-        printf("turned by %d, face %d: chi-square %+.2f deviations off, one entry %.2f\n", _i * 30, rows[k], chi, worst);
+        double worst;
+        double chi = room_chi(&r, f + rows[k] * r.faces, hits, 150000, &worst);
+        printf("turned by %d, face %d: chi-square %+.2f deviations off, one entry %.2f\n", _i * 30,
+               rows[k], chi, worst);
         ck_assert_double_lt(chi, 4.75);
     }
     free(f);
@@ -326,36 +329,35 @@ END_TEST
 /* The rays find a wrong row. */
 START_TEST(test_rays_see_errors)
 {
+    long hits[408] = {0};
     struct room r;
-    double *f, worst;
-    long hits[408] = { 0 };
-    int j;
     room_make(&r, 8, 2, 30);
-    f = room_matrix(&r, -1, "");
+    double *f = room_matrix(&r, -1, "");
     (void)room_rays(&r, 27, 150000, 27, hits);
-    for (j = 0; j < r.faces; j++)
+    for (int j = 0; j < r.faces; j++)
         f[27 * r.faces + j] *= j % 2 ? 1.06 : 0.94;
+    double worst;
     ck_assert_double_gt(room_chi(&r, f + 27 * r.faces, hits, 150000, &worst), 4.75);
     free(f);
 }
 END_TEST
 
-/* Closure of a closed room: rows sum to 1; `reciprocal` keeps the two ways round one number, `rows` does not. */
+/* Closure of a closed room: rows sum to 1; `reciprocal` keeps the two ways round one number,
+ * `rows` does not. */
 START_TEST(test_closure)
 {
-    static const char *const kinds[] = { "--tolerance 0.5 --closure rows", "--tolerance 0.5 --closure reciprocal" };
+    static const char *const kinds[] = {"--tolerance 0.5 --closure rows",
+                                        "--tolerance 0.5 --closure reciprocal"};
     struct room r;
-    double *f;
-    int i, j;
-    json_t *json;
     room_make(&r, 5, 2, 30);
-    f = room_matrix(&r, -1, kinds[_i]);
-    json = read_json();
-    ck_assert_double_gt(json_number_value(json_object_get(json, "row_defect_largest")), 1e-5); /* before closure */
+    double *f = room_matrix(&r, -1, kinds[_i]);
+    json_t *json = read_json();
+    ck_assert_double_gt(json_number_value(json_object_get(json, "row_defect_largest")),
+                        1e-5); /* before closure */
     json_decref(json);
-    for (i = 0; i < r.faces; i++) {
+    for (int i = 0; i < r.faces; i++) {
         double sum = 0;
-        for (j = 0; j < r.faces; j++)
+        for (int j = 0; j < r.faces; j++)
             sum += f[i * r.faces + j];
         ck_assert_double_eq_tol(sum, 1, 1e-10);
     }
@@ -368,25 +370,24 @@ START_TEST(test_closure)
 }
 END_TEST
 
-/* A room without its ceiling: closure gives nothing of the sky away, and the report says how much there is. */
+/* A room without its ceiling: closure gives nothing of the sky away, and the report says how
+ * much there is. */
 START_TEST(test_sky)
 {
+    double *open = NULL, sky = 0, area = 0;
     struct room r;
-    double *open = NULL, *closed, sky = 0, area = 0;
-    json_t *json;
-    int i, j, n, k;
     room_make(&r, 6, 0, 0);
-    closed = room_matrix(&r, -1, "");
-    n = r.faces - 36;
-    for (k = 0; k < 2; k++) {
+    double *closed = room_matrix(&r, -1, "");
+    int n = r.faces - 36;
+    for (int k = 0; k < 2; k++) {
         free(open);
         open = room_matrix(&r, 1, k ? "--closure reciprocal" : "");
-        for (i = 0; i < n; i++) {
+        for (int i = 0; i < n; i++) {
             int a = i < 36 ? i : i + 36;
             double sum = 0, up = 0;
-            for (j = 0; j < n; j++)
+            for (int j = 0; j < n; j++)
                 sum += open[i * n + j];
-            for (j = 36; j < 72; j++)
+            for (int j = 36; j < 72; j++)
                 up += closed[a * r.faces + j];
             ck_assert_double_eq_tol(sum + up, 1, 1e-4);
             if (k == 0) {
@@ -394,10 +395,11 @@ START_TEST(test_sky)
                 area += room_area(&r, a);
             }
         }
-        json = read_json();
+        json_t *json = read_json();
         ck_assert_int_eq((int)json_integer_value(json_object_get(json, "rows_to_sky")), n);
         ck_assert_int_eq((int)json_integer_value(json_object_get(json, "rows_closed")), 0);
-        ck_assert_double_eq_tol(json_number_value(json_object_get(json, "to_sky_mean")), sky / area, 1e-4);
+        ck_assert_double_eq_tol(json_number_value(json_object_get(json, "to_sky_mean")), sky / area,
+                                1e-4);
         json_decref(json);
     }
     free(open);
@@ -409,9 +411,9 @@ END_TEST
 START_TEST(test_threads)
 {
     struct room r;
-    char command[300];
     room_make(&r, 8, 2, 30);
     (void)run_room(&r, -1, "--format coo --threads 1");
+    char command[300];
     snprintf(command, sizeof command, "mv %s/out %s/one", folder, folder);
     ck_assert_int_eq(system(command), 0);
     (void)run_room(&r, -1, "--format coo --threads 2");
@@ -429,22 +431,39 @@ static void compare_text(double x)
     ck_assert_str_eq(text, right);
 }
 
-/* The fast text of a number is printf's, for numbers of all sizes, halves between two texts and their neighbours. */
+/* The fast text of a number is printf's, for numbers of all sizes, halves between two texts and
+ * their neighbours. */
 START_TEST(test_number_text)
 {
-    static const double known[] = { 0, 1, 0.5, 1e-4, 9.9999999999949e-5, 9.99999999999501e-5, 999999999999.0, 999999999998.5, 1e-15, 9e-16,
-                                    1e12, 1e300, 5e-324, 1 / 3.0, 0.1, 123456.5, 0.0001234567890125 };
+    static const double known[] = {0,
+                                   1,
+                                   0.5,
+                                   1e-4,
+                                   9.9999999999949e-5,
+                                   9.99999999999501e-5,
+                                   999999999999.0,
+                                   999999999998.5,
+                                   1e-15,
+                                   9e-16,
+                                   1e12,
+                                   1e300,
+                                   5e-324,
+                                   1 / 3.0,
+                                   0.1,
+                                   123456.5,
+                                   0.0001234567890125};
     uint64_t state = 1;
-    size_t k;
-    int i;
-    for (k = 0; k < sizeof known / sizeof *known; k++)
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         compare_text(known[k]);
-    for (i = 0; i < (thorough() ? 100000 : 10000); i++) {
-        double x = pow(10, -18 + 34 * room_random(&state)), y = ldexp(floor(room_random(&state) * 4096) + 0.5, (int)(room_random(&state) * 40) - 30);
-        char tie[64];
+    for (int i = 0; i < (thorough() ? 100000 : 10000); i++) {
+        double x = pow(10, -18 + 34 * room_random(&state)),
+               y = ldexp(floor(room_random(&state) * 4096) + 0.5,
+                         (int)(room_random(&state) * 40) - 30);
         compare_text(x);
         compare_text(y);
-        snprintf(tie, sizeof tie, "%.11f5e%d", 1 + 9 * room_random(&state), (int)(room_random(&state) * 26) - 14);
+        char tie[64];
+        snprintf(tie, sizeof tie, "%.11f5e%d", 1 + 9 * room_random(&state),
+                 (int)(room_random(&state) * 26) - 14);
         x = strtod(tie, NULL);
         compare_text(x);
         compare_text(nextafter(x, 0));
@@ -456,15 +475,18 @@ END_TEST
 /* What the options say when they are wrong. */
 START_TEST(test_options)
 {
-    static const char *const wrong[] = { "--format xls", "--closure both", "--tolerance 0", "--names" };
+    static const char *const wrong[] = {"--format xls", "--closure both", "--tolerance 0",
+                                        "--names"};
     const char *program = getenv("RADIOSITY");
     char command[512];
-    size_t k;
-    for (k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        snprintf(command, sizeof command, "%s viewfactors examples/scenes/furnace.obj %s 2>%s/said", program ? program : "build/bin/radiosity", wrong[k], folder);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        snprintf(command, sizeof command, "%s viewfactors examples/scenes/furnace.obj %s 2>%s/said",
+                 program ? program : "build/bin/radiosity", wrong[k], folder);
         ck_assert_int_eq(system(command) >> 8, 2);
     }
-    snprintf(command, sizeof command, "%s solve examples/scenes/furnace.obj --closure reciprocal 2>%s/said", program ? program : "build/bin/radiosity", folder);
+    snprintf(command, sizeof command,
+             "%s solve examples/scenes/furnace.obj --closure reciprocal 2>%s/said",
+             program ? program : "build/bin/radiosity", folder);
     ck_assert_int_eq(system(command) >> 8, 2);
 }
 END_TEST
@@ -473,8 +495,6 @@ int main(void)
 {
     Suite *suite = suite_create("view factors");
     TCase *c = tcase_create("view factors");
-    char command[256];
-    int failed;
     if (!mkdtemp(folder))
         return 1;
     tcase_set_timeout(c, 120);
@@ -491,7 +511,8 @@ int main(void)
     tcase_add_test(c, test_number_text);
     tcase_add_test(c, test_options);
     suite_add_tcase(suite, c);
-    failed = suite_failures(suite);
+    int failed = suite_failures(suite);
+    char command[256];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) != 0 || failed != 0;
 }

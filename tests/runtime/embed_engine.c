@@ -1,5 +1,5 @@
-/* embed_engine.c - examples/embed with the engine in the refiner's place: its own text, other names.
- * What the two print must be the same. Usage: embed_engine ORACLE.dag
+/* embed_engine.c - examples/embed with the engine in the refiner's place: its own text, other
+ * names. What the two print must be the same. Usage: embed_engine ORACLE.dag
  * SPDX-License-Identifier: MIT */
 #include "oracles.h"
 #include "oracle/refiner.h" /* the runtime's; its guard keeps the generated one out */

@@ -15,10 +15,12 @@ static inline void made_unit(double v[3])
         v[k] /= length;
 }
 
-/* From `eye` to `at`, which is not straight above or below; fov: the vertical field of view (degrees); aspect: width over height. */
-static inline struct camera made_camera(const double eye[3], const double at[3], double fov, double aspect)
+/* From `eye` to `at`, which is not straight above or below; fov: the vertical field of view
+ * (degrees); aspect: width over height. */
+static inline struct camera made_camera(const double eye[3], const double at[3], double fov,
+                                        double aspect)
 {
-    const double z[3] = { 0, 0, 1 };
+    const double z[3] = {0, 0, 1};
     struct camera c;
     memcpy(c.eye, eye, sizeof c.eye);
     sub3(c.ahead, at, eye);

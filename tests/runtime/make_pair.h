@@ -82,23 +82,24 @@ static inline double random_size(unsigned *state, double span)
     return pow(span, 2 * random_unit(state) - 1);
 }
 
-/* Two random parallelograms, or triangles, `apart` from each other, that may cross each other's planes; all times `scale`. */
-static inline void two_random(struct two *t, int triangles, double apart, double scale, unsigned *state)
+/* Two random parallelograms, or triangles, `apart` from each other, that may cross each other's
+ * planes; all times `scale`. */
+static inline void two_random(struct two *t, int triangles, double apart, double scale,
+                              unsigned *state)
 {
-    int i, j, k;
     two_start(t);
-    for (i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         double v[3][3], p[4][3];
-        for (j = 0; j < 3; j++)
-            for (k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++)
                 v[j][k] = (random_unit(state) - 0.5 + (j == 0 && k == 0 ? i * apart : 0)) * scale;
-        for (k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             p[0][k] = v[0][k];
             p[1][k] = v[0][k] + v[1][k];
             p[2][k] = v[0][k] + (triangles ? 0 : v[1][k]) + v[2][k];
             p[3][k] = v[0][k] + v[2][k];
         }
-        made_face(&t->scene, 0, triangles ? 3 : 4, (const double (*)[3])p);
+        made_face(&t->scene, 0, triangles ? 3 : 4, (const double(*)[3])p);
     }
     two_open(t);
 }
@@ -107,13 +108,14 @@ static inline void two_random(struct two *t, int triangles, double apart, double
 static inline void random_point(const struct element *e, unsigned *state, double p[3])
 {
     double s = random_unit(state), t = random_unit(state);
-    int k, last = e->vertices - 1;
+    int last = e->vertices - 1;
     if (e->vertices == 3 && s + t > 1) {
         s = 1 - s;
         t = 1 - t;
     }
-    for (k = 0; k < 3; k++)
-        p[k] = e->vertex[0][k] + s * (e->vertex[1][k] - e->vertex[0][k]) + t * (e->vertex[last][k] - e->vertex[0][k]);
+    for (int k = 0; k < 3; k++)
+        p[k] = e->vertex[0][k] + s * (e->vertex[1][k] - e->vertex[0][k])
+               + t * (e->vertex[last][k] - e->vertex[0][k]);
 }
 
 #endif

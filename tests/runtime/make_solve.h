@@ -12,21 +12,22 @@
 
 static inline struct solve_options quick(int threads)
 {
-    struct solve_options o = { .tolerance = 1e-6, .iterations = 100000, .threads = threads };
+    struct solve_options o = {.tolerance = 1e-6, .iterations = 100000, .threads = threads};
     return o;
 }
 
 /* Solve with an oracle; settings end with NULL. */
-static inline void solve_with(struct solve *s, const struct scene *scene, const char *oracle, enum release release,
-                       char *const *settings, struct solve_options options)
+static inline void solve_with(struct solve *s, const struct scene *scene, const char *oracle,
+                              enum release release, char *const *settings,
+                              struct solve_options options)
 {
-    const char *cause;
     struct refiner *r = oracles_open(oracle, release);
     int n = 0;
     ck_assert_ptr_nonnull(r);
     while (settings && settings[n])
         n++;
     ck_assert_int_eq(oracles_set(r, settings, n), 0);
+    const char *cause;
     ck_assert_int_eq(solve_open(s, scene, &options, &cause), 0);
     ck_assert_int_eq(solve_run(s, r, &cause), 0);
     ck_assert_int_eq(s->report.converged, 1);
@@ -42,17 +43,18 @@ static inline void same_links(const struct solve *a, const struct solve *b)
 {
     ck_assert_uint_eq(a->refinement.link_count, b->refinement.link_count);
     ck_assert_uint_eq(a->hierarchy.count, b->hierarchy.count);
-    ck_assert(memcmp(a->refinement.links, b->refinement.links, a->refinement.link_count * sizeof(struct link)) == 0);
+    ck_assert(memcmp(a->refinement.links, b->refinement.links,
+                     a->refinement.link_count * sizeof(struct link))
+              == 0);
 }
 
 /* Six faces, rho and E the same everywhere. */
 static inline void furnace_cube(struct scene *s, double rho)
 {
-    uint32_t m[6];
-    int i;
     made_open(s);
+    uint32_t m[6];
     m[0] = made_material(s, rho, 1);
-    for (i = 1; i < 6; i++)
+    for (int i = 1; i < 6; i++)
         m[i] = m[0];
     made_room(s, m, 1, 1, 1);
 }
@@ -60,14 +62,14 @@ static inline void furnace_cube(struct scene *s, double rho)
 /* A hexagonal prism: two fans of triangles and six quads. */
 static inline void furnace_prism(struct scene *s, double rho)
 {
-    int i;
     made_open(s);
     made_material(s, rho, 1);
-    for (i = 0; i < 6; i++) {
+    for (int i = 0; i < 6; i++) {
         double a = M_PI / 3 * i, b = M_PI / 3 * (i + 1), h = 0.8;
-        const double low[3][3] = { { 0, 0, 0 }, { cos(a), sin(a), 0 }, { cos(b), sin(b), 0 } };
-        const double high[3][3] = { { 0, 0, h }, { cos(b), sin(b), h }, { cos(a), sin(a), h } };
-        const double wall[4][3] = { { cos(b), sin(b), 0 }, { cos(a), sin(a), 0 }, { cos(a), sin(a), h }, { cos(b), sin(b), h } };
+        const double low[3][3] = {{0, 0, 0}, {cos(a), sin(a), 0}, {cos(b), sin(b), 0}};
+        const double high[3][3] = {{0, 0, h}, {cos(b), sin(b), h}, {cos(a), sin(a), h}};
+        const double wall[4][3] = {
+            {cos(b), sin(b), 0}, {cos(a), sin(a), 0}, {cos(a), sin(a), h}, {cos(b), sin(b), h}};
         made_face(s, 0, 3, low);
         made_face(s, 0, 3, high);
         made_face(s, 0, 4, wall);
@@ -77,31 +79,31 @@ static inline void furnace_prism(struct scene *s, double rho)
 /* A regular octahedron from inside. */
 static inline void furnace_octahedron(struct scene *s, double rho)
 {
-    int i;
     made_open(s);
     made_material(s, rho, 1);
-    for (i = 0; i < 8; i++) {
+    for (int i = 0; i < 8; i++) {
         double x = i & 1 ? 1 : -1, y = i & 2 ? 1 : -1, z = i & 4 ? 1 : -1;
-        const double out[3][3] = { { x, 0, 0 }, { 0, y, 0 }, { 0, 0, z } };
-        const double in[3][3] = { { 0, y, 0 }, { x, 0, 0 }, { 0, 0, z } };
+        const double out[3][3] = {{x, 0, 0}, {0, y, 0}, {0, 0, z}};
+        const double in[3][3] = {{0, y, 0}, {x, 0, 0}, {0, 0, z}};
         made_face(s, 0, 3, x * y * z > 0 ? in : out);
     }
 }
 
-/* A room with a box on the floor and a lamp: something to compare with itself. `bright` scales E. */
+/* A room with a box on the floor and a lamp: something to compare with itself. `bright` scales
+ * E. */
 static inline void furnished(struct scene *s, double bright)
 {
-    uint32_t m[6], grey, i;
+    uint32_t m[6];
     made_open(s);
-    grey = made_material(s, 0.6, 0);
-    for (i = 0; i < 6; i++)
+    uint32_t grey = made_material(s, 0.6, 0);
+    for (uint32_t i = 0; i < 6; i++)
         m[i] = grey;
     made_room(s, m, 4, 5, 3);
     made_material(s, 0.2, 10 * bright);
     made_material(s, 0.3, 0);
-    made_quad(s, 1, 1, 2, 2.5, 0, 1, 0, 1, 0, 0);           /* a lamp that shines down */
-    made_quad(s, 1, 1, 2, 2.5, 1, 0, 0, 0, 1, 0);           /* and up */
-    made_quad(s, 2, 1.3, 1, 1, 1, 0, 0, 0, 1.5, 0);         /* a box: top and sides */
+    made_quad(s, 1, 1, 2, 2.5, 0, 1, 0, 1, 0, 0);   /* a lamp that shines down */
+    made_quad(s, 1, 1, 2, 2.5, 1, 0, 0, 0, 1, 0);   /* and up */
+    made_quad(s, 2, 1.3, 1, 1, 1, 0, 0, 0, 1.5, 0); /* a box: top and sides */
     made_quad(s, 2, 1.3, 1, 0, 1, 0, 0, 0, 0, 1);
     made_quad(s, 2, 1.3, 2.5, 0, 0, 0, 1, 1, 0, 0);
     made_quad(s, 2, 1.3, 1, 0, 0, 0, 1, 0, 1.5, 0);

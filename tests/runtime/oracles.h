@@ -9,7 +9,7 @@
 
 static inline struct refiner *interpreted(const char *path, const char *text, const char *name)
 {
-    struct messages messages = { 0 };
+    struct messages messages = {0};
     struct refiner *r = refiner_interpreted(path, text, name, &messages);
     fputs(messages_text(&messages), stderr);
     messages_free(&messages);

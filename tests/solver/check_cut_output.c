@@ -1,7 +1,9 @@
-/* check_cut_output.c - what pictures, meshes and tables show of faces that were cut at load: the faces of the file, no more.
+/* check_cut_output.c - what pictures, meshes and tables show of faces that were cut at load: the
+ * faces of the file, no more.
  *
- * A floor of 2 x 1 m with a wall on it at x = 1, over the first 0.6 m of its width (which cuts it along the whole width), and
- * a box on the bright side. Radiosities are made up: bright on one side, dark on the other, black under the box.
+ * A floor of 2 x 1 m with a wall on it at x = 1, over the first 0.6 m of its width (which cuts it
+ * along the whole width), and a box on the bright side. Radiosities are made up: bright on one
+ * side, dark on the other, black under the box.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <dirent.h>
@@ -34,17 +36,19 @@ static const char *in_folder(const char *name)
     return path;
 }
 
-static const char materials[] = "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl wall_2s\nKd 0.2 0.2 0.2\nnewmtl box\nKd 0.3 0.3 0.3\n";
+static const char materials[] =
+    "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl wall_2s\nKd 0.2 0.2 0.2\nnewmtl box\nKd 0.3 0.3 0.3\n";
 static const char room[] =
     "mtllib cut.mtl\nusemtl floor\n"
     "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"
     "usemtl wall_2s\n"
     "v 1 0 0\nv 1 0.6 0\nv 1 0.6 0.1\nv 1 0 0.1\nf 5 6 7 8\n"
     "usemtl box\n"
-    "v 0.2 0.2 0\nv 0.8 0.2 0\nv 0.8 0.8 0\nv 0.2 0.8 0\nv 0.2 0.2 0.1\nv 0.8 0.2 0.1\nv 0.8 0.8 0.1\nv 0.2 0.8 0.1\n"
+    "v 0.2 0.2 0\nv 0.8 0.2 0\nv 0.8 0.8 0\nv 0.2 0.8 0\nv 0.2 0.2 0.1\nv 0.8 0.2 0.1\nv 0.8 0.8 "
+    "0.1\nv 0.2 0.8 0.1\n"
     "f 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
 enum { FACES = 7 };
-static const double areas[FACES] = { 2, 0.06, 0.36, 0.06, 0.06, 0.06, 0.06 };
+static const double areas[FACES] = {2, 0.06, 0.36, 0.06, 0.06, 0.06, 0.06};
 
 struct stage {
     struct loaded loaded;
@@ -83,7 +87,9 @@ static void stage_open(struct stage *s)
     ck_assert_uint_eq(s->loaded.report.polygons, FACES);
     ck_assert_uint_eq(s->loaded.report.cut, 1);
     ck_assert_uint_gt(s->loaded.report.parts, 5);
-    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)surfaces->faces, surfaces->face_count), 0);
+    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)surfaces->faces,
+                                     surfaces->face_count),
+                     0);
     for (int round = 0; round < 4; round++) {
         uint32_t count = s->h.count;
         for (uint32_t i = 0; i < count; i++)
@@ -101,7 +107,8 @@ static void stage_open(struct stage *s)
             for (uint32_t c = e[i].child; c < e[i].child + 4; c++)
                 s->b[i] += s->b[c] * e[c].area / e[i].area;
         }
-    s->solution = (struct solution){*surfaces, {e, s->h.count, s->h.built, s->h.face_element, 1, s->b, s->b, NULL}};
+    s->solution = (struct solution){
+        *surfaces, {e, s->h.count, s->h.built, s->h.face_element, 1, s->b, s->b, NULL}};
     ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
 }
 
@@ -116,18 +123,18 @@ static void stage_close(struct stage *s)
 /* What is shown at the point (x, y) of the floor. */
 static double shown(const struct stage *s, double x, double y)
 {
-    const double p[3] = { x, y, 0 };
-    uint32_t f, i, k;
-    for (f = 0; f < s->solution.surfaces.face_count; f++) {
+    const double p[3] = {x, y, 0};
+    for (uint32_t f = 0; f < s->solution.surfaces.face_count; f++) {
         const struct RadFace *face = &s->solution.surfaces.faces[f];
         int inside = face->input == 0;
-        for (i = 0; inside && i < face->vertices; i++) {
-            const double *a = face->vertex[i], *b = face->vertex[i + 1 < face->vertices ? i + 1 : 0];
+        for (uint32_t i = 0; inside && i < face->vertices; i++) {
+            const double *a = face->vertex[i],
+                         *b = face->vertex[i + 1 < face->vertices ? i + 1 : 0];
             inside = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) >= 0;
         }
         if (inside) {
             double value[3];
-            k = vertex_values_at(&s->values, &s->solution, f, p, value);
+            uint32_t k = vertex_values_at(&s->values, &s->solution, f, p, value);
             (void)k;
             return value[0];
         }
@@ -136,59 +143,64 @@ static double shown(const struct stage *s, double x, double y)
     return 0;
 }
 
-/* On both sides of the wall its own light, up to it; the same at the box's sides; past the wall's end half of the jump at the most. */
+/* On both sides of the wall its own light, up to it; the same at the box's sides; past the
+ * wall's end half of the jump at the most. */
 START_TEST(test_walls_part)
 {
+    double worst = 0;
     struct stage s;
-    double y, worst = 0;
     stage_open(&s);
-    for (y = 0.01; y < 0.6 - 1 / 8.0; y += 0.01) {
+    for (double y = 0.01; y < 0.6 - 1 / 8.0; y += 0.01) {
         ck_assert_double_eq_tol(shown(&s, 1 - 1e-6, y), 4, 1e-4);
         ck_assert_double_eq_tol(shown(&s, 1 + 1e-6, y), 1, 1e-4);
         ck_assert_double_eq_tol(shown(&s, 0.9, y), 4, 1e-4);
     }
-    for (y = 0.21; y < 0.75; y += 0.01) {
+    for (double y = 0.21; y < 0.75; y += 0.01) {
         ck_assert_double_eq_tol(shown(&s, 0.2 - 1e-6, y), 4, 1e-4);
         ck_assert_double_eq_tol(shown(&s, y, 0.2 - 1e-6), 4, 1e-4);
         ck_assert_double_eq_tol(shown(&s, y, 0.8 + 1e-6), 4, 1e-4);
         ck_assert_double_eq_tol(shown(&s, 0.2 + 1e-6, y), 0, 1e-4);
     }
-    for (y = 0.61; y < 1; y += 0.01) {
+    for (double y = 0.61; y < 1; y += 0.01) {
         double left = shown(&s, 1 - 1e-9, y), right = shown(&s, 1 + 1e-9, y);
         worst = fmax(worst, fabs(left - right));
         ck_assert(left > 1.2 && left < 3.8);
     }
     printf("past the wall's end the sides differ by at most %.2g\n", worst);
-    ck_assert_double_le(worst, 1.5); /* where no wall is, cut parts blend; their leaves differ in size, so not to the last digit */
+    /* where no wall is, cut parts blend; their leaves differ in size, so not to the last digit */
+    ck_assert_double_le(worst, 1.5);
     stage_close(&s);
 }
 END_TEST
 
-/* From above: bright and dark meet at the wall with nothing between, and no pixel of the floor is empty. */
+/* From above: bright and dark meet at the wall with nothing between, and no pixel of the floor
+ * is empty. */
 START_TEST(test_picture)
 {
     enum { W = 160, H = 80 };
-    const struct view view = { .eye = { 1, 0.5, 40 }, .at = { 1, 0.5, 0 }, .up = { 0, 1, 0 }, .fov = 2 * 0.7161599454704085 }; /* 1 m high at 40 m */
-    png_image image = { .version = PNG_IMAGE_VERSION };
-    unsigned char *rgb;
+    /* 1 m high at 40 m */
+    const struct view view = {
+        .eye = {1, 0.5, 40}, .at = {1, 0.5, 0}, .up = {0, 1, 0}, .fov = 2 * 0.7161599454704085};
+    png_image image = {.version = PNG_IMAGE_VERSION};
     struct stage s;
-    int x, y, bright, dark;
     stage_open(&s);
     ck_assert_int_eq(image_write(in_folder("cut.png"), &s.solution, &s.values, &view, W, H, 0), 0);
     ck_assert_int_ne(png_image_begin_read_from_file(&image, in_folder("cut.png")), 0);
     image.format = PNG_FORMAT_GRAY;
-    rgb = malloc(PNG_IMAGE_SIZE(image));
+    unsigned char *rgb = malloc(PNG_IMAGE_SIZE(image));
     ck_assert_int_ne(png_image_finish_read(&image, NULL, rgb, 0, NULL), 0);
-    bright = rgb[(H - 8) * W + 4];
-    dark = rgb[(H - 8) * W + W - 4];
+    int bright = rgb[(H - 8) * W + 4];
+    int dark = rgb[(H - 8) * W + W - 4];
     ck_assert_int_gt(bright, dark + 40);
-    for (y = 2; y < H - 2; y++)
-        for (x = 2; x < W - 2; x++) {
+    for (int y = 2; y < H - 2; y++)
+        for (int x = 2; x < W - 2; x++) {
             double px = (x + 0.5) / 80, py = 1 - (y + 0.5) / 80;
             int value = rgb[y * W + x];
-            if (fabs(px - 1) < 0.02 || (py > 0.45 && fabs(px - 1) < 0.55) || (px > 0.17 && px < 0.83 && py > 0.17 && py < 0.83))
+            if (fabs(px - 1) < 0.02 || (py > 0.45 && fabs(px - 1) < 0.55)
+                || (px > 0.17 && px < 0.83 && py > 0.17 && py < 0.83))
                 continue; /* the wall's edge, what is blended past its end, the box */
-            ck_assert_msg(abs(value - (px < 1 ? bright : dark)) <= 1, "pixel %d %d is %d", x, y, value);
+            ck_assert_msg(abs(value - (px < 1 ? bright : dark)) <= 1, "pixel %d %d is %d", x, y,
+                          value);
         }
     free(rgb);
     stage_close(&s);
@@ -198,27 +210,24 @@ END_TEST
 /* The meshes that are written cover each face of the file once. */
 START_TEST(test_meshes)
 {
-    static const char *const names[] = { "cut.ply", "cut.gltf", "cut.glb", "cut_out.obj" };
+    static const char *const names[] = {"cut.ply", "cut.gltf", "cut.glb", "cut_out.obj"};
     struct stage s;
-    size_t n;
     stage_open(&s);
-    for (n = 0; n < sizeof names / sizeof *names; n++) {
-        const struct aiScene *read;
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         double floor = 0, all = 0;
-        unsigned i, j, m;
         ck_assert_int_eq(export_write(in_folder(names[n]), &s.solution, &s.values), 0);
-        read = aiImportFile(in_folder(names[n]), 0);
+        const struct aiScene *read = aiImportFile(in_folder(names[n]), 0);
         ck_assert_msg(read != NULL, "%s: %s", names[n], aiGetErrorString());
-        for (m = 0; m < read->mNumMeshes; m++)
-            for (i = 0; i < read->mMeshes[m]->mNumFaces; i++) {
+        for (unsigned m = 0; m < read->mNumMeshes; m++)
+            for (unsigned i = 0; i < read->mMeshes[m]->mNumFaces; i++) {
                 const struct aiMesh *mesh = read->mMeshes[m];
                 const struct aiFace *f = &mesh->mFaces[i];
-                double sum[3] = { 0, 0, 0 }, high = 0;
-                for (j = 2; j < f->mNumIndices; j++) {
+                double sum[3] = {0, 0, 0}, high = 0;
+                for (unsigned j = 2; j < f->mNumIndices; j++) {
                     double p[3][3], a[3], b[3], c[3];
-                    int k;
-                    for (k = 0; k < 3; k++) {
-                        const struct aiVector3D *v = &mesh->mVertices[f->mIndices[k == 0 ? 0 : j + (unsigned)k - 2]];
+                    for (int k = 0; k < 3; k++) {
+                        const struct aiVector3D *v =
+                            &mesh->mVertices[f->mIndices[k == 0 ? 0 : j + (unsigned)k - 2]];
                         p[k][0] = (double)v->x;
                         p[k][1] = (double)v->y;
                         p[k][2] = (double)v->z;
@@ -227,7 +236,7 @@ START_TEST(test_meshes)
                     sub3(a, p[1], p[0]);
                     sub3(b, p[2], p[0]);
                     cross3(c, a, b);
-                    for (k = 0; k < 3; k++)
+                    for (int k = 0; k < 3; k++)
                         sum[k] += 0.5 * c[k];
                 }
                 all += length3(sum);
@@ -237,44 +246,49 @@ START_TEST(test_meshes)
                 }
             }
         ck_assert_double_eq_tol(floor, areas[0], 1e-5);
-        ck_assert_double_eq_tol(all, 2 + 2 * 0.06 + 0.36 + 4 * 0.06, 1e-5); /* the wall has two sides */
+        /* the wall has two sides */
+        ck_assert_double_eq_tol(all, 2 + 2 * 0.06 + 0.36 + 4 * 0.06, 1e-5);
         aiReleaseImport(read);
     }
     stage_close(&s);
 }
 END_TEST
 
-/* No T-junction: every corner of a polygon that lies on another's edge, of the same surface and side, is a corner of that, too. */
+/* No T-junction: every corner of a polygon that lies on another's edge, of the same surface and
+ * side, is a corner of that, too. */
 START_TEST(test_no_gaps)
 {
+    uint32_t inserted = 0;
     struct stage s;
-    struct leaf_mesh m;
-    uint32_t i, j, n, inserted = 0;
     stage_open(&s);
+    struct leaf_mesh m;
     ck_assert_int_eq(leaf_mesh_build(&m, &s.solution, &s.values), 0);
-    for (i = 0; i < m.polygons; i++)
-        for (j = m.start[i]; j < m.start[i + 1]; j++) {
-            uint32_t a = m.corner[j], b = m.corner[j + 1 < m.start[i + 1] ? j + 1 : m.start[i]], c;
+    for (uint32_t i = 0; i < m.polygons; i++)
+        for (uint32_t j = m.start[i]; j < m.start[i + 1]; j++) {
+            uint32_t a = m.corner[j], b = m.corner[j + 1 < m.start[i + 1] ? j + 1 : m.start[i]];
             const struct shared_vertex *p = &s.values.vertices[a], *q = &s.values.vertices[b];
             ck_assert_uint_ne(a, b);
-            for (c = 0; c < s.values.count; c++) {
+            for (uint32_t c = 0; c < s.values.count; c++) {
                 const struct shared_vertex *r = &s.values.vertices[c];
-                double e[3], w[3], x[3], t, left[3];
+                double e[3], w[3], x[3], left[3];
                 if (r->material != p->material || dot3(r->normal, p->normal) < 0.99)
                     continue;
                 sub3(e, q->position, p->position);
                 sub3(w, r->position, p->position);
                 cross3(x, e, w);
                 cross3(left, p->normal, e);
-                t = dot3(w, e) / dot3(e, e);
-                ck_assert_msg(!(length3(x) < 1e-9 && t > 1e-6 && t < 1 - 1e-6)
-                              || contact_sector(r->normal, r->contacts, (const double (*)[3])&s.values.contact[r->contact], left) != r->sector,
-                              "%g %g in the edge from %g %g to %g %g", r->position[0], r->position[1], p->position[0],
-                              p->position[1], q->position[0], q->position[1]);
+                double t = dot3(w, e) / dot3(e, e);
+                ck_assert_msg(
+                    !(length3(x) < 1e-9 && t > 1e-6 && t < 1 - 1e-6)
+                        || contact_sector(r->normal, r->contacts,
+                                          (const double(*)[3]) & s.values.contact[r->contact], left)
+                               != r->sector,
+                    "%g %g in the edge from %g %g to %g %g", r->position[0], r->position[1],
+                    p->position[0], p->position[1], q->position[0], q->position[1]);
             }
         }
-    for (i = 0; i < m.polygons; i++) {
-        n = m.start[i + 1] - m.start[i];
+    for (uint32_t i = 0; i < m.polygons; i++) {
+        uint32_t n = m.start[i + 1] - m.start[i];
         inserted += n > 4;
     }
     ck_assert_uint_gt(inserted, 20);
@@ -286,22 +300,23 @@ END_TEST
 /* One row per face of the file; the floor's means are its parts' by area. */
 START_TEST(test_table)
 {
-    struct stage s;
-    char line[256];
-    FILE *f;
     int row = 0;
+    struct stage s;
     stage_open(&s);
     ck_assert_int_eq(faces_csv_write(in_folder("cut.csv"), &s.solution), 0);
-    f = fopen(in_folder("cut.csv"), "r");
+    FILE *f = fopen(in_folder("cut.csv"), "r");
     ck_assert_ptr_nonnull(f);
+    char line[256];
     ck_assert_ptr_nonnull(fgets(line, sizeof line, f));
     ck_assert_str_eq(line, "face,material,area,E_0,rho_0,H_0,B_0\n");
     for (; fgets(line, sizeof line, f); row++) {
+        ck_assert_int_lt(row, FACES);
         char name[32];
         double area, e, rho, h, b;
         int face;
-        ck_assert_int_lt(row, FACES);
-        ck_assert_int_eq(sscanf(line, "%d,%31[^,],%lf,%lf,%lf,%lf,%lf", &face, name, &area, &e, &rho, &h, &b), 7);
+        ck_assert_int_eq(
+            sscanf(line, "%d,%31[^,],%lf,%lf,%lf,%lf,%lf", &face, name, &area, &e, &rho, &h, &b),
+            7);
         ck_assert_int_eq(face, row);
         ck_assert_double_eq_tol(area, areas[row], 1e-6);
         ck_assert_double_eq_tol(h, row ? 2 : (4 * (1 - 0.36) + 1) / 2, 1e-5);
@@ -331,7 +346,6 @@ int main(void)
     const char *temporary = getenv("TMPDIR");
     Suite *suite = suite_create("what is written of cut faces");
     TCase *c = tcase_create("output");
-    int failed;
     snprintf(folder, sizeof folder, "%.40s/check_cut.XXXXXX", temporary ? temporary : "/tmp");
     if (!mkdtemp(folder))
         return EXIT_FAILURE;
@@ -342,7 +356,7 @@ int main(void)
     tcase_add_test(c, test_no_gaps);
     tcase_add_test(c, test_table);
     suite_add_tcase(suite, c);
-    failed = suite_failures(suite);
+    int failed = suite_failures(suite);
     remove_folder();
     return failed != 0;
 }

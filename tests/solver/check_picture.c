@@ -72,7 +72,9 @@ static void stage_face(struct stage *s, uint32_t material, uint32_t vertices, co
 static void stage_build(struct stage *s)
 {
     /* A RadFace is a struct face. */
-    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)s->faces, s->solution.surfaces.face_count), 0);
+    ck_assert_int_eq(hierarchy_build(&s->h, (const struct face *)(const void *)s->faces,
+                                     s->solution.surfaces.face_count),
+                     0);
 }
 
 static int leaf(const struct stage *s, uint32_t i)
@@ -94,7 +96,8 @@ static void stage_split(struct stage *s, int rounds)
 
 static void stage_solve(struct stage *s)
 {
-    s->solution.tree = (struct RadElements){s->h.elements, s->h.count, s->h.built, s->h.face_element, s->bands, s->b, s->b, NULL};
+    s->solution.tree = (struct RadElements){
+        s->h.elements, s->h.count, s->h.built, s->h.face_element, s->bands, s->b, s->b, NULL};
     ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
 }
 
@@ -186,13 +189,13 @@ START_TEST(test_across_an_edge)
     const double upright[4][3] = {{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}};
     const double floor[3] = {0.3, 1e-9, 0}, wall[3] = {0.3, 0, 1e-9};
     struct stage *s = stage_new(1);
-    double value;
     stage_face(s, 0, 4, SQUARE);
     stage_face(s, 0, 4, upright);
     stage_build(s);
     for (uint32_t i = 0; i < s->h.count; i++)
         s->b[i] = s->h.elements[i].face == 0 ? 1 : 9;
     stage_solve(s);
+    double value;
     vertex_values_at(&s->values, &s->solution, 0, floor, &value);
     ck_assert_double_eq_tol(value, 1, 1e-6);
     vertex_values_at(&s->values, &s->solution, 1, wall, &value);
@@ -219,7 +222,8 @@ START_TEST(test_shape_functions)
             s->values.value[c[j]] = 1 + j * j;
         for (double u = 0; u <= 1; u += 0.0625)
             for (double v = 0; v <= (n == 4 ? 1 : 1 - u); v += 0.0625) {
-                double w[4] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, p[3], value, wanted = 0;
+                double w[4] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, p[3],
+                       wanted = 0;
                 if (n == 3)
                     w[0] = 1 - u - v, w[1] = u, w[2] = v;
                 for (int k = 0; k < 3; k++) {
@@ -229,6 +233,7 @@ START_TEST(test_shape_functions)
                 }
                 for (uint32_t j = 0; j < n; j++)
                     wanted += w[j] * (1 + j * j);
+                double value;
                 vertex_values_at(&s->values, &s->solution, f, p, &value);
                 ck_assert_double_eq_tol(value, wanted, 1e-9);
             }
@@ -241,12 +246,26 @@ END_TEST
 
 START_TEST(test_view_parse)
 {
-    static const char *const bad[] = {"", "1,2,3", "1,2,3:", "1,2,3:4,5", "1,2,3:1,2,3", "1,2,3:4,5,6:", "1,2,3:4,5,6:0.5",
-                                      "1,2,3:4,5,6:171", "1,2,3:4,5,6:x", "1,2,3:4,5,6:60x", "nan,2,3:4,5,6", "1,2,3:inf,5,6",
-                                      "1, 2,3:4,5,6", "1,2,3:4,5,6:nan", "1;2;3:4;5;6", "1e200,0,0:-1e200,0,0"};
+    static const char *const bad[] = {"",
+                                      "1,2,3",
+                                      "1,2,3:",
+                                      "1,2,3:4,5",
+                                      "1,2,3:1,2,3",
+                                      "1,2,3:4,5,6:",
+                                      "1,2,3:4,5,6:0.5",
+                                      "1,2,3:4,5,6:171",
+                                      "1,2,3:4,5,6:x",
+                                      "1,2,3:4,5,6:60x",
+                                      "nan,2,3:4,5,6",
+                                      "1,2,3:inf,5,6",
+                                      "1, 2,3:4,5,6",
+                                      "1,2,3:4,5,6:nan",
+                                      "1;2;3:4;5;6",
+                                      "1e200,0,0:-1e200,0,0"};
     struct view v;
     ck_assert_int_eq(view_parse("1,-2,3.5:4,5e-1,6", &v), 0);
-    ck_assert(v.eye[0] == 1 && v.eye[1] == -2 && v.eye[2] == 3.5 && v.at[0] == 4 && v.at[1] == 0.5 && v.at[2] == 6);
+    ck_assert(v.eye[0] == 1 && v.eye[1] == -2 && v.eye[2] == 3.5 && v.at[0] == 4 && v.at[1] == 0.5
+              && v.at[2] == 6);
     ck_assert(v.fov == 70 && v.up[0] == 0 && v.up[1] == 0 && v.up[2] == 0);
     ck_assert_int_eq(view_parse("0,0,0:0,0,1:39.5", &v), 0);
     ck_assert(v.fov == 39.5);
@@ -259,14 +278,15 @@ START_TEST(test_frame_straight_down)
 {
     struct stage *s = stage_new(1);
     double right[3], up[3], ahead[3];
-    struct view v;
     stage_face(s, 0, 4, SQUARE); /* z is up */
+    struct view v;
     for (int i = 0; i < 2; i++) {
         view_parse(i ? "0,0,5:0,0,0" : "0,0,0:1,1,9", &v);
         view_frame(&v, &s->solution.surfaces, right, up, ahead);
         ck_assert_double_eq_tol(length3(right), 1, 1e-12);
         ck_assert_double_eq_tol(length3(up), 1, 1e-12);
-        ck_assert_double_eq_tol(fabs(dot3(up, ahead)) + fabs(dot3(up, right)) + fabs(dot3(right, ahead)), 0, 1e-12);
+        ck_assert_double_eq_tol(
+            fabs(dot3(up, ahead)) + fabs(dot3(up, right)) + fabs(dot3(right, ahead)), 0, 1e-12);
     }
     ck_assert_double_eq_tol(up[1], 1, 1e-12);
     ck_assert_double_eq_tol(right[0], 1, 1e-12);
@@ -313,7 +333,7 @@ static void wall(struct stage *s, uint32_t material, double x, double y, double 
         memcpy(v[1], v[3], sizeof t);
         memcpy(v[3], t, sizeof t);
     }
-    stage_face(s, material, 4, (const double (*)[3])v);
+    stage_face(s, material, 4, (const double(*)[3])v);
 }
 
 static void colours(struct stage *s)
@@ -326,19 +346,19 @@ static void colours(struct stage *s)
 START_TEST(test_not_mirrored)
 {
     struct stage *s = stage_new(3);
-    wall(s, 0, 1, 4, 0, 0);    /* red: right, just above the middle */
-    wall(s, 1, -2, 4, 1, 0);   /* green: left, higher */
-    wall(s, 2, 0, 4, -2, 0);   /* blue: low, right of the middle */
-    wall(s, 2, 0.5, 2, 0, 1);  /* a back before the red one: cut away */
-    wall(s, 1, -1, 8, -4, 0);  /* green behind the blue one: hidden there */
+    wall(s, 0, 1, 4, 0, 0);   /* red: right, just above the middle */
+    wall(s, 1, -2, 4, 1, 0);  /* green: left, higher */
+    wall(s, 2, 0, 4, -2, 0);  /* blue: low, right of the middle */
+    wall(s, 2, 0.5, 2, 0, 1); /* a back before the red one: cut away */
+    wall(s, 1, -1, 8, -4, 0); /* green behind the blue one: hidden there */
     stage_build(s);
     stage_split(s, 3);
     colours(s);
     stage_solve(s);
-    struct view v;
     /* tan(fov / 2) = 0.5: at distance 4 the picture is 4 m high, hence 50 pixels to the metre. */
     char text[64];
     snprintf(text, sizeof text, "0,0,0:0,1,0:%.12f", 2 * atan(0.5) * 180 / 3.14159265358979323846);
+    struct view v;
     ck_assert_int_eq(view_parse(text, &v), 0);
     v.up[2] = 1;
     ck_assert_int_eq(image_write(in_folder("a.png"), &s->solution, &s->values, &v, 240, 200, 0), 0);
@@ -346,14 +366,16 @@ START_TEST(test_not_mirrored)
     ck_assert_int_eq(p.width, 240);
     ck_assert_int_eq(p.height, 200);
     /* x in pixels: 120 + 50 x, y: 100 - 50 z */
-    static const struct { int x, y, hue; } expected[] = {
-        {172, 98, 0},  {218, 98, 0},  {172, 52, 0},  {168, 75, -1}, {222, 75, -1}, {195, 102, -1}, {195, 47, -1},
-        {22, 48, 1},   {68, 2, 1},    {72, 25, -1},  {45, 52, -1},
-        {122, 152, 2}, {168, 198, 2}, {122, 198, 2}, {172, 175, -1}, {130, 148, -1},
-        {100, 190, 1}, {100, 80, -1},
+    static const struct {
+        int x, y, hue;
+    } expected[] = {
+        {172, 98, 0},  {218, 98, 0},  {172, 52, 0},   {168, 75, -1},  {222, 75, -1}, {195, 102, -1},
+        {195, 47, -1}, {22, 48, 1},   {68, 2, 1},     {72, 25, -1},   {45, 52, -1},  {122, 152, 2},
+        {168, 198, 2}, {122, 198, 2}, {172, 175, -1}, {130, 148, -1}, {100, 190, 1}, {100, 80, -1},
     };
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
-        ck_assert_msg(hue(at(&p, expected[i].x, expected[i].y)) == expected[i].hue, "pixel %d %d", expected[i].x, expected[i].y);
+        ck_assert_msg(hue(at(&p, expected[i].x, expected[i].y)) == expected[i].hue, "pixel %d %d",
+                      expected[i].x, expected[i].y);
     /* Away from the edges a surface of one radiosity is one colour. */
     ck_assert_mem_eq(at(&p, 180, 90), at(&p, 210, 60), 3);
     free(p.rgb);
@@ -364,7 +386,6 @@ END_TEST
 START_TEST(test_mesh_lines)
 {
     struct stage *s = stage_new(1);
-    struct view v;
     wall(s, 0, 0, 4, 0, 0);
     stage_build(s);
     hierarchy_split(&s->h, s->h.face_element[0]);
@@ -372,19 +393,24 @@ START_TEST(test_mesh_lines)
         s->b[i] = 1;
     stage_solve(s);
     char text[64];
-    snprintf(text, sizeof text, "0.5,0,0.5:0.5,1,0.5:%.12f", 2 * atan(0.125) * 180 / 3.14159265358979323846); /* it fills the picture */
+    snprintf(text, sizeof text, "0.5,0,0.5:0.5,1,0.5:%.12f",
+             2 * atan(0.125) * 180 / 3.14159265358979323846); /* it fills the picture */
+    struct view v;
     view_parse(text, &v);
     v.up[2] = 1;
     struct pixels p[2];
     for (int mesh = 0; mesh < 2; mesh++) {
-        ck_assert_int_eq(image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh), 0);
+        ck_assert_int_eq(
+            image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh), 0);
         p[mesh] = load(in_folder("m.png"));
     }
     for (int y = 0; y < 101; y++)
         for (int x = 0; x < 101; x++) {
             int plain = at(&p[0], x, y)[0], lined = at(&p[1], x, y)[0];
-            int line = abs(x - 50) == 0 || abs(y - 50) == 0 || x == 0 || y == 0 || x == 100 || y == 100;
-            int beside = abs(x - 50) == 1 || abs(y - 50) == 1 || x == 1 || y == 1 || x == 99 || y == 99;
+            int line =
+                abs(x - 50) == 0 || abs(y - 50) == 0 || x == 0 || y == 0 || x == 100 || y == 100;
+            int beside =
+                abs(x - 50) == 1 || abs(y - 50) == 1 || x == 1 || y == 1 || x == 99 || y == 99;
             if (line)
                 ck_assert_msg(lined < plain - 20, "no line at %d %d", x, y);
             else if (!beside)
@@ -398,21 +424,31 @@ END_TEST
 
 /* ---- shipped scenes: closed, so every sample meets a front ---- */
 
-static const struct { const char *name, *view; } shipped[] = {
-    {"room", "0.4,0.3,1.9:2.4,3.4,0.7"}, {"td", "2.55,3.75,1.35:2.5,4.6,0.76"}, {"td", "1.2,1.6,1.8:2.7,4.6,0.7"},
-    {"sejour", "5.5,0.25,1.9:2.4,3.2,0.6"}, {"sejour", "0.7,3.0,1.8:4.5,1.2,0.7"}, {"cornell", "0.278,0.273,0.05:0.278,0.273,1"},
-    {"furnace", "0.5,0.5,0.5:1,1,1"}, {"furnace_4", "0.1,0.2,0.3:1,0.5,0.5:120"}, {"maze_8", "0.6,0.6,1.5:3,0.65,1.2"},
-    {"room", NULL}, {"cornell", NULL}, {"td", NULL}, {"sejour", NULL},
+static const struct {
+    const char *name, *view;
+} shipped[] = {
+    {"room", "0.4,0.3,1.9:2.4,3.4,0.7"},
+    {"td", "2.55,3.75,1.35:2.5,4.6,0.76"},
+    {"td", "1.2,1.6,1.8:2.7,4.6,0.7"},
+    {"sejour", "5.5,0.25,1.9:2.4,3.2,0.6"},
+    {"sejour", "0.7,3.0,1.8:4.5,1.2,0.7"},
+    {"cornell", "0.278,0.273,0.05:0.278,0.273,1"},
+    {"furnace", "0.5,0.5,0.5:1,1,1"},
+    {"furnace_4", "0.1,0.2,0.3:1,0.5,0.5:120"},
+    {"maze_8", "0.6,0.6,1.5:3,0.65,1.2"},
+    {"room", NULL},
+    {"cornell", NULL},
+    {"td", NULL},
+    {"sejour", NULL},
 };
 
 START_TEST(test_watertight)
 {
-    char path[128];
     struct loaded l = {0};
-    struct view v;
-    struct raster r;
+    char path[128];
     snprintf(path, sizeof path, "examples/scenes/%s.obj", shipped[_i].name);
     load_scene(&l, path);
+    struct view v;
     if (shipped[_i].view)
         ck_assert_int_eq(view_parse(shipped[_i].view, &v), 0);
     else
@@ -420,6 +456,7 @@ START_TEST(test_watertight)
     enum { W = 320, H = 240 };
     uint32_t *face = malloc(W * H * sizeof *face), misses = 0, backs = 0;
     double *nearness = malloc(W * H * sizeof *nearness);
+    struct raster r;
     ck_assert_int_eq(raster_begin(&r, &l.surfaces, &v, W, H, 1), 0);
     raster_rows(&r, 0, H, face, nearness);
     for (int i = 0; i < W * H; i++) {
@@ -444,14 +481,15 @@ END_TEST
 START_TEST(test_raster_depth)
 {
     struct stage *s = stage_new(1);
+    /* reaches behind the eye */
+    const double floor[4][3] = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}};
+    stage_face(s, 0, 4, floor);
     struct view v;
+    ck_assert_int_eq(view_parse("0,0,2:1,0,1:90", &v), 0);
     struct raster r;
+    ck_assert_int_eq(raster_begin(&r, &s->solution.surfaces, &v, 64, 48, 0), 0);
     uint32_t face[64 * 48];
     double nearness[64 * 48];
-    const double floor[4][3] = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}; /* reaches behind the eye */
-    stage_face(s, 0, 4, floor);
-    ck_assert_int_eq(view_parse("0,0,2:1,0,1:90", &v), 0);
-    ck_assert_int_eq(raster_begin(&r, &s->solution.surfaces, &v, 64, 48, 0), 0);
     raster_rows(&r, 0, 48, face, nearness);
     for (int y = 0; y < 48; y++)
         for (int x = 0; x < 64; x++) {
@@ -474,7 +512,8 @@ START_TEST(test_exposure)
 {
     /* The same whatever the unit; a lamp in sight changes nothing (it is not metered). */
     double b[3] = {3, 2, 1}, dim[3], bright[3], zero[1] = {0};
-    struct meter_sample samples[3] = {{1, 1}, {2, 1}, {5, 2}}, scaled[3] = {{1000, 1}, {5000, 2}, {2000, 1}};
+    struct meter_sample samples[3] = {{1, 1}, {2, 1}, {5, 2}},
+                        scaled[3] = {{1000, 1}, {5000, 2}, {2000, 1}};
     struct exposure e = exposure_measure(samples, 3), f = exposure_measure(scaled, 3);
     exposure_apply(&e, b, 3, dim);
     for (int k = 0; k < 3; k++)
@@ -484,7 +523,8 @@ START_TEST(test_exposure)
         ck_assert_double_eq_tol(dim[k], bright[k], 1e-12);
     ck_assert_double_eq_tol(dim[0] / dim[1], 1.5, 1e-12); /* the hue is kept */
     ck_assert(dim[0] > 0.05 && dim[0] < 0.95);
-    /* The log-mean goes to 0.34, and the shoulder ends 1.2 times above what 98 % of the picture do not exceed. */
+    /* The log-mean goes to 0.34, and the shoulder ends 1.2 times above what 98 % of the picture
+     * do not exceed. */
     struct meter_sample bright_spot[3] = {{1, 60}, {1000, 1}, {30, 39}};
     f = exposure_measure(bright_spot, 3);
     ck_assert_double_eq_tol(f.scale * exp(0.39 * log(30) + 0.01 * log(1000)), 0.34, 1e-12);
@@ -508,8 +548,10 @@ START_TEST(test_bad_sizes)
     stage_build(s);
     stage_solve(s);
     ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 0, 10, 0), -1);
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0), -1);
-    ck_assert_int_eq(image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0), -1);
+    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0),
+                     -1);
+    ck_assert_int_eq(image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0),
+                     -1);
     ck_assert_int_ne(access(in_folder("n.png"), F_OK), 0);
     /* All black, and seen from outside: still a picture. */
     ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 1, 1, 1), 0);
@@ -555,20 +597,24 @@ START_TEST(test_leaf_mesh)
         uint32_t border = 0, pairs = 0;
         for (uint32_t i = 0; i < m.polygons; i++)
             for (uint32_t j = m.start[i]; j < m.start[i + 1]; j++) {
-                uint32_t a = m.corner[j], b = m.corner[j + 1 < m.start[i + 1] ? j + 1 : m.start[i]], found = 0;
+                uint32_t a = m.corner[j], b = m.corner[j + 1 < m.start[i + 1] ? j + 1 : m.start[i]],
+                         found = 0;
                 for (uint32_t p = 0; p < m.polygons; p++)
                     for (uint32_t q = m.start[p]; q < m.start[p + 1]; q++)
-                        found += m.corner[q] == b && m.corner[q + 1 < m.start[p + 1] ? q + 1 : m.start[p]] == a;
+                        found += m.corner[q] == b
+                                 && m.corner[q + 1 < m.start[p + 1] ? q + 1 : m.start[p]] == a;
                 ck_assert_uint_le(found, 1);
                 pairs += found;
                 /* Alone: then it lies on the border of its face. */
-                const double *u = s->values.vertices[a].position, *v = s->values.vertices[b].position;
+                const double *u = s->values.vertices[a].position,
+                             *v = s->values.vertices[b].position;
                 if (!found) {
                     int on_border = 0;
                     for (uint32_t f = 0; f < 3; f++)
                         for (uint32_t k = 0; k < s->faces[f].vertices; k++) {
                             double e[3], x[3], y[3], cx[3], cy[3];
-                            sub3(e, s->faces[f].vertex[(k + 1) % s->faces[f].vertices], s->faces[f].vertex[k]);
+                            sub3(e, s->faces[f].vertex[(k + 1) % s->faces[f].vertices],
+                                 s->faces[f].vertex[k]);
                             sub3(x, u, s->faces[f].vertex[k]);
                             sub3(y, v, s->faces[f].vertex[k]);
                             cross3(cx, e, x);
@@ -627,14 +673,16 @@ static void check_read_back(const char *path, int y_up)
         int k = z > 1.5 ? 2 : y > 1e-6 ? 0 : y < -1e-6 ? 1 : -1;
         double channel[3] = {(double)c->r, (double)c->g, (double)c->b};
         for (int o = 0; o < 3 && k >= 0; o++)
-            ck_assert_msg(o == k || channel[k] > channel[o] + 0.2, "%s: vertex %g %g %g is %g %g %g", path, x, y, z, channel[0],
-                          channel[1], channel[2]);
+            ck_assert_msg(o == k || channel[k] > channel[o] + 0.2,
+                          "%s: vertex %g %g %g is %g %g %g", path, x, y, z, channel[0], channel[1],
+                          channel[2]);
         coloured += k >= 0;
         aiTransformVecByMatrix4(&p, &t);
         highest = fmax(highest, (double)(y_up ? p.y : p.z));
     }
     ck_assert_uint_gt(coloured, 50);
-    ck_assert_double_eq_tol(area, 2 + sqrt(2), 1e-5); /* two unit squares, half of |(2 0 0) x (0 1 1)| */
+    /* two unit squares, half of |(2 0 0) x (0 1 1)| */
+    ck_assert_double_eq_tol(area, 2 + sqrt(2), 1e-5);
     ck_assert_double_eq_tol(highest, 3, 1e-6);
     aiReleaseImport(scene);
 }
@@ -671,7 +719,8 @@ START_TEST(test_ply_bytes)
     const char *end = strstr((const char *)bytes, "end_header\n");
     ck_assert_ptr_nonnull(end);
     ck_assert_ptr_nonnull(strstr((const char *)bytes, "element vertex 4\n"));
-    ck_assert_ptr_nonnull(strstr((const char *)bytes, "property float radiosity_0\nelement face 1\n"));
+    ck_assert_ptr_nonnull(
+        strstr((const char *)bytes, "property float radiosity_0\nelement face 1\n"));
     const unsigned char *body = (const unsigned char *)end + strlen("end_header\n");
     ck_assert_uint_eq((size_t)(bytes + size - body), 4 * 19 + 5 * 4);
     static const unsigned char twelve_and_a_half[4] = {0, 0, 0x48, 0x41};

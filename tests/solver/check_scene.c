@@ -21,7 +21,8 @@
 #include "suite.h"
 
 static const char SCENES[] = "examples/scenes/";
-static const char MTL[] = "newmtl a\nKd 0.5 0.5 0.5\nnewmtl b_2s\nKd 0.25 0.5 0.75\nKe 3 2 1\nnewmtl black\nKd 0 0 0\n";
+static const char MTL[] =
+    "newmtl a\nKd 0.5 0.5 0.5\nnewmtl b_2s\nKd 0.25 0.5 0.75\nKe 3 2 1\nnewmtl black\nKd 0 0 0\n";
 static const char SQUARE[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 static char folder[64];
@@ -78,8 +79,8 @@ static int read_scene(struct scene *s, const char *path, const struct scene_opti
 
 static int read_obj(struct scene *s, const char *body)
 {
-    char text[8192];
     write_text("m.mtl", MTL);
+    char text[8192];
     snprintf(text, sizeof text, "mtllib m.mtl\n%s", body);
     return read_scene(s, write_text("s.obj", text), NULL);
 }
@@ -90,7 +91,8 @@ static void expect_error(const char *body, const char *what)
     ck_assert_int_eq(read_obj(&s, body), -1);
     ck_assert_msg(strstr(last_error, what) != NULL, "'%s' is not in '%s'", what, last_error);
     ck_assert_msg(strstr(last_error, ": error: ") != NULL, "%s", last_error);
-    ck_assert_msg(strchr(last_error, '\n') == last_error + strlen(last_error) - 1, "one line: %s", last_error);
+    ck_assert_msg(strchr(last_error, '\n') == last_error + strlen(last_error) - 1, "one line: %s",
+                  last_error);
     ck_assert_uint_eq(s.face_count, 0);
     ck_assert_ptr_null(s.faces);
 }
@@ -131,8 +133,8 @@ START_TEST(test_shipped)
 {
     const struct fact *f = &facts[_i];
     char path[128];
-    struct scene s;
     snprintf(path, sizeof path, "%s%s.obj", SCENES, f->name);
+    struct scene s;
     ck_assert_int_eq(read_scene(&s, path, NULL), 0);
     ck_assert_str_eq(last_error, "");
     ck_assert_uint_eq(s.input_count, f->polygons);
@@ -170,17 +172,20 @@ static void compare_order(const char *path)
 {
     static double v[40000][3];
     struct scene s;
-    char line[512];
     unsigned vertices = 0, faces = 0;
     uint32_t next = 0;
     ck_assert_int_eq(read_scene(&s, path, NULL), 0);
     FILE *f = fopen(path, "r");
+    char line[512];
     while (fgets(line, sizeof line, f)) {
         if (line[0] == 'v' && line[1] == ' ') {
-            ck_assert_int_eq(sscanf(line + 2, "%lf %lf %lf", &v[vertices][0], &v[vertices][1], &v[vertices][2]), 3);
+            ck_assert_int_eq(
+                sscanf(line + 2, "%lf %lf %lf", &v[vertices][0], &v[vertices][1], &v[vertices][2]),
+                3);
             vertices++;
         } else if (line[0] == 'f') {
-            /* Every corner of the file's polygon is one of its face's, or of its parts' when it was cut. */
+            /* Every corner of the file's polygon is one of its face's, or of its parts' when it
+             * was cut. */
             uint32_t first = next;
             int corners = 0;
             char *rest = NULL;
@@ -188,13 +193,15 @@ static void compare_order(const char *path)
             while (next < s.face_count && s.faces[next].input == faces)
                 next++;
             ck_assert_uint_gt(next, first);
-            for (char *word = strtok_r(line + 2, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest), corners++) {
+            for (char *word = strtok_r(line + 2, " \n", &rest); word;
+                 word = strtok_r(NULL, " \n", &rest), corners++) {
                 const double *p = v[atoi(word) - 1];
                 int found = 0;
                 for (uint32_t i = first; i < next; i++)
                     for (uint32_t j = 0; j < s.faces[i].vertices; j++) {
                         const double *q = s.faces[i].vertex[j];
-                        found |= fabs(p[0] - q[0]) < 2e-6 && fabs(p[1] - q[1]) < 2e-6 && fabs(p[2] - q[2]) < 2e-6;
+                        found |= fabs(p[0] - q[0]) < 2e-6 && fabs(p[1] - q[1]) < 2e-6
+                                 && fabs(p[2] - q[2]) < 2e-6;
                     }
                 ck_assert(found);
             }
@@ -213,10 +220,14 @@ START_TEST(test_order)
     compare_order("examples/scenes/room.obj");
     compare_order("examples/scenes/sejour.obj");
     /* Groups and objects that come back, and runs of one material: Assimp would gather them. */
-    char text[1024];
     write_text("m.mtl", MTL);
-    snprintf(text, sizeof text, "mtllib m.mtl\no one\n%sv 0 0 1\nv 0 0 2\ng x\nusemtl a\nf 1 2 3\nusemtl black\nf 1 2 4\n"
-             "o two\nusemtl a\nf 1 2 5\ng y\nf 1 2 6\no one\nusemtl black\nf 2 3 5\ng x\nusemtl a\nf 3 4 5\no two\nusemtl black\nf 3 4 6\n", SQUARE);
+    char text[1024];
+    snprintf(
+        text, sizeof text,
+        "mtllib m.mtl\no one\n%sv 0 0 1\nv 0 0 2\ng x\nusemtl a\nf 1 2 3\nusemtl black\nf 1 2 4\n"
+        "o two\nusemtl a\nf 1 2 5\ng y\nf 1 2 6\no one\nusemtl black\nf 2 3 5\ng x\nusemtl a\nf 3 "
+        "4 5\no two\nusemtl black\nf 3 4 6\n",
+        SQUARE);
     compare_order(write_text("order.obj", text));
 }
 END_TEST
@@ -225,9 +236,9 @@ END_TEST
 
 START_TEST(test_two_sided)
 {
-    struct scene s;
     char body[512];
     snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 1 2 3\n", SQUARE);
+    struct scene s;
     ck_assert_int_eq(read_obj(&s, body), 0);
     ck_assert_uint_eq(s.face_count, 3);
     ck_assert_uint_eq(s.input_count, 2);
@@ -236,7 +247,8 @@ START_TEST(test_two_sided)
     ck_assert_uint_eq(s.faces[1].input, 0);
     ck_assert_uint_eq(s.faces[2].input, 1);
     for (int i = 0; i < 4; i++)
-        ck_assert_mem_eq(s.faces[0].vertex[i], s.faces[1].vertex[3 - i], sizeof s.faces[0].vertex[0]);
+        ck_assert_mem_eq(s.faces[0].vertex[i], s.faces[1].vertex[3 - i],
+                         sizeof s.faces[0].vertex[0]);
     ck_assert_double_eq_tol(s.areas[0], 1, 1e-12); /* one side */
     const struct RadMaterial *m = &s.materials[s.faces[0].material];
     ck_assert_str_eq(s.names[s.faces[0].material], "b_2s");
@@ -256,22 +268,34 @@ END_TEST
 
 START_TEST(test_polygons)
 {
-    static const struct { const char *body; unsigned faces; double area; } cases[] = {
-        {"v 0 0 0\nv 1 0 0\nv 1 1 0.001\nv 0 1 0\nf 1 2 3 4\n", 2, 1},              /* not flat */
-        {"v 0 0 0\nv 1 0 0\nv 1 1 0.0001\nv 0 1 0\nf 1 2 3 4\n", 1, 1},             /* flat enough */
-        {"v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n", 2, 1},              /* an arrow head, notch at (.5, .5) */
+    static const struct {
+        const char *body;
+        unsigned faces;
+        double area;
+    } cases[] = {
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0.001\nv 0 1 0\nf 1 2 3 4\n", 2, 1},  /* not flat */
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0.0001\nv 0 1 0\nf 1 2 3 4\n", 1, 1}, /* flat enough */
+        {"v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n", 2,
+         1}, /* an arrow head, notch at (.5, .5) */
         {"v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n", 4, 3}, /* an L */
-        {"v 0 0 0\nv 3 0 0\nv 3 3 0\nv 2 3 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6 7 8\n", 6, 7}, /* a U */
-        {"v 1 0 0\nv 0.5 0.8660254 0\nv -0.5 0.8660254 0\nv -1 0 0\nv -0.5 -0.8660254 0\nv 0.5 -0.8660254 0\nf 1 2 3 4 5 6\n",
-         4, 2.598076},                                                            /* a hexagon: 3 sqrt(3) / 2 */
-        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 3\nf -4 -3/1/1 -2//7 -1\n", 2, 1.5}, /* repeated; relative; odd parts */
-        {"v 0 0 0\nv 1 0 0\\\n\nv 1 1 0\r\nv 0 1 0\nf 1 2 \\\n 3 4\r\n", 1, 1},         /* continued lines, CR */
-        {"v 0 0 0\n v .5 0 0\n\tv .5 +.5 0\n f 1 2 3\n", 1, 0.125},                     /* bare points, indents */
+        {"v 0 0 0\nv 3 0 0\nv 3 3 0\nv 2 3 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6 7 "
+         "8\n",
+         6, 7}, /* a U */
+        {"v 1 0 0\nv 0.5 0.8660254 0\nv -0.5 0.8660254 0\nv -1 0 0\nv -0.5 -0.8660254 0\nv 0.5 "
+         "-0.8660254 0\nf 1 2 3 4 5 6\n",
+         /* a hexagon: 3 sqrt(3) / 2 */
+         4, 2.598076},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 3\nf -4 -3/1/1 -2//7 -1\n", 2,
+         1.5}, /* repeated; relative; odd parts */
+        {"v 0 0 0\nv 1 0 0\\\n\nv 1 1 0\r\nv 0 1 0\nf 1 2 \\\n 3 4\r\n", 1,
+         1},                                                        /* continued lines, CR */
+        {"v 0 0 0\n v .5 0 0\n\tv .5 +.5 0\n f 1 2 3\n", 1, 0.125}, /* bare points, indents */
     };
     struct scene s;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ck_assert_int_eq(read_obj(&s, cases[i].body), 0);
-        ck_assert_msg(s.face_count == cases[i].faces, "case %zu: %u faces", i, (unsigned)s.face_count);
+        ck_assert_msg(s.face_count == cases[i].faces, "case %zu: %u faces", i,
+                      (unsigned)s.face_count);
         double area = 0;
         for (uint32_t j = 0; j < s.face_count; j++) {
             double v[4][3], normal[3];
@@ -321,9 +345,11 @@ END_TEST
 
 START_TEST(test_dropped)
 {
-    struct scene s;
     char body[512];
-    snprintf(body, sizeof body, "%sv 0.5 0 0\nusemtl a\nf 1 2 5\nf 1 1 2\nf 1 2\nf 1\nf 1 2 3 4\nl 1 2\np 3\n", SQUARE);
+    snprintf(body, sizeof body,
+             "%sv 0.5 0 0\nusemtl a\nf 1 2 5\nf 1 1 2\nf 1 2\nf 1\nf 1 2 3 4\nl 1 2\np 3\n",
+             SQUARE);
+    struct scene s;
     ck_assert_int_eq(read_obj(&s, body), 0);
     ck_assert_uint_eq(s.dropped, 4);
     ck_assert_uint_eq(s.input_count, 5);
@@ -344,9 +370,9 @@ END_TEST
 
 START_TEST(test_black_and_grey)
 {
-    struct scene s;
     char body[512];
     snprintf(body, sizeof body, "%susemtl black\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
+    struct scene s;
     ck_assert_int_eq(read_obj(&s, body), 0);
     ck_assert_uint_eq(s.faces[0].black, 1);
     ck_assert_uint_eq(s.faces[1].black, 0);
@@ -360,13 +386,17 @@ END_TEST
 /* Coordinates 1e-4 apart at 1e6, where floats are 1/16 apart: no digit is lost. */
 START_TEST(test_double)
 {
-    const double at[4][2] = {{1000000.0001, -2000000.0001}, {1000000.0003, -2000000.0001}, {1000000.0003, -1999999.9997}, {1000000.0001, -1999999.9997}};
-    struct scene s;
+    const double at[4][2] = {{1000000.0001, -2000000.0001},
+                             {1000000.0003, -2000000.0001},
+                             {1000000.0003, -1999999.9997},
+                             {1000000.0001, -1999999.9997}};
     char body[512];
     int size = 0;
     for (int i = 0; i < 4; i++)
-        size += snprintf(body + size, sizeof body - (size_t)size, "v %.4f %.4f 0.1234567890123456\n", at[i][0], at[i][1]);
+        size += snprintf(body + size, sizeof body - (size_t)size,
+                         "v %.4f %.4f 0.1234567890123456\n", at[i][0], at[i][1]);
     snprintf(body + size, sizeof body - (size_t)size, "usemtl a\nf 1 2 3 4\n");
+    struct scene s;
     ck_assert_int_eq(read_obj(&s, body), 0);
     ck_assert_uint_eq(s.face_count, 1);
     ck_assert_uint_eq(s.faces[0].vertices, 4);
@@ -384,26 +414,37 @@ END_TEST
 START_TEST(test_obj)
 {
     static const double corner[4][3] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
-    static const struct { const char *name, *material; double rho, exitance; } expected[] = {
-        {"before usemtl", "DefaultMaterial", 0.6, 0}, {"defined later", "late", 0.25, 0}, {"blanks", "two words", 0.125, 1e6},
+    static const struct {
+        const char *name, *material;
+        double rho, exitance;
+    } expected[] = {
+        {"before usemtl", "DefaultMaterial", 0.6, 0},
+        {"defined later", "late", 0.25, 0},
+        {"blanks", "two words", 0.125, 1e6},
         {"no Kd", "plain", 0.6, 3},
     };
-    struct scene s;
-    write_text("one.mtl", "# Kd 9 9 9\nnewmtl  two words\t\nKd 0.125\nd 0.5\nTr 0.5\nKe 1e6 1000000 1.0e+06\nillum 2\nmap_Kd a.png\nNs x\n"
+    write_text("one.mtl", "# Kd 9 9 9\nnewmtl  two words\t\nKd 0.125\nd 0.5\nTr 0.5\nKe 1e6 "
+                          "1000000 1.0e+06\nillum 2\nmap_Kd a.png\nNs x\n"
                           "newmtl late\nKd 0.75 0.75 0.75\nnewmtl plain\n\tKe 3 3 3 # W/m2\n");
     write_text("an other.mtl", "newmtl late\r\nKd .25 .25 .25\r\n");
-    const char *obj = write_text("full.obj",
-        "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\nvp 1\n"
-        "f -1 -2 -3\n" /* three vertices before this line are none: replaced below */);
+    const char *obj = write_text(
+        "full.obj", "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\nvp 1\n"
+                    "f -1 -2 -3\n" /* three vertices before this line are none: replaced below */);
+    struct scene s;
     ck_assert_int_eq(read_scene(&s, obj, NULL), -1);
-    ck_assert_msg(strstr(last_error, "full.obj:6: error: vertex index -1 is out of range: 0 vertices come before this line"), "%s", last_error);
-    obj = write_text("full.obj",
+    ck_assert_msg(
+        strstr(
+            last_error,
+            "full.obj:6: error: vertex index -1 is out of range: 0 vertices come before this line"),
+        "%s", last_error);
+    obj = write_text(
+        "full.obj",
         "\xEF\xBB\xBF# a comment \\\no thing\nvt 0 0\nvn 0 0 1\n"
         "v 9 9 9 # never used\nv 0 0 1\nv 4 0 2 2\nv\t2\t2\t1\t0.5\t0.5\t0.5\r\nv 0 2 \\\n1\n"
-        "f 2/1/1 3//1 4/1 5\n"        /* faces before any material */
+        "f 2/1/1 3//1 4/1 5\n" /* faces before any material */
         "mtllib one.mtl\ng a b c\ns off\nusemtl late\n"
         "f -4/9/9 7 -2 -1 # vertex 7 comes later\n"
-        "v 2 0 1\nv 2 0 1\n"        /* 7 is 3 once more */
+        "v 2 0 1\nv 2 0 1\n" /* 7 is 3 once more */
         "usemtl two words \n\tf 2 3 \\\r\n 4 5\ng d\nl 1 2\np 1\ncall x\n"
         "usemtl plain\nf +2 3 4 5\nmtllib an other.mtl");
     ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
@@ -415,7 +456,8 @@ START_TEST(test_obj)
         ck_assert_uint_eq(f->vertices, 4);
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 3; k++)
-                ck_assert_msg(fabs(f->vertex[j][k] - corner[j][k]) <= 0, "%s: %g at %d", expected[i].name, f->vertex[j][k], j);
+                ck_assert_msg(fabs(f->vertex[j][k] - corner[j][k]) <= 0, "%s: %g at %d",
+                              expected[i].name, f->vertex[j][k], j);
         ck_assert_str_eq(s.names[f->material], expected[i].material);
         for (int k = 0; k < 3; k++) {
             ck_assert_double_eq(s.materials[f->material].reflectance[k], expected[i].rho);
@@ -430,9 +472,11 @@ END_TEST
 /* Every polygon knows its line, also behind lines that are continued. */
 START_TEST(test_lines)
 {
-    struct scene_file file;
     write_text("m.mtl", MTL);
-    const char *obj = write_text("l.obj", "mtllib m.mtl\nv 0 0 0\nv 1 \\\n 0 0\nv 1 1 0\nf 1 2 \\\n3\n\nusemtl a\nf 1 2\n#\nf 3 2 1");
+    const char *obj = write_text(
+        "l.obj",
+        "mtllib m.mtl\nv 0 0 0\nv 1 \\\n 0 0\nv 1 1 0\nf 1 2 \\\n3\n\nusemtl a\nf 1 2\n#\nf 3 2 1");
+    struct scene_file file;
     ck_assert_int_eq(scene_file_read(&file, obj, NULL), 0);
     ck_assert_uint_eq(file.polygon_count, 3);
     ck_assert_uint_eq(file.position_count, 3);
@@ -452,26 +496,37 @@ END_TEST
 
 START_TEST(test_errors)
 {
-    struct scene s;
-    expect_error("v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite");
-    expect_error("v 0 0 0\nv inf 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite");
-    expect_error("v 0 0 0\nv 1e39 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite");
+    expect_error("v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "s.obj:3: error: a vertex is not finite");
+    expect_error("v 0 0 0\nv inf 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "s.obj:3: error: a vertex is not finite");
+    expect_error("v 0 0 0\nv 1e39 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "s.obj:3: error: a vertex is not finite");
     expect_error("v 0 0 0\nv 1 0\nf 1 2 1\n", "s.obj:3: error: a vertex with 2 numbers");
     expect_error("v 0 0 x\n", "s.obj:2: error: 'x' is not a number");
-    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "s.obj:5: error: vertex index 4 is out of range: 3 vertices");
-    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -4\n", "s.obj:5: error: vertex index -4 is out of range");
-    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n", "s.obj:5: error: vertex index 0 is out of range");
-    expect_error("f 1 2 \\\n3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "s.obj:2: error: vertex index 4 is out of range: 3 vertices are in the file");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n",
+                 "s.obj:5: error: vertex index 4 is out of range: 3 vertices");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -4\n",
+                 "s.obj:5: error: vertex index -4 is out of range");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n",
+                 "s.obj:5: error: vertex index 0 is out of range");
+    expect_error("f 1 2 \\\n3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\n",
+                 "s.obj:2: error: vertex index 4 is out of range: 3 vertices are in the file");
     expect_error("v 0 0 0\nv 1 \\\n0 0\nv 1 1 0\nf 1 2 x\n", "s.obj:6: error: 'x' is not a corner");
-    expect_error("v 0 0 0\nv 1 0 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:3: error: a vertex is not finite when divided by its w, 0");
-    expect_error("usemtl b\nusemtl aa\nusemtl aa\n", "s.obj:2: error: material 'b' is in no material library");
+    expect_error("v 0 0 0\nv 1 0 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "s.obj:3: error: a vertex is not finite when divided by its w, 0");
+    expect_error("usemtl b\nusemtl aa\nusemtl aa\n",
+                 "s.obj:2: error: material 'b' is in no material library");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 99999999999999999999\n", "out of range");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf a b c\n", "s.obj:5: error: 'a' is not a corner");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf\n", "s.obj:5: error: a face without corners");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\n", "there is no face");
     expect_error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "all of its 1 faces are degenerate");
-    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl aa\nf 1 2 3\n", "s.obj:5: error: material 'aa' is in no material library");
-    expect_error("mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "s.obj:2: error: cannot read the material library");
+    expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl aa\nf 1 2 3\n",
+                 "s.obj:5: error: material 'aa' is in no material library");
+    expect_error("mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "s.obj:2: error: cannot read the material library");
+    struct scene s;
     ck_assert_int_eq(read_scene(&s, in_folder("missing.obj"), NULL), -1);
     ck_assert_ptr_nonnull(strstr(last_error, "No such file"));
     ck_assert_int_eq(read_scene(&s, folder, NULL), -1);
@@ -487,20 +542,25 @@ END_TEST
 
 START_TEST(test_bad_materials)
 {
-    static const struct { const char *mtl, *error; } cases[] = {
+    static const struct {
+        const char *mtl, *error;
+    } cases[] = {
         {"newmtl x\n\nKd 0.5 1 0.5\n", "x.mtl:3: error: material 'x' has reflectance 1;"},
         {"newmtl x\nKd 0.5 -0.1 0.5\n", "x.mtl:2: error: material 'x' has reflectance -0.1;"},
-        {"newmtl x\nKd 0.5 0.5 0.5\nKe 0 0 -2\n", "x.mtl:3: error: material 'x' has exitance -2 W/m2;"},
+        {"newmtl x\nKd 0.5 0.5 0.5\nKe 0 0 -2\n",
+         "x.mtl:3: error: material 'x' has exitance -2 W/m2;"},
         {"newmtl x\nKd 0.5 nan 0.5\n", "x.mtl:2: error: a diffuse colour (Kd) is not finite"},
         {"newmtl x\nKe 0 nan 0\n", "x.mtl:2: error: an exitance (Ke) is not finite"},
         {"newmtl x\nKd a b c\n", "x.mtl:2: error: 'a' is not a number"},
     };
     struct scene s;
-    const char *obj = write_text("x.obj", "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl x\nf 1 2 3\n");
+    const char *obj =
+        write_text("x.obj", "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl x\nf 1 2 3\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         write_text("x.mtl", cases[i].mtl);
         ck_assert_int_eq(read_scene(&s, obj, NULL), -1);
-        ck_assert_msg(strstr(last_error, cases[i].error) != NULL, "'%s' is not in '%s'", cases[i].error, last_error);
+        ck_assert_msg(strstr(last_error, cases[i].error) != NULL, "'%s' is not in '%s'",
+                      cases[i].error, last_error);
     }
     write_text("x.mtl", "newmtl unused\nKd 2 2 2\nnewmtl x\nKd 0.1 0.9 0.99\nKe 12345.5 0 1e-9\n");
     ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
@@ -518,19 +578,22 @@ END_TEST
 /* One triangle, (0 0 0) (1 0 0) (0 1 0), as 36 bytes of little-endian floats in base 64. */
 static const char GLTF[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
-    "\"nodes\":[{\"mesh\":0,\"scale\":[2,2,2],\"translation\":[0,0,5]},{\"mesh\":0,\"scale\":[-1,1,1]}],"
-    "\"materials\":[{\"name\":\"m\",\"doubleSided\":%s,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.25,0.5,0.75,1]},"
+    "\"nodes\":[{\"mesh\":0,\"scale\":[2,2,2],\"translation\":[0,0,5]},{\"mesh\":0,\"scale\":[-1,1,"
+    "1]}],"
+    "\"materials\":[{\"name\":\"m\",\"doubleSided\":%s,\"pbrMetallicRoughness\":{"
+    "\"baseColorFactor\":[0.25,0.5,0.75,1]},"
     "\"emissiveFactor\":[1,0.5,0.25]}],"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
-    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":"
+    "[0,0,0],\"max\":[1,1,0]}],"
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
     "\"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
 
 START_TEST(test_gltf)
 {
-    struct scene s;
     char text[2048];
     snprintf(text, sizeof text, GLTF, "false");
+    struct scene s;
     ck_assert_int_eq(read_scene(&s, write_text("t.gltf", text), NULL), 0);
     ck_assert_uint_eq(s.face_count, 2);
     const struct RadMaterial *m = &s.materials[s.faces[0].material];
@@ -556,7 +619,8 @@ END_TEST
 START_TEST(test_ply)
 {
     struct scene s;
-    const char *ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    const char *ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float "
+                      "y\nproperty float z\n"
                       "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                       "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
     ck_assert_int_eq(read_scene(&s, write_text("q.ply", ply), NULL), 0);
@@ -583,7 +647,6 @@ static int files_in_folder(void)
 START_TEST(test_atomic)
 {
     struct atomic_file f;
-    struct stat status;
     mode_t old = umask(027);
     const char *path = write_text("out.txt", "before");
     int files = files_in_folder();
@@ -600,6 +663,7 @@ START_TEST(test_atomic)
     ck_assert_str_eq(text, "after");
     free(text);
     ck_assert_int_eq(files_in_folder(), files);
+    struct stat status;
     ck_assert_int_eq(stat(path, &status), 0);
     ck_assert_int_eq((int)(status.st_mode & 0777), 0640);
     umask(old);
@@ -628,13 +692,16 @@ START_TEST(test_faces_csv)
 {
     enum { FRONT = 1, BACK };
     const uint32_t face_element[2] = {FRONT, BACK};
-    const struct element elements[3] = {[FRONT] = {.area = 1, .vertices = 4}, [BACK] = {.area = 1, .vertices = 4}};
+    const struct element elements[3] = {
+        [FRONT] = {.area = 1, .vertices = 4}, [BACK] = {.area = 1, .vertices = 4}};
     const double b[3] = {[FRONT] = 3, [BACK] = 1}, irradiance[3] = {[FRONT] = 4};
-    struct loaded l;
     write_text("n.mtl", "newmtl a, \"b\"_2s\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
-    load_scene(&l, write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n"));
+    struct loaded l;
+    load_scene(&l, write_text("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl "
+                                       "a, \"b\"_2s\nf 1 2 2\nf 1 2 3 4\n"));
     ck_assert_uint_eq(l.report.faces, 2);
-    const struct solution solution = {l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL}};
+    const struct solution solution = {
+        l.surfaces, {elements, 3, 3, face_element, l.report.bands, b, irradiance, NULL}};
     ck_assert_int_eq(faces_csv_write(in_folder("f.csv"), &solution), 0);
     char *text = read_text(in_folder("f.csv"));
     ck_assert_str_eq(text, "face,material,area,E_0,rho_0,H_0,B_0\n"

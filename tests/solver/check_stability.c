@@ -1,6 +1,7 @@
-/* check_stability.c - the failure table, cell by cell: methods that must pass do, and those that are known to fail fail,
- * by the amount that the table states. One test per case; what a case is, solver/stability_cases.c says.
- * Then the closed forms that the cases rest on, against published values, and the command that prints the table.
+/* check_stability.c - the failure table, cell by cell: methods that must pass do, and those that
+ * are known to fail fail, by the amount that the table states. One test per case; what a case is,
+ * solver/stability_cases.c says. Then the closed forms that the cases rest on, against published
+ * values, and the command that prints the table.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -14,8 +15,8 @@
 
 static int cases(void)
 {
-    int g, n = 0;
-    for (g = 0; g < stability_group_count; g++)
+    int n = 0;
+    for (int g = 0; g < stability_group_count; g++)
         n += stability_groups[g].count;
     return n;
 }
@@ -31,9 +32,8 @@ static const struct stability_case *case_at(int index)
 START_TEST(test_case)
 {
     const struct stability_case *c = case_at(_i);
-    const struct stability_cell *cell;
     int wrong = 0;
-    for (cell = c->cells; cell->method != NO_METHOD; cell++) {
+    for (const struct stability_cell *cell = c->cells; cell->method != NO_METHOD; cell++) {
         struct stability_trial trial;
         const char *name = stability_methods[cell->method].name;
         ck_assert_int_eq(stability_run(c, cell, 2, &trial), 0);
@@ -42,12 +42,13 @@ START_TEST(test_case)
         case VERDICT_FAILS_AS_KNOWN:
             break;
         case VERDICT_FAILS:
-            printf("%s, %s: error %.3g is above %.1g (%s)\n", c->name, name, trial.error, cell->tolerance, c->measure);
+            printf("%s, %s: error %.3g is above %.1g (%s)\n", c->name, name, trial.error,
+                   cell->tolerance, c->measure);
             wrong++;
             break;
         case VERDICT_CHANGED:
-            printf("%s, %s: error %.3g, but it is known to fail by %.3g to %.3g (%s)\n", c->name, name, trial.error, cell->low,
-                   cell->high, cell->why);
+            printf("%s, %s: error %.3g, but it is known to fail by %.3g to %.3g (%s)\n", c->name,
+                   name, trial.error, cell->low, cell->high, cell->why);
             wrong++;
             break;
         }
@@ -56,31 +57,33 @@ START_TEST(test_case)
 }
 END_TEST
 
-/* A cell cannot hold both ways, every case has a name of its own, and the default oracle passes wherever it is asked. */
+/* A cell cannot hold both ways, every case has a name of its own, and the default oracle passes
+ * wherever it is asked. */
 START_TEST(test_table)
 {
-    int i, j, k;
-    for (i = 0; i < cases(); i++) {
+    for (int i = 0; i < cases(); i++) {
         const struct stability_case *c = case_at(i);
         ck_assert(c->cells[0].method != NO_METHOD);
-        for (j = 0; j < i; j++)
+        for (int j = 0; j < i; j++)
             ck_assert_str_ne(c->name, case_at(j)->name);
-        for (k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++) {
+        for (int k = 0; k < STABILITY_CELLS && c->cells[k].method != NO_METHOD; k++) {
             const struct stability_cell *cell = &c->cells[k];
             ck_assert(cell->method > NO_METHOD && cell->method < METHODS);
             ck_assert_ptr_nonnull(stability_methods[cell->method].name);
             ck_assert(cell->tolerance >= 0);
-            for (j = 0; j < k; j++)
+            for (int j = 0; j < k; j++)
                 ck_assert_int_ne(c->cells[j].method, cell->method);
             if (cell->method == DEFAULT)
                 ck_assert_msg(!cell->why, "%s", c->name);
             if (cell->why) {
-                ck_assert_msg(cell->low > cell->tolerance && cell->high >= cell->low, "%s", c->name);
+                ck_assert_msg(cell->low > cell->tolerance && cell->high >= cell->low, "%s",
+                              c->name);
                 ck_assert_int_eq(stability_judge(cell, 0), VERDICT_CHANGED);
                 ck_assert_int_eq(stability_judge(cell, cell->low), VERDICT_FAILS_AS_KNOWN);
             } else {
                 ck_assert_int_eq(stability_judge(cell, cell->tolerance), VERDICT_PASSES);
-                ck_assert_int_eq(stability_judge(cell, 2 * cell->tolerance + 1e-300), VERDICT_FAILS);
+                ck_assert_int_eq(stability_judge(cell, 2 * cell->tolerance + 1e-300),
+                                 VERDICT_FAILS);
                 ck_assert_int_eq(stability_judge(cell, NAN), VERDICT_FAILS);
             }
         }
@@ -88,18 +91,20 @@ START_TEST(test_table)
 }
 END_TEST
 
-/* Published values; the closed forms without shadows have a suite of their own, check_closed_forms.c. */
+/* Published values; the closed forms without shadows have a suite of their own,
+ * check_closed_forms.c. */
 START_TEST(test_known)
 {
-    const double source[4] = { -0.5, 0.5, -0.5, 0.5 };
-    static const double x[] = { 0.25, 0.5, 0.75, 1, 1.5 }, e[] = { 0, 0.0189169153, 0.0337198400, 0.0405845563, 0.0326632655 };
-    int i;
+    const double source[4] = {-0.5, 0.5, -0.5, 0.5};
+    static const double x[] = {0.25, 0.5, 0.75, 1, 1.5},
+                        e[] = {0, 0.0189169153, 0.0337198400, 0.0405845563, 0.0326632655};
     ck_assert_double_eq_tol(known_point(0, 1, 0, 1, 1), 0.1385316060, 1e-10);
     ck_assert_double_eq_tol(known_point(-0.5, 0.5, -0.5, 0.5, 1), 0.2394564705, 1e-10);
-    ck_assert_double_eq_tol(known_point(0.5, 1.5, -0.5, 0.5, 1), known_point(-1.5, -0.5, -0.5, 0.5, 1), 1e-15);
-    for (i = 0; i < 5; i++) {
-        const double s[4] = { source[0] - x[i], source[1] - x[i], source[2], source[3] };
-        const double b[4] = { -0.375 - x[i], 0.375 - x[i], -0.375, 0.375 };
+    ck_assert_double_eq_tol(known_point(0.5, 1.5, -0.5, 0.5, 1),
+                            known_point(-1.5, -0.5, -0.5, 0.5, 1), 1e-15);
+    for (int i = 0; i < 5; i++) {
+        const double s[4] = {source[0] - x[i], source[1] - x[i], source[2], source[3]};
+        const double b[4] = {-0.375 - x[i], 0.375 - x[i], -0.375, 0.375};
         ck_assert_double_eq_tol(known_penumbra(s, 2, b, 1), e[i], 1e-10);
     }
 }
@@ -109,16 +114,17 @@ static int run(const char *arguments)
 {
     const char *program = getenv("RADIOSITY");
     char command[512];
-    snprintf(command, sizeof command, "%s study %s", program ? program : "build/bin/radiosity", arguments);
+    snprintf(command, sizeof command, "%s study %s", program ? program : "build/bin/radiosity",
+             arguments);
     return system(command);
 }
 
 static int holds(const char *path, const char *text)
 {
-    char line[1024];
     FILE *in = fopen(path, "r");
     int found = 0;
     ck_assert_ptr_nonnull(in);
+    char line[1024];
     while (!found && fgets(line, sizeof line, in))
         found = strstr(line, text) != NULL;
     fclose(in);
@@ -132,7 +138,8 @@ START_TEST(test_command)
     snprintf(path, sizeof path, "%s/out", folder);
     snprintf(arguments, sizeof arguments, "stability --only shared_edge > %s", path);
     ck_assert_int_eq(run(arguments), 0);
-    ck_assert(holds(path, "clusters") && holds(path, "fails: 1/r2 is unbounded") && holds(path, "0 are not as expected"));
+    ck_assert(holds(path, "clusters") && holds(path, "fails: 1/r2 is unbounded")
+              && holds(path, "0 are not as expected"));
     unlink(path);
     snprintf(path, sizeof path, "%s/out.csv", folder);
     snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", path);

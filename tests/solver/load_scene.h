@@ -1,4 +1,5 @@
-/* load_scene.h - a scene file as commands have it: read, committed, and its surfaces for the writers.
+/* load_scene.h - a scene file as commands have it: read, committed, and its surfaces for the
+ * writers.
  * SPDX-License-Identifier: MIT */
 #ifndef LOAD_SCENE_H
 #define LOAD_SCENE_H

@@ -61,9 +61,9 @@ int main(int count, char **arguments)
 {
     static struct record one, two;
     static unsigned char script[4096];
-    const struct extern_entry externs[] = { { "outside", outside } };
-    struct interpretation how = { 0 };
-    struct messages messages = { 0 };
+    const struct extern_entry externs[] = {{"outside", outside}};
+    struct interpretation how = {0};
+    struct messages messages = {0};
     long calls = 0, wrong = 0, numbers = 0;
     int g, w, i, k;
     if (count < 3)
@@ -74,11 +74,13 @@ int main(int count, char **arguments)
         struct refiner *dag, *flat = refiner_compiled(oracles[g], "flat");
         how.oracle = oracles[g]->name;
         how.switches = "no-all"; /* random graphs, that no analysis would let pass */
-        if (g == 0) { /* without the extern it must say so and fail */
+        if (g == 0) {            /* without the extern it must say so and fail */
             how.extern_count = 0;
             dag = refiner_interpret(&how, &messages);
             if (dag || !strstr(messages_text(&messages), "the extern 'outside' is not registered"))
-                return fprintf(stderr, "an extern that is not registered: %s\n", messages_text(&messages)), 1;
+                return fprintf(stderr, "an extern that is not registered: %s\n",
+                               messages_text(&messages)),
+                       1;
             messages_free(&messages);
         }
         how.externs = externs;
@@ -108,7 +110,8 @@ int main(int count, char **arguments)
             for (i = 0; i < one.calls && i < two.calls; i++, calls++)
                 for (k = 0; k < 2; k++) {
                     numbers += isfinite(one.arguments[i][k]) && one.arguments[i][k] > 0;
-                    if (one.tools[i] != two.tools[i] || !same(one.arguments[i][k], two.arguments[i][k])) {
+                    if (one.tools[i] != two.tools[i]
+                        || !same(one.arguments[i][k], two.arguments[i][k])) {
                         if (wrong++ < 10)
                             fprintf(stderr, "%s, call %d: %.17g, %.17g\n", how.oracle, i,
                                     one.arguments[i][k], two.arguments[i][k]);
@@ -120,6 +123,7 @@ int main(int count, char **arguments)
         refiner_close(dag);
         refiner_close(flat);
     }
-    printf("%d oracles, %ld calls, %ld positive arguments, %ld differ\n", oracle_count, calls, numbers, wrong);
+    printf("%d oracles, %ld calls, %ld positive arguments, %ld differ\n", oracle_count, calls,
+           numbers, wrong);
     return wrong != 0 || numbers < calls / 4;
 }

@@ -25,8 +25,7 @@ static inline int made_open(struct scene *s)
 static inline uint32_t made_material(struct scene *s, double rho, double exitance)
 {
     struct RadMaterial *m = &s->materials[s->material_count];
-    int k;
-    for (k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         m->reflectance[k] = rho;
         m->exitance[k] = exitance;
     }
@@ -41,7 +40,8 @@ static inline void made_face(struct scene *s, uint32_t material, int n, const do
     f->vertices = (uint32_t)n;
     f->material = material;
     f->input = s->face_count;
-    f->black = s->materials[material].reflectance[0] <= 0 && s->materials[material].exitance[0] <= 0;
+    f->black =
+        s->materials[material].reflectance[0] <= 0 && s->materials[material].exitance[0] <= 0;
     s->input_materials[s->face_count] = material;
     s->face_count++;
     s->input_count++;
@@ -51,13 +51,16 @@ static inline void made_face(struct scene *s, uint32_t material, int n, const do
 static inline void made_quad(struct scene *s, uint32_t material, double ox, double oy, double oz,
                              double ax, double ay, double az, double bx, double by, double bz)
 {
-    const double p[4][3] = { { ox, oy, oz }, { ox + ax, oy + ay, oz + az },
-                             { ox + ax + bx, oy + ay + by, oz + az + bz }, { ox + bx, oy + by, oz + bz } };
+    const double p[4][3] = {{ox, oy, oz},
+                            {ox + ax, oy + ay, oz + az},
+                            {ox + ax + bx, oy + ay + by, oz + az + bz},
+                            {ox + bx, oy + by, oz + bz}};
     made_face(s, material, 4, p);
 }
 
 /* A box seen from inside: floor, ceiling, then the four walls. */
-static inline void made_room(struct scene *s, const uint32_t material[6], double x, double y, double z)
+static inline void made_room(struct scene *s, const uint32_t material[6], double x, double y,
+                             double z)
 {
     made_quad(s, material[0], 0, 0, 0, x, 0, 0, 0, y, 0);
     made_quad(s, material[1], 0, 0, z, 0, y, 0, x, 0, 0);
@@ -69,11 +72,9 @@ static inline void made_room(struct scene *s, const uint32_t material[6], double
 
 static inline void made_scale(struct scene *s, double factor)
 {
-    uint32_t i, j;
-    int k;
-    for (i = 0; i < s->face_count; i++)
-        for (j = 0; j < s->faces[i].vertices; j++)
-            for (k = 0; k < 3; k++)
+    for (uint32_t i = 0; i < s->face_count; i++)
+        for (uint32_t j = 0; j < s->faces[i].vertices; j++)
+            for (int k = 0; k < 3; k++)
                 s->faces[i].vertex[j][k] *= factor;
 }
 

@@ -9,11 +9,11 @@
 int scene_read(struct scene *scene, const char *path, const struct scene_options *options)
 {
     struct scene_file file;
-    struct scene_error error;
     *scene = (struct scene){0};
     if (scene_file_read(&file, path, options))
         return -1;
     const struct RadPolygons polygons = scene_file_polygons(&file);
+    struct scene_error error;
     int result = scene_build(scene, &polygons, file.materials, file.material_count, 0, &error);
     if (result) {
         report_error(path, 0, "%s", error.text);

@@ -26,8 +26,9 @@ static int add_hand(struct oracle_sources *sources)
 
 struct refiner *oracles_open(const char *oracle, enum release release)
 {
-    struct oracle_sources sources = { .compiler = from_environment("CC"), .temporary = from_environment("TMPDIR") };
-    struct messages messages = { 0 };
+    struct oracle_sources sources = {.compiler = from_environment("CC"),
+                                     .temporary = from_environment("TMPDIR")};
+    struct messages messages = {0};
     struct refiner *r = NULL;
     if (add_hand(&sources) == 0)
         r = oracle_open(&sources, oracle, release, &messages);
@@ -51,15 +52,15 @@ int oracles_by_hand(const char *oracle)
 static int set(struct refiner *r, const char *setting)
 {
     const char *equals = strchr(setting, '=');
-    char name[64], *end;
-    double value;
+    char name[64];
     size_t length = equals ? (size_t)(equals - setting) : 0;
-    struct messages messages = { 0 };
+    struct messages messages = {0};
     if (!equals || length == 0 || length >= sizeof name)
         return report_error("--set", 0, "'%s' names no parameter; write PARAM=VALUE", setting);
     memcpy(name, setting, length);
     name[length] = 0;
-    value = strtod(equals + 1, &end);
+    char *end;
+    double value = strtod(equals + 1, &end);
     if (!equals[1])
         return report_error("--set", 0, "%s has no value; write %s=NUMBER", name, name);
     if (end == equals + 1 || *end || isnan(value))
@@ -84,7 +85,8 @@ int oracles_set(struct refiner *r, char *const *settings, int count)
 void oracles_print(FILE *out)
 {
     for (const struct builtin *b = builtins; b->name; b++) {
-        fprintf(out, "%s%s: %s\n", b->name, strcmp(b->name, DEFAULT_ORACLE) == 0 ? " (default)" : "", b->flat->doc);
+        fprintf(out, "%s%s: %s\n", b->name,
+                strcmp(b->name, DEFAULT_ORACLE) == 0 ? " (default)" : "", b->flat->doc);
         for (int i = 0; i < b->flat->parameter_count; i++) {
             const struct oracle_parameter *p = &b->flat->parameters[i];
             fprintf(out, "  %-10s %8g %-5s %s\n", p->name, p->value, p->unit, p->doc);

@@ -1,4 +1,5 @@
-/* oracles.h - oracles as the command is asked for them: messages go to stderr, the compiler is the environment's.
+/* oracles.h - oracles as the command is asked for them: messages go to stderr, the compiler is the
+ * environment's.
  * SPDX-License-Identifier: MIT */
 #ifndef SOLVER_ORACLES_H
 #define SOLVER_ORACLES_H
