@@ -115,7 +115,7 @@ static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct 
                          uint32_t f)
 {
     struct shared_vertex *s = &v->vertices[vertex];
-    double touch = OUTPUT_TOUCH * face_size(&solution->surfaces.faces[f]);
+    double touch = CUT_TOUCH * face_size(&solution->surfaces.faces[f]);
     s->contact = v->contact_count;
     s->contacts = 0;
     if (!on_border(&solution->surfaces.faces[f], s->position, touch))
