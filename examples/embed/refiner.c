@@ -192,6 +192,60 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 #define REFINER_OUTLINE static
 #endif
 
+/* constants.h - every threshold that decides an answer: its value, unit, and reason.
+ *
+ * One home for each, and this is the page that lists them. The reason is a source, a derivation, or
+ * the command that measured it; "chosen" says that there is none yet. What merely bounds work
+ * (buffers, chunks of a loop) stays where it is used. Headers of tools and terms may use these:
+ * dagc --standalone copies the ones that a graph reaches. */
+
+/* ---- geometry of a pair (kernel, terms, tools) */
+
+/* What dagc --standalone writes holds some of these and is read by C++ compilers, too, which need
+ * not know hexadecimal floats: hence quotients. */
+
+/* of the sum of both radii. Corners no farther from a plane lie in it, besides host.flat. Chosen:
+ * 256 roundings of floats */
+#define REFINER_PLANE_FLAT (1 / 65536.0)
+
+/* radii of the smaller polygon. Farther off than NEAR a rule of six points is enough, than MIDDLE
+ * of three, than FAR of one: each keeps the relative error near 1e-5
+ * (tests/runtime/check_form_factor.c) */
+#define REFINER_POLYGON_FACTOR_NEAR 3.0
+
+#define REFINER_POLYGON_FACTOR_MIDDLE 8.0
+
+#define REFINER_POLYGON_FACTOR_FAR 60.0
+
+/* the same at the exact level: nearer, contours are integrated; beyond, they would lose digits and
+ * points are better */
+#define REFINER_POLYGON_FACTOR_EXACT 60.0
+
+/* F both ways. Less may be rounding's alone, and is 0 when nothing rises above the other's plane */
+#define REFINER_POLYGON_FACTOR_FAINT 1e-6
+
+/* of the coordinates. What rounding leaves of a corner's height: 16 roundings */
+#define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
+
+/* of F, by one pair of edges. What levels polygon and contour aim at: a hundredth of the errors
+ * that they promise, for edges are many (tests/runtime/check_closed_forms.c) */
+#define REFINER_CONTOUR_FACTOR_FAIR 1e-7
+
+#define REFINER_CONTOUR_FACTOR_EXACT 1e-11
+
+/* of a unit length. What rounding leaves of an integral of ln; to aim lower would not end */
+#define REFINER_CONTOUR_FACTOR_ROUNDING 2e-15
+
+/* cosine of two edges. At less they count as perpendicular and bring nothing: a rounding */
+#define REFINER_CONTOUR_FACTOR_PERPENDICULAR 1e-16
+
+/* square of a sine. Edges at no more are parallel, whose integral is closed: 1000 roundings of a
+ * sine */
+#define REFINER_CONTOUR_FACTOR_PARALLEL 1e-26
+
+/* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
+#define REFINER_SAMPLER_PARALLELOGRAM 1e-12
+
 /* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so
  * that a pair opens the same element both ways round. */
 
@@ -240,7 +294,7 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
         return REFINER_CLUSTERS_SURFACES;
     refiner_sub3(v, s->centre, r->centre);
     double longest = refiner_length3(v) + r->radius + s->radius;
-    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double flat = d->host->flat + REFINER_PLANE_FLAT * (r->radius + s->radius);
     if (refiner_clusters_turned(r, s, v, longest, flat))
         return REFINER_CLUSTERS_APART;
     v[0] = -v[0];
@@ -262,7 +316,7 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
 static inline double refiner_plane_side_flat(const struct refiner_element *r, const struct refiner_element *s,
                                      const struct refiner_host *host)
 {
-    return host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    return host->flat + REFINER_PLANE_FLAT * (r->radius + s->radius);
 }
 
 /* The lowest and the highest signed distance of the surface e from the plane of the surface
@@ -335,22 +389,15 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
  * are nearest to the inner edge's ends and to its line. The edge is cut there first; bisection then
  * closes in on them as on the ends of an interval.
  *
- * Measured against closed forms (tests/check_closed_forms.c), parallel and perpendicular rectangles
- * with sides and distances from .01 to 100 at random: F is wrong by 3e-10 at the most; 1e-6
- * relative for slivers 1 : 10,000.
+ * Measured against closed forms (tests/runtime/check_closed_forms.c), parallel and perpendicular
+ * rectangles with sides and distances from .01 to 100 at random: F is wrong by 3e-10 at the most;
+ * 1e-6 relative for slivers 1 : 10,000.
+ *
  * Fails: rounding costs as many digits as the ratio of the longest side to the shortest has: 2e-6
  * at 1 : 1,000,000. Not Schroeder and Hanrahan's closed form of the whole [1993]: this is as exact
  * as doubles let it be. */
 
 #define REFINER_CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
-
-/* Aimed at: error of F by one pair of edges, of level contour and of polygon. What rounding leaves
- * of an integral of ln over a unit length. */
-#define REFINER_CONTOUR_FACTOR_EXACT 1e-11
-
-#define REFINER_CONTOUR_FACTOR_FAIR 1e-7
-
-#define REFINER_CONTOUR_FACTOR_ROUNDING 2e-15
 
 enum { REFINER_CONTOUR_FACTOR_DEPTH = 40 };
 
@@ -479,7 +526,7 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
             refiner_sub3(f, q1, q0);
             double lf = refiner_length3(f);
             double aligned = refiner_dot3(e, f);
-            if (!(fabs(aligned) > 1e-16 * le * lf))
+            if (!(fabs(aligned) > REFINER_CONTOUR_FACTOR_PERPENDICULAR * le * lf))
                 continue;
             struct refiner_contour_factor_edge g;
             g.p = le <= lf ? p0 : q0;
@@ -496,8 +543,8 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
             if (least < REFINER_CONTOUR_FACTOR_ROUNDING * g.length)
                 least = REFINER_CONTOUR_FACTOR_ROUNDING * g.length;
             sum += aligned / g.length
-                   * (cross > 1e-26 ? refiner_contour_factor_skew(&g, size, cross, least)
-                                    : refiner_contour_factor_parallel(&g, size));
+                   * (cross > REFINER_CONTOUR_FACTOR_PARALLEL ? refiner_contour_factor_skew(&g, size, cross, least)
+                                                      : refiner_contour_factor_parallel(&g, size));
         }
     }
     return sum / REFINER_CONTOUR_FACTOR_TWO_PI;
@@ -555,25 +602,8 @@ static inline double refiner_lambert_sum(const double x[3], const double n[3], c
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
- * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
- * Source of the formulas: form_factor.h. */
-
-/* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
-#define REFINER_POLYGON_FACTOR_NEAR 3.0
-
-#define REFINER_POLYGON_FACTOR_MIDDLE 8.0
-
-#define REFINER_POLYGON_FACTOR_FAR 60.0
-
-/* Below this the exact level integrates contours; beyond, they would lose digits and points are
- * better. */
-#define REFINER_POLYGON_FACTOR_EXACT 60.0
-
-/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of
- * the coordinates. */
-#define REFINER_POLYGON_FACTOR_FAINT 1e-6
-
-#define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
+ * in its own radii; each limit keeps the relative error near 1e-5
+ * (tests/runtime/check_form_factor.c). Source of the formulas: form_factor.h. */
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, double factor)
@@ -791,7 +821,7 @@ REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, con
  * receiver's plane
  *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5
  *          % for unit squares at right angles with a common edge, +33 % for parallel ones at half
- *          their side (tests/check_terms.c).
+ *          their side (tests/runtime/check_terms.c).
  *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
@@ -938,7 +968,7 @@ static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct 
             gap += x * x;
             size += y * y;
         }
-        q->parallelogram = gap <= 1e-12 * size;
+        q->parallelogram = gap <= REFINER_SAMPLER_PARALLELOGRAM * size;
         refiner_sub3(q->right, p->v[1], p->v[0]);
         refiner_sub3(q->up, p->v[3], p->v[0]);
     }

@@ -20,6 +20,7 @@
 #include <string.h>
 #include "engine/error_control.h"
 #include "kernel/constants.h"
+#include "util/array.h"
 
 static double parameter(const struct refiner *r, enum catalog_role role)
 {
@@ -71,14 +72,8 @@ int error_control_estimate(struct error_control *c, const struct operator* op,
                            const double *radiosity)
 {
     const struct hierarchy *h = op->hierarchy;
-    if (h->count > c->room) {
-        size_t room = (size_t)h->count + h->count / 4;
-        struct leaf_residual *moved = realloc(c->residual, room * sizeof *moved);
-        if (!moved)
-            return -1;
-        c->residual = moved;
-        c->room = (uint32_t)(room > UINT32_MAX ? UINT32_MAX : room);
-    }
+    if (array_reserve(&c->residual, h->count, &c->capacity, sizeof *c->residual) < 0)
+        return -1;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(op->problem->options.threads)
     for (uint32_t i = 0; i < h->count; i++)
         if (counts(op, i))

@@ -8,8 +8,8 @@
 
 struct error_control {
     double target;                  /* the error of radiosity to be held (W/m2); 0: nobody asked */
-    struct leaf_residual *residual; /* [room]: of the leaves, element by element */
-    uint32_t room;
+    struct leaf_residual *residual; /* [capacity]: of the leaves, element by element */
+    size_t capacity;
     double largest; /* of the estimates (W/m2) */
     double area;    /* of the leaves whose estimate is above the target (m2) */
 };

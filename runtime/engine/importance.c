@@ -19,6 +19,7 @@
 #include "engine/importance.h"
 #include "kernel/constants.h"
 #include "kernel/surface_point.h"
+#include "util/array.h"
 
 enum { SIDE = 8, POINTS = SIDE * SIDE };
 
@@ -55,20 +56,13 @@ static double share_in_picture(const struct host *host, const struct camera *c,
 }
 
 /* Room for all elements. Returns 0 or -1. */
-static int enlarge(struct importance *y, uint32_t count)
+static int reserve_importance(struct importance *y, uint32_t count)
 {
-    double **const lists[] = {&y->response, &y->source, &y->carried, &y->irradiance, &y->value};
-    size_t room = (size_t)count + count / 4;
-    if (count <= y->room)
-        return 0;
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        double *moved = realloc(*lists[i], room * sizeof *moved);
-        if (!moved)
+    double **const lists[] = {&y->response, &y->source, &y->carried, &y->irradiance};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        if (array_reserve_beside(lists[i], count, y->capacity, sizeof **lists[i]) < 0)
             return -1;
-        *lists[i] = moved;
-    }
-    y->room = (uint32_t)(room > UINT32_MAX ? UINT32_MAX : room);
-    return 0;
+    return array_reserve(&y->value, count, &y->capacity, sizeof *y->value);
 }
 
 /* r of the surfaces made since the last call; what they carry starts as their parents'. */
@@ -134,7 +128,7 @@ static void mark_grown(const struct importance *y, struct hierarchy *h, struct o
 int importance_start(struct importance *y, const struct operator* op, struct hierarchy *h,
                      struct oracle_inputs *in)
 {
-    if (enlarge(y, h->count) < 0)
+    if (reserve_importance(y, h->count) < 0)
         return -1;
     respond(y, op);
     average(y, op);
@@ -144,7 +138,7 @@ int importance_start(struct importance *y, const struct operator* op, struct hie
 
 int importance_open(struct importance *y, const struct operator* op, struct transport *carried)
 {
-    if (enlarge(y, op->hierarchy->count) < 0)
+    if (reserve_importance(y, op->hierarchy->count) < 0)
         return -1;
     respond(y, op);
     *carried = (struct transport){.bands = 1,

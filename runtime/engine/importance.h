@@ -6,12 +6,13 @@
 #include "engine/oracle_inputs.h"
 #include "engine/transport.h"
 
-/* Arrays are [room], element by element. */
+/* Arrays are [capacity], element by element. */
 struct importance {
     double *response;                      /* r, the share that is in the picture */
     double *source, *carried, *irradiance; /* rho r, Z = rho Y, and what Z irradiates */
     double *value;                         /* Y */
-    uint32_t room, started;
+    size_t capacity;
+    uint32_t started;
     int sweeps;           /* 0: no importance was asked for */
     double largest, mean; /* of Y over the leaves, the mean by area */
     double seen;          /* area in the picture (m2) */

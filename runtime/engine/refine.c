@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/refine.h"
+#include "util/array.h"
 
 enum { ROUND = 1 << 17, CHUNK = 64 };
 
@@ -46,24 +47,6 @@ void link_recall(const struct link *link, struct terms *terms)
     terms->form_factor_level = link->levels & 15;
     terms->visibility = link->visibility * (1.0 / LINK_VISIBLE);
     terms->visibility_level = (unsigned char)(link->levels >> 4);
-}
-
-/* Room for `need` items of `size` bytes in *list. Returns 0, or -1 when there is none. */
-static int grow(void *list, size_t *capacity, size_t need, size_t size)
-{
-    size_t more = need + need / 2 + 1024;
-    if (need <= *capacity)
-        return 0;
-    if (more > SIZE_MAX / size)
-        return -1;
-    void *old;
-    memcpy(&old, list, sizeof old);
-    void *moved = realloc(old, more * size);
-    if (!moved)
-        return -1;
-    memcpy(list, &moved, sizeof moved);
-    *capacity = more;
-    return 0;
 }
 
 int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
@@ -110,7 +93,7 @@ static uint32_t pool_list(struct refinement *r, const struct blockers *list)
     } else {
         at = r->pool_count ? r->pool_count : 1;
         if (at >= UINT32_MAX / 2
-            || grow(&r->pool, &r->pool_capacity, (size_t)at + 1, sizeof *r->pool) < 0)
+            || array_reserve(&r->pool, (size_t)at + 1, &r->pool_capacity, sizeof *r->pool) < 0)
             return 0;
         r->pool_count = at + 1;
     }
@@ -226,8 +209,8 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
         to_j = f->child + f->children;
     }
     struct pair *q;
-    if (grow(&r->queue, &r->queue_capacity,
-             r->queue_count + (size_t)(to_i - from_i) * (to_j - from_j), sizeof *q)
+    if (array_reserve(&r->queue, r->queue_count + (size_t)(to_i - from_i) * (to_j - from_j),
+                      &r->queue_capacity, sizeof *q)
         < 0)
         return -1;
     q = r->queue + r->queue_count;
@@ -275,7 +258,7 @@ static int carry_out(struct refinement *r, const struct link *link, enum decisio
         return subdivide(r, link->receiver, link->emitter, split, 0, list);
     if (decision == DECISION_STOP)
         return 0;
-    if (grow(&r->links, &r->link_capacity, r->link_count + 1, sizeof *link) < 0)
+    if (array_reserve(&r->links, r->link_count + 1, &r->link_capacity, sizeof *link) < 0)
         return -1;
     r->links[r->link_count++] = *link;
     return 0;
@@ -333,7 +316,7 @@ static int drain(struct refinement *r)
 int refinement_start(struct refinement *r)
 {
     struct pair root = {0, 0, 0, 0};
-    if (grow(&r->queue, &r->queue_capacity, 1, sizeof root) < 0)
+    if (array_reserve(&r->queue, 1, &r->queue_capacity, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
     return drain(r);

@@ -9,8 +9,7 @@
  *
  * Between the points F may range further; and V is the link's, so a shadow's edge that crosses the
  * leaf does not show. Exitance is the same all over a face and adds nothing. Corners are taken
- * 2^-20 of the way to the centre, as in terms/form_factor_range.h: where two elements touch, F has
- * no value at the corner itself.
+ * CORNER_INSET of the way to the centre.
  *
  * Where a link has a cluster at one end, the emitter is the pivot that the link takes it for
  * (separable_links.h), and what its whole face takes is what the leaf does. The receiver's clusters
@@ -19,6 +18,7 @@
 #include <math.h>
 #include <string.h>
 #include "engine/residual.h"
+#include "kernel/constants.h"
 #include "kernel/point_factor.h"
 
 enum { POINTS = 5 };
@@ -90,7 +90,7 @@ struct leaf_residual residual_of_leaf(const struct operator* op, const double *r
     struct points p = {.count = e->vertices + 1};
     for (int i = 0; i < e->vertices; i++)
         for (int c = 0; c < 3; c++)
-            p.at[i][c] = e->vertex[i][c] + (1 / 1048576.0) * (e->centre[c] - e->vertex[i][c]);
+            p.at[i][c] = e->vertex[i][c] + CORNER_INSET * (e->centre[c] - e->vertex[i][c]);
     memcpy(p.at[e->vertices], e->centre, sizeof e->centre);
     for (uint32_t up = leaf;; up = elements[up].parent) {
         if (elements[up].vertices)

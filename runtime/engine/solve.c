@@ -17,6 +17,7 @@
 #include "engine/solve.h"
 #include "engine/transport.h"
 #include "kernel/constants.h"
+#include "util/array.h"
 #include "util/clock.h"
 #include "visibility/contact_fraction.h"
 #include "visibility/enclosure.h"
@@ -32,16 +33,6 @@ static double largest(const double *v, uint32_t n)
     return most;
 }
 
-/* Room for `count` values in *list. Returns 0, or -1 and *list as it was. */
-static int enlarge(double **list, size_t count)
-{
-    double *moved = realloc(*list, count * sizeof *moved);
-    if (!moved)
-        return -1;
-    *list = moved;
-    return 0;
-}
-
 /* Room for all elements, and for elements made since the last call their parent's radiosity.
  * Returns 0 or -1. */
 static int make_room(struct solve *s)
@@ -49,24 +40,18 @@ static int make_room(struct solve *s)
     struct state *state = &s->state;
     struct operator* op = & s->operator;
     uint32_t count = s->hierarchy.count, b = s->problem.bands;
-    if (count > s->room) {
-        double **const by_band[] = {&state->radiosity, &state->irradiance, &s->inputs.least,
-                                    &s->inputs.most};
-        double **const single[] = {&op->uncovered, &op->row_scale, &op->row_above, &op->row_share,
-                                   &op->row};
-        size_t room = (size_t)count + count / 4;
-        for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
-            if (enlarge(by_band[i], room * b) < 0)
-                return -1;
-        for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-            if (enlarge(single[i], room) < 0)
-                return -1;
-        unsigned char *changed = realloc(s->inputs.changed, room);
-        if (!changed)
+    double **const by_band[] = {&state->radiosity, &state->irradiance, &s->inputs.least,
+                                &s->inputs.most};
+    double **const single[] = {&op->uncovered, &op->row_scale, &op->row_above, &op->row_share,
+                               &op->row};
+    for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
+        if (array_reserve_beside(by_band[i], count, s->capacity, b * sizeof **by_band[i]) < 0)
             return -1;
-        s->inputs.changed = changed;
-        s->room = (uint32_t)(room > UINT32_MAX ? UINT32_MAX : room);
-    }
+    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
+        if (array_reserve_beside(single[i], count, s->capacity, sizeof **single[i]) < 0)
+            return -1;
+    if (array_reserve(&s->inputs.changed, count, &s->capacity, sizeof *s->inputs.changed) < 0)
+        return -1;
     for (uint32_t i = s->started; i < count; i++) {
         const struct element *e = &s->hierarchy.elements[i];
         for (uint32_t k = 0; k < b; k++) {
@@ -272,7 +257,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
     s->report.converged = x.converged;
     transport_average(op, &x);
     oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
-    if (s->importance.room == 0)
+    if (s->importance.capacity == 0)
         return 0;
     if (importance_open(&s->importance, op, &carried) < 0)
         return -1;

@@ -48,7 +48,8 @@ struct solve {
     struct error_control error;
     struct report report;
     /* elements that the arrays have place for, and whose radiosity has a value */
-    uint32_t room, started;
+    size_t capacity;
+    uint32_t started;
 };
 
 /* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set

@@ -170,7 +170,8 @@ static int collect_below(struct contact_list *list, const struct cut_frame *c,
     uint32_t face = tree->order[n->from];
     if (face == c->index || faces[face].back)
         return 0;
-    if (array_reserve(&list->contacts, list->count, &list->capacity, sizeof *list->contacts) < 0)
+    if (array_reserve(&list->contacts, list->count + 1, &list->capacity, sizeof *list->contacts)
+        < 0)
         return -1;
     list->count += (size_t)find_contact(c, faces, face, &list->contacts[list->count]);
     return 0;

@@ -210,7 +210,7 @@ static int emit_piece(struct cutter *c, const struct part *p, const struct piece
     memset(f.vertex, 0, sizeof f.vertex);
     f.vertices = piece->n;
     for (int back = 0; back <= c->frame.two_sided; back++) {
-        if (array_reserve(&c->out, c->out_count, &c->out_capacity, sizeof *c->out) < 0)
+        if (array_reserve(&c->out, c->out_count + 1, &c->out_capacity, sizeof *c->out) < 0)
             return -1;
         for (uint32_t i = 0; i < piece->n; i++)
             memcpy(f.vertex[i], p->vertex[piece->corner[back ? piece->n - 1 - i : i]],
@@ -269,7 +269,7 @@ static int cut_face(struct cutter *c, uint32_t i)
         return -1;
     if (c->out_count == before)
         return 0;
-    if (array_reserve(&c->cuttings, c->cutting_count, &c->cutting_capacity, sizeof *c->cuttings)
+    if (array_reserve(&c->cuttings, c->cutting_count + 1, &c->cutting_capacity, sizeof *c->cuttings)
         < 0)
         return -1;
     c->cuttings[c->cutting_count++] = (struct cutting){i, before, c->out_count - before, c};

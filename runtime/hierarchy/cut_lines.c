@@ -48,7 +48,7 @@ static int by_start(const void *a, const void *b)
 static int add_line(struct line_list *lines, const struct cut_frame *c, struct contact *x,
                     size_t first, size_t end)
 {
-    if (array_reserve(&lines->lines, lines->count, &lines->capacity, sizeof *lines->lines) < 0)
+    if (array_reserve(&lines->lines, lines->count + 1, &lines->capacity, sizeof *lines->lines) < 0)
         return -1;
     struct contact best = {.face = UINT32_MAX};
     double longest = 0;

@@ -11,6 +11,7 @@
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "kernel/surface.h"
+#include "util/array.h"
 
 /* What stands for a parent in the identities of faces, wherever the clusters put them. */
 #define FACES 0x2545f4914f6cdd1du
@@ -71,23 +72,12 @@ void element_measure_cluster(struct element *e, const struct face_share *share,
     e->radius = 0.5 * length3(axis);
 }
 
-static int reserve(struct hierarchy *h, uint32_t more)
+/* Room for so many elements more. */
+static int reserve_elements(struct hierarchy *h, uint32_t more)
 {
-    uint64_t need = (uint64_t)h->count + more, capacity = h->capacity;
-    if (need <= capacity)
-        return 0;
-    capacity = need + need / 2;
-    if (capacity > UINT32_MAX)
-        capacity = UINT32_MAX;
-    if (need > capacity)
+    if (more > UINT32_MAX - h->count)
         return -1;
-    struct element *moved;
-    moved = realloc(h->elements, (size_t)capacity * sizeof *moved);
-    if (!moved)
-        return -1;
-    h->elements = moved;
-    h->capacity = (uint32_t)capacity;
-    return 0;
+    return array_reserve(&h->elements, (size_t)h->count + more, &h->capacity, sizeof *h->elements);
 }
 
 /* Parents, children, identities: from the root down. */
@@ -122,7 +112,7 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     h->face_element = malloc(face_count * sizeof *h->face_element);
     h->range = malloc(t.count * sizeof *h->range);
     share = malloc(face_count * sizeof *share);
-    if (!h->face_element || !h->range || !share || reserve(h, t.count) < 0)
+    if (!h->face_element || !h->range || !share || reserve_elements(h, t.count) < 0)
         goto done;
     h->count = h->built = t.count;
     memcpy(h->low, t.boxes[0].low, sizeof h->low);
@@ -164,7 +154,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
     uint32_t first = h->count;
     if (h->elements[element].children)
         return 0;
-    if (reserve(h, 4) < 0)
+    if (reserve_elements(h, 4) < 0)
         return -1;
     struct element *e = &h->elements[element];
     for (uint32_t i = 0; i < 4; i++) {

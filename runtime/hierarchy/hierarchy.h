@@ -22,7 +22,8 @@ struct face {
 struct hierarchy {
     /* [count]; element 0 is the root; children of one element are neighbours */
     struct element *elements;
-    uint32_t count, capacity;
+    uint32_t count;
+    size_t capacity;
     const struct face *faces; /* [face_count], borrowed */
     uint32_t face_count;
     uint32_t *face_element; /* [face_count]: the element that is the whole face */

@@ -10,6 +10,108 @@
 
 /* ---- geometry of a pair (kernel, terms, tools) */
 
+/* What dagc --standalone writes holds some of these and is read by C++ compilers, too, which need
+ * not know hexadecimal floats: hence quotients. */
+
+/* of the sum of both radii. Corners no farther from a plane lie in it, besides host.flat. Chosen:
+ * 256 roundings of floats */
+#define PLANE_FLAT (1 / 65536.0)
+/* of the way from a corner to the centre. F at a corner is taken so far within, for where two
+ * elements touch it has no value at the corner itself. Chosen: a float's rounding is 2^-24 */
+#define CORNER_INSET (1 / 1048576.0)
+/* of the largest distance. What rounding does to a distance: 512 roundings, more than the sums
+ * that lead to it have */
+#define DISTANCE_ROUNDING (1 / 17592186044416.0) /* 2^-44 */
+
+/* of the pair's size. Corners no farther from the plane lie in it, and corners so near are one.
+ * Chosen: 2^13 roundings, of which a direction between such corners would be made */
+#define COSINE_BOUND_FLAT (1 / 1099511627776.0) /* 2^-40 */
+/* relative, of a distance's square. A step that wins less is the last. The bound holds after any */
+#define COSINE_BOUND_ENOUGH 1e-9
+#define COSINE_BOUND_ROUNDING 1e-12 /* of a cosine. Above the rounding of the sums before */
+/* radians. A cluster's cone leaves out so much as rounding: acos(1 - CONE_EQUAL) = 1.4e-7 */
+#define COSINE_BOUND_CONE 2e-7
+
+/* radii of the smaller polygon. Farther off than NEAR a rule of six points is enough, than MIDDLE
+ * of three, than FAR of one: each keeps the relative error near 1e-5
+ * (tests/runtime/check_form_factor.c) */
+#define POLYGON_FACTOR_NEAR 3.0
+#define POLYGON_FACTOR_MIDDLE 8.0
+#define POLYGON_FACTOR_FAR 60.0
+/* the same at the exact level: nearer, contours are integrated; beyond, they would lose digits and
+ * points are better */
+#define POLYGON_FACTOR_EXACT 60.0
+/* F both ways. Less may be rounding's alone, and is 0 when nothing rises above the other's plane */
+#define POLYGON_FACTOR_FAINT 1e-6
+/* of the coordinates. What rounding leaves of a corner's height: 16 roundings */
+#define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
+
+/* of F, by one pair of edges. What levels polygon and contour aim at: a hundredth of the errors
+ * that they promise, for edges are many (tests/runtime/check_closed_forms.c) */
+#define CONTOUR_FACTOR_FAIR 1e-7
+#define CONTOUR_FACTOR_EXACT 1e-11
+/* of a unit length. What rounding leaves of an integral of ln; to aim lower would not end */
+#define CONTOUR_FACTOR_ROUNDING 2e-15
+/* cosine of two edges. At less they count as perpendicular and bring nothing: a rounding */
+#define CONTOUR_FACTOR_PERPENDICULAR 1e-16
+/* square of a sine. Edges at no more are parallel, whose integral is closed: 1000 roundings of a
+ * sine */
+#define CONTOUR_FACTOR_PARALLEL 1e-26
+
+/* of F, and absolute. The bound of F over a receiver is widened so far, for the rounding of sums
+ * over edges */
+#define FORM_FACTOR_RANGE_ROUNDING 1e-12
+#define FORM_FACTOR_RANGE_LEAST 4e-15
+
+/* of host.ray_offset. `grow` of shaft.h: 32 times what the coordinates lose in single precision */
+#define SHAFT_GROW 0.25
+/* of host.ray_offset. A quad bent by more is taken for two triangles: an eighth of SHAFT_GROW */
+#define SHAFT_BENT 0.03125
+/* of host.ray_offset. `margin` of pairs of whole faces, and how much of it the deepest lose */
+#define SHAFT_MARGIN 0.5
+#define SHAFT_MARGIN_FALL 0.25
+/* of host.ray_offset. Heights that differ by less, twice or three times, are rounding. Chosen:
+ * far below `grow`, above the rounding of doubles */
+#define SHAFT_SLACK (1 / 65536.0)
+/* square of a sine. An end turned less to a face lies flat on it: 2^-10, 0.06 degrees; chosen */
+#define SHAFT_PARALLEL (1 / 1048576.0)
+/* square of a sine. A corner nearer to the line of an edge makes no plane with it; chosen: its
+ * normal has nine digits left */
+#define SHAFT_LINE 1e-14
+
+/* of A_r F_rs, per area. Triangles whose two rules differ by less are not halved: a fifth of the
+ * error that the header promises */
+#define VISIBLE_PART_ERROR 2e-7
+/* of the smaller radius. A cell that rises no higher over a plane is not cut by it; chosen */
+#define VISIBLE_PART_NEAR 1e-9
+/* square of a sine. As SHAFT_LINE, but a plane left out only costs halving */
+#define VISIBLE_PART_LINE 1e-20
+/* of A_r F_rs. No more than that hidden, or seen, is none; chosen, below VISIBLE_PART_ERROR */
+#define VISIBLE_PART_NONE 1e-9
+
+/* of a cell's area. Less of it left is nothing, less of it gone is nothing; chosen */
+#define OUTLINE_LEAST (1 / 65536.0)
+/* of the eye's height over the plane. Of a face only what is lower casts a shadow, which would
+ * have no end; chosen */
+#define OUTLINE_BELOW_EYE 1e-6
+
+/* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
+#define SAMPLER_PARALLELOGRAM 1e-12
+/* choices per segment. Then fewer segments than were asked for must do; chosen */
+#define CLUSTER_TRIES 8
+/* sums of radii. Nearer clusters are not points: there (d - a)^-2 exceeds (d + a)^-2 by 25 times;
+ * chosen */
+#define CLUSTER_GAP_APART 1.5
+/* of the distance of the centres. A blocker is no nearer to the source, so that its umbra is
+ * finite; chosen */
+#define FEATURE_SIZE_NEAREST (1 / 1048576.0)
+/* times. Where a shadow's edge crosses, the emitter's spread may count so much more than its mean
+ * says, for both vary together; chosen */
+#define POWER_GAP_ALIGNED 16.0
+/* of F + dF. What visibility may be wrong by when all of a few rays agree; the Stanford radiosity
+ * program in SPLASH-3 */
+#define BFV_ERROR_DOUBT 0.1
+
 /* ---- scenes (hierarchy) */
 
 /* Coordinates are off by at most their relative rounding times the largest of them. */
@@ -30,7 +132,8 @@
 
 /* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
  * face that is cut. */
-/* of the size. Nearer than that to a plane is in it, and lengths that differ by less are equal.
+/* of the size. Nearer than that to a plane is in it, and lengths that differ by less are equal;
+ * what is nearer to a face stands on it (pictures).
  * Chosen: modellers leave gaps of a tenth of a millimetre in rooms of metres */
 #define CUT_TOUCH 1e-4
 /* roundings of the largest coordinate. The same: both faces may be off, each by two corners */
@@ -142,14 +245,10 @@
 
 /* ---- pictures and meshes (solver/output) */
 
-/* of a face's size: what is nearer stands on it, as faces are cut where others are that near */
-#define OUTPUT_TOUCH 1e-4
 /* cosine of one degree: faces turned less are one surface. chosen: flat when shaded */
 #define OUTPUT_SAME_PLANE 0.99985
-/* sine between two planes below which they have no line to speak of, as where faces are cut */
-#define OUTPUT_NO_LINE 0.01
 #define OUTPUT_SAME_LINE 0.999998 /* cosine of a tenth of a degree: one direction. chosen */
-#define OUTPUT_REACH 4            /* OUTPUT_TOUCHes along a wall and ... */
+#define OUTPUT_REACH 4            /* CUT_TOUCHes along a wall and ... */
 /* ... up it, where it must be to stand here. chosen: clear of what touches, near enough to be
  * local */
 #define OUTPUT_RISE 3

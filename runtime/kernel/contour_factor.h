@@ -11,9 +11,10 @@
  * are nearest to the inner edge's ends and to its line. The edge is cut there first; bisection then
  * closes in on them as on the ends of an interval.
  *
- * Measured against closed forms (tests/check_closed_forms.c), parallel and perpendicular rectangles
- * with sides and distances from .01 to 100 at random: F is wrong by 3e-10 at the most; 1e-6
- * relative for slivers 1 : 10,000.
+ * Measured against closed forms (tests/runtime/check_closed_forms.c), parallel and perpendicular
+ * rectangles with sides and distances from .01 to 100 at random: F is wrong by 3e-10 at the most;
+ * 1e-6 relative for slivers 1 : 10,000.
+ *
  * Fails: rounding costs as many digits as the ratio of the longest side to the shortest has: 2e-6
  * at 1 : 1,000,000. Not Schroeder and Hanrahan's closed form of the whole [1993]: this is as exact
  * as doubles let it be.
@@ -22,13 +23,9 @@
 #define KERNEL_CONTOUR_FACTOR_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 
 #define CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
-/* Aimed at: error of F by one pair of edges, of level contour and of polygon. What rounding leaves
- * of an integral of ln over a unit length. */
-#define CONTOUR_FACTOR_EXACT 1e-11
-#define CONTOUR_FACTOR_FAIR 1e-7
-#define CONTOUR_FACTOR_ROUNDING 2e-15
 enum { CONTOUR_FACTOR_DEPTH = 40 };
 
 /* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
@@ -156,7 +153,7 @@ OUTLINE double contour_factor(const struct polygon *p, const struct polygon *q, 
             sub3(f, q1, q0);
             double lf = length3(f);
             double aligned = dot3(e, f);
-            if (!(fabs(aligned) > 1e-16 * le * lf))
+            if (!(fabs(aligned) > CONTOUR_FACTOR_PERPENDICULAR * le * lf))
                 continue;
             struct contour_factor_edge g;
             g.p = le <= lf ? p0 : q0;
@@ -173,8 +170,8 @@ OUTLINE double contour_factor(const struct polygon *p, const struct polygon *q, 
             if (least < CONTOUR_FACTOR_ROUNDING * g.length)
                 least = CONTOUR_FACTOR_ROUNDING * g.length;
             sum += aligned / g.length
-                   * (cross > 1e-26 ? contour_factor_skew(&g, size, cross, least)
-                                    : contour_factor_parallel(&g, size));
+                   * (cross > CONTOUR_FACTOR_PARALLEL ? contour_factor_skew(&g, size, cross, least)
+                                                      : contour_factor_parallel(&g, size));
         }
     }
     return sum / CONTOUR_FACTOR_TWO_PI;

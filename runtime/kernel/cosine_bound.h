@@ -17,9 +17,9 @@
 #define KERNEL_COSINE_BOUND_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/element_distance.h"
 
-#define COSINE_BOUND_FLAT (1 / 1099511627776.0) /* 2^-40 */
 enum { COSINE_BOUND_STEPS = 12 };
 
 /* A number that the distance of the points' hull from the origin is not below. */
@@ -42,7 +42,7 @@ static inline double cosine_bound_hull(const double (*u)[3], int n)
             }
         if (least > best * sqrt(square))
             best = least / sqrt(square);
-        if (!(least < square * (1 - 1e-9)))
+        if (!(least < square * (1 - COSINE_BOUND_ENOUGH)))
             break;
         sub3(toward, u[at], w);
         double t = (square - least) / dot3(toward, toward);
@@ -115,8 +115,7 @@ static inline void cosine_bound_boxes(const struct element *e, const struct elem
     double middle = dot3(e->normal, v);
     range[0] = (middle - half) / distance[middle > half];
     range[1] = (middle + half) / distance[middle + half < 0];
-    /* so much a cluster's cone leaves out as rounding */
-    double open = e->vertices ? 0 : acos(e->cone < 1 ? e->cone : 1) + 2e-7;
+    double open = e->vertices ? 0 : acos(e->cone < 1 ? e->cone : 1) + COSINE_BOUND_CONE;
     range[0] = range[0] > -1 ? range[0] : -1;
     range[1] = range[1] < 1 ? range[1] : 1;
     range[0] = acos(range[0]) + open < 3.14159265358979323846 ? cos(acos(range[0]) + open) : -1;
@@ -129,8 +128,8 @@ OUTLINE void cosine_bound(const struct element *e, const struct element *other, 
         cosine_bound_surfaces(e, other, range);
     else
         cosine_bound_boxes(e, other, range);
-    range[0] = range[0] - 1e-12 > -1 ? range[0] - 1e-12 : -1;
-    range[1] = range[1] + 1e-12 < 1 ? range[1] + 1e-12 : 1;
+    range[0] = range[0] - COSINE_BOUND_ROUNDING > -1 ? range[0] - COSINE_BOUND_ROUNDING : -1;
+    range[1] = range[1] + COSINE_BOUND_ROUNDING < 1 ? range[1] + COSINE_BOUND_ROUNDING : 1;
 }
 
 /* The cosine at the centre. */

@@ -9,9 +9,7 @@
 #define KERNEL_ELEMENT_DISTANCE_H
 
 #include "discussion.h"
-
-/* What rounding does to a distance, as a share of the largest. */
-#define DISTANCE_ROUNDING (1 / 17592186044416.0) /* 2^-44 */
+#include "kernel/constants.h"
 
 /* The element's box along the axes. */
 static inline void distance_box(const struct element *e, double low[3], double high[3])

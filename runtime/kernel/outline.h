@@ -6,7 +6,7 @@
  * cutting: each edge of a shadow parts the cell in what lies outside, which goes on to the next
  * shadow, and what does not. So faces may be many and their shadows may overlap. The plane has
  * coordinates of its own, (u, v); heights over it are along n, where x is. In m, m2.
- * Fails: nothing, but for rounding; cells left thinner than 2^-16 of themselves are nothing
+ * Fails: nothing, but for rounding; cells left smaller than OUTLINE_LEAST of themselves are nothing
  * (outline_seen).
  * [projection: Crow 1977; the parts left by cutting: Weiler & Atherton 1977 for convex polygons]
  * SPDX-License-Identifier: MIT */
@@ -14,9 +14,9 @@
 #define KERNEL_OUTLINE_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 
 enum { OUTLINE_CORNERS = 8, OUTLINE_CELL = 72 };
-#define OUTLINE_LEAST (1 / 65536.0)
 
 struct outline_frame {
     double origin[3], u[3], v[3], n[3];
@@ -81,7 +81,8 @@ static inline double outline_twice(const double (*p)[2], int n)
 static inline int outline_cast(struct outline *out, const struct outline_frame *f,
                                const double x[3], double height, const double (*v)[3], int n)
 {
-    double q[2][OUTLINE_CORNERS][3], h[OUTLINE_CORNERS], most = height * (1 - 1e-6), at[2], w[3];
+    double q[2][OUTLINE_CORNERS][3], h[OUTLINE_CORNERS], most = height * (1 - OUTLINE_BELOW_EYE),
+                                                         at[2], w[3];
     int count = n;
     sub3(w, x, f->origin);
     at[0] = dot3(w, f->u);

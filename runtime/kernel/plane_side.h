@@ -6,13 +6,14 @@
 #define KERNEL_PLANE_SIDE_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 
 /* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of
  * the elements' corners. */
 static inline double plane_side_flat(const struct element *r, const struct element *s,
                                      const struct host *host)
 {
-    return host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    return host->flat + PLANE_FLAT * (r->radius + s->radius);
 }
 
 /* The lowest and the highest signed distance of the surface e from the plane of the surface

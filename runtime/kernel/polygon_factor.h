@@ -1,27 +1,16 @@
 /* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
  *
  * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
- * in its own radii; each limit keeps the relative error near 1e-5 (tests/check_form_factor.c).
- * Source of the formulas: form_factor.h.
+ * in its own radii; each limit keeps the relative error near 1e-5
+ * (tests/runtime/check_form_factor.c). Source of the formulas: form_factor.h.
  * SPDX-License-Identifier: MIT */
 #ifndef KERNEL_POLYGON_FACTOR_H
 #define KERNEL_POLYGON_FACTOR_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/contour_factor.h"
 #include "kernel/lambert.h"
-
-/* Distance in radii of the smaller polygon beyond which a rule of so many points is enough. */
-#define POLYGON_FACTOR_NEAR 3.0
-#define POLYGON_FACTOR_MIDDLE 8.0
-#define POLYGON_FACTOR_FAR 60.0
-/* Below this the exact level integrates contours; beyond, they would lose digits and points are
- * better. */
-#define POLYGON_FACTOR_EXACT 60.0
-/* F both ways below this may be rounding's alone. What rounding leaves of a corner's height, of
- * the coordinates. */
-#define POLYGON_FACTOR_FAINT 1e-6
-#define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void polygon_factor_scale(struct polygon *p, double factor)

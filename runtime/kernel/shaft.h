@@ -38,6 +38,7 @@
 #define KERNEL_SHAFT_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/cut.h"
 
 enum { SHAFT_DEPTHS = 48 }; /* splits below two faces (tools/can_split.h) */
@@ -90,7 +91,7 @@ static inline void shaft_edge(struct shaft *shaft, int end, const double a[3], c
             cross3(normal, w, e);
         else
             cross3(normal, e, w);
-        if (dot3(normal, normal) > 1e-14 * dot3(e, e) * dot3(w, w))
+        if (dot3(normal, normal) > SHAFT_LINE * dot3(e, e) * dot3(w, w))
             shaft_plane(shaft, normal);
     }
 }
@@ -138,9 +139,9 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
     double under_r[3], under_s[3];
     struct polygon p, q;
     shaft->planes = 0;
-    shaft->margin = offset * (0.5 - 0.25 * deep);
-    shaft->slack = offset * (1 / 65536.0) * (2 - deep);
-    shaft->touch = offset * (1 / 65536.0) * (3 + deep); /* more than slack */
+    shaft->margin = offset * (SHAFT_MARGIN - SHAFT_MARGIN_FALL * deep);
+    shaft->slack = offset * SHAFT_SLACK * (2 - deep);
+    shaft->touch = offset * SHAFT_SLACK * (3 + deep); /* more than slack */
     if (!shaft_rises(r, s, shaft->touch) || !shaft_rises(s, r, shaft->touch))
         return 0;
     /* where one ends in the other's plane, rounding does not cut it */
@@ -152,9 +153,9 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
     polygon_clip(&q, (const double(*)[3])s->vertex, s->vertices, under_r, r->normal);
     if (p.n == 0 || q.n == 0)
         return 0;
-    shaft->grow = offset * 0.25;
+    shaft->grow = offset * SHAFT_GROW;
     shaft->nests = shaft->slack * (1 / 256.0); /* less than what it loses by a split */
-    shaft->flat = offset * 0.03125;
+    shaft->flat = offset * SHAFT_BENT;
     shaft->reach = offset * 0.5;
     shaft_end(shaft, 0, &p, r, offset);
     shaft_end(shaft, 1, &q, s, offset);
@@ -258,7 +259,7 @@ static inline int shaft_side(const struct shaft *shaft, const double (*v)[3], in
             nearest = fabs(h) < nearest ? fabs(h) : nearest;
         }
         cross3(across, normal, shaft->facing[end]);
-        if (nearest < shaft->margin && dot3(across, across) < 1 / 1048576.0
+        if (nearest < shaft->margin && dot3(across, across) < SHAFT_PARALLEL
             && shaft_overlaps(shaft, end, v, n))
             return -1;
     }

@@ -24,6 +24,7 @@
 #define KERNEL_VISIBLE_PART_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/cut.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/shaft.h"
@@ -33,7 +34,6 @@ enum {
     VISIBLE_PART_DEPTH = 10,
     VISIBLE_PART_PLANES = VISIBLE_PART_FACES * (2 * 4 * POLYGON_MAX + 1)
 };
-#define VISIBLE_PART_ERROR 2e-7
 
 struct visible_part {
     struct cut source;
@@ -219,7 +219,7 @@ static inline void visible_part_kinks(struct visible_part *p, const double (*v)[
             sub3(e, v[i + 1 < n ? i + 1 : 0], v[i]);
             sub3(g, w[j], v[i]);
             cross3(normal, e, g);
-            if (dot3(normal, normal) > 1e-20 * dot3(e, e) * dot3(g, g))
+            if (dot3(normal, normal) > VISIBLE_PART_LINE * dot3(e, e) * dot3(g, g))
                 visible_part_plane(p, v[i], normal);
         }
 }
@@ -253,7 +253,7 @@ OUTLINE double visible_part_fraction(const struct element *r, const struct eleme
             continue;
         if (part.faces == VISIBLE_PART_FACES
             || (face.n == 4
-                && fabs(height3(face.v[1], face.v[0], normal)) > host->ray_offset * 0.03125))
+                && fabs(height3(face.v[1], face.v[0], normal)) > host->ray_offset * SHAFT_BENT))
             return -1;
         for (int k = 0; k < 3; k++) {
             part.face[part.faces].normal[k] = normal[k];
@@ -277,7 +277,7 @@ OUTLINE double visible_part_fraction(const struct element *r, const struct eleme
     for (int k = 0; k < 3; k++)
         part.normal[k] = small->normal[k];
     part.tolerance = VISIBLE_PART_ERROR * exchange / small->area;
-    part.near = 1e-9 * small->radius;
+    part.near = VISIBLE_PART_NEAR * small->radius;
     for (int i = 0; i < part.faces; i++) {
         const double(*v)[3] = (const double(*)[3])part.face[i].v;
         visible_part_plane(&part, v[0], part.face[i].normal);
@@ -285,7 +285,7 @@ OUTLINE double visible_part_fraction(const struct element *r, const struct eleme
         visible_part_kinks(&part, (const double(*)[3])q.v, q.n, v, part.face[i].n);
     }
     double hidden = visible_part_cells(&part, &cell, 0) / exchange;
-    return hidden < 1e-9 ? 1 : hidden > 1 - 1e-9 ? 0 : 1 - hidden;
+    return hidden < VISIBLE_PART_NONE ? 1 : hidden > 1 - VISIBLE_PART_NONE ? 0 : 1 - hidden;
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include "oracle/builtin.h"
 #include "oracle/compile_oracle.h"
 #include "oracle/oracles.h"
+#include "util/array.h"
 
 const char *const release_names[RELEASES] = {"flat", "dag", "hand"};
 
@@ -15,11 +16,10 @@ int oracle_register(struct oracle_sources *sources, const struct oracle *oracle)
 {
     if (oracle->abi != RUNTIME_ABI)
         return -1;
-    const struct oracle **moved;
-    moved = realloc(sources->hand, ((size_t)sources->hand_count + 1) * sizeof *moved);
-    if (!moved)
+    if (array_reserve(&sources->hand, (size_t)sources->hand_count + 1, &sources->hand_capacity,
+                      sizeof *sources->hand)
+        < 0)
         return -1;
-    sources->hand = moved;
     sources->hand[sources->hand_count++] = oracle;
     return 0;
 }
@@ -29,6 +29,7 @@ void oracle_sources_free(struct oracle_sources *sources)
     free(sources->hand);
     sources->hand = NULL;
     sources->hand_count = 0;
+    sources->hand_capacity = 0;
 }
 
 static int is_file(const char *oracle)

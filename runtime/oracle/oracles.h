@@ -19,6 +19,7 @@ struct oracle_sources {
     /* [hand_count]: releases written by hand, or generated and linked with */
     const struct oracle **hand;
     int hand_count;
+    size_t hand_capacity;
     const char *compiler, *temporary; /* for the flat release of files; NULL: "cc", "/tmp" */
 };
 

@@ -10,7 +10,7 @@
  * receiver's plane
  *          (point_factor.h). Fails: where F varies over the receiver, as all one-point rules do: -5
  *          % for unit squares at right angles with a common edge, +33 % for parallel ones at half
- *          their side (tests/check_terms.c).
+ *          their side (tests/runtime/check_terms.c).
  *          [Baum et al. 1989]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]

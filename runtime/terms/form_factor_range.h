@@ -2,8 +2,8 @@
  * nothing between: the point-to-polygon factor of point_factor.h. Dimensionless, [0] <= [1], both
  * in [0, 1].
  *
- * sampled  over the receiver's corners and centre. The corners are taken 2^-20 of the way to the
- * centre: where the
+ * sampled  over the receiver's corners and centre. The corners are taken CORNER_INSET of the way to
+ * the centre: where the
  *          elements touch, F has no value at the corner itself. Fails: an extremum between them is
  *          not seen.
  * bounded  no F(x) lies outside. With k(x) the height of x over the emitter's plane, h(y) that of y
@@ -21,6 +21,7 @@
 #define TERM_FORM_FACTOR_RANGE_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/point_factor.h"
 #include "kernel/point_gradient.h"
 
@@ -49,7 +50,7 @@ OUTLINE void form_factor_range_sample(const struct element *r, const struct elem
     for (int i = 0; i < r->vertices; i++) {
         double x[3];
         for (int k = 0; k < 3; k++)
-            x[k] = r->vertex[i][k] + (1 / 1048576.0) * (r->centre[k] - r->vertex[i][k]);
+            x[k] = r->vertex[i][k] + CORNER_INSET * (r->centre[k] - r->vertex[i][k]);
         double f = point_factor_at(x, r, s, &q);
         range[0] = f < range[0] ? f : range[0];
         range[1] = f > range[1] ? f : range[1];
@@ -178,9 +179,9 @@ OUTLINE void form_factor_range_bound(const struct element *r, const struct eleme
     form_factor_range_piece(&b, (const double(*)[3])r->vertex, r->vertices,
                             FORM_FACTOR_RANGE_DEPTH);
     /* What rounding may have done to the sums over edges. */
-    range[0] = b.bound[0] * (1 - 1e-12) - 4e-15;
+    range[0] = b.bound[0] * (1 - FORM_FACTOR_RANGE_ROUNDING) - FORM_FACTOR_RANGE_LEAST;
     range[0] = range[0] > 0 ? range[0] : 0;
-    range[1] = b.bound[1] * (1 + 1e-12) + 4e-15;
+    range[1] = b.bound[1] * (1 + FORM_FACTOR_RANGE_ROUNDING) + FORM_FACTOR_RANGE_LEAST;
     range[1] = range[1] < 1 ? range[1] : 1;
 }
 

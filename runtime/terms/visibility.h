@@ -24,6 +24,7 @@
 #define TERM_VISIBILITY_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "kernel/lambert.h"
 
@@ -53,7 +54,7 @@ static inline void sampler_clip(struct sampler *q, const struct element *e,
             gap += x * x;
             size += y * y;
         }
-        q->parallelogram = gap <= 1e-12 * size;
+        q->parallelogram = gap <= SAMPLER_PARALLELOGRAM * size;
         sub3(q->right, p->v[1], p->v[0]);
         sub3(q->up, p->v[3], p->v[0]);
     }

@@ -15,6 +15,7 @@
 #define TOOL_BFV_ERROR_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "terms/visibility.h"
 
 /* F from x, with normal n, to the four quarters of s. A corner's quarter has its centre half way
@@ -56,7 +57,8 @@ TOOL enum bfv_error_answer tool_bfv_error(struct discussion *d, double absolute,
         limit = absolute;
     double f, df;
     bfv_error_factors(d->receiver, d->emitter, &f, &df);
-    return (v * df + (v > 0 && v < 1 ? 1 : 0.1) * (f + df)) * d->emitter->radiosity > limit
+    return (v * df + (v > 0 && v < 1 ? 1 : BFV_ERROR_DOUBT) * (f + df)) * d->emitter->radiosity
+                   > limit
                ? BFV_ERROR_ABOVE
                : BFV_ERROR_BELOW;
 }

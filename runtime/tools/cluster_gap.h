@@ -10,9 +10,8 @@
 #define TOOL_CLUSTER_GAP_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "terms/axis.h"
-
-#define CLUSTER_GAP_APART 1.5 /* in sums of radii */
 
 TOOL enum cluster_gap_answer tool_cluster_gap(struct discussion *d, double absolute,
                                               double relative)

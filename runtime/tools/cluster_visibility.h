@@ -18,13 +18,13 @@
 
 #include "discussion.h"
 #include "kernel/cluster_facing.h"
+#include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "kernel/surface_point.h"
 #include "terms/visibility.h"
 
-/* The most children that a cluster has; choices per segment before fewer segments than asked for
- * must do. */
-enum { CLUSTER_CHILDREN = 8, CLUSTER_TRIES = 8 };
+/* The most children that a cluster has. */
+enum { CLUSTER_CHILDREN = 8 };
 
 /* Faces chosen from one element: of each, what is left of its u in [0, 1) once the choice has used
  * it up, and the chance that it was chosen. */

@@ -9,6 +9,7 @@
 #define TOOL_CLUSTERS_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "kernel/wider.h"
 
 /* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
@@ -44,7 +45,7 @@ TOOL enum clusters_answer tool_clusters(struct discussion *d)
         return CLUSTERS_SURFACES;
     sub3(v, s->centre, r->centre);
     double longest = length3(v) + r->radius + s->radius;
-    double flat = d->host->flat + (1 / 65536.0) * (r->radius + s->radius);
+    double flat = d->host->flat + PLANE_FLAT * (r->radius + s->radius);
     if (clusters_turned(r, s, v, longest, flat))
         return CLUSTERS_APART;
     v[0] = -v[0];

@@ -17,6 +17,7 @@
 #define TOOL_FEATURE_SIZE_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "terms/blockers.h"
 
 /* The least distance of two parallel lines that hold the polygon between them; one runs along an
@@ -61,7 +62,7 @@ OUTLINE double feature_size_largest(const struct element *r, const struct elemen
             sub3(w, inside.v[j], s->centre);
             along += dot3(w, axis) / (distance * distance * inside.n); /* t / D */
         }
-        along = along < 1 / 1048576.0 ? 1 / 1048576.0 : along < 1 ? along : 1;
+        along = along < FEATURE_SIZE_NEAREST ? FEATURE_SIZE_NEAREST : along < 1 ? along : 1;
         double f =
             source + (feature_size_width((const double(*)[3])face.v, face.n) - source) / along;
         largest = f > largest ? f : largest;

@@ -15,6 +15,7 @@
 #define TOOL_GRADIENT_RANGE_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "terms/form_factor.h"
 #include "terms/gradient.h"
 
@@ -30,7 +31,7 @@ OUTLINE double gradient_range_bend(const struct element *r, const struct element
         double x[3], w[3];
         sub3(w, r->vertex[i], r->centre);
         for (int k = 0; k < 3; k++)
-            x[k] = r->centre[k] + (1 - 1 / 1048576.0) * w[k]; /* at the corner itself F may jump */
+            x[k] = r->centre[k] + (1 - CORNER_INSET) * w[k];
         double off = fabs(point_factor_at(x, r, s, &q) - centre - dot3(g, w));
         most = off > most ? off : most;
     }

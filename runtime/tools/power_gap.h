@@ -22,10 +22,9 @@
 #define TOOL_POWER_GAP_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 #include "terms/form_factor.h"
 #include "terms/form_factor_range.h"
-
-#define POWER_GAP_ALIGNED 16.0
 
 TOOL enum power_gap_answer tool_power_gap(struct discussion *d, double watts)
 {

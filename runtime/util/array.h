@@ -1,4 +1,4 @@
-/* array.h - arrays that grow by one at a time, in constant time each on average.
+/* array.h - arrays that grow as they are filled, in constant time per item on average.
  * SPDX-License-Identifier: MIT */
 #ifndef ARRAY_H
 #define ARRAY_H
@@ -7,22 +7,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Make room for one more in an array of `count` items of `size` bytes; `array` points at the
- * pointer to it, which may be NULL. Returns 0, or -1 when out of memory; then nothing has
+/* Make room for `need` items of `size` bytes, and for half as many again; `array` points at the
+ * pointer to them, which may be NULL. Returns 0, or -1 when out of memory; then nothing has
  * changed. */
-static inline int array_reserve(void *array, size_t count, size_t *capacity, size_t size)
+static inline int array_reserve(void *array, size_t need, size_t *capacity, size_t size)
 {
-    if (count < *capacity)
+    if (need <= *capacity)
         return 0;
-    size_t more = *capacity < 64 ? 64 : *capacity <= SIZE_MAX / 2 ? 2 * *capacity : SIZE_MAX;
+    size_t most = SIZE_MAX / size;
+    size_t room = need < most / 2 ? need + need / 2 + 16 : need;
     void *old;
     memcpy(&old, array, sizeof old); /* a pointer to any type */
-    void *larger = more <= SIZE_MAX / size ? realloc(old, more * size) : NULL;
+    void *larger = room <= most ? realloc(old, room * size) : NULL;
     if (!larger)
         return -1;
     memcpy(array, &larger, sizeof larger);
-    *capacity = more;
+    *capacity = room;
     return 0;
+}
+
+/* The same of an array that shares its capacity with others, of which the last is given the
+ * capacity's address. */
+static inline int array_reserve_beside(void *array, size_t need, size_t capacity, size_t size)
+{
+    return array_reserve(array, need, &capacity, size);
 }
 
 #endif

@@ -80,9 +80,12 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     progress_end(&progress);
     if (status < 0)
         return 1;
-    if (!s.report.converged && !o->quiet)
-        report_warning(o->scene, 0, "not converged after %d sweeps: residual %.1e",
-                       s.report.iterations, s.report.residual);
+    if (!s.report.converged && !o->quiet) {
+        char cause[SUMMARY_CAUSE];
+        summary_cause(&s.report, cause, sizeof cause);
+        report_warning(o->scene, 0, "not converged after %d sweeps (residual %.1e): %s",
+                       s.report.iterations, s.report.residual, cause);
+    }
     status = write_outputs(o, scene, &surfaces, &s, oracle);
     solved_close(&s);
     return status;

@@ -76,7 +76,7 @@ json_t *summary_json(const struct summary *s)
     radGetOracleReport(s->oracle, &oracle);
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
-        "s:i, s:i, s:b, s:f, s:f, s:f, s:f,"
+        "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
         " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
@@ -85,12 +85,12 @@ json_t *summary_json(const struct summary *s)
         (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "guard_hits",
         (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
         "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
-        "converged", r->converged, "residual", r->residual, "power_emitted", r->emitted,
-        "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums", "smallest",
-        r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved, "defect_mean",
-        r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
-        closure_json(s->options, r), "importance", importance_json(r), "error", error_json(r),
-        "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
+        "converged", r->converged, "links_changing", (json_int_t)r->changing, "residual",
+        r->residual, "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance",
+        imbalance(r), "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
+        r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
+        "closure", closure_json(s->options, r), "importance", importance_json(r), "error",
+        error_json(r), "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
         r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
         "peak_memory_mb", peak_megabytes());
 }
@@ -131,6 +131,16 @@ static void print_rows(const struct options *o, const struct RadReport *r)
                r->closed > 0 ? "; they take the mean of their face" : "");
 }
 
+void summary_cause(const struct RadReport *r, char *text, size_t size)
+{
+    if (r->changing)
+        snprintf(text, size,
+                 "%llu links still change after %d passes; larger thresholds (--set) split less",
+                 (unsigned long long)r->changing, r->passes);
+    else
+        snprintf(text, size, "allow more --iterations, or loosen --tolerance");
+}
+
 void summary_print(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -148,10 +158,11 @@ void summary_print(const struct summary *s)
            (unsigned long long)r->links, (unsigned long long)r->pairs,
            (unsigned long long)r->rounds, (double)r->rays);
     print_marks(r);
-    printf("solution  %d passes, %d sweeps, residual %.1e, %s\n", r->passes, r->iterations,
-           r->residual,
-           r->converged ? "converged"
-                        : "NOT converged: allow more --iterations, or loosen --tolerance");
+    char cause[SUMMARY_CAUSE] = "";
+    if (!r->converged)
+        summary_cause(r, cause, sizeof cause);
+    printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
+           r->residual, r->converged ? "converged" : "NOT converged: ", cause);
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",

@@ -8,6 +8,8 @@
 #include "scene/open_scene.h"
 #include "util/solved.h"
 
+enum { SUMMARY_CAUSE = 128 }; /* bytes that the longest cause fits in */
+
 struct summary {
     const struct options *options;
     const struct open_scene *scene;
@@ -15,6 +17,9 @@ struct summary {
     RadOracle oracle;
     double output_seconds;
 };
+
+/* Why the answer is not converged, and what to do: a phrase. */
+void summary_cause(const struct RadReport *report, char *text, size_t size);
 
 void summary_print(const struct summary *summary);
 

@@ -1,6 +1,7 @@
 /* option_table.c - see option_table.h: how values are read, then the rows.
  * SPDX-License-Identifier: MIT */
 #include "options/option_table.h"
+#include "util/array.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -64,10 +65,10 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
 static int read_setting(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
-    char **more = realloc(o->settings, ((size_t)o->setting_count + 1) * sizeof *more);
-    if (!more)
+    if (array_reserve(&o->settings, (size_t)o->setting_count + 1, &o->setting_capacity,
+                      sizeof *o->settings)
+        < 0)
         return -1;
-    o->settings = more;
     o->settings[o->setting_count++] = (char *)(uintptr_t)value;
     return 0;
 }

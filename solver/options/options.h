@@ -35,6 +35,7 @@ struct options {
     int release_given;
     char **settings; /* [setting_count] "NAME=VALUE", owned */
     int setting_count;
+    size_t setting_capacity;
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     double tolerance;

@@ -78,7 +78,7 @@ static void add_standing(struct contact *c, const struct solution *solution, uin
     double along[3], up[3], height = height3(p, solution->surfaces.faces[g].vertex[0], n);
     cross3(along, normal, n);
     double sine = length3(along);
-    if (sine < OUTPUT_NO_LINE || fabs(height) > touch)
+    if (sine < CUT_PARALLEL || fabs(height) > touch)
         return;
     for (int k = 0; k < 3; k++) {
         along[k] /= sine;

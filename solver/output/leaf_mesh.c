@@ -10,22 +10,16 @@
 #include <string.h>
 
 #include "geometry.h"
+#include "util/array.h"
 
 /* Of a leaf's area: triangles below it are straight lines, bent by rounding. */
 static const double MESH_STRAIGHT = 1e-9;
 
-static int push_number(uint32_t **array, uint32_t *count, uint32_t *capacity, uint32_t value)
+static int push_number(uint32_t **array, uint32_t *count, size_t *capacity, uint32_t value)
 {
-    if (*count == *capacity) {
-        uint32_t more = *capacity < 1024             ? 1024
-                        : *capacity > UINT32_MAX / 2 ? UINT32_MAX
-                                                     : *capacity * 2;
-        uint32_t *larger = more > *count ? realloc(*array, more * sizeof *larger) : NULL;
-        if (!larger)
-            return -1;
-        *array = larger;
-        *capacity = more;
-    }
+    if (*count == UINT32_MAX
+        || array_reserve(array, (size_t)*count + 1, capacity, sizeof **array) < 0)
+        return -1;
     (*array)[(*count)++] = value;
     return 0;
 }

@@ -11,9 +11,11 @@
 
 struct leaf_mesh {
     /* vertex indices of all polygons, one after the other */
-    uint32_t *corner, corners, corner_capacity;
+    uint32_t *corner, corners;
+    size_t corner_capacity;
     /* polygon i is corner[start[i]] .. corner[start[i + 1] - 1] */
-    uint32_t *start, polygons, polygon_capacity;
+    uint32_t *start, polygons;
+    size_t polygon_capacity;
 };
 
 /* Returns 0, or -1 when out of memory; then *m is empty. */

@@ -10,6 +10,7 @@
 #include "kernel/constants.h"
 #include "output/contact.h"
 #include "output/leaf_at.h"
+#include "util/array.h"
 
 /* Where in the table the vertices at p begin. */
 static uint32_t table_index(const struct vertex_values *v, const double p[3], uint32_t material)
@@ -76,18 +77,6 @@ static double face_size(const struct RadFace *f)
     return size;
 }
 
-/* The array, with room for `count` more of `size`; NULL when there is none. */
-static void *enlarge(void *array, uint32_t have, uint32_t *capacity, uint32_t count, size_t size)
-{
-    uint32_t more = 2 * *capacity + 16 * count;
-    if (have + count <= *capacity)
-        return array;
-    void *moved = realloc(array, more * size);
-    if (moved)
-        *capacity = more;
-    return moved;
-}
-
 static int is_corner(const struct element *e, const double p[3])
 {
     for (int i = 0; i < e->vertices; i++)
@@ -102,11 +91,10 @@ static int find_passing(struct vertex_values *v, uint32_t vertex, const struct s
                         const struct contact *c, double touch)
 {
     const double *p = v->vertices[vertex].position;
-    struct passing *moved =
-        enlarge(v->passing, v->passing_count, &v->passing_capacity, CONTACT_FACES, sizeof *moved);
-    if (!moved)
+    if (array_reserve(&v->passing, (size_t)v->passing_count + CONTACT_FACES, &v->passing_capacity,
+                      sizeof *v->passing)
+        < 0)
         return -1;
-    v->passing = moved;
     for (int i = 0; i < c->faces; i++) {
         const struct element *e = element_of_face(solution, c->face[i]);
         double q[3], inward[3], weight[4];
@@ -127,7 +115,7 @@ static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct 
                          uint32_t f)
 {
     struct shared_vertex *s = &v->vertices[vertex];
-    double touch = OUTPUT_TOUCH * face_size(&solution->surfaces.faces[f]);
+    double touch = CUT_TOUCH * face_size(&solution->surfaces.faces[f]);
     s->contact = v->contact_count;
     s->contacts = 0;
     if (!on_border(&solution->surfaces.faces[f], s->position, touch))
@@ -138,11 +126,10 @@ static int find_contacts(struct vertex_values *v, uint32_t vertex, const struct 
         return -1;
     if (c.directions < 2)
         return 0;
-    double(*moved)[3] = enlarge(v->contact, v->contact_count, &v->contact_capacity,
-                                CONTACT_DIRECTIONS, sizeof *moved);
-    if (!moved)
+    if (array_reserve(&v->contact, (size_t)v->contact_count + CONTACT_DIRECTIONS,
+                      &v->contact_capacity, sizeof *v->contact)
+        < 0)
         return -1;
-    v->contact = moved;
     memcpy(v->contact[v->contact_count], c.direction, (size_t)c.directions * sizeof *c.direction);
     v->contact_count += (uint32_t)c.directions;
     s->contacts = (uint8_t)c.directions;
@@ -314,9 +301,10 @@ static int allocate(struct vertex_values *v, const struct solution *solution)
     v->weight = calloc(corners + 1, sizeof *v->weight);
     v->corner = malloc((4 * elements + 1) * sizeof *v->corner);
     v->table = malloc(v->table_size * sizeof *v->table);
-    v->contact = malloc(CONTACT_DIRECTIONS * sizeof *v->contact);
-    v->contact_capacity = CONTACT_DIRECTIONS;
-    if (!v->vertices || !v->value || !v->weight || !v->corner || !v->table || !v->contact)
+    if (array_reserve(&v->contact, CONTACT_DIRECTIONS, &v->contact_capacity, sizeof *v->contact)
+        < 0)
+        return -1;
+    if (!v->vertices || !v->value || !v->weight || !v->corner || !v->table)
         return -1;
     memset(v->table, 0xff, v->table_size * sizeof *v->table);
     memset(v->corner, 0xff, 4 * elements * sizeof *v->corner);

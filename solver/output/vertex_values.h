@@ -44,12 +44,14 @@ struct vertex_values {
     double *weight;                 /* [vertex]: area of the leaves whose mean it is, m2 */
     uint32_t *corner;               /* [element * 4 + i]: the vertex of a leaf's corner i */
     double (*contact)[3];           /* [contact_count]: directions in the surface at a vertex */
-    uint32_t contact_count, contact_capacity;
+    uint32_t contact_count;
+    size_t contact_capacity;
     struct passing {
         uint32_t leaf, vertex;
         /* [passing_count], by leaf: on whose edge a vertex of another face of the surface lies */
     } * passing;
-    uint32_t passing_count, passing_capacity;
+    uint32_t passing_count;
+    size_t passing_capacity;
     uint32_t *table, table_size; /* first vertex of each hash value; the size is a power of 2 */
 };
 

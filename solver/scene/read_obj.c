@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "scene/text_lines.h"
+#include "util/array.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
@@ -29,6 +30,7 @@ struct obj {
     /* [material_count]: the line of the first usemtl of each that no library has defined yet,
      * else 0 */
     uint32_t *use;
+    size_t use_capacity;
     uint32_t current; /* material of the faces to come */
     uint32_t libraries;
     int ahead; /* some face uses a vertex that comes after it */
@@ -71,11 +73,9 @@ static uint32_t find_material(struct obj *o, const char *name)
     for (uint32_t i = 0; i < f->material_count; i++)
         if (strcmp(f->names[i], name) == 0)
             return i;
-    uint32_t *larger = realloc(o->use, ((size_t)f->material_count + 1) * sizeof *larger);
-    if (!larger)
+    if (array_reserve(&o->use, (size_t)f->material_count + 1, &o->use_capacity, sizeof *o->use) < 0)
         return NONE;
-    o->use = larger;
-    larger[f->material_count] = 0;
+    o->use[f->material_count] = 0;
     return scene_file_add_material(f, name, &PLAIN) ? NONE : f->material_count - 1;
 }
 

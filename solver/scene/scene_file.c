@@ -18,7 +18,7 @@
 int scene_file_add_position(struct scene_file *f, const double position[3])
 {
     if (f->position_count == UINT32_MAX
-        || array_reserve(&f->positions, f->position_count, &f->position_capacity,
+        || array_reserve(&f->positions, (size_t)f->position_count + 1, &f->position_capacity,
                          3 * sizeof *f->positions)
                < 0)
         return -1;
@@ -28,26 +28,21 @@ int scene_file_add_position(struct scene_file *f, const double position[3])
 
 int scene_file_add_corner(struct scene_file *f, uint32_t position)
 {
-    if (array_reserve(&f->indices, f->index_count, &f->index_capacity, sizeof *f->indices) < 0)
+    if (array_reserve(&f->indices, f->index_count + 1, &f->index_capacity, sizeof *f->indices) < 0)
         return -1;
     f->indices[f->index_count++] = position;
     return 0;
 }
 
-/* Make room in an array that shares its capacity with others. */
-static int reserve_beside(void *array, size_t count, size_t capacity, size_t size)
-{
-    return array_reserve(array, count, &capacity, size);
-}
-
 int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t material, uint32_t line)
 {
     uint32_t n = f->polygon_count;
-    if (n == UINT32_MAX || reserve_beside(&f->sizes, n, f->polygon_capacity, sizeof *f->sizes) < 0
-        || reserve_beside(&f->polygon_materials, n, f->polygon_capacity,
-                          sizeof *f->polygon_materials)
+    if (n == UINT32_MAX
+        || array_reserve_beside(&f->sizes, (size_t)n + 1, f->polygon_capacity, sizeof *f->sizes) < 0
+        || array_reserve_beside(&f->polygon_materials, (size_t)n + 1, f->polygon_capacity,
+                                sizeof *f->polygon_materials)
                < 0
-        || array_reserve(&f->lines, n, &f->polygon_capacity, sizeof *f->lines) < 0)
+        || array_reserve(&f->lines, (size_t)n + 1, &f->polygon_capacity, sizeof *f->lines) < 0)
         return -1;
     f->sizes[n] = size;
     f->polygon_materials[n] = material;
@@ -61,9 +56,12 @@ int scene_file_add_material(struct scene_file *f, const char *name,
 {
     uint32_t n = f->material_count;
     if (n == UINT32_MAX
-        || reserve_beside(&f->materials, n, f->material_capacity, sizeof *f->materials) < 0
-        || reserve_beside(&f->names, n, f->material_capacity, sizeof *f->names) < 0
-        || array_reserve(&f->places, n, &f->material_capacity, sizeof *f->places) < 0)
+        || array_reserve_beside(&f->materials, (size_t)n + 1, f->material_capacity,
+                                sizeof *f->materials)
+               < 0
+        || array_reserve_beside(&f->names, (size_t)n + 1, f->material_capacity, sizeof *f->names)
+               < 0
+        || array_reserve(&f->places, (size_t)n + 1, &f->material_capacity, sizeof *f->places) < 0)
         return -1;
     f->names[n] = strdup(name);
     if (!f->names[n])

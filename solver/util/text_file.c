@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include "util/array.h"
+
 char *text_file_read(const char *path, size_t *size)
 {
     FILE *stream = fopen(path, "rb");
@@ -19,25 +21,25 @@ char *text_file_read(const char *path, size_t *size)
         return NULL;
     }
     /* Grown while reading: a pipe has no size to ask for. */
-    size_t capacity = (size_t)(status.st_size > 0 ? status.st_size : 0) + 4096, used = 0;
-    char *text = malloc(capacity);
-    while (text) {
-        used += fread(text + used, 1, capacity - used - 1, stream);
-        if (used < capacity - 1)
+    size_t capacity = 0, used = 0, need = (size_t)(status.st_size > 0 ? status.st_size : 0) + 2;
+    char *text = NULL;
+    int failed;
+    do {
+        failed = array_reserve(&text, need, &capacity, 1) < 0 ? ENOMEM : 0;
+        if (failed)
             break;
-        char *larger = realloc(text, capacity *= 2);
-        if (!larger)
-            free(text);
-        text = larger;
-    }
-    if (text && ferror(stream)) {
-        free(text);
-        text = NULL;
-        errno = EIO;
-    }
+        used += fread(text + used, 1, capacity - used - 1, stream);
+        need = capacity + 1;
+    } while (used == capacity - 1);
+    if (!failed && ferror(stream))
+        failed = EIO;
     fclose(stream);
-    if (text)
-        text[used] = 0;
+    if (failed) {
+        free(text);
+        errno = failed;
+        return NULL;
+    }
+    text[used] = 0;
     *size = used;
     return text;
 }

@@ -1,0 +1,96 @@
+/* check_summary.c - what the summary says of a solve that has not converged, and why.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands/summary.h"
+#include "options/options.h"
+#include "suite.h"
+
+/* A made-up report, for shipped oracles settle. */
+static struct RadReport report;
+
+/* Prints the summary into `text`; returns its JSON, which the caller frees. */
+static json_t *summarise(char *text, size_t size)
+{
+    struct options options = {.scene = "made up", .threads = 1};
+    struct open_scene scene = {0};
+    struct solved solved = {.report = report};
+    RadDevice device = radNewDevice(NULL);
+    ck_assert_ptr_nonnull(device);
+    RadOracle oracle = radNewOracle(device, "bf", RAD_RELEASE_FLAT);
+    ck_assert_ptr_nonnull(oracle);
+    const struct summary summary = {&options, &scene, &solved, oracle, 0};
+    FILE *file = tmpfile();
+    ck_assert_ptr_nonnull(file);
+    fflush(stdout);
+    int before = dup(STDOUT_FILENO);
+    dup2(fileno(file), STDOUT_FILENO);
+    summary_print(&summary);
+    fflush(stdout);
+    dup2(before, STDOUT_FILENO);
+    close(before);
+    rewind(file);
+    text[fread(text, 1, size - 1, file)] = 0;
+    (void)fclose(file);
+    json_t *json = summary_json(&summary);
+    ck_assert_ptr_nonnull(json);
+    radReleaseOracle(oracle);
+    radReleaseDevice(device);
+    return json;
+}
+
+/* Links change at the end of the last pass, though the iteration reached its tolerance: more of it
+ * would not help. */
+START_TEST(test_links_change)
+{
+    char text[4096];
+    report = (struct RadReport){.passes = 32, .iterations = 99, .changing = 48, .residual = 1e-6};
+    json_t *json = summarise(text, sizeof text);
+    ck_assert_ptr_nonnull(strstr(text, "solution  32 passes, 99 sweeps, residual 1.0e-06, "
+                                       "NOT converged: 48 links still change after 32 passes"));
+    ck_assert_ptr_null(strstr(text, "--iterations"));
+    ck_assert_int_eq(json_integer_value(json_object_get(json, "links_changing")), 48);
+    ck_assert_int_eq(json_integer_value(json_object_get(json, "passes")), 32);
+    ck_assert(json_is_false(json_object_get(json, "converged")));
+    json_decref(json);
+}
+END_TEST
+
+/* No link changes, but the iteration ran out of sweeps. */
+START_TEST(test_iteration_ends)
+{
+    char text[4096];
+    report = (struct RadReport){.passes = 1, .iterations = 2, .residual = 0.13};
+    json_t *json = summarise(text, sizeof text);
+    ck_assert_ptr_nonnull(strstr(text, "NOT converged: allow more --iterations"));
+    ck_assert_ptr_null(strstr(text, "still change"));
+    ck_assert_int_eq(json_integer_value(json_object_get(json, "links_changing")), 0);
+    json_decref(json);
+}
+END_TEST
+
+START_TEST(test_converged)
+{
+    char text[4096];
+    report = (struct RadReport){.passes = 2, .iterations = 9, .residual = 1e-6, .converged = 1};
+    json_t *json = summarise(text, sizeof text);
+    ck_assert_ptr_nonnull(strstr(text, "residual 1.0e-06, converged\n"));
+    ck_assert(json_is_true(json_object_get(json, "converged")));
+    ck_assert(json_is_integer(json_object_get(json, "links_changing")));
+    json_decref(json);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("summary");
+    TCase *c = tcase_create("converged");
+    tcase_add_test(c, test_links_change);
+    tcase_add_test(c, test_iteration_ends);
+    tcase_add_test(c, test_converged);
+    suite_add_tcase(suite, c);
+    return suite_failures(suite) != 0;
+}
