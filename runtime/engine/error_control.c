@@ -22,7 +22,7 @@
 #include "kernel/constants.h"
 #include "util/array.h"
 
-static double parameter(const struct refiner *r, enum catalog_role role)
+static double parameter(const struct refiner *r, int role)
 {
     int i = refiner_find_role(r, role, -1);
     return i < 0 ? 0 : refiner_get(r, i);
@@ -62,13 +62,13 @@ void error_control_start(struct error_control *c, double target, struct hierarch
 }
 
 /* Leaves of which any part is uncovered: others have no light whose error could count. */
-static int counts(const struct operator* op, uint32_t e)
+static int counts(const struct light_operator *op, uint32_t e)
 {
     const struct element *x = &op->hierarchy->elements[e];
     return x->vertices && !x->children && op->uncovered[e] > 0;
 }
 
-int error_control_estimate(struct error_control *c, const struct operator* op,
+int error_control_estimate(struct error_control *c, const struct light_operator *op,
                            const double *radiosity)
 {
     const struct hierarchy *h = op->hierarchy;
@@ -88,7 +88,7 @@ int error_control_estimate(struct error_control *c, const struct operator* op,
     return 0;
 }
 
-uint32_t error_control_tighten(const struct error_control *c, const struct operator* op,
+uint32_t error_control_tighten(const struct error_control *c, const struct light_operator *op,
                                struct hierarchy *h, struct oracle_inputs *in)
 {
     uint32_t lowered = 0;

@@ -25,13 +25,13 @@ void error_control_start(struct error_control *c, double target, struct hierarch
 
 /* Estimate every leaf's error anew, with B = radiosity[element * bands + band]. Returns 0, or -1
  * when out of memory. */
-int error_control_estimate(struct error_control *c, const struct operator* op,
+int error_control_estimate(struct error_control *c, const struct light_operator *op,
                            const double *radiosity);
 
 /* Lower the error tolerance of leaves whose estimate is above the target, and of what they are part
  * of; changed[e] becomes 1 where it fell. Returns how many leaves it was lowered of; 0: nothing is
  * above, or nothing is left that helps. */
-uint32_t error_control_tighten(const struct error_control *c, const struct operator* op,
+uint32_t error_control_tighten(const struct error_control *c, const struct light_operator *op,
                                struct hierarchy *h, struct oracle_inputs *in);
 
 void error_control_free(struct error_control *c);

@@ -66,7 +66,7 @@ static int reserve_importance(struct importance *y, uint32_t count)
 }
 
 /* r of the surfaces made since the last call; what they carry starts as their parents'. */
-static void respond(struct importance *y, const struct operator* op)
+static void respond(struct importance *y, const struct light_operator *op)
 {
     const struct solve_options *o = &op->problem->options;
     const struct element *elements = op->hierarchy->elements;
@@ -88,7 +88,7 @@ static void respond(struct importance *y, const struct operator* op)
 }
 
 /* Means of what has children, and what the report says of the leaves. */
-static void average(struct importance *y, const struct operator* op)
+static void average(struct importance *y, const struct light_operator *op)
 {
     const struct element *elements = op->hierarchy->elements;
     double whole = 0;
@@ -125,7 +125,7 @@ static void mark_grown(const struct importance *y, struct hierarchy *h, struct o
     }
 }
 
-int importance_start(struct importance *y, const struct operator* op, struct hierarchy *h,
+int importance_start(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                      struct oracle_inputs *in)
 {
     if (reserve_importance(y, h->count) < 0)
@@ -136,7 +136,8 @@ int importance_start(struct importance *y, const struct operator* op, struct hie
     return 0;
 }
 
-int importance_open(struct importance *y, const struct operator* op, struct transport *carried)
+int importance_open(struct importance *y, const struct light_operator *op,
+                    struct transport *carried)
 {
     if (reserve_importance(y, op->hierarchy->count) < 0)
         return -1;
@@ -151,7 +152,7 @@ int importance_open(struct importance *y, const struct operator* op, struct tran
     return 0;
 }
 
-void importance_update(struct importance *y, const struct operator* op, struct hierarchy *h,
+void importance_update(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                        struct oracle_inputs *in)
 {
     for (uint32_t i = 0; i < h->count; i++)

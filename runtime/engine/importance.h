@@ -20,15 +20,16 @@ struct importance {
 
 /* Before the first refinement: what the view sees of every face is all that counts. Returns 0,
  * or -1 when out of memory. */
-int importance_start(struct importance *y, const struct operator* op, struct hierarchy *h,
+int importance_start(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                      struct oracle_inputs *in);
 
 /* Set *carried to importance's equation over the links as they are. Returns 0, or -1 when out of
  * memory. */
-int importance_open(struct importance *y, const struct operator* op, struct transport *carried);
+int importance_open(struct importance *y, const struct light_operator *op,
+                    struct transport *carried);
 
 /* From the solved equation, let the oracles see importance; changed[e] becomes 1 where it grew. */
-void importance_update(struct importance *y, const struct operator* op, struct hierarchy *h,
+void importance_update(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                        struct oracle_inputs *in);
 
 void importance_free(struct importance *y);

@@ -11,8 +11,7 @@
 #include "engine/refine.h"
 #include "engine/separable_links.h"
 
-struct operator
-{
+struct light_operator {
     const struct problem *problem;
     const struct hierarchy *hierarchy;
     const struct refinement *refinement; /* its links, sorted by receiver */
@@ -30,7 +29,7 @@ struct operator
 
 /* The weight of child j in the mean radiosity of e: its share of the uncovered area, or of all
  * where none is. */
-static inline double operator_share(const struct operator* op, uint32_t j, uint32_t e)
+static inline double operator_share(const struct light_operator *op, uint32_t j, uint32_t e)
 {
     double part = op->hierarchy->elements[j].area / op->hierarchy->elements[e].area;
     return op->uncovered[e] > 0 ? part * op->uncovered[j] / op->uncovered[e] : part;

@@ -34,7 +34,7 @@ void oracle_inputs_guess(const struct problem *p, struct hierarchy *h)
 
 /* Largest less smallest B below element i, largest band. Fills its part of least[] and most[],
  * which its children's hold already. */
-static double measure_spread(struct oracle_inputs *in, const struct operator* op,
+static double measure_spread(struct oracle_inputs *in, const struct light_operator *op,
                              const double *radiosity, uint32_t i)
 {
     const struct element *e = &op->hierarchy->elements[i];
@@ -57,7 +57,7 @@ static double measure_spread(struct oracle_inputs *in, const struct operator* op
     return widest;
 }
 
-void oracle_inputs_update(struct oracle_inputs *in, const struct operator* op,
+void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
                           const double *radiosity, struct hierarchy *h)
 {
     uint32_t b = op->problem->bands;

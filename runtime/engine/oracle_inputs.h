@@ -14,7 +14,7 @@ struct oracle_inputs {
 
 /* Radiosity and spread of every element, from B [element * bands + band]. changed[e] becomes 1
  * where an oracle sees one of them grow, else 0. */
-void oracle_inputs_update(struct oracle_inputs *in, const struct operator* op,
+void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
                           const double *radiosity, struct hierarchy *h);
 
 /* Before the first solve the oracles see what the light is likely to be: E + rho H with the

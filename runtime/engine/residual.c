@@ -31,7 +31,7 @@ struct points {
     double sum[2][POINTS][3]; /* [band] of all links; [1]: of those that a guard kept whole */
 };
 
-static void add_link(struct points *p, const struct operator* op, const double *radiosity,
+static void add_link(struct points *p, const struct light_operator *op, const double *radiosity,
                      const struct link *l, const struct element *leaf)
 {
     uint32_t bands = op->problem->bands;
@@ -51,7 +51,7 @@ static void add_link(struct points *p, const struct operator* op, const double *
 /* The same for the separable links of element `up`, which is the leaf or holds it, and of which
  * `taker` takes the light: the whole face, or the part of it that has the links. Returns how many
  * there are. */
-static uint32_t add_separable(struct points *p, const struct operator* op, uint32_t up,
+static uint32_t add_separable(struct points *p, const struct light_operator *op, uint32_t up,
                               const struct element *taker)
 {
     const struct separable_links *s = &op->separable;
@@ -81,7 +81,7 @@ static double largest(const struct points *p, const struct problem *problem,
     return most;
 }
 
-struct leaf_residual residual_of_leaf(const struct operator* op, const double *radiosity,
+struct leaf_residual residual_of_leaf(const struct light_operator *op, const double *radiosity,
                                       uint32_t leaf)
 {
     const struct element *elements = op->hierarchy->elements, *e = &elements[leaf], *taker = e;

@@ -15,7 +15,7 @@ struct leaf_residual {
 
 /* With B = radiosity[element * bands + band], of which the separable links were last sent.
  * Thread-safe. */
-struct leaf_residual residual_of_leaf(const struct operator* op, const double *radiosity,
+struct leaf_residual residual_of_leaf(const struct light_operator *op, const double *radiosity,
                                       uint32_t leaf);
 
 #endif

@@ -31,13 +31,13 @@ struct face_rows {
     double cap, sum, area; /* sum: of A row */
     double seeing;         /* of A, leaves that have a row */
     double excess, room;   /* above the cap; between ROW_SHADOW of the cap and the cap */
-    struct operator* op;
+    struct light_operator *op;
     struct row_report *report;
 };
 
 /* Leave the row of every leaf below e where its scale will stand, and what its ancestors have of
  * it where theirs will. */
-static void sum_links(struct operator* op, uint32_t e, double above)
+static void sum_links(struct light_operator *op, uint32_t e, double above)
 {
     const struct element *x = &op->hierarchy->elements[e];
     const struct refinement *r = op->refinement;
@@ -94,7 +94,7 @@ static void weigh_row(struct face_rows *rows, uint32_t leaf, double row, double 
 
 static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct operator* op = rows->op;
+    struct light_operator *op = rows->op;
     double cap = rows->cap, most = fmax(rows->excess, rows->room), uncovered = op->uncovered[leaf];
     double above = uncovered > 0 ? op->row_above[leaf] / uncovered : 0, own = row - above;
     (void)area;
@@ -107,7 +107,7 @@ static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double ar
 
 static void close_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct operator* op = rows->op;
+    struct light_operator *op = rows->op;
     int closed = op->problem->closed > 0;
     rows->excess += row > 1 ? area * (row - 1) : 0;
     op->row_scale[leaf] = !(area > 0) ? 0 : closure_row_scale(row, 1, closed);
@@ -118,7 +118,7 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
-void row_sums_scale(struct operator* op, struct row_report *report)
+void row_sums_scale(struct light_operator *op, struct row_report *report)
 {
     const struct problem *p = op->problem;
     const struct hierarchy *h = op->hierarchy;

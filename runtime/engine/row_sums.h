@@ -18,6 +18,6 @@ struct row_report {
 };
 
 /* Measure all rows and set the operator's row scales as options.closure says. */
-void row_sums_scale(struct operator* op, struct row_report *report);
+void row_sums_scale(struct light_operator *op, struct row_report *report);
 
 #endif

@@ -38,7 +38,7 @@ static double largest(const double *v, uint32_t n)
 static int make_room(struct solve *s)
 {
     struct state *state = &s->state;
-    struct operator* op = & s->operator;
+    struct light_operator *op = &s->operator;
     uint32_t count = s->hierarchy.count, b = s->problem.bands;
     double **const by_band[] = {&state->radiosity, &state->irradiance, &s->inputs.least,
                                 &s->inputs.most};
@@ -129,7 +129,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     p->scene = scene;
     p->options = *options;
     p->bands = options->unit ? 1 : scene->bands;
-    s->operator=(struct operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
+    s->operator=(struct light_operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
     if (hierarchy_build_by(h, scene->faces, scene->face_count,
                            options->clusters ? (enum clustering)(options->clusters - 1)
                                              : CLUSTERING_DEFAULT,
@@ -241,7 +241,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
  * is asked for; let the oracles see both. Returns 0 or -1. */
 static int iterate(struct solve *s, double tolerance, int rough)
 {
-    struct operator* op = & s->operator;
+    struct light_operator *op = &s->operator;
     struct transport x = light(s, tolerance), carried;
     x.rough = rough;
     separable_links_close(&op->separable);
@@ -272,7 +272,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
 }
 
 /* The account of power. */
-static void sum_power(struct report *report, const struct operator* op, const double *irradiance)
+static void sum_power(struct report *report, const struct light_operator *op,
+                      const double *irradiance)
 {
     const struct problem *p = op->problem;
     report->emitted = report->absorbed = 0;

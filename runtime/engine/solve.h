@@ -41,7 +41,7 @@ struct solve {
     /* grows with refinement; what oracles see of elements is set by what computes it */
     struct hierarchy hierarchy;
     struct refinement refinement; /* links and the queue of pairs */
-    struct operator operator;
+    struct light_operator operator;
     struct state state;
     struct oracle_inputs inputs;
     struct importance importance;

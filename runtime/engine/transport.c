@@ -35,7 +35,7 @@
 enum { BLOCKS = 16, LINKS_WORTH_THREADS = 1 << 16 };
 
 /* What element e gathers over its own links, into irradiance[e]. */
-static void gather(const struct operator* op, const struct transport *x, uint32_t e)
+static void gather(const struct light_operator *op, const struct transport *x, uint32_t e)
 {
     const struct refinement *r = op->refinement;
     double h[3] = {0, 0, 0};
@@ -52,7 +52,7 @@ static void gather(const struct operator* op, const struct transport *x, uint32_
         x->irradiance[(size_t)e * b + k] = h[k];
 }
 
-static void gather_below(const struct operator* op, const struct transport *x, uint32_t e)
+static void gather_below(const struct light_operator *op, const struct transport *x, uint32_t e)
 {
     const struct element *at = &op->hierarchy->elements[e];
     gather(op, x, e);
@@ -63,7 +63,7 @@ static void gather_below(const struct operator* op, const struct transport *x, u
 /* Push irradiance down to the leaves and scale it there. spare[band] gathers the power (over the
  * face) that row_share gives out again: under closure a blind leaf's share of the mean, else what
  * the cap takes away. */
-static void push(const struct operator* op, const struct transport *x, uint32_t e,
+static void push(const struct light_operator *op, const struct transport *x, uint32_t e,
                  const double above[3], double spare[3])
 {
     const struct element *at = &op->hierarchy->elements[e];
@@ -80,7 +80,7 @@ static void push(const struct operator* op, const struct transport *x, uint32_t 
 }
 
 /* Set element e of value and irradiance to the means of its children. */
-static void average(const struct operator* op, const struct transport *x, uint32_t e)
+static void average(const struct light_operator *op, const struct transport *x, uint32_t e)
 {
     const struct element *at = &op->hierarchy->elements[e];
     uint32_t b = x->bands;
@@ -98,7 +98,7 @@ static void average(const struct operator* op, const struct transport *x, uint32
     }
 }
 
-void transport_average(const struct operator* op, struct transport *x)
+void transport_average(const struct light_operator *op, struct transport *x)
 {
     for (uint32_t e = op->hierarchy->count; e-- > 0;) /* children follow their parents */
         if (!op->hierarchy->elements[e].vertices)
@@ -112,7 +112,7 @@ struct change {
 };
 
 /* x = source + rho H at the leaves, means above. */
-static void pull(const struct operator* op, const struct transport *x, uint32_t e,
+static void pull(const struct light_operator *op, const struct transport *x, uint32_t e,
                  const double spare[3], struct change *change)
 {
     const struct element *at = &op->hierarchy->elements[e];
@@ -140,7 +140,7 @@ static void pull(const struct operator* op, const struct transport *x, uint32_t 
 }
 
 /* One sweep over all faces. change: [face]. */
-static void sweep(const struct operator* op, const struct transport *x, struct change *change)
+static void sweep(const struct light_operator *op, const struct transport *x, struct change *change)
 {
     static const double nothing[3] = {0, 0, 0};
     const struct solve_options *o = &op->problem->options;
@@ -165,7 +165,8 @@ static void sweep(const struct operator* op, const struct transport *x, struct c
 }
 
 /* Residual and bound after a sweep. */
-static void measure(const struct operator* op, struct transport *x, const struct change *change)
+static void measure(const struct light_operator *op, struct transport *x,
+                    const struct change *change)
 {
     const struct hierarchy *h = op->hierarchy;
     struct change all = {0};
@@ -185,7 +186,7 @@ static void measure(const struct operator* op, struct transport *x, const struct
     x->bound = left > 0 ? left / power : 0;
 }
 
-int transport_solve(const struct operator* op, struct transport *x)
+int transport_solve(const struct light_operator *op, struct transport *x)
 {
     struct change *change = malloc(op->hierarchy->face_count * sizeof *change);
     int stopped = 0;

@@ -30,9 +30,9 @@ struct transport {
 
 /* Sweep until what iteration leaves is within the tolerance; the row scales are set (row_sums.h).
  * Returns 0, or -1 when out of memory or stopped by `watch`. */
-int transport_solve(const struct operator* op, struct transport *x);
+int transport_solve(const struct light_operator *op, struct transport *x);
 
 /* Means of the clusters in value and irradiance, whose surfaces have theirs. */
-void transport_average(const struct operator* op, struct transport *x);
+void transport_average(const struct light_operator *op, struct transport *x);
 
 #endif

@@ -220,7 +220,7 @@ static double drawn(const struct element *r, const struct element *e)
 /* K over the leaves, from the links and row_sums.h's words: a[i * n + j]. */
 static void dense_operator(const struct solve *s, const uint32_t *leaf, int n, double *a)
 {
-    const struct operator* op = & s->operator;
+    const struct light_operator *op = &s->operator;
     const struct element *elements = s->hierarchy.elements;
     double *raw = calloc((size_t)(n * n), sizeof *raw),
            *kept = calloc((size_t)(n * n), sizeof *kept);
