@@ -12,12 +12,12 @@ trap 'rm -rf "$work"' EXIT
 table() {
     sed '/^$/d' <<'END'
 rows scaled alike | runtime/engine/row_sums.c | s/own > cap ? cap \/ own : 1/row > cap ? cap \/ row : 1/; s/row <= cap ? 1 : own < cap ? (cap - own) \/ above : 0/row > cap ? cap \/ row : 1/ | runtime/check_transport runtime/check_closure runtime/check_solve
-shadow .05 | runtime/kernel/constants.h | s/ROW_SHADOW 0.5 /ROW_SHADOW 0.05 / | runtime/check_transport runtime/check_closure runtime/check_solve
-rough .2, settled 5 | runtime/kernel/constants.h | s/ROUGH_TOLERANCE 0.005 /ROUGH_TOLERANCE 0.2 /; s/SETTLED 1000 /SETTLED 5 / | runtime/check_transport runtime/check_clusters
-rough .2 | runtime/kernel/constants.h | s/ROUGH_TOLERANCE 0.005 /ROUGH_TOLERANCE 0.2 / | runtime/check_transport runtime/check_clusters
-settled 5 | runtime/kernel/constants.h | s/SETTLED 1000 /SETTLED 5 / | runtime/check_transport runtime/check_clusters
+shadow .05 | runtime/kernel/constants.h | s/\(ROW_SHADOW\) *0.5$/\1 0.05/ | runtime/check_transport runtime/check_closure runtime/check_solve
+rough .2, settled 5 | runtime/kernel/constants.h | s/\(ROUGH_TOLERANCE\) *0.005$/\1 0.2/; s/\(SETTLED\) *1000$/\1 5/ | runtime/check_transport runtime/check_clusters
+rough .2 | runtime/kernel/constants.h | s/\(ROUGH_TOLERANCE\) *0.005$/\1 0.2/ | runtime/check_transport runtime/check_clusters
+settled 5 | runtime/kernel/constants.h | s/\(SETTLED\) *1000$/\1 5/ | runtime/check_transport runtime/check_clusters
 stop three times looser | runtime/engine/transport.c | s/x->bound <= x->tolerance/x->bound <= 3 * x->tolerance/ | runtime/check_transport runtime/check_solve
-backs 8 of 8 | runtime/kernel/constants.h | s/CONTACT_BACKS 6 /CONTACT_BACKS 8 / | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
+backs 8 of 8 | runtime/kernel/constants.h | s/\(CONTACT_BACKS\) *6$/\1 8/ | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
 no plain pivots | runtime/engine/pivots.c | s/round_weight, &first, PASSING_PLAIN)/round_weight, \&first, PASSING)/ | runtime/check_separable_links runtime/check_clusters
 END
 }

@@ -331,9 +331,11 @@ check "with a header" status 0 $run -o gen/with.c --header gen/with.h good.dag
 check "without a header" status 0 $run -o gen/without.c good.dag
 check "two oracles" status 0 $run -o gen/two.c --header gen/two.h "$here/emit_header_name.dag"
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Igen -c -o object.o"
-fast=-O0
-[ -z "${THOROUGH-}" ] || fast=-O2
-for compiler in "gcc -std=c11 -O1" "gcc -std=c11 -O0" "gcc -std=c99 $fast" "clang -std=c11 $fast" "g++ -x c++ -std=c++17 $fast" "clang++ -x c++ -std=c++17 $fast"; do
+# Both compilers and both languages, once; all of it only when THOROUGH.
+set -- "gcc -std=c99 -O1" "clang++ -x c++ -std=c++17 -O0"
+[ -z "${THOROUGH-}" ] || set -- "gcc -std=c11 -O1" "gcc -std=c11 -O0" "gcc -std=c99 -O2" "clang -std=c11 -O2" \
+    "g++ -x c++ -std=c++17 -O2" "clang++ -x c++ -std=c++17 -O2"
+for compiler; do
     if ! command -v "${compiler%% *}" >/dev/null; then
         echo "skipped: ${compiler%% *} is not installed"
         continue

@@ -92,8 +92,8 @@ PATH=$tmp/bin:$PATH
 export KEPT="$tmp/kept.so" FAIL_MARK="$tmp/mark"
 
 count=0 bad=0 failures=0
-step=7 # what is alike fails alike: every one only when THOROUGH
-[ -z "${THOROUGH-}" ] || step=1
+few=4 step=7 # what is alike fails alike: every one only when THOROUGH
+[ -z "${THOROUGH-}" ] || few=12 step=1
 complain() {
     bad=$((bad + 1))
     echo "memory.sh: dagc $mode: allocation $at: $1"
@@ -141,7 +141,7 @@ survives() { # STATUS-FOR-TROUBLE ARGUMENT...
             complain "half an output"
         fi
         [ $bad -lt 20 ] || return 1
-        at=$((at + (at < 12 ? 1 : step)))
+        at=$((at + (at < few ? 1 : step)))
     done
     [ $got = $usual ] && same || complain "not what it writes with memory"
     [ $at -gt 2 ] || complain "only $at allocations: does the failing malloc work?"

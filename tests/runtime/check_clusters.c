@@ -109,8 +109,9 @@ START_TEST(test_small)
     struct scene scene;
     room(&scene, 3);
     ck_assert(scene.face_count > 150 && scene.face_count < 1500);
-    solved(&a, &scene, "clusters", 2, CLOSURE_NONE, NULL);
-    solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
+    const char *setting = thorough() ? NULL : "min_share=3e-4";
+    solved(&a, &scene, "clusters", 2, CLOSURE_NONE, setting);
+    solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, setting);
     ck_assert_uint_eq(group_links(&a), 0);
     ck_assert_uint_eq(a.refinement.link_count, b.refinement.link_count);
     ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links,
@@ -139,9 +140,10 @@ START_TEST(test_large)
     struct scene scene;
     room(&scene, 10);
     ck_assert_uint_gt(scene.face_count, 1500);
-    solved(&with, &scene, "clusters", 2, CLOSURE_NONE, NULL);
-    released(&one, &scene, "clusters", RELEASE_DAG, 1, CLOSURE_NONE, NULL);
-    solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, NULL);
+    const char *setting = thorough() ? NULL : "min_share=3e-4";
+    solved(&with, &scene, "clusters", 2, CLOSURE_NONE, setting);
+    released(&one, &scene, "clusters", RELEASE_DAG, 1, CLOSURE_NONE, setting);
+    solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, setting);
     printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; "
            "power lost %.2g\n",
            scene.face_count, with.refinement.link_count, group_links(&with),

@@ -238,7 +238,11 @@ START_TEST(test_falling)
     const char *const *steps[3] = {f->coarse, f->fine, f->finest};
     double known[6], worst[3] = {0, 0, 0};
     size_t links[3] = {0, 0, 0};
-    int finest = thorough() || _i % 3 > 0, i; /* of the cube it takes a hundred thousand links */
+    /* of the cube it takes a hundred thousand links, and gibson_hubbold many more discussions */
+    int costly = strcmp(f->oracle, "gibson_hubbold") == 0 && _i % 3 != 1, i;
+    int finest = thorough() || (_i % 3 > 0 && !costly);
+    if (!thorough() && costly && _i % 3 == 0)
+        return;
     for (i = 0; i < 2 + finest; i++) {
         char *settings[4] = {(char *)"min_share=1e-4", (char *)steps[i][0], (char *)steps[i][1],
                              NULL};
@@ -332,7 +336,7 @@ int main(int count, char **arguments)
     tcase_add_loop_test(c, test_releases, 0, thorough() ? 3 : 1);
     tcase_add_test(c, test_declared);
     tcase_add_loop_test(c, test_falling, 0, 3 * FALLING);
-    tcase_add_loop_test(c, test_promise, 0, thorough() ? 5 : 3);
+    tcase_add_loop_test(c, test_promise, 0, thorough() ? 5 : 2);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -352,13 +352,14 @@ START_TEST(test_truth)
     static const int least[KINDS][2] = {{400, 15}, {400, 30}, {150, 80}, {120, 60},
                                         {500, 50}, {50, 200}, {80, 0},   {400, 30},
                                         {250, 15}, {50, 250}, {200, 50}};
-    enum { PAIRS = 12000, BATCH = SEGMENTS_MAX, BATCHES = 4, DOUBLE = 2, WORLDS = 4 };
+    enum { BATCH = SEGMENTS_MAX, BATCHES = 4, DOUBLE = 2, WORLDS = 4 };
+    const int pairs = thorough() ? 12000 : 3000;
     uint64_t seed = 1 + (uint64_t)_i, segments = 0, grazing[2] = {0, 0};
     int count[4] = {0, 0, 0, 0}, lies = 0, worlds = _i < LOADED ? WORLDS : 1, n, facing = 0;
     for (int world = 0; world < worlds; world++) {
         struct world w;
         open_world(&w, _i, &seed, 1);
-        for (int i = 0; i < PAIRS / worlds; i++) {
+        for (int i = 0; i < pairs / worlds; i++) {
             uint32_t pair[2];
             random_pair(&w, &seed, i % 2 ? 3 : 6, pair);
             struct discussion d;
@@ -528,11 +529,11 @@ START_TEST(test_refined)
     static const struct {
         int flat, threads, forget;
     } ways[] = {
-        {0, 1, 0}, {0, 1, 1}, {1, 2, 0}, {0, 2, 0}, {1, 1, 1},
+        {0, 1, 0}, {1, 2, 1}, {0, 1, 1}, {1, 2, 0}, {0, 2, 0}, {1, 1, 1},
     };
     struct refinement first = {0};
     struct world w[2];
-    for (size_t i = 0; i < (thorough() ? sizeof ways / sizeof *ways : 3); i++) {
+    for (size_t i = 0; i < (thorough() ? sizeof ways / sizeof *ways : 2); i++) {
         struct spy s = {ways[i].flat ? flat_peer()
                                      : interpreted("tests/runtime/peer.dag", NULL, NULL),
                         ways[i].forget, 0},
@@ -676,7 +677,7 @@ END_TEST
  * the seed is fixed). */
 START_TEST(test_random_parts)
 {
-    enum { SEGMENTS = 400000 };
+    const int segments = thorough() ? 400000 : 100000;
     uint64_t seed = 40 + (uint64_t)_i;
     double p[3][3], all = 0, seen = 0, square[2] = {0, 0};
     struct world w;
@@ -688,7 +689,7 @@ START_TEST(test_random_parts)
         made_face(&w.scene, 0, 3, (const double(*)[3])p);
     }
     start_world(&w, 1);
-    for (int i = 0; i < SEGMENTS; i++) {
+    for (int i = 0; i < segments; i++) {
         struct segment g = {{random_unit(&seed), random_unit(&seed), 0},
                             {random_unit(&seed), random_unit(&seed), 1}};
         double d[3];

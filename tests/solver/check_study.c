@@ -47,7 +47,7 @@ START_TEST(test_visibility)
     long last_pairs = 0, wrong = 0;
     snprintf(path, sizeof path, "%s/table.csv", folder);
     snprintf(more, sizeof more,
-             "--thresholds 30,300 --rays 4,16,64,256,1024 --set relative=0.1 --set min_share=2e-4 "
+             "--thresholds 30,300 --rays 4,16,64,256,1024 --set relative=0.1 --set min_share=1e-3 "
              "-o %s --chart %s/chart.svg",
              path, folder);
     ck_assert_int_eq(run(more), 0);
