@@ -3,9 +3,13 @@
 #include "util/text_file.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+
+/* What is read of a pipe (bytes), which may have no end; chosen. */
+static const size_t PIPE_MOST = (size_t)1 << 30;
 
 char *text_file_read(const char *path, size_t *size)
 {
@@ -13,11 +17,16 @@ char *text_file_read(const char *path, size_t *size)
     if (!stream)
         return NULL;
     struct stat status;
-    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
+    int cause = fstat(fileno(stream), &status) ? errno
+                : S_ISDIR(status.st_mode)      ? EISDIR
+                : S_ISCHR(status.st_mode)      ? ENOTSUP /* /dev/zero has no end */
+                                               : 0;
+    if (cause) {
         fclose(stream);
-        errno = EISDIR;
+        errno = cause;
         return NULL;
     }
+    const size_t most = S_ISREG(status.st_mode) ? SIZE_MAX : PIPE_MOST;
     /* Grown while reading: a pipe has no size to ask for. */
     size_t capacity = (size_t)(status.st_size > 0 ? status.st_size : 0) + 4096, used = 0;
     char *text = malloc(capacity);
@@ -25,7 +34,8 @@ char *text_file_read(const char *path, size_t *size)
         used += fread(text + used, 1, capacity - used - 1, stream);
         if (used < capacity - 1)
             break;
-        char *larger = realloc(text, capacity *= 2);
+        char *larger = used < most ? realloc(text, capacity *= 2) : NULL;
+        cause = used < most ? ENOMEM : EFBIG;
         if (!larger)
             free(text);
         text = larger;
@@ -33,11 +43,13 @@ char *text_file_read(const char *path, size_t *size)
     if (text && ferror(stream)) {
         free(text);
         text = NULL;
-        errno = EIO;
+        cause = EIO;
     }
     fclose(stream);
     if (text)
         text[used] = 0;
+    else
+        errno = cause ? cause : ENOMEM;
     *size = used;
     return text;
 }
