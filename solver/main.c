@@ -1,8 +1,12 @@
 /* main.c - the command radiosity: parse the options, see that what shall be written can be, run the
  * command.
  * SPDX-License-Identifier: MIT */
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "commands/commands.h"
 #include "hand.h"
@@ -21,6 +25,15 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_ORACLES] = command_oracles,
 };
 
+/* Also where one is a link to the other. */
+static int same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    return strcmp(a, b) == 0
+           || (stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev
+               && x.st_ino == y.st_ino);
+}
+
 /* What cannot be written is told before the work, not after. Returns 0 or the exit status. */
 static int check_outputs(const struct options *o)
 {
@@ -28,8 +41,12 @@ static int check_outputs(const struct options *o)
     int count = options_outputs(o, paths);
     for (int i = 0; i < count; i++) {
         int standard = strcmp(paths[i], "-") == 0;
+        if (!standard && o->scene && same_file(paths[i], o->scene)) {
+            report_error(paths[i], 0, "this is the scene, which would be lost; give another name");
+            return 2;
+        }
         for (int j = 0; j < i; j++)
-            if (strcmp(paths[i], paths[j]) == 0) {
+            if (same_file(paths[i], paths[j])) {
                 report_error(standard ? "standard output" : paths[i], 0,
                              "two outputs would go there; give each a file of its own");
                 return 2;
@@ -54,8 +71,27 @@ static int run(const struct options *o)
     return status;
 }
 
+/* Standard output that is full or closed is an error like that of any file. */
+static int flush_output(int status)
+{
+    int failed = ferror(stdout);
+    errno = 0;
+    if (!fflush(stdout) && !failed)
+        return status;
+    if (status == 0)
+        report_error("standard output", 0, "cannot write: %s; free some space or write elsewhere",
+                     strerror(errno ? errno : EIO));
+    return status == 0 ? 1 : status;
+}
+
 int main(int count, char **arguments)
 {
+    /* Or else a file that we open would stand in for a stream that is closed, and get its text. */
+    int stream;
+    while ((stream = open("/dev/null", O_RDONLY)) >= 0 && stream < 3)
+        ;
+    if (stream >= 3)
+        close(stream);
     struct options o;
     int status = options_parse(&o, count, arguments);
     register_hand_releases(hand_releases);
@@ -65,5 +101,5 @@ int main(int count, char **arguments)
             status = run(&o);
     }
     options_free(&o);
-    return fflush(stdout) != 0 && status == 0 ? 1 : status;
+    return flush_output(status);
 }

@@ -60,9 +60,10 @@ static int check_materials(const struct builder *b)
                 return fail(b->error, RAD_ERROR_INVALID_SCENE,
                             "material %u has reflectance %g; it must be 0 or more and below 1",
                             (unsigned)i, m->reflectance[k]);
-            if (!(m->exitance[k] >= 0 && isfinite(m->exitance[k])))
+            if (!(m->exitance[k] >= 0 && m->exitance[k] <= (double)FLT_MAX))
                 return fail(b->error, RAD_ERROR_INVALID_SCENE,
-                            "material %u has exitance %g W/m2; it must be 0 or more and finite",
+                            "material %u has exitance %g W/m2; it must be 0 or more and finite, "
+                            "3.4e38 at most",
                             (unsigned)i, m->exitance[k]);
         }
     }

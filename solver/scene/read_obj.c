@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernel/hash.h"
 #include "scene/text_lines.h"
 #include "util/array.h"
 #include "util/report.h"
@@ -24,6 +25,8 @@ static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 
 #define NONE UINT32_MAX /* no material */
 
+enum { QUOTED = 64 }; /* no message quotes more bytes of a word, so that it keeps its end */
+
 struct obj {
     struct scene_file *file;
     const char *path;
@@ -31,6 +34,9 @@ struct obj {
      * else 0 */
     uint32_t *use;
     size_t use_capacity;
+    /* [slot_count], a power of two: materials by their names, NONE where there is none; searched
+     * from the name's hash on */
+    uint32_t *slots, slot_count;
     uint32_t current; /* material of the faces to come */
     uint32_t libraries;
     int ahead; /* some face uses a vertex that comes after it */
@@ -41,6 +47,11 @@ static int out_of_memory(const char *path)
     return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
 }
 
+static int quoted_length(const char *from, const char *end)
+{
+    return end - from < QUOTED ? (int)(end - from) : QUOTED;
+}
+
 /* The finite numbers on the rest of the line, of which the first `most` go to `value`. Returns
  * how many; -1 after an error. */
 static int read_numbers(struct text_lines *t, const char *path, const char *what, int most,
@@ -49,7 +60,7 @@ static int read_numbers(struct text_lines *t, const char *path, const char *what
     int count = 0;
     while (next_word(t)) {
         double x;
-        int length = (int)(t->word_end - t->word);
+        int length = quoted_length(t->word, t->word_end);
         if (!word_number(t, &x))
             return report_error(path, t->number,
                                 "'%.*s' is not a number in %s; write a decimal number", length,
@@ -66,17 +77,49 @@ static int read_numbers(struct text_lines *t, const char *path, const char *what
 
 /* ---- materials */
 
+/* The slot of that name, or the free one where it belongs. */
+static uint32_t *find_slot(const struct obj *o, const char *name)
+{
+    uint64_t h = 0;
+    for (const char *c = name; *c; c++)
+        h = hash64(h + (unsigned char)*c + HASH_STEP);
+    uint32_t i = (uint32_t)h & (o->slot_count - 1);
+    while (o->slots[i] != NONE && strcmp(o->file->names[o->slots[i]], name) != 0)
+        i = (i + 1) & (o->slot_count - 1);
+    return &o->slots[i];
+}
+
+/* Twice the slots, so that half of them stay free. Returns 0, or -1 when out of memory. */
+static int grow_slots(struct obj *o)
+{
+    uint32_t count = o->slot_count ? 2 * o->slot_count : 64;
+    uint32_t *slots = count ? malloc(count * sizeof *slots) : NULL;
+    if (!slots)
+        return -1;
+    free(o->slots);
+    o->slots = slots;
+    o->slot_count = count;
+    memset(slots, 0xff, count * sizeof *slots); /* NONE */
+    for (uint32_t i = 0; i < o->file->material_count; i++)
+        *find_slot(o, o->file->names[i]) = i;
+    return 0;
+}
+
 /* The material of that name, a new one when there is none. Returns NONE when out of memory. */
 static uint32_t find_material(struct obj *o, const char *name)
 {
-    struct scene_file *f = o->file;
-    for (uint32_t i = 0; i < f->material_count; i++)
-        if (strcmp(f->names[i], name) == 0)
-            return i;
-    if (array_reserve(&o->use, (size_t)f->material_count + 1, &o->use_capacity, sizeof *o->use) < 0)
+    uint32_t n = o->file->material_count;
+    if ((n >= o->slot_count / 2 && grow_slots(o))
+        || array_reserve(&o->use, (size_t)n + 1, &o->use_capacity, sizeof *o->use) < 0)
         return NONE;
-    o->use[f->material_count] = 0;
-    return scene_file_add_material(f, name, &PLAIN) ? NONE : f->material_count - 1;
+    uint32_t *slot = find_slot(o, name);
+    if (*slot != NONE)
+        return *slot;
+    if (scene_file_add_material(o->file, name, &PLAIN))
+        return NONE;
+    o->use[n] = 0;
+    *slot = n;
+    return n;
 }
 
 static int read_newmtl(struct obj *o, const char *path, const struct text_lines *t,
@@ -151,8 +194,8 @@ static int read_library(struct obj *o, const struct text_lines *line)
             else
                 report_error(
                     o->path, line->number,
-                    "cannot read the material library '%s': %s; put it there or correct the name",
-                    path, strerror(errno));
+                    "cannot read the material library '%.*s': %s; put it there or correct the name",
+                    QUOTED * 4, path, strerror(errno));
             free(text);
             o->libraries++;
         }
@@ -224,9 +267,9 @@ static int read_face(struct obj *o, struct text_lines *t)
         if (stop == t->word || (stop < t->word_end && *stop != '/') || stop > t->word_end)
             return report_error(o->path, line,
                                 "'%.*s' is not a corner of a face; write the number of a vertex",
-                                (int)(t->word_end - t->word), t->word);
+                                quoted_length(t->word, t->word_end), t->word);
         if (index == 0 || index < -seen || index >= (long)UINT32_MAX)
-            return report_index(o, line, (int)(stop - t->word), t->word, index < 0);
+            return report_index(o, line, quoted_length(t->word, stop), t->word, index < 0);
         o->ahead |= index > seen;
         if (scene_file_add_corner(f, (uint32_t)(index > 0 ? index - 1 : index + seen)))
             return out_of_memory(o->path);
@@ -276,10 +319,11 @@ static int check_uses(const struct obj *o)
             return report_error(
                 o->path, o->use[i],
                 o->libraries
-                    ? "material '%s' is in no material library of this file; define it there or "
+                    ? "material '%.*s' is in no material library of this file; define it there or "
                       "correct the name"
-                    : "material '%s' is used, but no mtllib line names a material library; add one",
-                f->names[i]);
+                    : "material '%.*s' is used, but no mtllib line names a material library; add "
+                      "one",
+                QUOTED, f->names[i]);
     size_t at = 0;
     for (uint32_t i = 0; i < f->polygon_count && o->ahead; at += f->sizes[i], i++)
         for (uint32_t j = 0; j < f->sizes[i]; j++)
@@ -312,5 +356,6 @@ int read_obj(struct scene_file *file, const char *path)
     }
     free(text);
     free(o.use);
+    free(o.slots);
     return result;
 }

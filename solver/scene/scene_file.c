@@ -3,7 +3,7 @@
 #include "scene/scene_file.h"
 
 #include <errno.h>
-#include <math.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -114,10 +114,10 @@ static int check_materials(const struct scene_file *f, const char *path)
                                       "material '%s' has reflectance %g; the diffuse colour must "
                                       "be 0 or more and below 1",
                                       f->names[i], m->reflectance[k]);
-            else if (!(m->exitance[k] >= 0 && isfinite(m->exitance[k])))
+            else if (!(m->exitance[k] >= 0 && m->exitance[k] <= (double)FLT_MAX))
                 result = report_error(file, where->emissive_line,
                                       "material '%s' has exitance %g W/m2; the emissive colour "
-                                      "must be 0 or more and finite",
+                                      "must be 0 or more and finite, 3.4e38 at most",
                                       f->names[i], m->exitance[k]);
         }
     }

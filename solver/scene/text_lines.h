@@ -1,7 +1,7 @@
 /* text_lines.h - the lines of a text in memory and their words.
  *
  * Words are parted by blanks; a word that starts with # ends the line. A backslash at the end of a
- * line joins it with the next: both become blanks in the text.
+ * line joins it with the next, unless it is in such a comment: both become blanks in the text.
  * SPDX-License-Identifier: MIT */
 #ifndef TEXT_LINES_H
 #define TEXT_LINES_H
@@ -28,6 +28,15 @@ static inline int is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
+/* Does a word from here on start with #? */
+static inline int has_comment(const char *from, const char *end)
+{
+    for (const char *p = from; (p = memchr(p, '#', (size_t)(end - p))) != NULL; p++)
+        if (p == from || is_blank(p[-1]))
+            return 1;
+    return 0;
+}
+
 /* Returns 0 when there is no further line. */
 static inline int next_line(struct text_lines *t)
 {
@@ -36,14 +45,15 @@ static inline int next_line(struct text_lines *t)
     t->line = t->word_end = t->next;
     t->number = t->after;
     for (;;) {
+        const char *part = t->next; /* what was joined before has no comment */
         char *stop = memchr(t->next, '\n', (size_t)(t->end - t->next));
         t->line_end = stop ? stop : t->end;
         t->next = stop ? stop + 1 : t->end;
         t->after++;
         char *last = t->line_end;
-        while (last > t->line && last[-1] == '\r')
+        while (last > part && last[-1] == '\r')
             last--;
-        if (!stop || last == t->line || last[-1] != '\\' || *t->line == '#')
+        if (!stop || last == part || last[-1] != '\\' || has_comment(part, last))
             return 1;
         for (char *p = last - 1; p <= stop; p++)
             *p = ' ';

@@ -10,6 +10,10 @@ static void report(const char *path, uint32_t line, const char *kind, const char
 {
     char text[1024];
     vsnprintf(text, sizeof text, format, arguments);
+    /* Words of a damaged file must not steer the terminal. */
+    for (char *c = text; *c; c++)
+        if (((unsigned char)*c < ' ' && *c != '\n' && *c != '\t') || *c == 127)
+            *c = '?';
     if (line)
         fprintf(stderr, "%s:%u: %s: %s\n", path, (unsigned)line, kind, text);
     else

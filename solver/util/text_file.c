@@ -3,11 +3,15 @@
 #include "util/text_file.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
 #include "util/array.h"
+
+/* What is read of a pipe (bytes), which may have no end; chosen. */
+static const size_t PIPE_MOST = (size_t)1 << 30;
 
 char *text_file_read(const char *path, size_t *size)
 {
@@ -15,28 +19,32 @@ char *text_file_read(const char *path, size_t *size)
     if (!stream)
         return NULL;
     struct stat status;
-    if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
+    int cause = fstat(fileno(stream), &status) ? errno
+                : S_ISDIR(status.st_mode)      ? EISDIR
+                : S_ISCHR(status.st_mode)      ? ENOTSUP /* /dev/zero has no end */
+                                               : 0;
+    if (cause) {
         fclose(stream);
-        errno = EISDIR;
+        errno = cause;
         return NULL;
     }
+    const size_t most = S_ISREG(status.st_mode) ? SIZE_MAX : PIPE_MOST;
     /* Grown while reading: a pipe has no size to ask for. */
     size_t capacity = 0, used = 0, need = (size_t)(status.st_size > 0 ? status.st_size : 0) + 2;
     char *text = NULL;
-    int failed;
     do {
-        failed = array_reserve(&text, need, &capacity, 1) < 0 ? ENOMEM : 0;
-        if (failed)
+        cause = used >= most ? EFBIG : array_reserve(&text, need, &capacity, 1) < 0 ? ENOMEM : 0;
+        if (cause)
             break;
         used += fread(text + used, 1, capacity - used - 1, stream);
         need = capacity + 1;
     } while (used == capacity - 1);
-    if (!failed && ferror(stream))
-        failed = EIO;
+    if (!cause && ferror(stream))
+        cause = EIO;
     fclose(stream);
-    if (failed) {
+    if (cause) {
         free(text);
-        errno = failed;
+        errno = cause;
         return NULL;
     }
     text[used] = 0;

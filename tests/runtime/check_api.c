@@ -542,6 +542,9 @@ START_TEST(test_bad_scenes)
     expect_bad_scene(device, &p, &m, "exitance -1");
     m = grey(0.5, (double)INFINITY);
     expect_bad_scene(device, &p, &m, "exitance inf");
+    m = grey(0.5, 1e308); /* whose radiosity is beyond all numbers */
+    expect_bad_scene(device, &p, &m,
+                     "exitance 1e+308 W/m2; it must be 0 or more and finite, 3.4e38");
     expect_bad_scene(device,
                      &(struct RadPolygons){.positions = corners,
                                            .position_count = 8,

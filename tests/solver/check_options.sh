@@ -165,6 +165,25 @@ says 1 "none.obj: error" solve none.obj --faces ../"$(basename "$tmp").kept"
 count=$((count + 1))
 [ "$(cat ../"$(basename "$tmp").kept")" = precious ] || { bad=$((bad + 1)); echo "failed: an output was lost with the run"; }
 rm -f ../"$(basename "$tmp").kept"
+# The scene is no output, whatever its name is there.
+mkdir "$tmp.scene" && cp "$scenes"/furnace.* "$tmp.scene" && ln -s furnace.obj "$tmp.scene/link.obj"
+for option in -o --image --faces --json --statistics; do
+    says 2 "this is the scene, which would be lost" solve "$tmp.scene/furnace.obj" $option "$tmp.scene/link.obj"
+done
+says 2 "this is the scene, which would be lost" viewfactors "$tmp.scene/furnace.obj" -o "$tmp.scene/../${tmp##*/}.scene/furnace.obj"
+says 2 "two outputs would go there" solve none.obj --faces "$tmp.scene/link.obj" --json "$tmp.scene/furnace.obj"
+count=$((count + 1))
+cmp -s "$tmp.scene/furnace.obj" "$scenes/furnace.obj" || { bad=$((bad + 1)); echo "failed: the scene was lost"; }
+rm -rf "$tmp.scene"
+# Standard output that is full or closed is told.
+for arguments in oracles --help "solve $scenes/furnace.obj"; do
+    count=$((count + 2))
+    "$radiosity" $arguments >/dev/full 2>err
+    [ $? = 1 ] && grep -q "^standard output: error: cannot write: No space left" err || { bad=$((bad + 1)); echo "failed: $arguments to a full device"; cat err; }
+    "$radiosity" $arguments >&- 2>err
+    [ $? = 1 ] && grep -q "^standard output: error: cannot write: Bad file" err || { bad=$((bad + 1)); echo "failed: $arguments without standard output"; cat err; }
+    rm -f err
+done
 # A pipe nobody reads must not be waited for.
 count=$((count + 1))
 mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err

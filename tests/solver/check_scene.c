@@ -492,7 +492,74 @@ START_TEST(test_lines)
 }
 END_TEST
 
+/* A backslash at the end of a comment joins nothing: what follows is not lost. */
+START_TEST(test_comment_ends)
+{
+    write_text("m.mtl", MTL);
+    const char *obj =
+        write_text("c.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 # C:\\\n  # D:\\\r\n"
+                            "usemtl a\nf 1 \\\n2 3 # \\\n#\\\nf 1 2 3\n");
+    struct scene_file file;
+    ck_assert_int_eq(scene_file_read(&file, obj, NULL), 0);
+    ck_assert_uint_eq(file.polygon_count, 2);
+    ck_assert_str_eq(file.names[file.polygon_materials[0]], "a");
+    ck_assert_uint_eq(file.lines[1], 10);
+    scene_file_free(&file);
+}
+END_TEST
+
+/* Materials are found by a hash of their names: a search through all would take a minute. */
+START_TEST(test_many_materials)
+{
+    enum { MANY = 100000 };
+    FILE *mtl = fopen(in_folder("many.mtl"), "w"), *obj = fopen(in_folder("many.obj"), "w");
+    ck_assert(mtl && obj);
+    fputs("mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", obj);
+    for (int i = 0; i < MANY; i++) {
+        fprintf(mtl, "newmtl the material with the number %d\nKd %g\n", i, i / (double)MANY);
+        fprintf(obj, "usemtl the material with the number %d\nf 1 2 3\n", MANY - 1 - i);
+    }
+    ck_assert(fclose(mtl) == 0 && fclose(obj) == 0);
+    struct scene_file file;
+    ck_assert_int_eq(scene_file_read(&file, in_folder("many.obj"), NULL), 0);
+    ck_assert_uint_eq(file.material_count, MANY);
+    for (uint32_t i = 0; i < MANY; i++)
+        ck_assert_uint_eq(file.polygon_materials[i], MANY - 1 - i);
+    scene_file_free(&file);
+}
+END_TEST
+
 /* ---- errors: file, line, cause ---- */
+
+/* Messages end as they should whatever a word holds, and nothing without an end is read. */
+START_TEST(test_hostile_words)
+{
+    static char body[20000];
+    char word[5000];
+    struct scene s;
+    memset(word, 'y', sizeof word - 1);
+    word[sizeof word - 1] = 0;
+    static const struct {
+        const char *format, *what;
+    } rows[] = {
+        {"v 0 0 %s\n", "is not a number in a vertex; write a decimal number\n"},
+        {"f %s\n", "is not a corner of a face; write the number of a vertex\n"},
+        {"usemtl %s\n", "define it there or correct the name\n"},
+        {"mtllib %s\n", "File name too long; put it there or correct the name\n"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        snprintf(body, sizeof body, rows[i].format, word);
+        expect_error(body, rows[i].what);
+    }
+    expect_error("usemtl \033[31m%s%n\n", "s.obj:2: error: material '?[31m%s%n' is in no");
+    expect_error("mtllib /dev/zero\n",
+                 "s.obj:2: error: cannot read the material library '/dev/zero'");
+    const char *endless = in_folder("endless.obj");
+    ck_assert_int_eq(symlink("/dev/zero", endless), 0);
+    ck_assert_int_eq(read_scene(&s, endless, NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "endless.obj: error: cannot read"));
+}
+END_TEST
 
 START_TEST(test_errors)
 {
@@ -742,6 +809,9 @@ int main(void)
     tcase_add_test(t, test_double);
     tcase_add_test(t, test_obj);
     tcase_add_test(t, test_lines);
+    tcase_add_test(t, test_comment_ends);
+    tcase_add_test(t, test_many_materials);
+    tcase_add_test(t, test_hostile_words);
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
