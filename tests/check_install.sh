@@ -193,7 +193,7 @@ fails() { # STATUS TEXT COMMAND...
 if have pkg-config; then
     cp -r "$top/examples/engine" engine && cd engine || exit 2
     rm -f engine engine++
-    check "engine: make" make PREFIX="$prefix" CFLAGS="$optimise -Wall -Wextra" engine engine++
+    check "engine: make" make PREFIX="$prefix" CFLAGS="$optimise -Wall -Wextra ${SANITIZE-}" engine engine++
     check "engine: the cube" near ./engine
     check "engine: the cube in C++" near ./engine++
     for wrong in 1 1.5 -0.1 nan; do
@@ -218,7 +218,7 @@ target_link_libraries(shared radiosity::radiosity)
 add_executable(static engine.cpp)
 target_link_libraries(static radiosity::static)
 END2
-    check "engine: cmake" cmake -S engine_cmake -B engine_cmake/out "-DCMAKE_PREFIX_PATH=$prefix"
+    check "engine: cmake" cmake -S engine_cmake -B engine_cmake/out "-DCMAKE_PREFIX_PATH=$prefix" "-DCMAKE_C_FLAGS=${SANITIZE-}" "-DCMAKE_CXX_FLAGS=${SANITIZE-}"
     check "engine: cmake: build" cmake --build engine_cmake/out
     check "engine: cmake, shared, C" near engine_cmake/out/shared
     check "engine: cmake, static, C++" near engine_cmake/out/static
