@@ -451,7 +451,8 @@ struct dag {
 /* ------------------------------------------------------------------------------------------
  * The library: load a .dag file, read the arrays above, free it. Thread-safe, no globals. */
 
-/* The catalog built into the library and the command, NUL-terminated (dagc/emit/embed.sh makes it). */
+/* The catalog built into the library and the command, NUL-terminated (dagc/emit/embed.sh makes
+ * it). */
 extern const char dagc_standard_catalog[];
 
 /* Reads, resolves and checks the file `path` ("-": standard input) under a catalog; `catalog` is

@@ -26,7 +26,7 @@ struct prove_record {
     int room;                    /* of the lists: no path is longer */
     int calls;
     int *tools;
-    double *arguments; /* [room * PROVE_ARGUMENTS] */
+    double *arguments; /* [room * proof.width] */
     double *terms;     /* the terms at the end */
     unsigned char *levels;
     const double *facts; /* by fact, then by extern: its value */

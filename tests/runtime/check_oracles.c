@@ -2,8 +2,8 @@
  * with its threshold, and thermal keeps its promise.
  *
  * References: closed forms where there are some, else path tracing (path_reference.h).
- * ORACLES_TABLE=1 build/tests/check_oracles SCENE... prints instead what each oracle costs and how
- * wrong it is, at its default parameters: the table in examples/oracles/README.md.
+ * ORACLES_TABLE=1 build/tests/runtime/check_oracles SCENE... prints instead what each oracle costs
+ * and how wrong it is, at its default parameters: the table in examples/oracles/README.md.
  * ORACLES_ONLY="NAME ..." leaves the others out, ORACLES_SET="PARAM=VALUE ..." sets parameters,
  * ORACLES_PATHS is the number of particles of the reference.
  * SPDX-License-Identifier: MIT */

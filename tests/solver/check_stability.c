@@ -1,7 +1,7 @@
 /* check_stability.c - the failure table, cell by cell: methods that must pass do, and those that
  * are known to fail fail, by the amount that the table states. One test per case; what a case is,
- * solver/stability_cases.c says. Then the closed forms that the cases rest on, against published
- * values, and the command that prints the table.
+ * solver/study/stability_cases.c says. Then the closed forms that the cases rest on, against
+ * published values, and the command that prints the table.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
