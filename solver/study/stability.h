@@ -202,9 +202,10 @@ double stability_random(unsigned *seed);
     M(shared_edge) \
     M(shared_edge_halved) \
     M(close_parallel) \
-    M(half_apart) M(row_sum) M(straddle) M(straddle_children) M(coplanar) M(sliver) \
-        M(sliver_standing) M(scale_far) M(degenerate_factor) M(closed_forms) M(tiny_blocker) \
-            M(penumbra) M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) M(furnace_95) \
+    M(half_apart) \
+    M(row_sum) M(straddle) M(straddle_children) M(coplanar) M(sliver) M(sliver_standing) \
+        M(scale_far) M(degenerate_factor) M(closed_forms) M(tiny_blocker) M(penumbra) \
+            M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) M(furnace_95) \
                 M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) \
                     M(open_plates) M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) \
                         M(hollow_sphere) M(concentric) M(wide_plates) M(brightness) M(scale) \
