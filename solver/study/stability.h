@@ -198,20 +198,17 @@ int stability_same_links(const struct solved *a, const struct solved *b);
 double stability_random(unsigned *seed);
 
 /* The cases: each stability_*.c gives its measures. */
+/* clang-format off */
 #define STABILITY_MEASURES(M) \
-    M(shared_edge) \
-    M(shared_edge_halved) \
-    M(close_parallel) \
-    M(half_apart) \
-    M(row_sum) M(straddle) M(straddle_children) M(coplanar) M(sliver) M(sliver_standing) \
-        M(scale_far) M(degenerate_factor) M(closed_forms) M(tiny_blocker) M(penumbra) \
-            M(obstructed) M(thin_wall) M(wall_in_floor) M(far_from_zero) M(furnace_95) \
-                M(furnace_98) M(furnace_99) M(furnace_box) M(furnace_L) M(near_white) M(sweeps) \
-                    M(open_plates) M(plates_profile) M(plates_edge) M(cube) M(cavity) M(sphere) \
-                        M(hollow_sphere) M(concentric) M(wide_plates) M(brightness) M(scale) \
-                            M(large_source) M(large_source_split) M(touching_cells) \
-                                M(long_receiver) M(range_centre) M(range_quarter) M(four_shadows) \
-                                    M(bent_quad) M(no_area)
+    M(shared_edge) M(shared_edge_halved) M(close_parallel) M(half_apart) M(row_sum) M(straddle) \
+    M(straddle_children) M(coplanar) M(sliver) M(sliver_standing) M(scale_far) \
+    M(degenerate_factor) M(closed_forms) M(tiny_blocker) M(penumbra) M(obstructed) M(thin_wall) \
+    M(wall_in_floor) M(far_from_zero) M(furnace_95) M(furnace_98) M(furnace_99) M(furnace_box) \
+    M(furnace_L) M(near_white) M(sweeps) M(open_plates) M(plates_profile) M(plates_edge) M(cube) \
+    M(cavity) M(sphere) M(hollow_sphere) M(concentric) M(wide_plates) M(brightness) M(scale) \
+    M(large_source) M(large_source_split) M(touching_cells) M(long_receiver) M(range_centre) \
+    M(range_quarter) M(four_shadows) M(bent_quad) M(no_area)
+/* clang-format on */
 #define M(name) int stability_##name(struct stability_trial *trial);
 STABILITY_MEASURES(M)
 #undef M
