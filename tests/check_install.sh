@@ -12,6 +12,7 @@ flags="-std=c11 $optimise -Wall -Wextra -Werror ${SANITIZE-}"
 tmp=$(mktemp -d) || exit 2
 trap 'rm -rf "$tmp"' EXIT
 cd "$tmp" || exit 2
+compiler=${CC-} # what this build was made with: `make check CC=...` says it
 unset DAGC RADIOSITY MAKEFLAGS MFLAGS MAKELEVEL BUILD CC CFLAGS CPPFLAGS LDFLAGS OPT WARN
 prefix=$tmp/usr
 count=0 bad=0
@@ -39,7 +40,7 @@ is() { # WANTED COMMAND...
 }
 
 # ---- as a package is made: into a folder, from where it goes to its place
-check install make -C "$top" install BUILD="$build" PREFIX="$prefix" DESTDIR="$tmp/stage"
+check install make -C "$top" install ${compiler:+"CC=$compiler"} BUILD="$build" PREFIX="$prefix" DESTDIR="$tmp/stage"
 [ -d "stage$prefix" ] || { echo "install: nothing to go on with"; exit 1; }
 mv "stage$prefix" usr
 for folder in usr/include/dagc usr/share/dagc usr/lib/pkgconfig usr/lib/cmake; do

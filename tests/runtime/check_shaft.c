@@ -84,9 +84,13 @@ static void make(struct scene *s, int kind, uint64_t *seed)
     case 1:
     case 7:
         made_room(s, wall, 4, 5, 3);
-        for (i = 0; i < 5; i++)
-            add_box(s, between(seed, 0, 3), between(seed, 0, 4), i < 3 ? 0 : between(seed, 0, 2),
-                    between(seed, 0.1, 1), between(seed, 0.1, 1), between(seed, 0.1, 1));
+        for (i = 0; i < 5; i++) {
+            /* One at a time: compilers differ in which argument of a call is computed first. */
+            double c = between(seed, 0.1, 1), b = between(seed, 0.1, 1), a = between(seed, 0.1, 1);
+            double z = i < 3 ? 0 : between(seed, 0, 2);
+            double y = between(seed, 0, 4), x = between(seed, 0, 3);
+            add_box(s, x, y, z, a, b, c);
+        }
         add_box(s, 0, 0, 0, 0.5, 1, 1); /* flush with two walls and the floor */
         if (kind > 0)
             rotate(s, seed);
