@@ -26,7 +26,9 @@ CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE) -fopenmp
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # What the library is linked with, and what the command needs besides.
-ENGINE_LIBS = $(EMBREE) $(if $(findstring clang,$(shell $(CC) --version)),-lomp,-lgomp) -lpthread -ldl -lm
+# clang's OpenMP stands in a folder of clang's own, where other compilers that link the archive do not look.
+OPENMP   := $(if $(findstring clang,$(shell $(CC) --version)),$(shell $(CC) -print-file-name=libomp.so),-lgomp)
+ENGINE_LIBS = $(EMBREE) $(OPENMP) -lpthread -ldl -lm
 LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.

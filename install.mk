@@ -65,7 +65,7 @@ $(BUILD)/install/radiosity.pc: runtime/package/radiosity.pc.in
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(LIBRARY_VERSION)|' -e 's|@LIBS@|$(ENGINE_LIBS)|' $< > $@
 $(BUILD)/install/radiosityConfig.cmake: runtime/package/radiosityConfig.cmake.in Makefile runtime/radiosity.h
 	@mkdir -p $(@D)
-	sed -e 's|@SONAME@|$(SONAME)|' -e 's|@LIBS@|$(patsubst -l%,%;,$(ENGINE_LIBS))|' -e 's|; |;|g' -e 's|;"|"|' $< > $@
+	sed -e 's|@SONAME@|$(SONAME)|' -e 's|@LIBS@|$(addsuffix ;,$(patsubst -l%,%,$(ENGINE_LIBS)))|' -e 's|; |;|g' -e 's|;"|"|' $< > $@
 $(BUILD)/install/radiosityConfigVersion.cmake: dagc/package/dagcConfigVersion.cmake.in runtime/radiosity.h
 	@mkdir -p $(@D)
 	sed 's|@VERSION@|$(LIBRARY_VERSION)|' $< > $@

@@ -204,7 +204,7 @@ if have pkg-config; then
     check "engine" fails 2 "usage" ./engine
     check "engine: version" sh -c "[ \"\$(pkg-config --modversion radiosity)\" = '$(sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' "$top/runtime/radiosity.h")' ]"
     # shellcheck disable=SC2046,SC2086
-    check "engine: static" cc $flags -o static engine.c $(pkg-config --cflags radiosity) "$prefix/lib/libradiosity.a" $(pkg-config --static --libs-only-l radiosity | sed 's/-lradiosity//')
+    check "engine: static" cc $flags -o static engine.c $(pkg-config --cflags radiosity) "$prefix/lib/libradiosity.a" $(pkg-config --static --libs radiosity | sed 's/-lradiosity//')
     check "engine: the cube, static" near ./static
     cd ..
 fi
