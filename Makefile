@@ -13,6 +13,7 @@
 # make bench    what the releases cost, in instructions
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # make install-dagc  the part of it that is dagc's
+# make clean    build/ is removed
 # SPDX-License-Identifier: MIT
 
 CC       = gcc

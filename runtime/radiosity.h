@@ -1,7 +1,7 @@
 /* radiosity.h - hierarchical radiosity as a library: scenes and oracles in, light and view factors
  * out.
  *
- * Four opaque handles, in the manner of Embree's API:
+ * Five opaque handles, in the manner of Embree's API:
  *
  *     RadDevice    threads, errors and progress; owns nothing else
  *     RadScene     faces and materials; after radCommitScene what solutions are made over

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
+#include "kernel/constants.h"
 
 /* What programs see is what the engine has, under other names. */
 _Static_assert(sizeof(struct RadLink) == sizeof(struct link)
@@ -14,7 +15,6 @@ _Static_assert(sizeof(struct RadLink) == sizeof(struct link)
                    && (int)RAD_LINK_MARKS == (int)LINK_MARKS,
                "RadLink is struct link");
 
-#define TOLERANCE 1e-4 /* relative L1 error of B; chosen */
 enum { ITERATIONS = 100000 };
 
 const char *const *radGetClusteringNames(void)
@@ -102,7 +102,7 @@ static int watch(void *context, const struct solve *s, const char *phase)
 static struct solve_options engine_options(RadSolution solution, const struct RadSolveOptions *o)
 {
     struct solve_options options = {
-        .tolerance = o->tolerance > 0 ? o->tolerance : TOLERANCE,
+        .tolerance = o->tolerance > 0 ? o->tolerance : SOLVE_TOLERANCE,
         .iterations = o->iterations ? o->iterations : ITERATIONS,
         .jacobi = o->jacobi != 0,
         .threads = solution->scene->device->threads,

@@ -204,6 +204,8 @@
 /* relative. What an oracle sees of radiosity, spread and importance lags this far behind the
  * truth, so that passes end; chosen, below the 5 % that the oracles' own thresholds decide by */
 #define HYSTERESIS 0.02
+/* relative L1 error of B that iteration may leave: the default of solutions. chosen */
+#define SOLVE_TOLERANCE 1e-4
 /* relative L1 error of B. Where groups are linked, passes before the last ones solve to this: a
  * quarter of HYSTERESIS, so that oracles do not notice; must stay below it */
 #define ROUGH_TOLERANCE 0.005

@@ -36,7 +36,7 @@ static int print_help(void)
 {
     printf("usage: radiosity COMMAND [SCENE] [options]\n"
            "\n"
-           "Light in a closed scene of diffuse surfaces, by hierarchical radiosity.\n"
+           "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
     print_lines("");
     printf("\n"
