@@ -134,40 +134,62 @@ static void take_items(struct build *b)
     }
 }
 
-/* One level: nodes [first, first + count) are open[0 .. count). Their children are appended; those
- * of two items and more are the next level, written to `next`. Returns how many those are. */
-static uint32_t grow_level(struct bvh *t, const struct build *b, const struct strategy *s,
-                           const struct part *open, const uint32_t *node, uint32_t count,
-                           uint32_t depth, struct part (*parts)[PARTS_MAX], int *found,
-                           struct part *next, uint32_t *next_node)
+/* The parts that are still to be divided, all of one depth, and the nodes that they are. */
+struct level {
+    struct part *open; /* [count], of two items at least */
+    uint32_t *node;    /* [count] */
+    uint32_t count;
+};
+
+/* What came of the parts that are divided together. */
+struct block {
+    struct part (*parts)[PARTS_MAX]; /* [BLOCK] */
+    int *found;                      /* [BLOCK]: how many */
+};
+
+/* Divide n open parts: large ones one after the other, by all threads, then the others side by
+ * side. */
+static void divide_block(const struct build *b, const struct strategy *s, const struct part *open,
+                         uint32_t n, uint32_t depth, const struct block *block)
 {
-    uint32_t after = 0;
-    for (uint32_t from = 0; from < count; from += BLOCK) {
-        uint32_t n = count - from < BLOCK ? count - from : BLOCK;
-        for (uint32_t i = 0; i < n; i++) {
-            const struct part *p = &open[from + i];
-            found[i] = p->to - p->from > LARGE ? divide(b, s, p, parts[i], depth, b->threads) : 0;
-        }
+    for (uint32_t i = 0; i < n; i++)
+        block->found[i] = open[i].to - open[i].from > LARGE
+                              ? divide(b, s, &open[i], block->parts[i], depth, b->threads)
+                              : 0;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(b->threads)
-        for (uint32_t i = 0; i < n; i++)
-            if (!found[i])
-                found[i] = divide(b, s, &open[from + i], parts[i], depth, 1);
-        for (uint32_t i = 0; i < n; i++) {
-            struct bvh_node *parent = &t->nodes[node[from + i]];
-            parent->child = t->count;
-            parent->children = (uint32_t)found[i];
-            for (int k = 0; k < found[i]; k++) {
-                const struct part *p = &parts[i][k];
-                t->nodes[t->count] = (struct bvh_node){p->from, p->to, 0, 0};
-                if (p->to - p->from > 1) {
-                    next[after] = *p;
-                    next_node[after++] = t->count;
-                }
-                t->count++;
-            }
+    for (uint32_t i = 0; i < n; i++)
+        if (!block->found[i])
+            block->found[i] = divide(b, s, &open[i], block->parts[i], depth, 1);
+}
+
+/* Append the children of a node; those of two items and more are for the next level. */
+static void add_children(struct bvh *t, uint32_t node, const struct part *parts, int count,
+                         struct level *next)
+{
+    t->nodes[node].child = t->count;
+    t->nodes[node].children = (uint32_t)count;
+    for (int k = 0; k < count; k++) {
+        const struct part *p = &parts[k];
+        t->nodes[t->count] = (struct bvh_node){p->from, p->to, 0, 0};
+        if (p->to - p->from > 1) {
+            next->open[next->count] = *p;
+            next->node[next->count++] = t->count;
         }
+        t->count++;
     }
-    return after;
+}
+
+/* Divide the nodes of a level; `next` receives the level below. */
+static void grow_level(struct bvh *t, const struct build *b, const struct strategy *s,
+                       const struct level *level, struct level *next, const struct block *block)
+{
+    next->count = 0;
+    for (uint32_t from = 0; from < level->count; from += BLOCK) {
+        uint32_t n = level->count - from < BLOCK ? level->count - from : BLOCK;
+        divide_block(b, s, &level->open[from], n, t->depth, block);
+        for (uint32_t i = 0; i < n; i++)
+            add_children(t, level->node[from + i], block->parts[i], block->found[i], next);
+    }
 }
 
 /* The levels, from the root down. Returns 0 or -1. */
@@ -175,38 +197,42 @@ static int grow(struct bvh *t, const struct build *b, const struct strategy *s)
 {
     /* Open parts have two items at least, so there are no more than half as many. */
     size_t most = b->count / 2 + 1;
-    struct part *open[2] = {malloc(most * sizeof **open), malloc(most * sizeof **open)};
-    uint32_t *node[2] = {malloc(most * sizeof **node), malloc(most * sizeof **node)}, count = 1;
-    struct part(*parts)[PARTS_MAX] = malloc(BLOCK * sizeof *parts);
-    int *found = malloc(BLOCK * sizeof *found), now = 0, result = -1;
-    if (!open[0] || !open[1] || !node[0] || !node[1] || !parts || !found)
+    struct level level[2];
+    for (int k = 0; k < 2; k++)
+        level[k] = (struct level){malloc(most * sizeof *level[k].open),
+                                  malloc(most * sizeof *level[k].node), 0};
+    struct block block = {malloc(BLOCK * sizeof *block.parts), malloc(BLOCK * sizeof *block.found)};
+    int now = 0, result = -1;
+    if (!level[0].open || !level[1].open || !level[0].node || !level[1].node || !block.parts
+        || !block.found)
         goto done;
-    open[0][0] = (struct part){.to = b->count};
-    node[0][0] = 0;
-    bounds_empty(&open[0][0].cell);
+    struct part all = {.to = b->count};
+    bounds_empty(&all.cell);
     for (uint32_t i = 0; i < b->count; i++)
-        bounds_add(&open[0][0].cell, &b->items[i].box);
+        bounds_add(&all.cell, &b->items[i].box);
     t->nodes[0] = (struct bvh_node){0, b->count, 0, 0};
     t->count = t->depth = 1;
     if (b->count == 1) { /* the root is a cluster, whatever it holds */
         t->nodes[1] = t->nodes[0];
         t->nodes[0].child = t->nodes[0].children = 1;
         t->count = t->depth = 2;
-        count = 0;
+    } else {
+        level[0].open[0] = all;
+        level[0].node[0] = 0;
+        level[0].count = 1;
     }
-    for (; count > 0; t->depth++) {
-        count = grow_level(t, b, s, open[now], node[now], count, t->depth, parts, found, open[!now],
-                           node[!now]);
+    for (; level[now].count > 0; t->depth++) {
+        grow_level(t, b, s, &level[now], &level[!now], &block);
         now = !now;
     }
     result = 0;
 done:
-    for (now = 0; now < 2; now++) {
-        free(open[now]);
-        free(node[now]);
+    for (int k = 0; k < 2; k++) {
+        free(level[k].open);
+        free(level[k].node);
     }
-    free(parts);
-    free(found);
+    free(block.parts);
+    free(block.found);
     return result;
 }
 

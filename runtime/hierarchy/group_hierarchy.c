@@ -257,39 +257,60 @@ static uint32_t middle(const struct along *list, uint32_t count, double near)
     return half;
 }
 
-/* Parts of a range, each halved across its longer side. `centre`: by what order or items hold.
- * Returns how many, up to FANOUT. */
-static int halve(const struct builder *b, uint32_t *list, struct face_range range,
-                 const double *centre, size_t stride, int axes, struct along *scratch,
-                 struct face_range part[FANOUT], uint32_t least)
+/* Places by which a list is ordered: of item i, centre[stride * i + axis]. */
+struct places {
+    const double *centre;
+    size_t stride;
+    int axes;
+};
+
+/* The axis along which the n items lie farthest apart; the first of those that are alike. */
+static int longest_axis(const struct places *p, const uint32_t *items, uint32_t n)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < n; i++)
+        for (int k = 0; k < p->axes; k++) {
+            double x = p->centre[p->stride * items[i] + (size_t)k];
+            low[k] = x < low[k] ? x : low[k];
+            high[k] = x > high[k] ? x : high[k];
+        }
+    int axis = 0;
+    for (int k = 1; k < p->axes; k++)
+        if (high[k] - low[k] > (high[axis] - low[axis]) * (1 + 1e-6))
+            axis = k;
+    return axis;
+}
+
+/* Sort n items along their longest axis. Returns where the second half begins. */
+static uint32_t halve(const struct builder *b, const struct places *p, uint32_t *items, uint32_t n,
+                      struct along *scratch)
+{
+    int axis = longest_axis(p, items, n);
+    for (uint32_t i = 0; i < n; i++)
+        scratch[i] = (struct along){p->centre[p->stride * items[i] + (size_t)axis], items[i]};
+    qsort(scratch, n, sizeof *scratch, compare_along);
+    for (uint32_t i = 0; i < n; i++)
+        items[i] = scratch[i].what;
+    return middle(scratch, n, GROUP_SAME_PLACE * b->size);
+}
+
+/* Parts of a range of the list, the widest halved until there are FANOUT, or none is wider than
+ * `least`. Returns how many. */
+static int divide_range(const struct builder *b, const struct places *p, uint32_t *list,
+                        struct face_range range, struct along *scratch,
+                        struct face_range part[FANOUT], uint32_t least)
 {
     int parts = 1;
     part[0] = range;
     while (parts < FANOUT) {
-        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-        int widest = 0, axis = 0;
+        int widest = 0;
         for (int k = 1; k < parts; k++)
             if (part[k].to - part[k].from > part[widest].to - part[widest].from)
                 widest = k;
         uint32_t n = part[widest].to - part[widest].from;
         if (n < 2 || (n <= least && parts > 1))
             break;
-        uint32_t *own = list + part[widest].from;
-        for (uint32_t i = 0; i < n; i++)
-            for (int k = 0; k < axes; k++) {
-                double x = centre[stride * own[i] + (size_t)k];
-                low[k] = x < low[k] ? x : low[k];
-                high[k] = x > high[k] ? x : high[k];
-            }
-        for (int k = 1; k < axes; k++)
-            if (high[k] - low[k] > (high[axis] - low[axis]) * (1 + 1e-6))
-                axis = k;
-        for (uint32_t i = 0; i < n; i++)
-            scratch[i] = (struct along){centre[stride * own[i] + (size_t)axis], own[i]};
-        qsort(scratch, n, sizeof *scratch, compare_along);
-        uint32_t cut = middle(scratch, n, GROUP_SAME_PLACE * b->size);
-        for (uint32_t i = 0; i < n; i++)
-            own[i] = scratch[i].what;
+        uint32_t cut = halve(b, p, list + part[widest].from, n, scratch);
         memmove(&part[widest + 1], &part[widest], (size_t)(parts - widest) * sizeof *part);
         part[widest].to = part[widest + 1].from = part[widest].from + cut;
         parts++;
@@ -316,7 +337,8 @@ static void make_group(struct builder *b, struct along *scratch, uint32_t index,
         return;
     }
     struct face_range part[FANOUT];
-    int parts = halve(b, b->h->order, range, b->at[0], 2, 2, scratch, part, LOWEST_GROUP);
+    const struct places in_plane = {b->at[0], 2, 2};
+    int parts = divide_range(b, &in_plane, b->h->order, range, scratch, part, LOWEST_GROUP);
     first = add_children(b, index, parts);
     for (int k = 0; k < parts; k++)
         make_group(b, scratch, first + (uint32_t)k, f, part[k], within_solid);
@@ -367,8 +389,9 @@ static void make_cluster(struct builder *b, struct along *scratch, uint32_t *lis
         return;
     }
     struct face_range part[FANOUT];
+    const struct places in_space = {b->centre[0], 3, 3};
     int parts =
-        range.to - range.from > 1 ? halve(b, list, range, b->centre[0], 3, 3, scratch, part, 1) : 1;
+        range.to - range.from > 1 ? divide_range(b, &in_space, list, range, scratch, part, 1) : 1;
     if (parts == 1)
         part[0] = range;
     uint32_t first = add_children(b, index, parts);
