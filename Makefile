@@ -40,8 +40,9 @@ wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
 wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
-wall_engine     = $(wall_visibility) oracle engine
-ROOMS     = util oracle hierarchy visibility engine
+wall_particles  = $(wall_visibility) particles
+wall_engine     = $(wall_particles) oracle engine
+ROOMS     = util oracle hierarchy visibility particles engine
 # The command sees public headers, what is inline of a pair's geometry, arrays and the clock; it links the library.
 wall_solver     = $(TOOLKIT)
 
