@@ -230,6 +230,12 @@
  * that normal says nothing of what passes, only the place does; chosen */
 #define PIVOT_RELIABLE 0.3
 
+/* ---- measured error (engine) */
+
+/* of the reflected light. A polygon that reflects so much is a large face to a reader of the
+ * summary; chosen: there can be a hundred of them at most */
+#define FACE_ERROR_LARGE 0.01
+
 /* ---- exchange areas (engine) */
 
 /* of a row's sum. The default, and the tolerance that the limits of
