@@ -171,7 +171,7 @@ fail:
 
 /* ---- progress, which may cancel */
 
-static int tell(struct solve *s, const char *phase)
+int solve_tell(struct solve *s, const char *phase)
 {
     const struct solve_options *o = &s->problem.options;
     s->report.cancelled |= o->progress && o->progress(o->context, s, phase);
@@ -181,7 +181,7 @@ static int tell(struct solve *s, const char *phase)
 static int watch_refinement(void *context, const struct refinement *r)
 {
     (void)r;
-    return tell(context, "refine");
+    return solve_tell(context, "refine");
 }
 
 static int watch_light(void *context, const struct transport *x)
@@ -189,7 +189,7 @@ static int watch_light(void *context, const struct transport *x)
     struct solve *s = context;
     s->report.sweeps++;
     s->report.residual = x->residual;
-    return tell(s, "solve");
+    return solve_tell(s, "solve");
 }
 
 static int watch_importance(void *context, const struct transport *x)
@@ -197,7 +197,7 @@ static int watch_importance(void *context, const struct transport *x)
     struct solve *s = context;
     (void)x;
     s->report.sweeps++;
-    return tell(s, "solve");
+    return solve_tell(s, "solve");
 }
 
 /* What keeps a step from going on. Returns -1. */
@@ -321,6 +321,7 @@ int solve_step(struct solve *s, const char **cause)
 {
     const struct problem *p = &s->problem;
     double start = seconds(), tolerance = p->options.tolerance;
+    solve_forget_mended(s);
     int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
     int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
     rough = rough && !settled && tolerance < ROUGH_TOLERANCE;
@@ -350,8 +351,16 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     return more < 0 ? -1 : 0;
 }
 
+void solve_forget_mended(struct solve *s)
+{
+    free(s->mended.radiosity);
+    free(s->mended.irradiance);
+    s->mended = (struct state){0};
+}
+
 void solve_close(struct solve *s)
 {
+    solve_forget_mended(s);
     refinement_close(&s->refinement);
     separable_links_close(&s->operator.separable);
     rays_close(s->problem.rays);
