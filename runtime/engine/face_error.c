@@ -15,9 +15,10 @@
  * are taken as c |e^|, 0 <= c <= 1, and c is what makes the expected sum the observed one. (Where
  * errors are normal in a class that is exact: c^2 is the share of the true variance.) The interval
  * is that of a test: all sums of errors, c^2 raised or lowered alike, that would not make the
- * observed sum a surprise at 95 %.
- * [folded normal: Leone, Nelson and Nottingham 1961; interval by inversion of a test: Neyman 1937;
- * the rest: derived here, coverage: tests/runtime/check_measured_error.c]
+ * observed sum a surprise at 95 %. Where nothing but noise is seen, the upper end is no lower than
+ * for a sum one standard deviation below what noise alone makes: a power-constrained limit. [folded
+ * normal: Leone, Nelson and Nottingham 1961; interval by inversion of a test: Neyman 1937; its
+ * limit: Cowan et al. 2011; the rest: derived here, coverage: tests/runtime/check_measured_error.c]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -43,6 +44,8 @@ struct counted {
     double *replicate;    /* [REPLICATES][values]: R^ of each (W) */
     double *mean;         /* [values]: R^ */
     double *deviation;    /* [values]: s (W) */
+    double *weight;       /* [values]: room to work in */
+    double reflected;     /* sum of R^ (W) */
     unsigned char *class; /* [values] */
     struct bin bin[CLASSES][BINS];
     double share[CLASSES]; /* c */
@@ -231,14 +234,17 @@ static struct RadMeasure measure_l1(struct counted *c)
         c->weight[i] = -erf(x) - value;
     }
     double common = variance_of_sum(c, &independent) - independent;
-    double low = -1, high = 1, raise[2];
-    while (surprise(c, high, observed, common) < T_QUANTILE && high < 1e12)
+    /* A sum that is small by luck must not make the interval that of a better measurement. */
+    struct expected none = expect_all(c, -1);
+    double lucky = none.sum - sqrt(fmax(none.variance + common, 0.25 * none.variance));
+    double low = -1, high = 1, raise[2], judged[2] = {observed, fmax(observed, lucky)};
+    while (surprise(c, high, judged[1], common) < T_QUANTILE && high < 1e12)
         high *= 4;
     for (int side = 0; side < 2; side++) {
         double from = side == 0 ? low : 0, to = side == 0 ? 0 : high;
         for (int i = 0; i < HALVINGS; i++) {
             double middle = 0.5 * (from + to);
-            if (surprise(c, middle, observed, common) < (side == 0 ? -T_QUANTILE : T_QUANTILE))
+            if (surprise(c, middle, judged[side], common) < (side == 0 ? -T_QUANTILE : T_QUANTILE))
                 from = middle;
             else
                 to = middle;
@@ -276,7 +282,7 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
             reflected += c->mean[j];
             variance += c->deviation[j] * c->deviation[j];
         }
-        double sure = fabs(off) - T_QUANTILE * sqrt(variance);
+        double sure = fabs(off) - FACE_ERROR_SURE * sqrt(variance);
         if (reflected < FACE_ERROR_LARGE * f->reflected || !(sure > surest * reflected))
             continue;
         surest = sure / reflected;

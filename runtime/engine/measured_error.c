@@ -173,6 +173,7 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measur
         measured_error_free(alone);
         return give_up(s, cause);
     }
+    solve_sum_power(s);
     alone->seconds = seconds() - start;
     return 0;
 }

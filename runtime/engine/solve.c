@@ -271,19 +271,18 @@ static int iterate(struct solve *s, double tolerance, int rough)
     return 0;
 }
 
-/* The account of power. */
-static void sum_power(struct report *report, const struct light_operator *op,
-                      const double *irradiance)
+void solve_sum_power(struct solve *s)
 {
-    const struct problem *p = op->problem;
-    report->emitted = report->absorbed = 0;
-    for (uint32_t i = 0; i < op->hierarchy->face_count; i++) {
-        uint32_t e = op->hierarchy->face_element[i];
-        double area = op->hierarchy->elements[e].area;
+    const struct problem *p = &s->problem;
+    const double *irradiance = solve_shown(s)->irradiance;
+    s->report.emitted = s->report.absorbed = 0;
+    for (uint32_t i = 0; i < s->hierarchy.face_count; i++) {
+        uint32_t e = s->hierarchy.face_element[i];
+        double area = s->hierarchy.elements[e].area;
         for (uint32_t k = 0; k < p->bands; k++) {
             size_t at = (size_t)i * p->bands + k;
-            report->emitted += area * op->uncovered[e] * p->exitance[at];
-            report->absorbed +=
+            s->report.emitted += area * s->operator.uncovered[e] * p->exitance[at];
+            s->report.absorbed +=
                 area * (1 - p->reflectance[at]) * irradiance[(size_t)e * p->bands + k];
         }
     }
@@ -337,7 +336,7 @@ int solve_step(struct solve *s, const char **cause)
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
-    sum_power(&s->report, &s->operator, s->state.irradiance);
+    solve_sum_power(s);
     return changed > 0 || rough;
 }
 

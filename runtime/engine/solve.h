@@ -78,6 +78,9 @@ static inline const struct state *solve_shown(const struct solve *s)
 /* Show what the links say. */
 void solve_forget_mended(struct solve *s);
 
+/* The account of power in the report, of the solution that is shown. */
+void solve_sum_power(struct solve *s);
+
 /* Tell the progress function which phase of the work goes on. Returns nonzero when it cancels. */
 int solve_tell(struct solve *s, const char *phase);
 

@@ -235,6 +235,9 @@
 /* of the reflected light. A polygon that reflects so much is a large face to a reader of the
  * summary; chosen: there can be a hundred of them at most */
 #define FACE_ERROR_LARGE 0.01
+/* standard errors. A large face is surely wrong beyond this: 97.5 % of Student's t with 15 degrees
+ * of freedom for the worst of a hundred */
+#define FACE_ERROR_SURE 4.44
 /* of an element's own squares against those that its class expects: 1 is James and Stein's rule for
  * each alone, 0 one factor for all of a class. Of 0, 1/4, 1/2 and 1 the best for leaves on four
  * scenes of very different kind at 30,000 and 300,000 particles, between 0 and 1/2 by little */

@@ -41,8 +41,11 @@ struct options {
     double tolerance;
     int iterations, jacobi, threads, two_sided, quiet;
 
+    /* How far from the truth. */
+    int errors, no_errors, correct, no_correct;
+
     /* What to write. */
-    const char *out, *faces, *json, *statistics, *names, *chart, *image;
+    const char *image_error, *out, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int width, height, mesh; /* of the picture */
     struct view view;

@@ -28,8 +28,8 @@ int main(int c,char**v){
   struct face_error f; face_error_open(&f,&s.problem,h,s.state.irradiance,&y);
   in1+= f.l1.low<=l1&&l1<=f.l1.high; lo+=l1<f.l1.low; hi+=l1>f.l1.high; inp+= f.power.low<=pw&&pw<=f.power.high; mv+=f.l1.value/streams; ml+=f.l1.low/streams; mh+=f.l1.high/streams; sp+=(f.power.high-f.power.low)/2/streams; ms+=(f.l1.value-l1)*(f.l1.value-l1)/streams;
   face_error_close(&f);
-  size_t nv=(size_t)h->count*B; double *H=malloc(nv*sizeof *H); memcpy(H,s.state.irradiance,nv*sizeof *H); mend_irradiance(&s.operator,&y,H); double a,b,d; EVAL(H,a,b,d); ml1+=a/streams; mleaf+=b/streams; mpw+=fabs(d)/streams;
-  struct tally z; tally_open(&z,&t,(uint64_t)i+5000,0); tally_trace(&z,&t,(uint64_t)n/16,NULL); face_error_open(&f,&s.problem,h,H,&z); in2+= f.l1.low<=a&&a<=f.l1.high; lo2+=a<f.l1.low; hi2+=a>f.l1.high; v2+=f.l1.value/streams; vh2+=f.l1.high/streams; face_error_close(&f); tally_close(&z);
-  double *Q=pulled(h,&y); for(uint32_t e=0;e<h->count;e++) for(uint32_t k=0;k<B;k++) H[e*B+k]=Q[e*B+k]/h->elements[e].area; EVAL(H,a,b,d); al1+=a/streams; aleaf+=b/streams; free(Q); free(H); tally_close(&y);}
+  size_t nv=(size_t)h->count*B; double *H=malloc(nv*sizeof *H); memcpy(H,s.state.irradiance,nv*sizeof *H); mend_irradiance(&s.operator,&y,H); double a,b,dp; EVAL(H,a,b,dp); ml1+=a/streams; mleaf+=b/streams; mpw+=fabs(dp)/streams;
+  struct tally z; tally_open(&z,&t,(uint64_t)i+5000,0); tally_trace(&z,&t,(uint64_t)(n/(getenv("M")?atoi(getenv("M")):1))/16,NULL); face_error_open(&f,&s.problem,h,H,&z); in2+= f.l1.low<=a&&a<=f.l1.high; lo2+=a<f.l1.low; hi2+=a>f.l1.high; v2+=f.l1.value/streams; vh2+=f.l1.high/streams; face_error_close(&f); tally_close(&z);
+  double *Q=pulled(h,&y); for(uint32_t e=0;e<h->count;e++) for(uint32_t k=0;k<B;k++) H[e*B+k]=Q[e*B+k]/h->elements[e].area; EVAL(H,a,b,dp); al1+=a/streams; aleaf+=b/streams; free(Q); free(H); tally_close(&y);}
  printf("  n %lld: l1 measured %.4f (%.4f to %.4f) rms off %.4f, cover l1 %d/%d (low>%d high<%d) power %d/%d +-%.4f; mended l1 %.4f leaf %.4f |power| %.4f; particles alone l1 %.4f leaf %.4f; left measured %.4f high %.4f cover %d (%d %d)\n",(long long)n,mv,ml,mh,sqrt(ms),in1,streams,lo,hi,inp,streams,sp,ml1,mleaf,mpw,al1,aleaf,v2,vh2,in2,lo2,hi2);
  return 0; }

@@ -119,7 +119,7 @@ for command in "" solve compare viewfactors study "study stability" "study visib
 done
 for command in solve compare viewfactors "study stability" "study visibility" "study clustering"; do
     # shellcheck disable=SC2086
-    "$radiosity" $command --help | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
+    "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
 
 # ---- parameters and oracles: exit 1
