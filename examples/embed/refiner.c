@@ -187,8 +187,8 @@ enum refiner_mark_answer {
 /* from the receiver's centre to the emitter's */
 enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 
-/* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter; in the order of the error at its worst */
-enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_INVERSE_SQUARE, REFINER_FORM_FACTOR_HEMICUBE, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_RAYS, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
+/* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
+enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_INVERSE_SQUARE, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_HEMICUBE, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_RAYS, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
 enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_PRESUMED, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
@@ -257,13 +257,13 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
  * sine */
 #define REFINER_CONTOUR_FACTOR_PARALLEL 1e-26
 
-/* pixels of a side of the hemicube's top; even. Cohen and Greenberg 1985 use 50 to 200; at 128
- * pixels and one point err alike where the two are 3 sizes apart
- * (tests/runtime/check_form_factor_levels.c) */
+/* pixels of a side of the hemicube's top; even. Cohen and Greenberg 1985 use 50 to 200. At 128
+ * pixels take little from what one point is off by: 9.9 % of the exchange instead of 9.0 % over the
+ * links of the room in examples/scenes (radiosity study form-factors) */
 #define REFINER_FORM_FACTOR_PIXELS 128
 
-/* rays of either kind; a power of two. chosen: F is right to 2.4 % where two touch or cross, a
- * twentieth of what one point is off by there (the same test) */
+/* rays of either kind; a power of two. chosen: F is off by 2 % over pairs near and far, by a
+ * twentieth of what one point is (tests/runtime/check_form_factor_levels.c) */
 #define REFINER_FORM_FACTOR_RAYS_EACH 256
 
 /* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
@@ -1104,8 +1104,9 @@ static inline double refiner_sobol_at(const struct refiner_sobol *net, int k)
  * without bound where the two touch), or by rays in directions spread by the cosine (F = the share
  * that meets q: good near by, blind far off). Here each point x of the smaller casts one ray of
  * either kind, and both count by the balance heuristic, A_q k / (1 + A_q k), which is what a disc
- * of q's area would show: no ray counts more than 1, and their sum has no bias. [Malley's method
- * for the second kind; Veach and Guibas 1995, for how the two are joined]
+ * of q's area would show: no ray counts more than 1, and their sum has no bias. What noise takes
+ * above F = 1 or A_q / A_p is cut off. [Malley's method for the second kind; Veach and Guibas 1995,
+ * for how the two are joined]
  *
  * The points are a net shifted by a hash of both identities: the same in every run, and A_p F_pq =
  * A_q F_qp to rounding. */
@@ -1189,24 +1190,23 @@ REFINER_OUTLINE double refiner_ray_factor(const struct refiner_element *r, const
  * inverse_square  Lambert's kernel at both centres, cos_r cos_s A_s / (pi d^2), cosines cut off at
  *          0. Fails: near pairs, without bound (unit squares .1 apart: 31.8); elements that cross
  *          each other's planes. [Lambert 1760]
- * hemicube the emitter projected on a hemicube of FORM_FACTOR_PIXELS^2 at the receiver's centre
- *          (hemicube.h). Fails: as one point does; and by its pixels, the more the farther: +-14 %
- *          of F at 11 times the size. [Cohen and Greenberg 1985]
  * disc     the emitter as a disc of its area seen from the receiver's centre,
  *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and
  *          more; a wall's strip beside a wide ceiling loses most), so where the bounding spheres
  *          meet the polygon is computed instead; elements that cross each other's planes.
  *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ * hemicube the emitter projected on a hemicube of FORM_FACTOR_PIXELS^2 at the receiver's centre
+ *          (hemicube.h). Fails: as one point does; and by its pixels, the more the farther: +-14 %
+ *          of F at 11 times the size. [Cohen and Greenberg 1985]
  * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the
  *          receiver's plane (point_factor.h). Fails: where F varies over the receiver, as all
  *          one-point rules do: -5 % for unit squares at right angles with a common edge, +33 % for
  *          parallel ones at half their side (tests/runtime/check_terms.c).
  *          [Baum et al. 1989]
- * rays     FORM_FACTOR_RAYS_EACH rays between evenly spread points of both, and as many in
- * directions
- *          spread by the cosine from those of the smaller (ray_factor.h). No bias. Fails: F is off
- *          by its noise, 2 % near by, 1e-3 far off; beyond 15 sizes point is better.
- *          A_r F_rs = A_s F_sr to rounding.
+ * rays     FORM_FACTOR_RAYS_EACH rays from points of the smaller to points of the other, and as
+ *          many in directions spread by the cosine (ray_factor.h). No bias but what F <= 1 cuts
+ *          off. Fails: by noise, 2 to 3 % near by, 1e-3 far off; beyond 15 sizes point is better.
+ *          A_r F_rs = A_s F_sr to rounding. [Veach and Guibas 1995]
  * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
  *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
  *          by a rule of as many points as the distance asks for; where they are nearer than their
@@ -1217,10 +1217,11 @@ REFINER_OUTLINE double refiner_ray_factor(const struct refiner_element *r, const
  * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond:
  *          F to 1e-9.
  *
- * The order is that of the error at its worst, over all pairs of which a level is left (the disc
- * of near ones never is). Pair by pair no order holds: a hemicube sees near pairs as well as one
- * point does, far ones worse than 1 / d^2. So is what it costs: rays cost more than the polygon
- * does far off. `radiosity study form-factors` shows both for the pairs of a scene. */
+ * The order is that of the error summed over the links of a scene, A_r |F - F*|: of the exchange
+ * in the room of examples/scenes 13, 12, 9.9, 9.0, 1.2, .00014 and 3e-10 %, in the same order in
+ * cornell and maze_8 (`radiosity study form-factors`). Pair by pair no order holds: far off a
+ * hemicube is worse than 1 / d^2, and a disc near by is no better than one point. Nor is it that of
+ * cost: rays cost more than the polygon. */
 
 REFINER_TOOL double refiner_form_factor_inverse_square(struct refiner_discussion *d)
 {
@@ -1245,10 +1246,10 @@ REFINER_TOOL double refiner_form_factor_of(struct refiner_discussion *d, enum re
     switch (level) {
     case REFINER_FORM_FACTOR_INVERSE_SQUARE:
         return refiner_form_factor_inverse_square(d);
-    case REFINER_FORM_FACTOR_HEMICUBE:
-        return refiner_hemicube_factor(d->receiver, d->emitter, REFINER_FORM_FACTOR_PIXELS);
     case REFINER_FORM_FACTOR_DISC:
         return refiner_form_factor_disc(d);
+    case REFINER_FORM_FACTOR_HEMICUBE:
+        return refiner_hemicube_factor(d->receiver, d->emitter, REFINER_FORM_FACTOR_PIXELS);
     case REFINER_FORM_FACTOR_POINT:
         return refiner_point_factor(d->receiver, d->emitter);
     case REFINER_FORM_FACTOR_RAYS:

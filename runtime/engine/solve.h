@@ -68,6 +68,11 @@ int solve_step(struct solve *s, const char **cause);
  * tolerance, or passes run out. Returns 0, or -1 with *cause set. */
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause);
 
+/* Give the links other form factors, [link_count] in their order, and solve over them as they are
+ * then, without discussing any; those of links with a cluster at an end are not looked at. Returns
+ * 0, or -1 with *cause set. */
+int solve_with_factors(struct solve *s, const float *form_factors, const char **cause);
+
 void solve_close(struct solve *s);
 
 #endif

@@ -5,8 +5,9 @@
  * without bound where the two touch), or by rays in directions spread by the cosine (F = the share
  * that meets q: good near by, blind far off). Here each point x of the smaller casts one ray of
  * either kind, and both count by the balance heuristic, A_q k / (1 + A_q k), which is what a disc
- * of q's area would show: no ray counts more than 1, and their sum has no bias. [Malley's method
- * for the second kind; Veach and Guibas 1995, for how the two are joined]
+ * of q's area would show: no ray counts more than 1, and their sum has no bias. What noise takes
+ * above F = 1 or A_q / A_p is cut off. [Malley's method for the second kind; Veach and Guibas 1995,
+ * for how the two are joined]
  *
  * The points are a net shifted by a hash of both identities: the same in every run, and A_p F_pq =
  * A_q F_qp to rounding.
