@@ -231,9 +231,9 @@ const struct command_row command_rows[COMMANDS] = {
          "radiosity study clustering room.obj --reference room.csv -o table.md"},
     [COMMAND_FORM_FACTORS] =
         {"study form-factors", "SCENE", "what ways to compute form factors cost and give",
-         "Solve a scene once, then compute the form factor of every link by 1/d^2, hemicube,\n"
-         "disc, one point, rays, polygon and contour, and the light over each: error of F,\n"
-         "what it makes of the reflected light, and nanoseconds.\n",
+         "Solve a scene once, then compute the form factor of every link by 1/d^2, disc,\n"
+         "hemicube, one point, rays, polygon and contour: how far it is off, what that\n"
+         "makes of the reflected light, and nanoseconds.\n",
          "radiosity study form-factors room.obj -o table.md --chart chart.svg"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
