@@ -229,6 +229,12 @@ const struct command_row command_rows[COMMANDS] = {
          "Solve a scene once for each way of grouping its faces into clusters, and compare\n"
          "time, links, rays, memory and error:\n",
          "radiosity study clustering room.obj --reference room.csv -o table.md"},
+    [COMMAND_FORM_FACTORS] =
+        {"study form-factors", "SCENE", "what ways to compute form factors cost and give",
+         "Solve a scene once, then compute the form factor of every link by 1/d^2, disc,\n"
+         "hemicube, one point, rays, polygon and contour: how far it is off, what that\n"
+         "makes of the reflected light, and nanoseconds.\n",
+         "radiosity study form-factors room.obj -o table.md --chart chart.svg"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -243,8 +249,9 @@ enum {
     STABILITY = 1 << COMMAND_STABILITY,
     VISIBILITY = 1 << COMMAND_VISIBILITY,
     CLUSTERING = 1 << COMMAND_CLUSTERING,
+    FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     MATRICES = SOLVE | COMPARE | CLUSTERING, /* they solve for radiosities */
-    SCENES = MATRICES | FACTORS | VISIBILITY,
+    SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS,
     ALL = SCENES | STABILITY
 };
 
@@ -268,9 +275,12 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 const struct option_row option_rows[] = {
     {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING, "clusters", "the refinement oracle",
      TEXT(oracle)},
+    /* Few links, of all sizes and distances, none of clusters. */
+    {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
+     TEXT(oracle)},
     /* The one nearest to the default that has a release by hand. */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
-    {"release", "flat|dag|hand", SOLVE | CLUSTERING, NULL,
+    {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
      .rare = 1},
     {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
@@ -279,10 +289,13 @@ const struct option_row option_rows[] = {
      .read = read_clustering, IN(clusters), .rare = 1},
     {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
+    /* Below what the best kinds differ by. */
+    {"tolerance", "X", FORM_FACTORS, "1e-9", "relative error of B that iteration may leave",
+     "a number above 0 and below 1", .read = read_tolerance},
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
-    {"iterations", "N", MATRICES, "100000", "sweeps per solve at the most", "a whole number from 1",
-     WHOLE(iterations, 1, INT_MAX), .rare = 1},
+    {"iterations", "N", MATRICES | FORM_FACTORS, "100000", "sweeps per solve at the most",
+     "a whole number from 1", WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
      FLAG(jacobi), .rare = 1},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
@@ -312,7 +325,8 @@ const struct option_row option_rows[] = {
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
-    {"o", "FILE", STABILITY | CLUSTERING, NULL, "the table, .csv or .md", NAMED(out, tables)},
+    {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
+     NAMED(out, tables)},
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
@@ -325,7 +339,7 @@ const struct option_row option_rows[] = {
     {"image-error", "FILE.png", SOLVE, NULL, "the measured error on the surfaces",
      OUTPUT(image_error)},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},
-    {"chart", "FILE", VISIBILITY | CLUSTERING, NULL, "a drawing, .svg or .png",
+    {"chart", "FILE", VISIBILITY | CLUSTERING | FORM_FACTORS, NULL, "a drawing, .svg or .png",
      NAMED(chart, drawings)},
     {"faces", "FILE.csv", SOLVE, NULL, "E, rho, H, B of each face of the scene file",
      OUTPUT(faces)},

@@ -98,7 +98,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors study "study stability" "study visibility" "study clustering" oracles; do
+for command in "" solve compare viewfactors study "study stability" "study visibility" "study clustering" "study form-factors" oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -117,7 +117,7 @@ for command in "" solve compare viewfactors study "study stability" "study visib
     esac
     rm -f out err
 done
-for command in solve compare viewfactors "study stability" "study visibility" "study clustering"; do
+for command in solve compare viewfactors "study stability" "study visibility" "study clustering" "study form-factors"; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
