@@ -22,6 +22,7 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_STABILITY] = study_stability,
     [COMMAND_VISIBILITY] = study_visibility,
     [COMMAND_CLUSTERING] = study_clustering,
+    [COMMAND_ARVO] = study_arvo,
     [COMMAND_ORACLES] = command_oracles,
 };
 

@@ -20,11 +20,12 @@ enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 };
 
 /* ---- help */
 
-static void print_lines(const char *prefix)
+/* A line for each study, or for each other command. */
+static void print_lines(int studies)
 {
     for (int i = 0; i < COMMANDS; i++) {
         const struct command_row *c = &command_rows[i];
-        if (strncmp(c->name, prefix, strlen(prefix)) != 0)
+        if ((strncmp(c->name, "study", 5) == 0) != studies)
             continue;
         char left[32];
         snprintf(left, sizeof left, "%s %s", c->name, c->argument);
@@ -38,8 +39,9 @@ static int print_help(void)
            "\n"
            "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
-    print_lines("");
-    printf("\n"
+    print_lines(0);
+    printf("  study NAME [SCENE]      experiments: see radiosity study --help\n"
+           "\n"
            "    radiosity solve room.obj --image room.png\n"
            "\n"
            "SCENE is OBJ+MTL, PLY, glTF, Collada or what else Assimp reads, in metres. The\n"
@@ -60,7 +62,7 @@ static int print_studies_help(void)
            "\n"
            "Experiments whose table is the result; `radiosity study NAME --help` tells more.\n"
            "\n");
-    print_lines("study");
+    print_lines(1);
     return 0;
 }
 

@@ -14,6 +14,7 @@ enum command {
     COMMAND_STABILITY,
     COMMAND_VISIBILITY,
     COMMAND_CLUSTERING,
+    COMMAND_ARVO,
     COMMAND_ORACLES,
     COMMANDS
 };
@@ -42,7 +43,7 @@ struct options {
     int iterations, jacobi, threads, two_sided, quiet;
 
     /* What to write. */
-    const char *out, *faces, *json, *statistics, *names, *chart, *image;
+    const char *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int width, height, mesh; /* of the picture */
     struct view view;
@@ -55,6 +56,7 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
+    int samples; /* arvo: across the receiver; 0: exactly */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on
