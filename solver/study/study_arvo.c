@@ -43,7 +43,7 @@ static int measure_all(const struct options *o, struct arvo_errors errors[FINEST
     return failed ? report_error("study arvo", 0, "out of memory; give fewer --samples") : 0;
 }
 
-static double worst_ratio(const struct arvo_errors *e, enum arvo_norm norm, enum arvo_projection p)
+static double times_best(const struct arvo_errors *e, int norm, enum arvo_projection p)
 {
     return e->of[norm][p] / e->of[norm][ARVO_BEST];
 }
@@ -56,7 +56,7 @@ static void print_row(const struct arvo_errors *e, int n)
         printf("  ");
         for (int p = 0; p < ARVO_PROJECTIONS; p++)
             printf(" %*.*f", p == ARVO_COLLOCATION && k == ARVO_L1 ? 8 : 7, digits, e->of[k][p]);
-        printf("%c", worst_ratio(e, k, ARVO_COLLOCATION) > 2 ? '*' : ' ');
+        printf("%c", times_best(e, k, ARVO_COLLOCATION) > 2 ? '*' : ' ');
     }
     printf("\n");
 }
@@ -73,8 +73,8 @@ static void print_table(const struct arvo_errors errors[FINEST + 1])
         print_row(&errors[n], n);
     printf("* above twice the best: at n =");
     for (int n = 1; n <= FINEST; n++)
-        if (worst_ratio(&errors[n], ARVO_L1, ARVO_COLLOCATION) > 2
-            || worst_ratio(&errors[n], ARVO_L2, ARVO_COLLOCATION) > 2)
+        if (times_best(&errors[n], ARVO_L1, ARVO_COLLOCATION) > 2
+            || times_best(&errors[n], ARVO_L2, ARVO_COLLOCATION) > 2)
             printf(" %d", n);
     printf("\n");
 }
