@@ -211,6 +211,14 @@ const struct command_row command_rows[COMMANDS] = {
          "F_ij is the share of what leaves face i evenly that meets face j, occlusion\n"
          "included. Rows and columns are the faces of the scene file, in its order.\n",
          "radiosity viewfactors room.obj -o factors.csv --closure reciprocal"},
+    [COMMAND_ERROR] =
+        {"error", "FACES.csv REF.csv", "how far a table of faces is from a reference",
+         "Compare B of each face, as solve --faces wrote it, with a reference: made by\n"
+         "radiosity reference, or a finer solve. Errors are shares of the light that the\n"
+         "reference reflects, per band and in all: of the power (above 0: too bright), in\n"
+         "L1, L2 and Linf; beside them what the reference's noise alone would look like,\n"
+         "and the faces that hold most of the error.\n",
+         "radiosity error faces.csv ref.csv"},
     [COMMAND_STABILITY] =
         {"study stability", "", "where methods fail, and by how much",
          "Small scenes whose answer is known and on which published methods fail:\n"
@@ -247,13 +255,15 @@ enum {
     SOLVE = 1 << COMMAND_SOLVE,
     COMPARE = 1 << COMMAND_COMPARE,
     FACTORS = 1 << COMMAND_VIEWFACTORS,
+    ERROR = 1 << COMMAND_ERROR,
     STABILITY = 1 << COMMAND_STABILITY,
     VISIBILITY = 1 << COMMAND_VISIBILITY,
     CLUSTERING = 1 << COMMAND_CLUSTERING,
     ARVO = 1 << COMMAND_ARVO,
     MATRICES = SOLVE | COMPARE | CLUSTERING, /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY,
-    ALL = SCENES | STABILITY | ARVO
+    THREADED = SCENES | STABILITY | ARVO,
+    ALL = THREADED | ERROR
 };
 
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
@@ -298,6 +308,8 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closure_words)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
+    {"worst", "N", ERROR, "10", "faces to name", "a whole number from 0 to 100000",
+     WHOLE(worst, 0, 100000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},
     {"only", "NAME", CLUSTERING, NULL, "one of the ways", NULL, .read = read_clustering, IN(only)},
     {"reference", "FACES.csv", CLUSTERING, NULL, "B to measure errors by, from solve --faces",
@@ -310,7 +322,7 @@ const struct option_row option_rows[] = {
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
     {"two-sided", NULL, SCENES, NULL, "faces have two sides, not only those *_2s", FLAG(two_sided)},
-    {"threads", "N", ALL, NULL, "all processors if not given; same result",
+    {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
@@ -332,8 +344,8 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics)},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS, NULL, "what the summary says; - is standard output",
-     OUTPUT(json)},
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | ERROR, NULL,
+     "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };
 const int option_row_count = sizeof option_rows / sizeof *option_rows;

@@ -239,11 +239,12 @@ static int set_scene(struct options *o, const char *path)
     if (!*c->argument)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
                      *path ? path : "an empty name");
+    int tables = o->command == COMMAND_ERROR;
     if (!*path)
-        return wrong(c->name, "the scene's name is empty");
-    if (o->scene)
-        return wrong(c->name, "more than one scene: %s", path);
-    o->scene = path;
+        return wrong(c->name, tables ? "a table's name is empty" : "the scene's name is empty");
+    if (o->scene && (!tables || o->reference))
+        return wrong(c->name, "more than %s: %s", tables ? "two tables" : "one scene", path);
+    *(o->scene ? &o->reference : &o->scene) = path;
     return -1;
 }
 
@@ -280,6 +281,8 @@ static int read_argument(struct options *o, int number, const char *last)
 static int check_together(struct options *o)
 {
     const struct command_row *c = &command_rows[o->command];
+    if (o->command == COMMAND_ERROR && !o->reference)
+        return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
     if (*c->argument && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)

@@ -11,6 +11,7 @@ enum command {
     COMMAND_SOLVE,
     COMMAND_COMPARE,
     COMMAND_VIEWFACTORS,
+    COMMAND_ERROR,
     COMMAND_STABILITY,
     COMMAND_VISIBILITY,
     COMMAND_CLUSTERING,
@@ -28,7 +29,7 @@ enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
  * wanted. */
 struct options {
     enum command command;
-    const char *scene;
+    const char *scene; /* of error: the table of faces to judge */
 
     /* How to solve. */
     const char *oracle;
@@ -52,10 +53,11 @@ struct options {
     /* What to measure. */
     int repeats;                   /* compare */
     const char *only;              /* stability: the case to run; clustering: the strategy */
-    const char *reference;         /* clustering: the table of faces to measure by */
+    const char *reference;         /* clustering, error: the table of faces to measure by */
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
+    int worst;   /* error: how many faces to name */
     int samples; /* arvo: across the receiver; 0: exactly */
 };
 

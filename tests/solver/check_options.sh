@@ -46,6 +46,12 @@ says 2 "--oracle takes" solve "$scene" --oracle=
 says 2 "no command" ""
 says 2 "scene's name" solve ""
 says 2 "study what?" study ""
+says 2 "a table's name is empty" error ""
+says 2 "two tables are needed" error a.csv
+says 2 "two tables are needed" error
+says 2 "more than two tables: c.csv" error a.csv b.csv c.csv
+for option in --worst --json; do says 2 "$option takes" error a.csv b.csv "$option" ""; done
+for value in -1 100001 1.5 x; do says 2 "--worst takes a whole number" error a.csv b.csv --worst $value; done
 says 2 "a value is missing after --image" solve "$scene" --image
 for value in 0 1 -1 nan inf 1e-400 x 1e-3x; do says 2 "--tolerance takes a number above 0 and below 1" solve "$scene" --tolerance $value; done
 for value in 0 -3 1.5 99999999999 x; do
@@ -101,7 +107,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors study "study stability" "study visibility" "study clustering" "study arvo" oracles; do
+for command in "" solve compare viewfactors error study "study stability" "study visibility" "study clustering" "study arvo" oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -112,7 +118,7 @@ for command in "" solve compare viewfactors study "study stability" "study visib
         fi
     done
     count=$((count + 1))
-    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/')
+    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/')
     # shellcheck disable=SC2086
     case $command in
     study | "study stability" | "study arvo" | oracles) ;;
@@ -120,7 +126,7 @@ for command in "" solve compare viewfactors study "study stability" "study visib
     esac
     rm -f out err
 done
-for command in solve compare viewfactors "study stability" "study visibility" "study clustering" "study arvo"; do
+for command in solve compare viewfactors error "study stability" "study visibility" "study clustering" "study arvo"; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
