@@ -40,8 +40,9 @@ wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
 wall_visibility = $(wall_hierarchy) visibility
 wall_oracle     = $(TOOLKIT) util oracle
-wall_engine     = $(wall_visibility) oracle engine
-ROOMS     = util oracle hierarchy visibility engine
+wall_particles  = $(wall_visibility) particles
+wall_engine     = $(wall_particles) oracle engine
+ROOMS     = util oracle hierarchy visibility particles engine
 # The command sees public headers, what is inline of a pair's geometry, arrays and the clock; it links the library.
 wall_solver     = $(TOOLKIT)
 
@@ -149,7 +150,7 @@ packages:
 
 # Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
 # compute much themselves.
-COMPUTING = shaft separable_links viewfactors accuracy oracles
+COMPUTING = paths shaft separable_links viewfactors accuracy oracles
 $(TESTS:=.o): OPT = -O0
 $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)

@@ -34,6 +34,7 @@ struct rays {
     RTCScene scene;
     double origin[3], scale;  /* Embree's coordinates: (x - origin) * scale */
     unsigned char *two_sided; /* by Embree's primitive: its back is no inside */
+    uint32_t *face;           /* by Embree's primitive: its front */
     int threads;
     struct tally *tallies; /* [threads] */
 };
@@ -175,7 +176,8 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
     indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
                                       4 * sizeof *indices, solid);
     rays->two_sided = calloc(solid, 1);
-    if (!vertices || !indices || !rays->two_sided) {
+    rays->face = malloc(solid * sizeof *rays->face);
+    if (!vertices || !indices || !rays->two_sided || !rays->face) {
         rtcReleaseGeometry(geometry);
         return NULL;
     }
@@ -191,6 +193,7 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
                     (float)((v[k] - rays->origin[k]) * rays->scale);
             indices[4 * (size_t)n + j] = 4 * n + j;
         }
+        rays->face[n] = i;
         rays->two_sided[n] = i + 1 < h->face_count && f[1].back && f[1].input == f->input;
         n++;
     }
@@ -236,64 +239,88 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* What the ray from p (Embree's coordinates) meets first: *length directions away, the side it
- * meets facing along `side`, which has any length. */
-static enum ray_fate first_hit(const struct rays *rays, const double p[3],
-                               const double direction[3], double *length, double side[3])
+/* The ray from p (m) into a direction, of length `far` directions, in Embree's coordinates. */
+static struct RTCRay ray_from(const struct rays *rays, const double p[3], const double direction[3],
+                              float far)
 {
-    _Alignas(16) struct RTCRayHit query;
-    memset(&query, 0, sizeof query);
-    query.ray.org_x = (float)p[0];
-    query.ray.org_y = (float)p[1];
-    query.ray.org_z = (float)p[2];
-    query.ray.dir_x = (float)direction[0];
-    query.ray.dir_y = (float)direction[1];
-    query.ray.dir_z = (float)direction[2];
-    query.ray.tfar = INFINITY;
-    query.ray.mask = ~0u;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    struct RTCRay ray;
+    memset(&ray, 0, sizeof ray);
+    ray.org_x = (float)((p[0] - rays->origin[0]) * rays->scale);
+    ray.org_y = (float)((p[1] - rays->origin[1]) * rays->scale);
+    ray.org_z = (float)((p[2] - rays->origin[2]) * rays->scale);
+    ray.dir_x = (float)(direction[0] * rays->scale);
+    ray.dir_y = (float)(direction[1] * rays->scale);
+    ray.dir_z = (float)(direction[2] * rays->scale);
+    ray.tfar = far;
+    ray.mask = ~0u;
+    return ray;
+}
+
+/* What the ray meets first: 0 when nothing; *behind: it comes from behind. */
+static int first_hit(const struct rays *rays, const double from[3], const double direction[3],
+                     struct RTCRayHit *query, int *behind)
+{
+    query->ray = ray_from(rays, from, direction, INFINITY);
+    query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
     {
 #if EMBREE == 4
         struct RTCIntersectArguments arguments;
         rtcInitIntersectArguments(&arguments);
-        rtcIntersect1(rays->scene, &query, &arguments);
+        rtcIntersect1(rays->scene, query, &arguments);
 #else
         struct RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        rtcIntersect1(rays->scene, &context, &query);
+        rtcIntersect1(rays->scene, &context, query);
 #endif
     }
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return RAY_LEAVES;
-    float facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y
-                   + query.hit.Ng_z * query.ray.dir_z;
-    *length = query.ray.tfar;
-    side[0] = facing > 0 ? -query.hit.Ng_x : query.hit.Ng_x;
-    side[1] = facing > 0 ? -query.hit.Ng_y : query.hit.Ng_y;
-    side[2] = facing > 0 ? -query.hit.Ng_z : query.hit.Ng_z;
-    if (rays->two_sided[query.hit.primID])
-        return RAY_MEETS_FRONT;
-    return facing > 0 ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
+    *behind = query->hit.Ng_x * query->ray.dir_x + query->hit.Ng_y * query->ray.dir_y
+                  + query->hit.Ng_z * query->ray.dir_z
+              > 0;
+    return query->hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
 enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3],
                          double at[3], double normal[3])
 {
-    double p[3], side[3];
-    for (int k = 0; k < 3; k++)
-        p[k] = (from[k] - rays->origin[k]) * rays->scale;
-    double length;
-    enum ray_fate fate = first_hit(rays, p, direction, &length, side);
-    if (fate == RAY_LEAVES)
-        return fate;
-    double size = length3(side);
+    _Alignas(16) struct RTCRayHit query;
+    int behind;
+    if (!first_hit(rays, from, direction, &query, &behind))
+        return RAY_LEAVES;
+    double side[3] = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}, size = length3(side);
     for (int k = 0; k < 3; k++) {
         if (at)
-            at[k] = from[k] + length / rays->scale * direction[k];
+            at[k] = from[k] + (double)query.ray.tfar * direction[k];
         if (normal)
-            normal[k] = side[k] / size;
+            normal[k] = (behind ? -side[k] : side[k]) / size;
     }
-    return fate;
+    return behind && !rays->two_sided[query.hit.primID] ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
+}
+
+int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],
+                  double *distance)
+{
+    _Alignas(16) struct RTCRayHit query;
+    int behind;
+    if (!first_hit(rays, from, direction, &query, &behind)
+        || (behind && !rays->two_sided[query.hit.primID]))
+        return RAY_MEETS_NO_FRONT;
+    *distance = (double)query.ray.tfar;
+    return (int64_t)rays->face[query.hit.primID] + behind;
+}
+
+int rays_blocked(const struct rays *rays, const double from[3], const double direction[3])
+{
+    _Alignas(16) struct RTCRay ray = ray_from(rays, from, direction, 1);
+#if EMBREE == 4
+    struct RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    rtcOccluded1(rays->scene, &ray, &arguments);
+#else
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(rays->scene, &context, &ray);
+#endif
+    return ray.tfar < 0;
 }
 
 const struct host *rays_host(const struct rays *rays)
@@ -320,6 +347,7 @@ void rays_close(struct rays *rays)
     if (rays->device)
         rtcReleaseDevice(rays->device);
     free(rays->two_sided);
+    free(rays->face);
     free(rays->tallies);
     free(rays);
 }

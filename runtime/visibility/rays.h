@@ -32,6 +32,18 @@ enum ray_fate { RAY_LEAVES, RAY_MEETS_FRONT, RAY_MEETS_BACK };
 enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3],
                          double at[3], double normal[3]);
 
+/* The face whose front the ray meets first: its index among the hierarchy's faces, the far side's
+ * where it comes from behind a two-sided face; or RAY_MEETS_NO_FRONT when it leaves the scene or
+ * meets a black back. *distance: in lengths of `direction`, as well as single precision knows.
+ * Thread-safe; not counted among rays_count. */
+enum { RAY_MEETS_NO_FRONT = -1 };
+int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],
+                  double *distance);
+
+/* Is the segment from + t direction, 0 < t < 1, blocked? Ends stand off their surfaces, as above.
+ * Thread-safe; not counted. */
+int rays_blocked(const struct rays *rays, const double from[3], const double direction[3]);
+
 /* The services in the form that a discussion takes. Valid until rays_close. */
 const struct host *rays_host(const struct rays *rays);
 struct rays_count rays_count(const struct rays *rays);

@@ -8,8 +8,8 @@
 
 #include "geometry.h"
 #include "kernel/constants.h"
+#include "kernel/leaf_at.h"
 #include "output/contact.h"
-#include "output/leaf_at.h"
 #include "util/array.h"
 
 /* Where in the table the vertices at p begin. */
@@ -102,7 +102,8 @@ static int find_passing(struct vertex_values *v, uint32_t vertex, const struct s
         double size = length3(inward);
         for (int k = 0; k < 3; k++)
             q[k] = p[k] + (size > touch ? touch / size : 1) * inward[k];
-        uint32_t leaf = leaf_at(solution, c->face[i], q, weight);
+        uint32_t leaf =
+            leaf_at(solution->tree.elements, solution->tree.face_element[c->face[i]], q, weight);
         if (!is_corner(&solution->tree.elements[leaf], p))
             v->passing[v->passing_count++] =
                 (struct passing){leaf, vertex}; /* at first the vertex of any side */
@@ -342,7 +343,8 @@ uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *
                           uint32_t face, const double point[3], double *radiosity)
 {
     double weight[4];
-    uint32_t leaf = leaf_at(solution, face, point, weight),
+    uint32_t leaf =
+                 leaf_at(solution->tree.elements, solution->tree.face_element[face], point, weight),
              n = solution->tree.elements[leaf].vertices;
     for (uint32_t k = 0; k < v->bands; k++) {
         radiosity[k] = 0;

@@ -1,0 +1,151 @@
+/* particles.c - see particles.h.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <omp.h>
+#include "kernel/leaf_at.h"
+#include "particles/particles.h"
+#include "particles/sobol.h"
+
+enum { BATCH = 1024 };
+
+int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves)
+{
+    *tally = (struct tally){.faces = t->hierarchy->face_count,
+                            .elements = t->hierarchy->count,
+                            .bands = t->bands,
+                            .stream = stream,
+                            .power = t->lights.power};
+    size_t bands = t->bands;
+    tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
+    tally->square = calloc(bands, sizeof *tally->square);
+    if (leaves)
+        tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
+    if (tally->face && tally->square && (tally->element || !leaves))
+        return 0;
+    tally_close(tally);
+    return -1;
+}
+
+void tally_close(struct tally *tally)
+{
+    free(tally->face);
+    free(tally->element);
+    free(tally->square);
+    *tally = (struct tally){0};
+}
+
+/* A run of particles of one replicate, and its sums that are no place's. */
+struct batch {
+    const struct sobol *sobol;
+    uint32_t shift[SOBOL_DIMENSIONS];
+    int replicate;
+    uint64_t rays;
+    int64_t first[3], second[3]; /* sums of w and w^2, as counts */
+};
+
+static void count(struct tally *tally, const struct tracer *t, uint32_t face, const double at[3],
+                  const double share[3], struct batch *batch)
+{
+    int64_t *to_face =
+        &tally->face[((size_t)batch->replicate * tally->faces + face) * tally->bands];
+    int64_t *to_leaf = NULL;
+    if (tally->element) {
+        double weight[4];
+        uint32_t leaf =
+            leaf_at(t->hierarchy->elements, t->hierarchy->face_element[face], at, weight);
+        to_leaf = &tally->element[(size_t)leaf * tally->bands];
+    }
+    for (uint32_t k = 0; k < tally->bands; k++) {
+        int64_t w = (int64_t)(share[k] * PARTICLE_ONE + 0.5);
+        batch->first[k] += w;
+        batch->second[k] += (int64_t)(share[k] * share[k] * PARTICLE_ONE + 0.5);
+#pragma omp atomic
+        to_face[k] += w;
+        if (to_leaf)
+#pragma omp atomic
+            to_leaf[k] += w;
+    }
+}
+
+static void trace(struct tally *tally, const struct tracer *t, uint64_t index, struct batch *batch)
+{
+    struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
+    double u[SOBOL_DIMENSIONS], share[3] = {0, 0, 0}, whole = 0, p[3], at[3];
+    sobol_point(batch->sobol, (uint32_t)index, batch->shift, u);
+    uint32_t face = lights_choose(&t->lights, u[0]);
+    const double *exitance = &t->exitance[(size_t)face * t->bands];
+    for (uint32_t k = 0; k < t->bands; k++)
+        whole += exitance[k];
+    for (uint32_t k = 0; k < t->bands; k++)
+        share[k] = exitance[k] / whole;
+    tracer_point(t, face, u[1], u[2], p);
+    double s = u[3], v = u[4];
+    for (;;) {
+        int64_t met = tracer_step(t, face, p, s, v, at);
+        batch->rays++;
+        if (met < 0)
+            return;
+        face = (uint32_t)met;
+        count(tally, t, face, at, share, batch);
+        const double *rho = &t->reflectance[(size_t)face * t->bands];
+        double strongest = 0, left = 0;
+        for (uint32_t k = 0; k < t->bands; k++) {
+            strongest = share[k] > strongest ? share[k] : strongest;
+            share[k] *= rho[k];
+            left = share[k] > left ? share[k] : left;
+        }
+        if (!(dice_throw(&dice) * strongest < left))
+            return;
+        for (uint32_t k = 0; k < t->bands; k++)
+            share[k] *= strongest / left;
+        s = dice_throw(&dice);
+        v = dice_throw(&dice);
+    }
+}
+
+int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
+                const struct tally_watch *watch)
+{
+    uint64_t from = tally->particles, to = from + particles,
+             all = (particles + BATCH - 1) / BATCH * REPLICATES, rays = 0, done = 0;
+    int64_t first[3] = {0, 0, 0}, second[3] = {0, 0, 0};
+    int stopped = 0;
+    tally->particles = to;
+    if (!(tally->power > 0))
+        return 0;
+    struct sobol sobol;
+    sobol_open(&sobol);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(t->threads)                              \
+    reduction(+ : rays, first[ : 3], second[ : 3])
+    for (uint64_t b = 0; b < all; b++) {
+        struct batch batch = {.sobol = &sobol, .replicate = (int)(b % REPLICATES)};
+        uint64_t low = from + b / REPLICATES * BATCH, high = low + BATCH < to ? low + BATCH : to,
+                 set = tally->stream * REPLICATES + (uint64_t)batch.replicate, share;
+        int quit;
+#pragma omp atomic read
+        quit = stopped;
+        if (quit)
+            continue;
+        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
+            batch.shift[d] = (uint32_t)(hash64(set * SOBOL_DIMENSIONS + (uint64_t)d + 1) >> 32);
+        for (uint64_t i = low; i < high; i++)
+            trace(tally, t, i, &batch);
+        rays += batch.rays;
+        for (int k = 0; k < 3; k++) {
+            first[k] += batch.first[k];
+            second[k] += batch.second[k];
+        }
+#pragma omp atomic capture
+        share = ++done;
+        /* only the thread that called in may be told */
+        if (watch && omp_get_thread_num() == 0
+            && watch->tell(watch->context, (double)share / (double)all)) {
+#pragma omp atomic write
+            stopped = 1;
+        }
+    }
+    tally->rays += rays;
+    for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
+        tally->square[k] = first[k] > 0 ? (double)second[k] / (double)first[k] : 0;
+    return stopped ? -1 : 0;
+}

@@ -1,0 +1,84 @@
+/* particles.h - light counted: particles leave the emitters, and each front that one meets is given
+ * its power.
+ *
+ * A particle goes on with the probability of the reflectance of its strongest band, the others
+ * dimmed by what they reflect in proportion, until it dies, leaves the scene or meets a black back.
+ * What a face was given over its area is its irradiance H, exact but for the noise: nothing is
+ * known of links, form factors or elements, and no constant is tuned. [Pattanaik and Mudur 1992]
+ *
+ * Noise. Particles come in REPLICATES independent sets; how these differ is the standard error of
+ * whatever is computed of their mean. Within a set the emitter, the point on it and the first
+ * direction follow a Sobol' sequence, shifted at random [Cranley and Patterson 1976 the shift, here
+ * of digits]: direct light is then far less noisy than by chance, and each set as free of bias.
+ *
+ * Invariant: power is added in fixed point, so neither threads nor their order show.
+ * SPDX-License-Identifier: MIT */
+#ifndef PARTICLES_H
+#define PARTICLES_H
+
+#include "particles/tracer.h"
+
+enum { REPLICATES = 16 };
+
+/* What has been counted. A count of PARTICLE_ONE is one particle at its full power. */
+#define PARTICLE_ONE 0x1p24
+
+struct tally {
+    uint32_t faces, elements, bands;
+    uint64_t stream;    /* which random numbers: tallies of two streams are independent */
+    uint64_t particles; /* of each replicate, so far */
+    uint64_t rays;      /* cast for them */
+    double power;       /* of all emitters (W), all bands */
+    int64_t *face;      /* [REPLICATES][faces * bands + band] */
+    int64_t *element;   /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
+    double *square;     /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+};
+
+/* Empty, over the elements of a hierarchy as it is now (leaves: 1: count on them, too). Returns 0,
+ * or -1 when out of memory. */
+int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves);
+void tally_close(struct tally *tally);
+
+/* Called now and then, with the share that is done; nonzero stops. */
+struct tally_watch {
+    int (*tell)(void *context, double share);
+    void *context;
+};
+
+/* Trace so many particles more in each replicate. Without emitters nothing is traced and all is
+ * exactly 0. watch: NULL, or asked. Returns 0, or -1 when it was stopped: then the tally is of no
+ * use. */
+int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
+                const struct tally_watch *watch);
+
+/* W that one count of a replicate's stands for; of `element`, a REPLICATES-th of it. */
+static inline double tally_unit(const struct tally *tally)
+{
+    return tally->particles > 0 ? tally->power / ((double)tally->particles * PARTICLE_ONE) : 0;
+}
+
+/* Power that the face receives in a band (W), by one replicate. */
+static inline double tally_face(const struct tally *tally, int replicate, uint32_t face,
+                                uint32_t band)
+{
+    size_t at = (size_t)replicate * tally->faces + face;
+    return tally_unit(tally) * (double)tally->face[at * tally->bands + band];
+}
+
+/* Power that the leaf receives in a band (W), mean of all replicates. */
+static inline double tally_leaf(const struct tally *tally, uint32_t element, uint32_t band)
+{
+    return tally_unit(tally) / REPLICATES
+           * (double)tally->element[(size_t)element * tally->bands + band];
+}
+
+/* The variance of a mean over all replicates (W2), if chance alone spread particles: of the power
+ * `received` (W) in a band. A pseudo-count of one particle keeps places that none has met from
+ * seeming certain. */
+static inline double tally_chance(const struct tally *tally, double received, uint32_t band)
+{
+    double one = tally->particles > 0 ? tally->power / ((double)tally->particles * REPLICATES) : 0;
+    return one * (tally->square[band] * received + one);
+}
+
+#endif

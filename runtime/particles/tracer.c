@@ -1,0 +1,96 @@
+/* tracer.c - see tracer.h.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include "kernel/hemisphere.h"
+#include "kernel/lambert.h"
+#include "kernel/surface_point.h"
+#include "particles/tracer.h"
+
+int tracer_open(struct tracer *t)
+{
+    struct lights *l = &t->lights;
+    uint32_t count = 0, faces = t->hierarchy->face_count;
+    *l = (struct lights){0};
+    for (uint32_t pass = 0; pass < 2; pass++) {
+        for (uint32_t i = 0; i < faces; i++) {
+            double power = 0;
+            for (uint32_t k = 0; k < t->bands; k++)
+                power += tracer_surface(t, i)->area * t->exitance[(size_t)i * t->bands + k];
+            if (!(power > 0))
+                continue;
+            if (pass == 0) {
+                count++;
+                continue;
+            }
+            l->face[l->count] = i;
+            l->until[l->count++] = l->power += power;
+        }
+        if (pass == 0) {
+            l->face = malloc((count + 1) * sizeof *l->face);
+            l->until = malloc((count + 1) * sizeof *l->until);
+            if (!l->face || !l->until) {
+                tracer_close(t);
+                return -1;
+            }
+        }
+    }
+    return 0;
+}
+
+void tracer_close(struct tracer *t)
+{
+    free(t->lights.face);
+    free(t->lights.until);
+    t->lights = (struct lights){0};
+}
+
+uint32_t lights_choose(const struct lights *l, double u)
+{
+    double pick = u * l->power;
+    uint32_t low = 0, high = l->count - 1;
+    while (low < high) { /* the first whose sum is above `pick` */
+        uint32_t middle = low + (high - low) / 2;
+        if (l->until[middle] > pick)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return l->face[low];
+}
+
+static void move_off(const struct tracer *t, const struct element *e, double p[3])
+{
+    double offset = rays_host(t->rays)->ray_offset;
+    for (int k = 0; k < 3; k++)
+        p[k] += offset * e->normal[k];
+}
+
+void tracer_point(const struct tracer *t, uint32_t face, double u, double v, double p[3])
+{
+    const struct element *e = tracer_surface(t, face);
+    surface_even_point(p, e, u, v);
+    move_off(t, e, p);
+}
+
+int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u, double v,
+                    double at[3])
+{
+    const struct hemisphere above = hemisphere_over(tracer_surface(t, face)->normal);
+    double angle = 2 * LAMBERT_PI * u, r = sqrt(v), z = sqrt(1 - v), direction[3], distance;
+    for (int k = 0; k < 3; k++)
+        direction[k] = z * above.n[k] + r * (cos(angle) * above.u[k] + sin(angle) * above.v[k]);
+    int64_t met = rays_meet(t->rays, p, direction, &distance);
+    if (met < 0)
+        return met;
+    const struct element *e = tracer_surface(t, (uint32_t)met);
+    for (int k = 0; k < 3; k++)
+        p[k] += distance * direction[k];
+    double above_plane = height3(p, e->vertex[0], e->normal);
+    for (int k = 0; k < 3; k++) {
+        p[k] -= above_plane * e->normal[k]; /* the distance has the rounding of single precision */
+        if (at)
+            at[k] = p[k];
+    }
+    move_off(t, e, p);
+    return met;
+}

@@ -1,0 +1,69 @@
+/* tracer.h - what light paths are traced through: faces, materials, rays and the table of emitters;
+ * and the random numbers they are traced by.
+ *
+ * Invariant: a tracer is read only, so any number of threads may trace through it; random numbers
+ * come from the path's index alone, so what is traced does not depend on them.
+ * SPDX-License-Identifier: MIT */
+#ifndef TRACER_H
+#define TRACER_H
+
+#include <stdint.h>
+#include "hierarchy/hierarchy.h"
+#include "kernel/hash.h"
+#include "visibility/rays.h"
+
+/* Faces that emit, to be chosen by the power they send. */
+struct lights {
+    uint32_t *face; /* [count] */
+    double *until;  /* [count]: running sums of A sum_k E_k (W) */
+    uint32_t count;
+    double power; /* W, all bands */
+};
+
+struct tracer {
+    const struct hierarchy *hierarchy;    /* borrowed, as all that follows */
+    const struct rays *rays;              /* over its faces */
+    const double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
+    uint32_t bands;                       /* 1 or 3 */
+    int threads;
+    struct lights lights; /* owned */
+};
+
+/* lights is made of the rest. Returns 0, or -1 when out of memory. */
+int tracer_open(struct tracer *t);
+void tracer_close(struct tracer *t);
+
+/* The emitter that the share u in [0, 1) of all power falls to; there must be one. */
+uint32_t lights_choose(const struct lights *l, double u);
+
+/* One path's random numbers. */
+struct dice {
+    uint64_t state;
+};
+
+static inline struct dice dice_of(uint64_t stream, uint64_t path)
+{
+    return (struct dice){hash64(hash64(stream * HASH_STEP + 1) + path * HASH_STEP)};
+}
+
+/* In [0, 1). */
+static inline double dice_throw(struct dice *d)
+{
+    return (double)(hash64(d->state += HASH_STEP) >> 11) * 0x1p-53;
+}
+
+/* From p, just in front of the face, in the direction by the cosine that (u, v) in [0, 1)^2 stand
+ * for: the face whose front is met, with p moved just in front of it; or RAY_MEETS_NO_FRONT.
+ * `at`: where it is met, in its plane; may be NULL. */
+int64_t tracer_step(const struct tracer *t, uint32_t face, double p[3], double u, double v,
+                    double at[3]);
+
+/* A point spread evenly over the face by (u, v) in [0, 1)^2, just in front of it. */
+void tracer_point(const struct tracer *t, uint32_t face, double u, double v, double p[3]);
+
+static inline const struct element *tracer_surface(const struct tracer *t, uint32_t face)
+{
+    return &t->hierarchy->elements[t->hierarchy->face_element[face]];
+}
+
+#endif
