@@ -248,7 +248,7 @@ int radSolve(RadSolution solution)
 
 int radSolveWithFactors(RadSolution solution, const float *form_factors)
 {
-    if (not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0)
         return -1;
     RadDevice device = solution->scene->device;
     if (!is_refined(solution))
@@ -266,7 +266,7 @@ int radSolveWithFactors(RadSolution solution, const float *form_factors)
                             count, (double)form_factors[i]);
     const char *cause;
     if (solve_with_factors(&solution->solve, form_factors, &cause) < 0)
-        return give_up(solution, cause);
+        return api_give_up(solution, cause);
     solution->done = 1;
     return 0;
 }
