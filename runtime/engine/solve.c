@@ -355,7 +355,7 @@ int solve_with_factors(struct solve *s, const float *form_factors, const char **
     s->report.passes++;
     s->report.changing = 0;
     s->report.seconds.iterate += seconds() - start;
-    sum_power(&s->report, &s->operator, s->state.irradiance);
+    solve_sum_power(s);
     return 0;
 }
 
