@@ -320,7 +320,7 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
-    {"errors", NULL, SOLVE, NULL, "measure how far from the truth; on where it costs little",
+    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap",
      FLAG(errors)},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
