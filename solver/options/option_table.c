@@ -62,6 +62,30 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
 
+/* "[l1:|l2:|power:]X[%]": a share of the reflected light. */
+static int read_accuracy(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    o->norm = ACCURACY_L1;
+    for (int i = 0; norm_words[i]; i++) {
+        size_t length = strlen(norm_words[i]);
+        if (strncmp(value, norm_words[i], length) == 0 && value[length] == ':') {
+            o->norm = (enum accuracy_norm)i;
+            value += length + 1;
+            break;
+        }
+    }
+    char *end;
+    o->accuracy = strtod(value, &end);
+    if (end == value)
+        return -1;
+    if (*end == '%') {
+        o->accuracy /= 100;
+        end++;
+    }
+    return *end || !(o->accuracy > 0 && o->accuracy < 1) ? -1 : 0;
+}
+
 static int read_setting(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
@@ -274,6 +298,7 @@ enum {
 };
 
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
+const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
@@ -320,8 +345,11 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
-    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap",
-     FLAG(errors)},
+    {"accuracy", "NORM:X%", SOLVE, NULL, "solve until the error is at most this: l1, l2, power",
+     "a share such as 1%, or l2:5% or power:0.5%; above 0 and below 100%", .read = read_accuracy},
+    {"limit-seconds", "N", SOLVE, NULL, "when --accuracy gives up (exit status 3)",
+     "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX), .rare = 1},
+    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap", FLAG(errors)},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
      FLAG(correct), .rare = 1},

@@ -24,6 +24,11 @@ enum command {
 /* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
 extern const char *const release_words[], *const closure_words[];
 
+/* The norms that --accuracy is asked in: of face means, over the surfaces, of all light together.
+ */
+enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
+extern const char *const norm_words[];
+
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
 /* What a command does not take is zero. Texts are the command line's own; NULL: not given, not
@@ -46,6 +51,9 @@ struct options {
 
     /* How far from the truth. */
     int errors, no_errors, correct, no_correct;
+    double accuracy; /* share of the reflected light; 0: not asked for */
+    enum accuracy_norm norm;
+    int limit_seconds; /* 0: none */
 
     /* What to write. */
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
