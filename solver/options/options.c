@@ -304,8 +304,9 @@ static int check_together(struct options *o)
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
     if (o->statistics)
         o->release = RAD_RELEASE_DAG;
-    if (o->mesh && !o->image)
-        return wrong(c->name, "--mesh is for a picture: add --image FILE.png");
+    if (o->mesh && !o->image && !o->image_error)
+        return wrong(c->name, "--mesh is for a picture: add --image FILE.png or --image-error "
+                              "FILE.png");
     if (o->no_errors && (o->errors || o->image_error))
         return wrong(c->name, "--no-errors and %s contradict each other",
                      o->errors ? "--errors" : "--image-error");
