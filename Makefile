@@ -150,7 +150,7 @@ packages:
 
 # Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
 # compute much themselves.
-COMPUTING = shaft separable_links viewfactors accuracy oracles
+COMPUTING = paths shaft separable_links viewfactors accuracy oracles
 $(TESTS:=.o): OPT = -O0
 $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
@@ -223,5 +223,5 @@ factor-rays: $(BUILD)/bin/factor_rays
 $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
-$(BUILD)/tests/runtime/try: $(BUILD)/tests/runtime/try.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
+
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)

@@ -327,6 +327,11 @@ struct RadLinks {
 };
 RAD_API void radGetElements(RadSolution solution, struct RadElements *elements);
 RAD_API void radGetLinks(RadSolution solution, struct RadLinks *links);
+/* Give the links other form factors, [RadLinks.count] in their order, each from 0 and finite, and
+ * solve over them: no link is discussed again, visibility stays, and radStep and radSolve find
+ * nothing left to do. For studies of what form factors are worth; those of links with a cluster at
+ * an end are not looked at. After radRefine, radStep or radSolve. Returns 0, or -1. */
+RAD_API int radSolveWithFactors(RadSolution solution, const float *form_factors);
 /* What discussions of two elements of this solution ask: rays, candidates, totals. With it a
  * program can ask an oracle, a term or a tool about a pair of its own choice. Good until the
  * solution is stepped or released; NULL: there is none. */

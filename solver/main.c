@@ -19,9 +19,12 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_SOLVE] = command_solve,
     [COMMAND_COMPARE] = command_compare,
     [COMMAND_VIEWFACTORS] = command_viewfactors,
+    [COMMAND_ERROR] = command_error,
     [COMMAND_STABILITY] = study_stability,
     [COMMAND_VISIBILITY] = study_visibility,
     [COMMAND_CLUSTERING] = study_clustering,
+    [COMMAND_FORM_FACTORS] = study_form_factors,
+    [COMMAND_ARVO] = study_arvo,
     [COMMAND_ORACLES] = command_oracles,
 };
 
@@ -42,7 +45,13 @@ static int check_outputs(const struct options *o)
     for (int i = 0; i < count; i++) {
         int standard = strcmp(paths[i], "-") == 0;
         if (!standard && o->scene && same_file(paths[i], o->scene)) {
-            report_error(paths[i], 0, "this is the scene, which would be lost; give another name");
+            report_error(paths[i], 0, "this is the %s, which would be lost; give another name",
+                         o->command == COMMAND_ERROR ? "table" : "scene");
+            return 2;
+        }
+        if (!standard && o->reference && same_file(paths[i], o->reference)) {
+            report_error(paths[i], 0,
+                         "this is the reference, which would be lost; give another name");
             return 2;
         }
         for (int j = 0; j < i; j++)
@@ -61,7 +70,7 @@ static int check_outputs(const struct options *o)
 static int run(const struct options *o)
 {
     const struct scene_options how = {o->two_sided, o->quiet};
-    if (!o->scene)
+    if (!o->scene || o->command == COMMAND_ERROR)
         return commands[o->command](o, NULL);
     struct open_scene scene;
     if (open_scene(&scene, o->scene, &how, o->threads) < 0)

@@ -246,6 +246,31 @@ int radSolve(RadSolution solution)
     return 0;
 }
 
+int radSolveWithFactors(RadSolution solution, const float *form_factors)
+{
+    if (api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    if (!is_refined(solution))
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "radRefine or radSolve comes before radSolveWithFactors: there are no "
+                        "links yet");
+    if (!form_factors)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "radSolveWithFactors needs a form factor for each link");
+    const size_t count = solution->solve.refinement.link_count;
+    for (size_t i = 0; i < count; i++)
+        if (!(form_factors[i] >= 0 && isfinite(form_factors[i])))
+            return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                            "form factor %zu of %zu is %g; it takes a finite number from 0", i,
+                            count, (double)form_factors[i]);
+    const char *cause;
+    if (solve_with_factors(&solution->solve, form_factors, &cause) < 0)
+        return api_give_up(solution, cause);
+    solution->done = 1;
+    return 0;
+}
+
 int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, double *irradiance)
 {
     if (api_not_dead(solution) < 0)

@@ -340,6 +340,26 @@ int solve_step(struct solve *s, const char **cause)
     return changed > 0 || rough;
 }
 
+int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)
+{
+    struct refinement *r = &s->refinement;
+    const double start = seconds();
+    solve_forget_mended(s);
+    for (size_t i = 0; i < r->link_count; i++) {
+        struct link *l = &r->links[i];
+        if (s->hierarchy.elements[l->receiver].vertices
+            && s->hierarchy.elements[l->emitter].vertices)
+            l->form_factor = form_factors[i];
+    }
+    if (iterate(s, s->problem.options.tolerance, 0) < 0)
+        return fail(s, "out of memory", cause);
+    s->report.passes++;
+    s->report.changing = 0;
+    s->report.seconds.iterate += seconds() - start;
+    solve_sum_power(s);
+    return 0;
+}
+
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     int more = 1;

@@ -83,6 +83,10 @@ void solve_sum_power(struct solve *s);
 
 /* Tell the progress function which phase of the work goes on. Returns nonzero when it cancels. */
 int solve_tell(struct solve *s, const char *phase);
+/* Give the links other form factors, [link_count] in their order, and solve over them as they are
+ * then, without discussing any; those of links with a cluster at an end are not looked at. Returns
+ * 0, or -1 with *cause set. */
+int solve_with_factors(struct solve *s, const float *form_factors, const char **cause);
 
 void solve_close(struct solve *s);
 

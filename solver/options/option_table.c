@@ -211,6 +211,14 @@ const struct command_row command_rows[COMMANDS] = {
          "F_ij is the share of what leaves face i evenly that meets face j, occlusion\n"
          "included. Rows and columns are the faces of the scene file, in its order.\n",
          "radiosity viewfactors room.obj -o factors.csv --closure reciprocal"},
+    [COMMAND_ERROR] =
+        {"error", "FACES.csv REF.csv", "how far a table of faces is from a reference",
+         "Compare B of each face, as solve --faces wrote it, with a reference: made by\n"
+         "radiosity reference, or a finer solve. Errors are shares of the light that the\n"
+         "reference reflects, per band and in all: of the power (above 0: too bright), in\n"
+         "L1, L2 and Linf; beside them what the reference's noise alone would look like,\n"
+         "and the faces that hold most of the error.\n",
+         "radiosity error faces.csv ref.csv"},
     [COMMAND_STABILITY] =
         {"study stability", "", "where methods fail, and by how much",
          "Small scenes whose answer is known and on which published methods fail:\n"
@@ -229,6 +237,19 @@ const struct command_row command_rows[COMMANDS] = {
          "Solve a scene once for each way of grouping its faces into clusters, and compare\n"
          "time, links, rays, memory and error:\n",
          "radiosity study clustering room.obj --reference room.csv -o table.md"},
+    [COMMAND_FORM_FACTORS] =
+        {"study form-factors", "SCENE", "what ways to compute form factors cost and give",
+         "Solve a scene once, then compute the form factor of every link by 1/d^2, disc,\n"
+         "hemicube, one point, rays, polygon and contour: how far it is off, what that\n"
+         "makes of the reflected light, and nanoseconds.\n",
+         "radiosity study form-factors room.obj -o table.md --chart chart.svg"},
+    [COMMAND_ARVO] =
+        {"study arvo", "", "constants against the best there are, in three norms",
+         "What constants over n x n elements leave of the light that a square lamp throws\n"
+         "on a parallel wall, for n = 1 to 64, in the norms L1, L2 and Linf: the best that\n"
+         "constants can do (the lower curve), twice that, Galerkin's projection (means),\n"
+         "collocation (centres). Exact to nine digits. [Arvo, Torrance, Smits, figure 4]\n",
+         "radiosity study arvo --csv arvo.csv --chart arvo.svg"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -240,12 +261,16 @@ enum {
     SOLVE = 1 << COMMAND_SOLVE,
     COMPARE = 1 << COMMAND_COMPARE,
     FACTORS = 1 << COMMAND_VIEWFACTORS,
+    ERROR = 1 << COMMAND_ERROR,
     STABILITY = 1 << COMMAND_STABILITY,
     VISIBILITY = 1 << COMMAND_VISIBILITY,
     CLUSTERING = 1 << COMMAND_CLUSTERING,
+    FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
+    ARVO = 1 << COMMAND_ARVO,
     MATRICES = SOLVE | COMPARE | CLUSTERING, /* they solve for radiosities */
-    SCENES = MATRICES | FACTORS | VISIBILITY,
-    ALL = SCENES | STABILITY
+    SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS,
+    THREADED = SCENES | STABILITY | ARVO,
+    ALL = THREADED | ERROR
 };
 
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
@@ -268,9 +293,12 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 const struct option_row option_rows[] = {
     {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING, "clusters", "the refinement oracle",
      TEXT(oracle)},
+    /* Few links, of all sizes and distances, none of clusters. */
+    {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
+     TEXT(oracle)},
     /* The one nearest to the default that has a release by hand. */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
-    {"release", "flat|dag|hand", SOLVE | CLUSTERING, NULL,
+    {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
      .rare = 1},
     {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
@@ -279,17 +307,20 @@ const struct option_row option_rows[] = {
      .read = read_clustering, IN(clusters), .rare = 1},
     {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
+    /* Below what the best kinds differ by. */
+    {"tolerance", "X", FORM_FACTORS, "1e-9", "relative error of B that iteration may leave",
+     "a number above 0 and below 1", .read = read_tolerance},
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
-    {"iterations", "N", MATRICES, "100000", "sweeps per solve at the most", "a whole number from 1",
-     WHOLE(iterations, 1, INT_MAX), .rare = 1},
+    {"iterations", "N", MATRICES | FORM_FACTORS, "100000", "sweeps per solve at the most",
+     "a whole number from 1", WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
      FLAG(jacobi), .rare = 1},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
-    {"errors", NULL, SOLVE, NULL, "measure how far from the truth; on where it costs little",
+    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap",
      FLAG(errors)},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
@@ -298,6 +329,8 @@ const struct option_row option_rows[] = {
      FLAG(no_correct)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
+    {"worst", "N", ERROR, "10", "faces to name", "a whole number from 0 to 100000",
+     WHOLE(worst, 0, 100000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},
     {"only", "NAME", CLUSTERING, NULL, "one of the ways", NULL, .read = read_clustering, IN(only)},
     {"reference", "FACES.csv", CLUSTERING, NULL, "B to measure errors by, from solve --faces",
@@ -307,12 +340,15 @@ const struct option_row option_rows[] = {
      .read = read_thresholds},
     {"rays", "N,M,...", VISIBILITY, "4,16,64", "rays held against the reference",
      "some of 4,16,64,256,1024, rising, parted by commas", .read = read_rays},
+    {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
+     "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
     {"two-sided", NULL, SCENES, NULL, "faces have two sides, not only those *_2s", FLAG(two_sided)},
-    {"threads", "N", ALL, NULL, "all processors if not given; same result",
+    {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
-    {"o", "FILE", STABILITY | CLUSTERING, NULL, "the table, .csv or .md", NAMED(out, tables)},
+    {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
+     NAMED(out, tables)},
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
@@ -325,14 +361,15 @@ const struct option_row option_rows[] = {
     {"image-error", "FILE.png", SOLVE, NULL, "the measured error on the surfaces",
      OUTPUT(image_error)},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},
-    {"chart", "FILE", VISIBILITY | CLUSTERING, NULL, "a drawing, .svg or .png",
-     NAMED(chart, drawings)},
+    {"csv", "FILE", ARVO, NULL, "the table with nine digits", OUTPUT(csv)},
+    {"chart", "FILE", VISIBILITY | CLUSTERING | FORM_FACTORS | ARVO, NULL,
+     "a drawing, .svg or .png", NAMED(chart, drawings)},
     {"faces", "FILE.csv", SOLVE, NULL, "E, rho, H, B of each face of the scene file",
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS, NULL, "what the summary says; - is standard output",
-     OUTPUT(json)},
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | ERROR, NULL,
+     "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };
 const int option_row_count = sizeof option_rows / sizeof *option_rows;

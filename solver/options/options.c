@@ -20,11 +20,12 @@ enum { HELP = 256, VERSION, ROWS, OPTIONS_MAX = 64 };
 
 /* ---- help */
 
-static void print_lines(const char *prefix)
+/* A line for each study, or for each other command. */
+static void print_lines(int studies)
 {
     for (int i = 0; i < COMMANDS; i++) {
         const struct command_row *c = &command_rows[i];
-        if (strncmp(c->name, prefix, strlen(prefix)) != 0)
+        if ((strncmp(c->name, "study", 5) == 0) != studies)
             continue;
         char left[32];
         snprintf(left, sizeof left, "%s %s", c->name, c->argument);
@@ -38,8 +39,9 @@ static int print_help(void)
            "\n"
            "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
-    print_lines("");
-    printf("\n"
+    print_lines(0);
+    printf("  study NAME [SCENE]      experiments: see radiosity study --help\n"
+           "\n"
            "    radiosity solve room.obj --image room.png\n"
            "\n"
            "SCENE is OBJ+MTL, PLY, glTF, Collada or what else Assimp reads, in metres. The\n"
@@ -60,7 +62,7 @@ static int print_studies_help(void)
            "\n"
            "Experiments whose table is the result; `radiosity study NAME --help` tells more.\n"
            "\n");
-    print_lines("study");
+    print_lines(1);
     return 0;
 }
 
@@ -253,11 +255,12 @@ static int set_scene(struct options *o, const char *path)
     if (!*c->argument)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
                      *path ? path : "an empty name");
+    int tables = o->command == COMMAND_ERROR;
     if (!*path)
-        return wrong(c->name, "the scene's name is empty");
-    if (o->scene)
-        return wrong(c->name, "more than one scene: %s", path);
-    o->scene = path;
+        return wrong(c->name, tables ? "a table's name is empty" : "the scene's name is empty");
+    if (o->scene && (!tables || o->reference))
+        return wrong(c->name, "more than %s: %s", tables ? "two tables" : "one scene", path);
+    *(o->scene ? &o->reference : &o->scene) = path;
     return -1;
 }
 
@@ -296,6 +299,8 @@ static int read_argument(struct options *o, int number, const char *last)
 static int check_together(struct options *o)
 {
     const struct command_row *c = &command_rows[o->command];
+    if (o->command == COMMAND_ERROR && !o->reference)
+        return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
     if (*c->argument && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)

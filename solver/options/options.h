@@ -11,9 +11,12 @@ enum command {
     COMMAND_SOLVE,
     COMMAND_COMPARE,
     COMMAND_VIEWFACTORS,
+    COMMAND_ERROR,
     COMMAND_STABILITY,
     COMMAND_VISIBILITY,
     COMMAND_CLUSTERING,
+    COMMAND_FORM_FACTORS,
+    COMMAND_ARVO,
     COMMAND_ORACLES,
     COMMANDS
 };
@@ -27,7 +30,7 @@ enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
  * wanted. */
 struct options {
     enum command command;
-    const char *scene;
+    const char *scene; /* of error: the table of faces to judge */
 
     /* How to solve. */
     const char *oracle;
@@ -45,7 +48,7 @@ struct options {
     int errors, no_errors, correct, no_correct;
 
     /* What to write. */
-    const char *image_error, *out, *faces, *json, *statistics, *names, *chart, *image;
+    const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int width, height, mesh; /* of the picture */
     struct view view;
@@ -54,10 +57,12 @@ struct options {
     /* What to measure. */
     int repeats;                   /* compare */
     const char *only;              /* stability: the case to run; clustering: the strategy */
-    const char *reference;         /* clustering: the table of faces to measure by */
+    const char *reference;         /* clustering, error: the table of faces to measure by */
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
+    int worst;   /* error: how many faces to name */
+    int samples; /* arvo: across the receiver; 0: exactly */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on

@@ -8,7 +8,9 @@
 #include "scene/open_scene.h"
 
 int study_stability(const struct options *options, const struct open_scene *scene);
+int study_arvo(const struct options *options, const struct open_scene *scene);
 int study_clustering(const struct options *options, const struct open_scene *scene);
+int study_form_factors(const struct options *options, const struct open_scene *scene);
 int study_visibility(const struct options *options, const struct open_scene *scene);
 
 #endif

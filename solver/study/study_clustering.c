@@ -111,8 +111,8 @@ static void describe_solution(struct row *row, const struct solved *s)
 }
 
 static int run(const struct options *o, const struct open_scene *scene,
-               const struct faces_reference *reference, struct progress *progress,
-               const char *strategy, struct row *row)
+               const struct faces_table *reference, struct progress *progress, const char *strategy,
+               struct row *row)
 {
     struct RadSolveOptions how = solve_options(o);
     RadOracle oracle =
@@ -263,7 +263,7 @@ static void print_plot(FILE *out, const void *context)
 int study_clustering(const struct options *o, const struct open_scene *scene)
 {
     struct table t = {.options = o};
-    struct faces_reference reference = {0};
+    struct faces_table reference = {0};
     int status = 1;
     if (o->reference && faces_reference_read(&reference, o->reference, scene) < 0)
         return 1;
@@ -290,6 +290,6 @@ int study_clustering(const struct options *o, const struct open_scene *scene)
     status = (o->out && write_table(o->out, &t) < 0)
              || (o->chart && chart_draw(o->chart, print_plot, &t) < 0);
 done:
-    faces_reference_free(&reference);
+    faces_table_free(&reference);
     return status;
 }

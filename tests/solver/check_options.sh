@@ -38,12 +38,20 @@ for option in --oracle --release --set --tolerance --iterations --closure --stat
     says 2 "$option takes" solve "$scene" "$option" ""
 done
 for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
+for option in --samples --csv --chart; do says 2 "$option takes" study arvo "$option" ""; done
+for value in 63 4097 1.5 x; do says 2 "--samples takes a whole number from 64 to 4096" study arvo --samples $value; done
 for option in --thresholds --rays --chart -o; do says 2 "$option takes" study visibility "$scene" "$option" ""; done
 says 2 "--repeats takes" compare "$scene" --repeats ""
 says 2 "--oracle takes" solve "$scene" --oracle=
 says 2 "no command" ""
 says 2 "scene's name" solve ""
 says 2 "study what?" study ""
+says 2 "a table's name is empty" error ""
+says 2 "two tables are needed" error a.csv
+says 2 "two tables are needed" error
+says 2 "more than two tables: c.csv" error a.csv b.csv c.csv
+for option in --worst --json; do says 2 "$option takes" error a.csv b.csv "$option" ""; done
+for value in -1 100001 1.5 x; do says 2 "--worst takes a whole number" error a.csv b.csv --worst $value; done
 says 2 "a value is missing after --image" solve "$scene" --image
 for value in 0 1 -1 nan inf 1e-400 x 1e-3x; do says 2 "--tolerance takes a number above 0 and below 1" solve "$scene" --tolerance $value; done
 for value in 0 -3 1.5 99999999999 x; do
@@ -80,6 +88,7 @@ says 2 "more than one scene: b.obj" solve a.obj b.obj
 says 2 "more than one scene: -b.obj" solve a.obj -- -b.obj
 says 2 "no scene is given; see radiosity compare --help" compare -q
 says 2 "study stability takes no scene, but got x.obj" study stability x.obj
+says 2 "study arvo takes no scene, but got x.obj" study arvo x.obj
 says 2 "oracles takes no scene, but got x.obj" oracles x.obj
 says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
@@ -98,7 +107,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors study "study stability" "study visibility" "study clustering" oracles; do
+for command in "" solve compare viewfactors error study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -109,15 +118,15 @@ for command in "" solve compare viewfactors study "study stability" "study visib
         fi
     done
     count=$((count + 1))
-    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/')
+    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/')
     # shellcheck disable=SC2086
     case $command in
-    study | "study stability" | oracles) ;;
+    study | "study stability" | "study arvo" | oracles) ;;
     *) "$radiosity" $example >out 2>err; grep -q "^none.obj: error" err || { bad=$((bad + 1)); echo "failed: $example"; cat err; } ;;
     esac
     rm -f out err
 done
-for command in solve compare viewfactors "study stability" "study visibility" "study clustering"; do
+for command in solve compare viewfactors error "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
@@ -148,6 +157,7 @@ says 1 "make the folder first" viewfactors none.obj -o nowhere/x.csv
 says 1 "make the folder first" viewfactors none.obj --json nowhere/x
 says 1 "make the folder first" viewfactors none.obj --names nowhere/x
 says 1 "make the folder first" study stability -o nowhere/x.csv
+says 1 "make the folder first" study arvo --csv nowhere/x.csv
 says 1 "make the folder first" study visibility none.obj -o nowhere/x.csv
 says 1 "make the folder first" study visibility none.obj --chart nowhere/x.svg
 says 2 "two outputs would go there" solve none.obj --faces x --json x

@@ -1,0 +1,85 @@
+/* paths.c - see paths.h.
+ *
+ * Of the point y of an emitter, c = cos cos / (pi d^2) is how densely directions by the cosine
+ * find it, per area, and d = q / A how densely points of emitters do; q the chance of the emitter
+ * (light_tree.h), A its area. With n_c and n_l rays of either kind, each counts what it finds as
+ * E c / (n_c c + n_l d), by whichever it was found.
+ * SPDX-License-Identifier: MIT */
+#include "kernel/lambert.h"
+#include "particles/paths.h"
+
+/* by_cosine, by_light: c and d, per area (1/m2). */
+static void add_exitance(const struct tracer *t, uint32_t emitter, double by_cosine,
+                         double by_light, const struct path_rays *rays, double *h)
+{
+    double share = by_cosine / (rays->cosine * by_cosine + rays->light * by_light);
+    for (uint32_t k = 0; k < t->bands; k++)
+        h[k] += share * t->exitance[(size_t)emitter * t->bands + k];
+}
+
+int path_to_light(const struct tracer *t, uint32_t face, const double p[3], const double u[3],
+                  const struct path_rays *rays, double *h)
+{
+    const double *n = tracer_surface(t, face)->normal, offset = rays_host(t->rays)->ray_offset;
+    double q[3], y[3], way[3];
+    uint32_t emitter;
+    double chance = light_tree_choose(&t->light_tree, p, n, u[0], &emitter);
+    if (!(chance > 0))
+        return 0;
+    const struct element *e = tracer_surface(t, emitter);
+    tracer_point(t, emitter, u[1], u[2], q);
+    for (int k = 0; k < 3; k++)
+        y[k] = q[k] - offset * e->normal[k]; /* where directions meet it */
+    double by_cosine = lambert_points(p, n, y, e->normal, 0);
+    if (!(by_cosine > 0))
+        return 0;
+    sub3(way, q, p);
+    if (!rays_blocked(t->rays, p, way))
+        add_exitance(t, emitter, by_cosine, chance / e->area, rays, h);
+    return 1;
+}
+
+int64_t path_onward(const struct tracer *t, uint32_t face, double p[3], double u, double v,
+                    const struct path_rays *rays, double *h, double at[3])
+{
+    const double from[3] = {p[0], p[1], p[2]}, *n = tracer_surface(t, face)->normal;
+    int64_t met = tracer_step(t, face, p, u, v, at);
+    if (met < 0 || t->light_tree.place[met] == UINT32_MAX)
+        return met;
+    const struct element *e = tracer_surface(t, (uint32_t)met);
+    double by_cosine = lambert_points(from, n, at, e->normal, 0);
+    if (by_cosine > 0)
+        add_exitance(t, (uint32_t)met, by_cosine,
+                     light_tree_chance(&t->light_tree, from, n, (uint32_t)met) / e->area, rays, h);
+    return met;
+}
+
+void path_irradiance(const struct tracer *t, uint32_t face, const double p[3], struct dice *dice,
+                     double *h, uint64_t *rays)
+{
+    const struct path_rays each = {1, 1};
+    double through[3] = {1, 1, 1}, x[3] = {p[0], p[1], p[2]}, at[3];
+    for (uint32_t k = 0; k < t->bands; k++)
+        h[k] = 0;
+    while (t->light_tree.count > 0) {
+        double found[3] = {0, 0, 0}, u[5], strongest = 0, left = 0;
+        for (int d = 0; d < 5; d++)
+            u[d] = dice_throw(dice);
+        *rays += 1 + (uint64_t)path_to_light(t, face, x, u, &each, found);
+        int64_t met = path_onward(t, face, x, u[3], u[4], &each, found, at);
+        for (uint32_t k = 0; k < t->bands; k++)
+            h[k] += through[k] * found[k];
+        if (met < 0)
+            return;
+        face = (uint32_t)met;
+        for (uint32_t k = 0; k < t->bands; k++) {
+            strongest = through[k] > strongest ? through[k] : strongest;
+            through[k] *= t->reflectance[(size_t)face * t->bands + k];
+            left = through[k] > left ? through[k] : left;
+        }
+        if (!(dice_throw(dice) * strongest < left))
+            return;
+        for (uint32_t k = 0; k < t->bands; k++)
+            through[k] *= strongest / left;
+    }
+}
