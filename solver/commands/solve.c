@@ -4,6 +4,7 @@
 #include "commands/accuracy.h"
 #include "commands/commands.h"
 #include "commands/summary.h"
+#include "output/error_image.h"
 #include "output/export.h"
 #include "output/faces_csv.h"
 #include "output/image.h"
@@ -15,21 +16,36 @@
 #include "util/open_oracle.h"
 #include "util/report.h"
 
+/* Both pictures, of the light and of its error, through the same camera. */
+static int write_pictures(const struct options *o, const struct solution *solution,
+                          const struct vertex_values *values, const double *error)
+{
+    const struct view *view = o->view_given ? &o->view : NULL;
+    int failed = 0;
+    if (o->image)
+        failed |= image_write(o->image, solution, values, view, o->width, o->height, o->mesh) < 0;
+    if (o->image_error)
+        failed |= error_image_write(o->image_error, solution, values, error, view, o->width,
+                                    o->height, o->mesh)
+                  < 0;
+    return failed;
+}
+
 static int write_solution(const struct options *o, const struct surfaces *surfaces,
                           RadSolution solved, int measured)
 {
     const struct solution solution = solution_of(surfaces, solved);
     int failed = 0;
-    if (o->out || o->image) {
+    if (o->out || o->image || o->image_error) {
         struct vertex_values values;
         if (vertex_values_build(&values, &solution) < 0)
-            return report_error(o->image ? o->image : o->out, 0, "out of memory");
+            return report_error(o->image         ? o->image
+                                : o->image_error ? o->image_error
+                                                 : o->out,
+                                0, "out of memory");
         if (o->out)
             failed |= export_write(o->out, &solution, &values) < 0;
-        if (o->image)
-            failed |= image_write(o->image, &solution, &values, o->view_given ? &o->view : NULL,
-                                  o->width, o->height, o->mesh)
-                      < 0;
+        failed |= write_pictures(o, &solution, &values, radGetElementErrors(solved));
         vertex_values_free(&values);
     }
     if (o->faces)
@@ -78,10 +94,10 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     struct RadSolveOptions how = solve_options(o);
     struct RadOracleReport report;
     radGetOracleReport(oracle, &report);
-    if (o->view_given && !o->image && !report.reads_importance) {
-        report_error(
-            "--view", 0,
-            "is for a picture, or for an oracle that reads importance: add --image FILE.png");
+    if (o->view_given && !o->image && !o->image_error && !report.reads_importance) {
+        report_error("--view", 0,
+                     "is for a picture, or for an oracle that reads importance: add --image "
+                     "FILE.png or --image-error FILE.png");
         return 2;
     }
     if (o->statistics && radCountOracle(oracle) < 0)
