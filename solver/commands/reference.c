@@ -28,7 +28,7 @@
 enum { LAG = 8 };
 enum { STOPPED = 130 }; /* the exit status of what SIGINT ends, by the habit of shells */
 
-static const uint64_t CHUNK = 1 << 19; /* paths, or half the particles, between looks at signals */
+static const uint64_t CHUNK = 1 << 17; /* paths, or half the particles, between looks at signals */
 static const double SAVE_EVERY = 10;   /* s; and no more than a twentieth of the time */
 static const double FORETELL = 2;      /* s, after which the time that it will take is told */
 
