@@ -303,6 +303,8 @@ static int check_together(struct options *o)
         return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
     if (*c->argument && !o->scene)
         return wrong(c->name, "no scene is given");
+    if (o->command == COMMAND_REFERENCE && !o->out)
+        return wrong(c->name, "the table's name is missing: -o FILE.csv");
     if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)
         return wrong(
             c->name,
