@@ -1,6 +1,7 @@
 /* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
+#include "commands/account_summary.h"
 #include "commands/commands.h"
 #include "commands/summary.h"
 #include "output/export.h"
@@ -43,13 +44,29 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
 {
     double start = seconds();
     int status = write_solution(o, surfaces, solved->solution) < 0;
+    struct RadAccountReport account;
+    struct progress progress;
+    if (o->errors == ERRORS_ALL) {
+        progress_start(&progress, o->quiet);
+        radSetDeviceProgressFunction(scene->device, progress_show, &progress);
+        int failed = radAccountErrors(solved->solution, &o->account, &account) < 0;
+        progress_end(&progress);
+        if (failed)
+            return report_device(scene->device, o->scene), 1;
+    }
     if (o->statistics && statistics_write(o->statistics, oracle) < 0)
         status = 1;
     const struct summary summary = {o, scene, solved, oracle, seconds() - start};
-    if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
+    json_t *json = o->json ? summary_json(&summary) : NULL;
+    if (json && o->errors == ERRORS_ALL)
+        json_object_set_new(json, "account", account_json(&account));
+    if (o->json && json_file_write(o->json, json) < 0)
         status = 1;
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)) {
         summary_print(&summary);
+        if (o->errors == ERRORS_ALL)
+            account_print(&account);
+    }
     return status;
 }
 

@@ -62,6 +62,27 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
 
+/* --errors alone, or --errors=all. */
+static int read_errors(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    o->errors = value ? ERRORS_ALL : ERRORS_MEASURED;
+    return value && strcmp(value, "all") != 0 ? -1 : 0;
+}
+
+/* A share from 0, below 1, or the same in percent. */
+static int read_share(struct options *o, const struct option_row *row, const char *value)
+{
+    char *end;
+    double share = strtod(value, &end);
+    if (end != value && *end == '%') {
+        share /= 100;
+        end++;
+    }
+    *(double *)field_of(o, row) = share;
+    return end == value || *end || !(share >= 0 && share < 1) ? -1 : 0;
+}
+
 static int read_setting(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
@@ -288,6 +309,12 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures)},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
+    {"errors", "[=all]", SOLVE, NULL, "how far off the answer is; all: by cause, with bounds",
+     "all, or no value", .read = read_errors},
+    {"reflectance-error", "X", SOLVE, NULL, "each rho may be off by X, as 0.02 (--errors=all)",
+     "a number from 0, below 1, or percent", .read = read_share, IN(account.reflectance_error)},
+    {"exitance-error", "X", SOLVE, NULL, "each E may be off by X of itself, as 5%",
+     "a number from 0, below 1, or percent", .read = read_share, IN(account.exitance_error)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},

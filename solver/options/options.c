@@ -64,11 +64,18 @@ static int print_studies_help(void)
     return 0;
 }
 
-/* "--name ARGUMENT". Returns its length. */
+/* Its value may be left out. */
+static int is_optional(const struct option_row *row)
+{
+    return row->argument && *row->argument == '[';
+}
+
+/* "--name ARGUMENT" or "--name[=ARGUMENT]". Returns its length. */
 static int option_text(const struct option_row *row, char text[64])
 {
     return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name,
-                    row->argument ? " " : "", row->argument ? row->argument : "");
+                    row->argument && !is_optional(row) ? " " : "",
+                    row->argument ? row->argument : "");
 }
 
 static int print_command_help(enum command command)
@@ -142,13 +149,14 @@ static int wrong_option(enum command command, const char *argument)
 
 /* ---- parsing */
 
+/* value NULL: there is none. Returns -1, or the exit status. */
 static int read_value(struct options *o, const struct option_row *row, const char *value)
 {
     char text[64];
     const char *command = command_rows[o->command].name;
     option_text(row, text);
-    text[strcspn(text, " ")] = 0;
-    if (row->argument && !*value)
+    text[strcspn(text, " [")] = 0;
+    if (row->argument && value && !*value)
         return wrong(command, "%s takes %s, not an empty value", text, row->argument);
     if (row->read(o, row, value) < 0)
         return wrong(command, "%s takes %s, not %s", text, option_takes(row), value);
@@ -210,7 +218,11 @@ static void options_of(enum command command, struct option longs[OPTIONS_MAX],
         if (!(row->commands >> command & 1))
             continue;
         if (row->name[1])
-            longs[n++] = (struct option){row->name, row->argument != NULL, NULL, ROWS + i};
+            longs[n++] = (struct option){row->name,
+                                         is_optional(row) ? optional_argument
+                                         : row->argument  ? required_argument
+                                                          : no_argument,
+                                         NULL, ROWS + i};
         else
             snprintf(shorts + strlen(shorts), 3, "%s%s", row->name, row->argument ? ":" : "");
     }
@@ -286,6 +298,10 @@ static int check_together(struct options *o)
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
     if (o->statistics)
         o->release = RAD_RELEASE_DAG;
+    if (o->errors != ERRORS_ALL
+        && (o->account.reflectance_error > 0 || o->account.exitance_error > 0))
+        return wrong(c->name, "--reflectance-error and --exitance-error are for the account of "
+                              "error: add --errors=all");
     if (o->mesh && !o->image)
         return wrong(c->name, "--mesh is for a picture: add --image FILE.png");
     return -1;

@@ -23,6 +23,9 @@ extern const char *const release_words[], *const closure_words[];
 
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
+/* What --errors asks for: nothing; what is measured; the account by cause, too. */
+enum { ERRORS_NONE, ERRORS_MEASURED, ERRORS_ALL };
+
 /* What a command does not take is zero. Texts are the command line's own; NULL: not given, not
  * wanted. */
 struct options {
@@ -40,6 +43,9 @@ struct options {
     enum RadClosure closure;
     double tolerance;
     int iterations, jacobi, threads, two_sided, quiet;
+
+    int errors;
+    struct RadAccountOptions account; /* of errors all */
 
     /* What to write. */
     const char *out, *faces, *json, *statistics, *names, *chart, *image;
