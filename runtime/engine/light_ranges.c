@@ -38,10 +38,27 @@ struct walk {
     struct share_group *groups;
     size_t share_count, share_room, group_count, group_room;
     uint32_t group; /* where shares go now; 0: none */
+    /* [element]: what stands between the ends of the link to it, where that has been found out */
+    struct blockers *between;
     int failed;
 };
 
 /* ---- links of the leaf and of what holds it */
+
+/* What stands between a receiver with parts and an emitter is found for all parts at once: a shaft
+ * within it meets no other face (kernel/shaft.h). */
+static void look_between(struct walk *w, uint32_t receiver, uint32_t emitter)
+{
+    const struct element *r = &w->elements[receiver], *s = &w->elements[emitter];
+    struct blockers *list = &w->between[emitter];
+    list->known = BLOCKERS_UNKNOWN;
+    if (!r->vertices || !r->children || !s->vertices)
+        return;
+    blockers_find(r, s, rays_host(w->ranges->op->problem->rays), list);
+    list->known = list->count > BLOCKERS_MAX || (list->count > 0 && !list->covered && !list->handed)
+                      ? BLOCKERS_UNKNOWN
+                      : BLOCKERS_INHERITED;
+}
 
 static void mark_links(struct walk *w, uint32_t receiver, int by)
 {
@@ -49,6 +66,8 @@ static void mark_links(struct walk *w, uint32_t receiver, int by)
     for (size_t l = r->first_link[receiver]; l < r->first_link[receiver + 1]; l++) {
         uint32_t e = r->links[l].emitter;
         w->linked[e] = by > 0 ? (uint32_t)l + 1 : 0;
+        if (by > 0)
+            look_between(w, receiver, e);
         while (e) {
             e = w->elements[e].parent;
             w->below[e] += (uint32_t)by;
@@ -96,47 +115,61 @@ static int open_group(struct walk *w, const struct element *face)
     return 1;
 }
 
+/* The link that holds a pair of the leaf: its V, 0 where there is none; and what is known to stand
+ * between its ends, NULL: nothing. */
+struct holder {
+    double linked;
+    const struct blockers *between;
+};
+
 /* What is between leaf and e: 1 nothing, 0 a face that hides all of it, -1 who knows. */
-static int find_between(const struct walk *w, const struct element *e)
+static int find_between(const struct walk *w, const struct element *e, const struct holder *from)
 {
     struct blockers list;
     list.known = BLOCKERS_UNKNOWN;
+    if (from->between && from->between->known != BLOCKERS_UNKNOWN) {
+        list = *from->between;
+        if (list.covered || list.count == 0)
+            return !list.covered;
+    }
     blockers_find(w->leaf, e, rays_host(w->ranges->op->problem->rays), &list);
-    return list.count == 0 ? !list.covered : list.covered ? 0 : -1;
+    return list.covered ? 0 : list.count == 0 ? 1 : -1;
 }
 
-static void take(struct walk *w, uint32_t e, double linked);
+static void take(struct walk *w, uint32_t e, struct holder from);
 
-static void take_children(struct walk *w, uint32_t e, double linked)
+static void take_children(struct walk *w, uint32_t e, struct holder from)
 {
     const struct element *x = &w->elements[e];
     int opens = x->vertices && x->depth == 0;
     if (opens && !open_group(w, x))
         return;
     for (int c = 0; c < x->children; c++)
-        take(w, x->child + (uint32_t)c, linked);
+        take(w, x->child + (uint32_t)c, from);
     if (opens)
         w->group = 0;
 }
 
-static void take_surface(struct walk *w, uint32_t e, double linked)
+static void take_surface(struct walk *w, uint32_t e, struct holder from)
 {
     const struct element *x = &w->elements[e];
     double range[2];
-    form_factor_range_bound(w->leaf, x, range);
+    form_factor_range_bound_to(w->leaf, x, 0, range);
     if (!(range[1] > 0))
         return;
-    int between = find_between(w, x);
+    int between = find_between(w, x, &from);
     if (between == 0) {
         if (w->group)
             w->groups[w->group - 1].visible = 0;
         return;
     }
-    double apart = range[1] * (between > 0 ? w->spread[e] : w->most[e]);
-    if (x->children && apart > w->detail)
-        take_children(w, e, linked);
-    else
-        add_share(w, e, range, linked, between > 0);
+    if (x->children && range[1] * (between > 0 ? w->spread[e] : w->most[e]) > w->detail) {
+        take_children(w, e, from);
+        return;
+    }
+    if ((range[1] - range[0]) * w->most[e] > RANGE_FINE * w->detail)
+        form_factor_range_bound(w->leaf, x, range);
+    add_share(w, e, range, from.linked, between > 0);
 }
 
 /* The most that a point of the leaf can see of a cluster. */
@@ -152,26 +185,26 @@ static double cluster_share(const struct element *leaf, const struct element *cl
     return distance > radius ? radius * radius / (distance * distance) : 1;
 }
 
-/* Shares of e, which a link of visibility `linked` holds, or none does (0). */
-static void take(struct walk *w, uint32_t e, double linked)
+/* Shares of e, which `from` holds. */
+static void take(struct walk *w, uint32_t e, struct holder from)
 {
     const struct element *x = &w->elements[e];
     if (w->linked[e]) {
         const struct link *l = &w->ranges->op->refinement->links[w->linked[e] - 1];
-        linked = l->visibility * (1.0 / LINK_VISIBLE);
+        from = (struct holder){l->visibility * (1.0 / LINK_VISIBLE), &w->between[e]};
     } else if (w->below[e]) {
-        take_children(w, e, linked);
+        take_children(w, e, from);
         return;
     }
     if (x->vertices) {
-        take_surface(w, e, linked);
+        take_surface(w, e, from);
         return;
     }
     const double range[2] = {0, cluster_share(w->leaf, x)};
     if (range[1] * w->most[e] > w->detail)
-        take_children(w, e, linked);
+        take_children(w, e, from);
     else if (range[1] > 0)
-        add_share(w, e, range, linked, 0);
+        add_share(w, e, range, from.linked, 0);
 }
 
 /* ---- leaves */
@@ -182,7 +215,7 @@ static void find_row(struct walk *w, uint32_t leaf)
     w->leaf = &w->elements[leaf];
     w->share_count = w->group_count = 0;
     w->group = 0;
-    take(w, 0, 0);
+    take(w, 0, (struct holder){0, NULL});
     row->share_count = (uint32_t)w->share_count;
     row->group_count = (uint32_t)w->group_count;
     row->shares = malloc((w->share_count + 1) * sizeof *row->shares);
@@ -242,8 +275,9 @@ int light_ranges_open(struct light_ranges *r, const struct light_operator *op, c
                          .spread = spread,
                          .detail = RANGE_DETAIL * rays_host(op->problem->rays)->irradiance,
                          .linked = calloc(h->count, sizeof *w.linked),
-                         .below = calloc(h->count, sizeof *w.below)};
-        w.failed = !w.linked || !w.below;
+                         .below = calloc(h->count, sizeof *w.below),
+                         .between = calloc(h->count, sizeof *w.between)};
+        w.failed = !w.linked || !w.below || !w.between;
 #pragma omp for schedule(dynamic, 1)
         for (uint32_t i = 0; i < h->face_count; i++) {
             uint64_t so_far, faces;
@@ -266,6 +300,7 @@ int light_ranges_open(struct light_ranges *r, const struct light_operator *op, c
         failed |= w.failed;
         free(w.linked);
         free(w.below);
+        free(w.between);
         free(w.shares);
         free(w.groups);
     }

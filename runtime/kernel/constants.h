@@ -241,6 +241,9 @@
 /* of a scene's mean irradiance. Where an emitter may bring no more, ranges are not halved: chosen,
  * a fifth of what the oracles' thresholds let one link bring in error */
 #define RANGE_DETAIL 0.002
+/* of RANGE_DETAIL. Ranges of form factors that differ by less as they come are not narrowed: chosen,
+ * some hundred of them make a leaf's light */
+#define RANGE_FINE 0.1
 /* of a range of shares. What lies so far outside is rounding: of a float, twice */
 #define RANGE_ROUNDING 0x1p-22
 /* of the bound. Bounds are iterated until what iteration may still take off them, or must add, is
