@@ -395,8 +395,9 @@ struct RadAccountOptions {
 
 /* Estimates are what the links and a few points of each leaf make likely: discretization, form
  * factor and visibility before they are reflected on (signs differ, so that they cancel when they
- * are gathered again), the others after all reflections; together: as if they were independent. It
- * cannot know of light that no link stands for.
+ * are gathered again), the others after all reflections; together: as of independent causes, but
+ * for discretization, cap and solver, whose signs are known and which mend each other. They cannot
+ * know of light that no link stands for, nor of what links between groups lose.
  *
  * Bounds hold for certain, after all reflections, for every point of every surface: proved by
  * ranges of form factors and by shafts, never by rays (engine/light_ranges.h). Discretization: were

@@ -11,7 +11,9 @@
  * H~ the irradiance that the operator makes, capped; dF by the level of the link, dV as of as many
  * independent rays, sqrt(V (1 - V) / N), 0 where a shaft was seen through. Both are taken as
  * independent from link to link, which adds squares. Discretization is taken at corners and centre
- * for its largest, at Gauss' points for its means (residual.c): signed sums first.
+ * for its largest, at Gauss' points for its means (residual.c): signed sums first. A cap takes from
+ * leaves what their ancestors' links bring too much, which is discretization's; so what is told of
+ * all together is told of their sum, with its signs, point by point.
  *
  * Discretization leaves no mean over the leaf, and errors of form factors and rays have no sign in
  * common: gathered again they cancel, and their estimates are not transported. Cap and solver may
@@ -224,8 +226,10 @@ static int gauss_points(const struct element *e, double (*x)[3])
     return e->vertices;
 }
 
-/* Adds to the norms of one leaf what constants cost there. */
-static void find_discretization(const struct error_account *a, uint32_t leaf, struct norm_sums *n)
+/* Adds to the norms of one leaf what constants cost there, and what is left of that with what cap
+ * and solver have done: the cap mends much of it. */
+static void find_discretization(const struct error_account *a, uint32_t leaf, struct norm_sums *n,
+                                struct norm_sums *mended)
 {
     const struct solve *s = a->solve;
     const struct problem *p = &s->problem;
@@ -239,9 +243,11 @@ static void find_discretization(const struct error_account *a, uint32_t leaf, st
     double area = e->area * s->operator.uncovered[leaf] /(at.count - first);
     for (int i = 0; i < at.count; i++)
         for (uint32_t k = 0; k < p->bands; k++) {
-            double error = p->reflectance[(size_t)e->face * p->bands + k]
+            size_t band = (size_t)leaf * p->bands + k;
+            double error = -p->reflectance[(size_t)e->face * p->bands + k]
                            * (at.sum[0][i][k] + at.sum[1][i][k]) / s->operator.uncovered[leaf];
             norm_add(n, i < first ? 0 : area, error);
+            norm_add(mended, i < first ? 0 : area, error + a->cap[band] + a->left[band]);
         }
 }
 
@@ -275,9 +281,10 @@ static int find_local(const struct error_account *a)
 {
     const struct solve *s = a->solve;
     const struct problem *p = &s->problem;
-    enum { LEAF_CATEGORIES = 3 };
+    enum { LEAF_CATEGORIES = 4 };
     static const enum RadErrorCategory of[LEAF_CATEGORIES] = {
-        RAD_CATEGORY_DISCRETIZATION, RAD_CATEGORY_FORM_FACTOR, RAD_CATEGORY_VISIBILITY};
+        RAD_CATEGORY_DISCRETIZATION, RAD_CATEGORY_FORM_FACTOR, RAD_CATEGORY_VISIBILITY,
+        RAD_CATEGORY_TOGETHER};
     struct norm_sums(*leaf)[LEAF_CATEGORIES] = calloc(s->hierarchy.count, sizeof *leaf),
            all[LEAF_CATEGORIES] = {{0, 0, 0}};
     if (!leaf)
@@ -287,7 +294,7 @@ static int find_local(const struct error_account *a)
         struct leaf_errors e;
         if (!account_counts(a, i))
             continue;
-        find_discretization(a, i, &leaf[i][0]);
+        find_discretization(a, i, &leaf[i][0], &leaf[i][3]);
         find_leaf_errors(a, i, &e);
         for (uint32_t k = 0; k < p->bands; k++) {
             double uncovered = s->operator.uncovered[i],
@@ -420,14 +427,17 @@ static void find_kappa(struct error_account *a, double *column)
     r->inverse_bound = r->kappa_inf < 1 ? 1 / (1 - r->kappa_inf) : INFINITY;
 }
 
-/* All causes as if they were independent. */
+/* Together: what discretization, cap and solver leave, whose signs are known; with the others as if
+ * they were independent. */
 static void add_up(struct RadAccountReport *r)
 {
+    static const enum RadErrorCategory others[] = {RAD_CATEGORY_BOUNDARY, RAD_CATEGORY_FORM_FACTOR,
+                                                   RAD_CATEGORY_VISIBILITY};
     struct RadErrorNorms *sum = &r->estimate[RAD_CATEGORY_TOGETHER];
-    for (int c = 0; c < RAD_CATEGORY_TOGETHER; c++) {
-        sum->l1 = hypot(sum->l1, r->estimate[c].l1);
-        sum->l2 = hypot(sum->l2, r->estimate[c].l2);
-        sum->linf = hypot(sum->linf, r->estimate[c].linf);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        const struct RadErrorNorms *e = &r->estimate[others[i]];
+        *sum = (struct RadErrorNorms){hypot(sum->l1, e->l1), hypot(sum->l2, e->l2),
+                                      hypot(sum->linf, e->linf)};
     }
 }
 

@@ -230,8 +230,8 @@ static void settle(const struct bounding *g, double enough)
     }
 }
 
-/* How far T(y) is beyond y, at the most; *moved: mean of |T(y) - start| and of |y| times rounding,
- * by area: what the result is good to know beside. */
+/* How far T(y) is beyond y, at the most; *moved: mean over the area of |T(y) - start|, beside which
+ * the result is good to know, and of what rounding of weights would leave alone. */
 static double overshoot(const struct bounding *g, double *moved)
 {
     double most = 0, sum = 0, area = 0;
@@ -240,7 +240,7 @@ static double overshoot(const struct bounding *g, double *moved)
             continue;
         double a = g->h->elements[i].area, start = g->b->start ? g->b->start[i] : 0;
         most = fmax(most, g->least ? g->value[i] - g->next[i] : g->next[i] - g->value[i]);
-        sum += a * (fabs(g->next[i] - start) + BOUND_ROUNDING * fabs(g->next[i]));
+        sum += a * (fabs(g->next[i] - start) + BOUND_WEIGHTS / BOUND_ENOUGH * fabs(g->next[i]));
         area += a;
     }
     *moved = area > 0 ? sum / area : 0;
