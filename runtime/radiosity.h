@@ -448,6 +448,70 @@ struct RadCorrectOptions {
  * -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
                        struct RadErrorReport *alone);
+/* ---- the account of error, by cause */
+
+/* [Arvo, Torrance and Smits 1994] What may be wrong with B, as a function over the surfaces. */
+enum RadErrorCategory {
+    RAD_CATEGORY_BOUNDARY,       /* E and rho are not quite those that were given */
+    RAD_CATEGORY_DISCRETIZATION, /* B is taken for constant over each leaf, and over emitters */
+    /* computation: */
+    RAD_CATEGORY_FORM_FACTOR, /* quadrature */
+    RAD_CATEGORY_VISIBILITY,  /* rays */
+    RAD_CATEGORY_ROW_CAP,     /* what was done about row sums, cap or closure */
+    RAD_CATEGORY_SOLVER,      /* where iteration stopped */
+    RAD_CATEGORY_TOGETHER,    /* all, boundary data included */
+    RAD_CATEGORIES
+};
+
+struct RadErrorNorms {
+    double l1;   /* integral of the modulus, W, summed over bands */
+    double l2;   /* root of the integral of the square, W/m2 m, summed over bands */
+    double linf; /* largest modulus, W/m2 */
+};
+
+struct RadAccountOptions {
+    double reflectance_error; /* each rho may be off by so much, absolute: 0.02 is two hundredths */
+    double exitance_error;    /* each E may be off by so much of itself: 0.05 is five hundredths */
+    int estimates_only;       /* 1: no bounds, which cost most; they are INFINITY then */
+};
+
+/* Estimates are what the links and a few points of each leaf make likely: discretization, form
+ * factor and visibility before they are reflected on (signs differ, so that they cancel when they
+ * are gathered again), the others after all reflections; together: as of independent causes, but
+ * for discretization, cap and solver, whose signs are known and which mend each other. They cannot
+ * know of light that no link stands for, nor of what links between groups lose.
+ *
+ * Bounds hold for certain, after all reflections, for every point of every surface: proved by
+ * ranges of form factors and by shafts, never by rays (engine/light_ranges.h). Discretization: were
+ * the links' visibilities right; what form factors, cap and solver have done is in it. Visibility:
+ * what knowing no more of it than is proved adds to that, point by point. Form factor, cap, solver:
+ * of each by itself. Boundary: how far the true solution may move. Together: of all, less than the
+ * sum. */
+struct RadAccountReport {
+    struct RadErrorNorms estimate[RAD_CATEGORIES], bound[RAD_CATEGORIES];
+    struct RadErrorNorms reflected; /* norms of B - E: what the errors are shares of */
+    /* norms of the operator K that was solved with, by the largest row and the largest column
+     * (before the cap); columns NAN where groups are linked */
+    double kappa_inf, kappa_1;
+    double reflectance; /* the largest rho: bounds the norms of the true one */
+    /* of the inverse of 1 - K by rows: 1 / (1 - kappa_inf), INFINITY where that says nothing; and
+     * found by one more solve */
+    double inverse_bound, inverse_found;
+    double defect_mean, defect_most, blind_area; /* of rows before the cap: |1 - sum|; m2 */
+    uint64_t guarded;                            /* links that a guard kept whole */
+    /* 1: there are bounds. 0: none were asked for, or there are more ranges than fit */
+    int bounded;
+    uint64_t ranges;
+    double visible; /* share of them, by what they carry, of which it is proved that nothing is
+                       between */
+    double closed;  /* share of the area that was proved to see surfaces alone */
+    double seconds;
+};
+
+/* After radSolve or radStep. NULL options: E and rho are exact. Progress is told of, phase
+ * "account"; cancelled by it, the solution stays good. Returns 0, or -1. */
+RAD_API int radAccountErrors(RadSolution solution, const struct RadAccountOptions *options,
+                             struct RadAccountReport *report);
 
 /* ---- exchange areas */
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <sys/resource.h>
+#include "commands/account_summary.h"
 #include "commands/summary.h"
 
 /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
@@ -180,6 +181,8 @@ void summary_print(const struct summary *s)
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
     measured_print(s->measured, scene->polygons);
+    if (s->measured->accounted)
+        account_print(&s->measured->account);
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "

@@ -30,6 +30,9 @@ extern const char *const release_words[], *const closure_words[];
 enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
 extern const char *const norm_words[];
 
+/* What --errors asks for: what is measured; the account by cause, too. */
+enum errors_wanted { ERRORS_UNSAID, ERRORS_MEASURED, ERRORS_ALL };
+
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
 /* What a command does not take is zero. Texts are the command line's own; NULL: not given, not
@@ -51,7 +54,9 @@ struct options {
     int iterations, jacobi, threads, two_sided, quiet;
 
     /* How far from the truth. */
-    int errors, no_errors, correct, no_correct;
+    enum errors_wanted errors;
+    struct RadAccountOptions account; /* of ERRORS_ALL */
+    int no_errors, correct, no_correct;
     double accuracy; /* share of the reflected light; 0: not asked for */
     enum accuracy_norm norm;
     int limit_seconds; /* 0: none */
