@@ -32,8 +32,9 @@ struct points {
 };
 
 static void add_link(struct points *p, const struct light_operator *op, const double *radiosity,
-                     const struct link *l, const struct element *leaf)
+                     size_t link, const struct element *leaf)
 {
+    const struct link *l = &op->refinement->links[link];
     uint32_t bands = op->problem->bands;
     const struct element *emitter = &op->hierarchy->elements[l->emitter];
     double visible = l->visibility * (1.0 / LINK_VISIBLE),
@@ -42,7 +43,7 @@ static void add_link(struct points *p, const struct light_operator *op, const do
     point_factor_clip(&q, leaf, emitter);
     for (int i = 0; i < p->count; i++) {
         double off =
-            visible * (point_factor_at(p->at[i], leaf, emitter, &q) - (double)l->form_factor);
+            visible * (point_factor_at(p->at[i], leaf, emitter, &q) - operator_factor(op, link));
         for (uint32_t k = 0; k < bands; k++)
             sum[i][k] += radiosity[(size_t)l->emitter * bands + k] * off;
     }
@@ -99,7 +100,7 @@ struct leaf_residual residual_of_leaf(const struct light_operator *op, const dou
         for (size_t l = r->first_link[up]; l < r->first_link[up + 1]; l++) {
             if (!elements[r->links[l].receiver].vertices || !elements[r->links[l].emitter].vertices)
                 continue;
-            add_link(&p, op, radiosity, &r->links[l], e);
+            add_link(&p, op, radiosity, l, e);
             result.links++;
         }
         if (up == 0)

@@ -68,6 +68,16 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
                      r->rows.blind_area);
 }
 
+/* How the links were solved over, and to what. */
+static json_t *solver_json(const struct options *o, const struct RadReport *r)
+{
+    return json_pack("{s:s, s:s, s:b, s:f, s:f, s:f}", "method", solver_words[o->solver],
+                     "projection", projection_words[o->projection], "tolerance_given",
+                     o->tolerance > 0, "tolerance", r->solved.tolerance, "bound",
+                     isfinite(r->solved.bound) ? r->solved.bound : -1.0, "variation",
+                     r->solved.variation);
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -76,7 +86,7 @@ json_t *summary_json(const struct summary *s)
     radGetOracleReport(s->oracle, &oracle);
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
-        "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
+        "s:i, s:i, s:b, s:I, s:f, s:o, s:f, s:f, s:f,"
         " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
@@ -86,11 +96,12 @@ json_t *summary_json(const struct summary *s)
         (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
         "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
         "converged", r->converged, "links_changing", (json_int_t)r->changing, "residual",
-        r->residual, "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance",
-        imbalance(r), "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
-        r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-        "closure", closure_json(s->options, r), "importance", importance_json(r), "error",
-        error_json(r), "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
+        r->residual, "solver", solver_json(s->options, r), "power_emitted", r->emitted,
+        "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums", "smallest",
+        r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved, "defect_mean",
+        r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
+        closure_json(s->options, r), "importance", importance_json(r), "error", error_json(r),
+        "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
         r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
         "peak_memory_mb", peak_megabytes());
 }

@@ -89,7 +89,7 @@ static int word_number(const struct option_row *row, const char *value)
     return -1;
 }
 
-/* The three choices are enumerations of other headers, in whose order the words stand. */
+/* These choices are enumerations of other headers, in whose order the words stand. */
 static int read_release(struct options *o, const struct option_row *row, const char *value)
 {
     int n = word_number(row, value);
@@ -102,6 +102,20 @@ static int read_closure(struct options *o, const struct option_row *row, const c
 {
     int n = word_number(row, value);
     o->closure = (enum RadClosure)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_solver(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->solver = (enum RadSolver)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_projection(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->projection = (enum RadProjection)n;
     return n < 0 ? -1 : 0;
 }
 
@@ -251,6 +265,8 @@ enum {
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
+const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", NULL};
+const char *const projection_words[] = {"galerkin", "collocation", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
@@ -276,14 +292,16 @@ const struct option_row option_rows[] = {
      .read = read_setting},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters)},
-    {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
+    {"tolerance", "X", MATRICES, NULL, "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES, "100000", "sweeps per solve at the most", "a whole number from 1",
      WHOLE(iterations, 1, INT_MAX)},
-    {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
-     FLAG(jacobi)},
+    {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell or lu",
+     WORD(read_solver, solver_words)},
+    {"projection", "NAME", SOLVE | COMPARE, NULL, "galerkin (element means) or collocation",
+     WORD(read_projection, projection_words)},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
      WORD(read_closure, closures)},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",

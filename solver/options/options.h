@@ -18,8 +18,9 @@ enum command {
     COMMANDS
 };
 
-/* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
-extern const char *const release_words[], *const closure_words[];
+/* What enum RadRelease, RadClosure, RadSolver and RadProjection are called; NULL-terminated. */
+extern const char *const release_words[], *const closure_words[], *const solver_words[],
+                                                                      *const projection_words[];
 
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
@@ -39,7 +40,9 @@ struct options {
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     double tolerance;
-    int iterations, jacobi, threads, two_sided, quiet;
+    enum RadSolver solver;
+    enum RadProjection projection;
+    int iterations, threads, two_sided, quiet;
 
     /* What to write. */
     const char *out, *faces, *json, *statistics, *names, *chart, *image;
@@ -66,7 +69,8 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
 {
     return (struct RadSolveOptions){.tolerance = o->tolerance,
                                     .iterations = o->iterations,
-                                    .jacobi = o->jacobi,
+                                    .solver = o->solver,
+                                    .projection = o->projection,
                                     .closure = o->closure,
                                     .clustering = o->clusters};
 }
