@@ -364,6 +364,8 @@ struct RadReport {
     uint64_t decided[8];                 /* how often each enum decision was taken */
     /* converged: iteration reached its tolerance and no link changes any more */
     int passes, iterations, converged;
+    enum RadSolver solver;
+    enum RadProjection projection;
     uint64_t changing;        /* links that the last pass changed */
     double residual;          /* of the last sweep: sum A |dB| / sum A B */
     double emitted, absorbed; /* W, all bands */

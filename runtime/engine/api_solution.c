@@ -357,6 +357,8 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .passes = s->report.passes,
         .iterations = s->report.sweeps,
         .converged = s->report.converged,
+        .solver = s->problem.options.solver,
+        .projection = s->problem.options.projection,
         .changing = s->report.changing,
         .residual = s->report.residual,
         .solved = {s->report.bound, s->report.tolerance, s->report.variation},

@@ -3,8 +3,9 @@
  * In a leaf of size h x varies by |g| h / 2 about its mean to either side, g the gradient, along
  * each direction; the four children of an element of size 2h lie as far from the mean of all, at
  * their middles. So the largest |x_child - x_parent| among siblings is, to first order, the largest
- * deviation within each of them, and costs no look at a link: residual.c's d, which evaluates every
- * link at five points of every leaf, costs a hundred sweeps and more.
+ * deviation within each of them, and costs no look at a link. residual.c's d, which evaluates every
+ * link at five points of every leaf, costs 140 to 380 sweeps (cornell, room, panels, maze_8), and
+ * the few sweeps that are spared are four.
  *
  * Fails to the careful side: a face that is not divided says nothing of itself and counts as 0, so
  * iteration goes on for longer.

@@ -71,10 +71,11 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
 /* How the links were solved over, and to what. */
 static json_t *solver_json(const struct options *o, const struct RadReport *r)
 {
-    return json_pack("{s:s, s:s, s:b, s:f, s:f, s:f}", "method", solver_words[o->solver],
-                     "projection", projection_words[o->projection], "tolerance_given",
+    int bounded = isfinite(r->solved.bound);
+    return json_pack("{s:s, s:s, s:b, s:f, s:o, s:f}", "method", solver_words[r->solver],
+                     "projection", projection_words[r->projection], "tolerance_given",
                      o->tolerance > 0, "tolerance", r->solved.tolerance, "bound",
-                     isfinite(r->solved.bound) ? r->solved.bound : -1.0, "variation",
+                     bounded ? json_real(r->solved.bound) : json_null(), "variation",
                      r->solved.variation);
 }
 
@@ -116,6 +117,19 @@ static void print_marks(const struct RadReport *r)
                    (unsigned long long)r->marked[i], 100 * (double)r->marked[i] / (double)r->links,
                    i,
                    i == GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
+}
+
+static void print_solver(const struct options *o, const struct RadReport *r)
+{
+    printf("solver    %s, %s: iteration left at most %.1e of B, %.1e allowed",
+           solver_words[r->solver], projection_words[r->projection], r->solved.bound,
+           r->solved.tolerance);
+    if (o->tolerance > 0)
+        printf(" as asked\n");
+    else if (r->solved.variation > 0)
+        printf(" beside the elements' own %.1e\n", r->solved.variation);
+    else
+        putchar('\n');
 }
 
 static void print_rows(const struct options *o, const struct RadReport *r)
@@ -174,6 +188,7 @@ void summary_print(const struct summary *s)
         summary_cause(r, cause, sizeof cause);
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
+    print_solver(s->options, r);
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",

@@ -176,6 +176,49 @@ START_TEST(test_stop)
 }
 END_TEST
 
+static int split_first(const struct element *r, const struct element *e)
+{
+    (void)e;
+    return r->face == 0 && r->depth == 0;
+}
+
+static double step; /* relative, from half to half of face 0 */
+
+static double each_other_unevenly(const struct element *r, const struct element *e)
+{
+    double part = r->face != 0 ? 1 : quarter(r) & 2 ? 1 + step : 1 - step;
+    return part * each_other(r, e);
+}
+
+/* Nobody asks for a tolerance: iteration stops at a tenth of what constants leave, here rho F step
+ * on one of two faces alike, but within SOLVE_TOLERANCE and SOLVE_TOLERANCE_MOST. */
+START_TEST(test_tenth)
+{
+    static const struct script script = {split_first, each_other_unevenly, 0};
+    static const double steps[] = {0, 1e-3, 1e-2, 0.05}, rho = 0.9375;
+    mutual = 0.875;
+    step = steps[_i];
+    const double left = 0.5 * rho * mutual * step,
+                 held = fmin(fmax(0.1 * left, SOLVE_TOLERANCE), SOLVE_TOLERANCE_MOST);
+    struct scene scene;
+    made_open(&scene);
+    add_square(&scene, 2, rho, 1);
+    add_square(&scene, 2, rho, 1);
+    struct solve s;
+    run_solve(&s, &scene, &script, options(0, RAD_SOLVER_JACOBI));
+    double known = 1 / (1 - rho * mutual), error = fabs(face_value(&s, 1) / known - 1);
+    printf("constants leave %.5f: held to %.6f, off by %.6f after %d sweeps\n", s.report.variation,
+           s.report.tolerance, error, s.report.sweeps);
+    ck_assert_double_eq_tol(s.report.variation, left, 1e-3 * left + 1e-15);
+    ck_assert_double_eq_tol(s.report.tolerance, held, 1e-3 * held);
+    ck_assert_double_le(s.report.bound, s.report.tolerance);
+    ck_assert_double_le(error, held * (1 + 1e-2));
+    ck_assert_double_ge(error, 0.6 * held);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 static double chain(const struct element *r, const struct element *e)
 {
     return r->face == e->face + 1;
@@ -457,6 +500,7 @@ int main(void)
     TCase *c = tcase_create("transport");
     tcase_add_test(c, test_cap);
     tcase_add_loop_test(c, test_stop, 0, 2);
+    tcase_add_loop_test(c, test_tenth, 0, 4);
     tcase_add_test(c, test_stop_small);
     tcase_add_loop_test(c, test_dense, 0, 4);
     tcase_add_test(c, test_rough);

@@ -1,8 +1,11 @@
-/* check_collocation.c - collocation beside Galerkin over meshes that an oracle divides evenly: the
- * published experiment's table, rows of a cube, and one answer in the limit.
+/* check_projection.c - radiosity held by constants, over meshes that an oracle divides evenly:
+ * collocation beside Galerkin in the published experiment's table, in the rows of a cube and in the
+ * limit; and what constants leave.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
+#include "engine/residual.h"
 #include "engine/solve.h"
+#include "engine/variation.h"
 #include "kernel/polygon_factor.h"
 #include "runtime/make_solve.h"
 #include "suite.h"
@@ -134,6 +137,39 @@ START_TEST(test_table)
 }
 END_TEST
 
+/* What constants leave, by steps from leaf to leaf and by evaluating each link at five points of
+ * each leaf: alike, and halved with the leaves' size. */
+START_TEST(test_variation)
+{
+    double last = INFINITY;
+    for (int depth = 3; depth < 6; depth++) {
+        struct scene scene;
+        made_open(&scene);
+        made_quad(&scene, made_material(&scene, 0.5, 0), -2, -2, 0, 4, 0, 0, 0, 4, 0);
+        made_quad(&scene, made_material(&scene, 0, 1), -0.5, -0.5, 1, 0, 1, 0, 1, 0, 0);
+        struct solve s;
+        solve_evenly(&s, &scene, depth, 1, RAD_PROJECTION_GALERKIN);
+        double points = 0, power = 0;
+        for (uint32_t e = 0; e < s.hierarchy.count; e++) {
+            double area = s.hierarchy.elements[e].area;
+            if (!is_leaf(&s, e))
+                continue;
+            points += area * residual_of_leaf(&s.operator, s.state.radiosity, e).all;
+            power += area * s.state.radiosity[e];
+        }
+        const struct transport x = {.bands = 1, .value = s.state.radiosity};
+        double steps = variation_of(&s.operator, & x);
+        printf("%4d leaves: constants leave %.5f by steps, %.5f by points\n", 1 << (2 * depth),
+               steps, points / power);
+        ck_assert_double_le(fabs(log(steps * power / points)), log(1.25));
+        ck_assert_double_le(steps, 0.6 * last);
+        last = steps;
+        solve_close(&s);
+        made_close(&scene);
+    }
+}
+END_TEST
+
 /* ---- a cube */
 
 /* What a point of a closed scene sees is all there is: without closure and without a cap every row
@@ -199,10 +235,11 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("collocation");
-    TCase *c = tcase_create("collocation");
+    Suite *suite = suite_create("projection");
+    TCase *c = tcase_create("projection");
     tcase_set_timeout(c, 30);
     tcase_add_loop_test(c, test_table, 0, sizeof published / sizeof *published);
+    tcase_add_test(c, test_variation);
     tcase_add_loop_test(c, test_rows, 0, 3);
     tcase_add_test(c, test_limit);
     suite_add_tcase(suite, c);
