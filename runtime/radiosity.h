@@ -255,12 +255,12 @@ enum RadClosure {
     RAD_CLOSURE_RECIPROCAL /* of exchange areas only: rows sum to 1, A_i F_ij = A_j F_ji */
 };
 
-/* How the equations that the links stand for are solved; all to the same answer, to the tolerance. */
+/* How the equations that the links stand for are solved; all to the same answer. */
 enum RadSolver {
     RAD_SOLVER_GAUSS_SEIDEL, /* in blocks of faces */
     RAD_SOLVER_JACOBI,
-    /* progressive shooting: the most unshot power first. A solve that `iterations` cut short has the
-     * ambient estimate of Cohen et al. 1988 added; no other is changed by it */
+    /* progressive shooting: the most unshot power first. A solve that `iterations` cut short has
+     * the ambient estimate of Cohen et al. 1988 added; no other is changed by it */
     RAD_SOLVER_SOUTHWELL,
     /* a dense matrix, by LAPACKE; RAD_LU_LEAVES at the most. While links change much, and so
      * solves need be rough only, Gauss-Seidel; LAPACK decides the last bits */
