@@ -257,6 +257,27 @@ enum RadClosure {
     RAD_CLOSURE_RECIPROCAL /* of exchange areas only: rows sum to 1, A_i F_ij = A_j F_ji */
 };
 
+/* How the equations that the links stand for are solved; all to the same answer. */
+enum RadSolver {
+    RAD_SOLVER_GAUSS_SEIDEL, /* in blocks of faces */
+    RAD_SOLVER_JACOBI,
+    /* progressive shooting: the most unshot power first. A solve that `iterations` cut short has
+     * the ambient estimate of Cohen et al. 1988 added; no other is changed by it */
+    RAD_SOLVER_SOUTHWELL,
+    /* a dense matrix, by LAPACKE; RAD_LU_LEAVES at the most. While links change much, and so
+     * solves need be rough only, Gauss-Seidel; LAPACK decides the last bits */
+    RAD_SOLVER_LU
+};
+enum { RAD_LU_LEAVES = 5000 };
+
+/* What an element keeps of the irradiance on it. */
+enum RadProjection {
+    RAD_PROJECTION_GALERKIN, /* its mean */
+    /* its value at the centre: links between surfaces have the form factor from there. RadLink's
+     * stays the mean, which oracles decide by. [Arvo et al. 1994, section 4.2] */
+    RAD_PROJECTION_COLLOCATION
+};
+
 struct RadCamera {
     double eye[3];                    /* m */
     double right[3], up[3], ahead[3]; /* unit vectors, at right angles to each other */
@@ -264,9 +285,13 @@ struct RadCamera {
 };
 
 struct RadSolveOptions {
-    double tolerance;        /* relative L1 error of B that iteration may leave; 0: 1e-4 */
-    int iterations;          /* sweeps per solve at the most; 0: 100000 */
-    int jacobi;              /* 1: Jacobi sweeps instead of block Gauss-Seidel */
+    /* Relative L1 error of B that iteration may leave; 0: a tenth of what constants on the leaves
+     * leave of it, estimated, within 1e-4 and 1e-3 (RadReport.solved says what it came to).
+     * [Arvo et al. 1994, section 6.3] */
+    double tolerance;
+    int iterations; /* sweeps per solve at the most; 0: 100000 */
+    enum RadSolver solver;
+    enum RadProjection projection;
     enum RadClosure closure; /* NONE or ROWS */
     /* how faces are grouped, one of radGetClusteringNames(); NULL: the default */
     const char *clustering;
@@ -346,9 +371,17 @@ struct RadReport {
     uint64_t decided[8];                 /* how often each enum decision was taken */
     /* converged: iteration reached its tolerance and no link changes any more */
     int passes, iterations, converged;
+    enum RadSolver solver;
+    enum RadProjection projection;
     uint64_t changing;        /* links that the last pass changed */
     double residual;          /* of the last sweep: sum A |dB| / sum A B */
     double emitted, absorbed; /* W, all bands */
+    /* of the last solve: the bound on what iteration left of B, relative in L1, the tolerance that
+     * was held against; and what constants leave (estimated, the same unit), 0 where the tolerance
+     * was given or nothing came near it */
+    struct {
+        double bound, tolerance, variation;
+    } solved;
     /* row sums of leaves before cap or closure */
     struct {
         double low, high, defect_mean, defect_most, blind_area, moved;

@@ -55,7 +55,7 @@ static void gather(const struct error_account *a, uint32_t e, double h[3])
     uint32_t bands = s->problem.bands;
     for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
         const struct link *l = &r->links[i];
-        double weight = (double)l->form_factor * (l->visibility * (1.0 / LINK_VISIBLE));
+        double weight = operator_weight(&s->operator, i);
         for (uint32_t k = 0; k < bands; k++)
             h[k] += weight * s->state.radiosity[(size_t)l->emitter * bands + k];
     }
@@ -411,8 +411,8 @@ static void find_kappa(struct error_account *a, double *column)
         const struct link *l = &s->refinement.links[i];
         const struct element *to = &elements[l->receiver], *from = &elements[l->emitter];
         if (to->vertices && from->vertices)
-            column[l->emitter] += to->area * p->whitest[to->face] * (double)l->form_factor
-                                  * (l->visibility * (1.0 / LINK_VISIBLE)) / from->area;
+            column[l->emitter] +=
+                to->area * p->whitest[to->face] * operator_weight(&s->operator, i) / from->area;
     }
     for (uint32_t i = 0; i < s->hierarchy.count; i++) { /* down: parents come first */
         if (elements[i].vertices && elements[i].depth > 0)
@@ -462,7 +462,8 @@ static int renew_operator(struct solve *s)
     if (s->report.changing > 0) {
         separable_links_close(&op->separable);
         if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement,
-                                 (int)s->problem.bands, s->problem.options.threads)
+                                 (int)s->problem.bands, s->problem.options.threads,
+                                 s->problem.options.projection == RAD_PROJECTION_COLLOCATION)
             < 0)
             return -1;
         row_sums_scale(op, &rows);

@@ -9,14 +9,18 @@
 #include "engine/camera.h"
 #include "engine/closure.h"
 #include "hierarchy/scene.h"
+#include "radiosity.h"
 #include "visibility/rays.h"
 
 struct solve;
 
 struct solve_options {
-    double tolerance; /* relative L1 error of B that iteration may leave, > 0 */
-    int iterations;   /* sweeps per solve at the most */
-    int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
+    /* relative L1 error of B that iteration may leave; 0: a tenth of what constants on leaves
+     * leave (transport.h) */
+    double tolerance;
+    int iterations; /* sweeps per solve at the most */
+    enum RadSolver solver;
+    enum RadProjection projection;
     int threads;
     /* none: rows above 1 are capped, each face keeping its power (row_sums.c); or rows */
     enum closure closure;

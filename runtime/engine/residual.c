@@ -50,8 +50,10 @@ static void add_emitter(struct residual_points *p, const struct light_operator *
 }
 
 static void add_link(struct residual_points *p, const struct light_operator *op,
-                     const double *radiosity, const struct link *l, const struct element *leaf)
+                     const double *radiosity, size_t link, const struct element *leaf)
 {
+    const struct link *l = &op->refinement->links[link];
+    const struct link *l = &op->refinement->links[link];
     uint32_t bands = op->problem->bands;
     double visible = l->visibility * (1.0 / LINK_VISIBLE),
            (*sum)[3] = p->sum[l->mark == LINK_GUARDED];
@@ -59,7 +61,7 @@ static void add_link(struct residual_points *p, const struct light_operator *op,
     for (int i = 0; i < p->count; i++)
         for (uint32_t k = 0; k < bands; k++)
             sum[i][k] -=
-                radiosity[(size_t)l->emitter * bands + k] * visible * (double)l->form_factor;
+                radiosity[(size_t)l->emitter * bands + k] * visible * operator_factor(op, link);
 }
 
 /* The same for the separable links of element `up`, which is the leaf or holds it, and of which
@@ -109,7 +111,7 @@ uint32_t residual_at_points(const struct light_operator *op, const double *radio
         for (size_t l = r->first_link[up]; l < r->first_link[up + 1]; l++) {
             if (!elements[r->links[l].receiver].vertices || !elements[r->links[l].emitter].vertices)
                 continue;
-            add_link(p, op, radiosity, &r->links[l], e);
+            add_link(p, op, radiosity, l, e);
             links++;
         }
         if (up == 0)

@@ -43,7 +43,7 @@ static void sum_links(struct light_operator *op, uint32_t e, double above)
     const struct refinement *r = op->refinement;
     double row = above;
     for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-        row += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
+        row += operator_weight(op, i);
     row += separable_links_row(&op->separable, e);
     for (int c = 0; c < x->children; c++)
         sum_links(op, x->child + (uint32_t)c, row);

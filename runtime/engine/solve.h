@@ -24,6 +24,9 @@ struct report {
     uint64_t changing; /* links that the last pass changed */
     /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
     double residual;
+    /* of the last solve: the bound on what iteration left, relative; the tolerance it was held
+     * against; and what constants leave, where the tolerance was made by that (transport.h) */
+    double bound, tolerance, variation;
     double emitted, absorbed; /* W, all bands */
     struct row_report rows;
     /* By the clock; in_rays: inside Embree, mean over threads, part of refine; clusters: the tree
@@ -51,6 +54,7 @@ struct solve {
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;
     uint32_t started;
+    char too_many[160]; /* leaves for the solver, in a sentence; "": there are not */
 };
 
 /* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set

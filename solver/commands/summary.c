@@ -69,6 +69,17 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
                      r->rows.blind_area);
 }
 
+/* How the links were solved over, and to what. */
+static json_t *solver_json(const struct options *o, const struct RadReport *r)
+{
+    int bounded = isfinite(r->solved.bound);
+    return json_pack("{s:s, s:s, s:b, s:f, s:o, s:f}", "method", solver_words[r->solver],
+                     "projection", projection_words[r->projection], "tolerance_given",
+                     o->tolerance > 0, "tolerance", r->solved.tolerance, "bound",
+                     bounded ? json_real(r->solved.bound) : json_null(), "variation",
+                     r->solved.variation);
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -77,7 +88,7 @@ json_t *summary_json(const struct summary *s)
     radGetOracleReport(s->oracle, &oracle);
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
-        "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
+        "s:i, s:i, s:b, s:I, s:f, s:o, s:f, s:f, s:f,"
         " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, "
         "s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
@@ -88,10 +99,11 @@ json_t *summary_json(const struct summary *s)
         (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
         "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
         "converged", r->converged, "links_changing", (json_int_t)r->changing, "residual",
-        r->residual, "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance",
-        imbalance(r), "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
-        r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-        "closure", closure_json(s->options, r), "importance", importance_json(r), "error_control",
+        r->residual, "solver", solver_json(s->options, r), "power_emitted", r->emitted,
+        "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums", "smallest",
+        r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved, "defect_mean",
+        r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
+        closure_json(s->options, r), "importance", importance_json(r), "error_control",
         error_control_json(r), "error", measured_json(s->measured), "correction",
         mended_json(s->measured), "accuracy",
         s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null(), "seconds", "build",
@@ -109,6 +121,19 @@ static void print_marks(const struct RadReport *r)
                    (unsigned long long)r->marked[i], 100 * (double)r->marked[i] / (double)r->links,
                    i,
                    i == GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
+}
+
+static void print_solver(const struct options *o, const struct RadReport *r)
+{
+    printf("solver    %s, %s: iteration left at most %.1e of B, %.1e allowed",
+           solver_words[r->solver], projection_words[r->projection], r->solved.bound,
+           r->solved.tolerance);
+    if (o->tolerance > 0)
+        printf(" as asked\n");
+    else if (r->solved.variation > 0)
+        printf(" beside the elements' own %.1e\n", r->solved.variation);
+    else
+        putchar('\n');
 }
 
 static void print_rows(const struct options *o, const struct RadReport *r)
@@ -167,6 +192,7 @@ void summary_print(const struct summary *s)
         summary_cause(r, cause, sizeof cause);
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
+    print_solver(s->options, r);
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",

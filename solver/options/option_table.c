@@ -125,7 +125,7 @@ static int word_number(const struct option_row *row, const char *value)
     return -1;
 }
 
-/* The three choices are enumerations of other headers, in whose order the words stand. */
+/* These choices are enumerations of other headers, in whose order the words stand. */
 static int read_release(struct options *o, const struct option_row *row, const char *value)
 {
     int n = word_number(row, value);
@@ -138,6 +138,20 @@ static int read_closure(struct options *o, const struct option_row *row, const c
 {
     int n = word_number(row, value);
     o->closure = (enum RadClosure)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_solver(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->solver = (enum RadSolver)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_projection(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->projection = (enum RadProjection)n;
     return n < 0 ? -1 : 0;
 }
 
@@ -323,6 +337,8 @@ const char *const release_words[] = {"flat", "dag", "hand", NULL};
 const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
+const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", NULL};
+const char *const projection_words[] = {"galerkin", "collocation", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
@@ -352,7 +368,7 @@ const struct option_row option_rows[] = {
      .read = read_setting},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters), .rare = 1},
-    {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
+    {"tolerance", "X", MATRICES, NULL, "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
     /* Below what the best kinds differ by. */
     {"tolerance", "X", FORM_FACTORS, "1e-9", "relative error of B that iteration may leave",
@@ -361,8 +377,10 @@ const struct option_row option_rows[] = {
      "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES | FORM_FACTORS, "100000", "sweeps per solve at the most",
      "a whole number from 1", WHOLE(iterations, 1, INT_MAX), .rare = 1},
-    {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
-     FLAG(jacobi), .rare = 1},
+    {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell or lu",
+     WORD(read_solver, solver_words), .rare = 1},
+    {"projection", "NAME", SOLVE | COMPARE, NULL, "galerkin (element means) or collocation",
+     WORD(read_projection, projection_words), .rare = 1},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",

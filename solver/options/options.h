@@ -22,8 +22,9 @@ enum command {
     COMMANDS
 };
 
-/* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
-extern const char *const release_words[], *const closure_words[];
+/* What enum RadRelease, RadClosure, RadSolver and RadProjection are called; NULL-terminated. */
+extern const char *const release_words[], *const closure_words[], *const solver_words[],
+                                                                      *const projection_words[];
 
 /* The norms that --accuracy is asked in: of face means, over the surfaces, of all light together.
  */
@@ -51,7 +52,9 @@ struct options {
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     double tolerance;
-    int iterations, jacobi, threads, two_sided, quiet;
+    enum RadSolver solver;
+    enum RadProjection projection;
+    int iterations, threads, two_sided, quiet;
 
     /* How far from the truth. */
     enum errors_wanted errors;
@@ -90,7 +93,8 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
 {
     return (struct RadSolveOptions){.tolerance = o->tolerance,
                                     .iterations = o->iterations,
-                                    .jacobi = o->jacobi,
+                                    .solver = o->solver,
+                                    .projection = o->projection,
                                     .closure = o->closure,
                                     .clustering = o->clusters};
 }

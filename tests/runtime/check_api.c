@@ -690,6 +690,8 @@ START_TEST(test_bad_options)
         {{.tolerance = (double)NAN}, "tolerance is"},
         {{.tolerance = 1}, "tolerance is 1"},
         {{.iterations = -1}, "iterations is -1"},
+        {{.solver = (enum RadSolver)4}, "solver is 4"},
+        {{.projection = (enum RadProjection)2}, "projection"},
         {{.closure = RAD_CLOSURE_RECIPROCAL}, "closure"},
         {{.clustering = "heap"}, "no clustering 'heap'"},
         {{.camera = &camera}, "length 1"},
