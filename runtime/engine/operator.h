@@ -11,11 +11,15 @@
 #include "engine/refine.h"
 #include "engine/separable_links.h"
 
+struct linear_links;
+
 struct light_operator {
     const struct problem *problem;
     const struct hierarchy *hierarchy;
     const struct refinement *refinement; /* its links, sorted by receiver */
     struct separable_links separable;
+    /* while a linear solution is made (linear_solution.h): rows are of its links; else NULL */
+    struct linear_links *linear;
     double *uncovered; /* [element]: share of the area that no solid stands on */
     double *row_scale; /* [element]: of leaves only, the factor for what comes over its own links */
     /* [element]: of leaves only, the factor for what comes over those of the elements above it */

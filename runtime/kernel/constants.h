@@ -230,6 +230,25 @@
  * that normal says nothing of what passes, only the place does; chosen */
 #define PIVOT_RELIABLE 0.3
 
+/* ---- linear elements (engine) */
+
+/* of the radius. An element has no slope across where its root-mean-square width is less: rounding
+ * of its corners would decide it. chosen */
+#define LINEAR_THIN 1e-6
+/* sums of radii. Cells farther apart than NEAR have 3 x 3 points each, than FAR 2 x 2; nearer ones
+ * are quartered. TUNE */
+#define LINEAR_NEAR 1.25
+#define LINEAR_FAR 2.5
+/* of the smaller element's radius: cells of that size that still touch are not quartered. TUNE */
+#define LINEAR_CELL 0.26
+/* of 1 - rho: how far a row may exceed 1 at a corner of a leaf; more, and the slopes of that leaf
+ * are made less. Must be above ROW_EXCESS, by which means may, and at most 1; derived in
+ * linear_transport.c */
+#define LINEAR_ROW_EXCESS 0.75
+/* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
+ * change of a convergent one may rise in norms that are not its own, by a few times */
+#define LINEAR_GROWS 10.0
+
 /* ---- exchange areas (engine) */
 
 /* of a row's sum. The default, and the tolerance that the limits of

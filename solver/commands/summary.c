@@ -68,6 +68,16 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
                      r->rows.blind_area);
 }
 
+static json_t *basis_json(const struct RadReport *r)
+{
+    if (!r->linear.sweeps)
+        return json_pack("{s:s}", "name", "constant");
+    return json_pack("{s:s, s:i, s:b, s:f, s:f, s:f}", "name", "linear", "iterations",
+                     r->linear.sweeps, "limited", r->linear.limited, "weakened_area",
+                     r->linear.weakened, "lowered_area", r->linear.lowered, "seconds",
+                     r->linear.seconds);
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -77,7 +87,7 @@ json_t *summary_json(const struct summary *s)
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
         "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
-        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
+        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
         "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
@@ -89,10 +99,10 @@ json_t *summary_json(const struct summary *s)
         r->residual, "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance",
         imbalance(r), "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
         r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-        "closure", closure_json(s->options, r), "importance", importance_json(r), "error",
-        error_json(r), "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
-        r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
-        "peak_memory_mb", peak_megabytes());
+        "closure", closure_json(s->options, r), "basis", basis_json(r), "importance",
+        importance_json(r), "error", error_json(r), "seconds", "build", r->seconds.build, "refine",
+        r->seconds.refine, "in_rays", r->seconds.in_rays, "iterate", r->seconds.iterate, "output",
+        s->output_seconds, "peak_memory_mb", peak_megabytes());
 }
 
 /* Links that a graph has marked. A mark other than the guard's means what the graph's author
@@ -163,6 +173,12 @@ void summary_print(const struct summary *s)
         summary_cause(r, cause, sizeof cause);
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
+    if (r->linear.sweeps)
+        printf("basis     linear over the last links: %d sweeps of %.2f s; slopes made less on "
+               "%.2g %% "
+               "of the area%s\n",
+               r->linear.sweeps, r->linear.seconds, 100 * (r->linear.weakened + r->linear.lowered),
+               r->linear.limited ? ", and of all links, for sweeps would not converge" : "");
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",

@@ -89,7 +89,7 @@ static int word_number(const struct option_row *row, const char *value)
     return -1;
 }
 
-/* The three choices are enumerations of other headers, in whose order the words stand. */
+/* The four choices are enumerations of other headers, in whose order the words stand. */
 static int read_release(struct options *o, const struct option_row *row, const char *value)
 {
     int n = word_number(row, value);
@@ -102,6 +102,13 @@ static int read_closure(struct options *o, const struct option_row *row, const c
 {
     int n = word_number(row, value);
     o->closure = (enum RadClosure)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_basis(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->basis = (enum RadBasis)n;
     return n < 0 ? -1 : 0;
 }
 
@@ -251,6 +258,7 @@ enum {
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
+static const char *const bases[] = {"constant", "linear", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
@@ -288,6 +296,8 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures)},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
+    {"basis", "constant|linear", SOLVE, NULL,
+     "B over an element; linear: the last solve (constant)", WORD(read_basis, bases)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},

@@ -38,6 +38,7 @@ struct options {
     size_t setting_capacity;
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
+    enum RadBasis basis;
     double tolerance;
     int iterations, jacobi, threads, two_sided, quiet;
 
@@ -68,6 +69,7 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
                                     .iterations = o->iterations,
                                     .jacobi = o->jacobi,
                                     .closure = o->closure,
+                                    .basis = o->basis,
                                     .clustering = o->clusters};
 }
 

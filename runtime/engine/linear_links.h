@@ -1,0 +1,63 @@
+/* linear_links.h - what linear elements have beside the links: a basis per surface, eight moments
+ * per link, and rows.
+ *
+ * Links that have a cluster at one end stay constant: each face of the receiver takes what it takes
+ * without slopes, and of the emitter the means are sent (separable_links.h).
+ * SPDX-License-Identifier: MIT */
+#ifndef LINEAR_LINKS_H
+#define LINEAR_LINKS_H
+
+#include "engine/linear_coupling.h"
+#include "engine/operator.h"
+
+/* What the rows of a leaf come to: radiosity 1 everywhere makes the irradiance row + b1 phi_1 + b2
+ * phi_2 there. */
+struct linear_row {
+    double above[2], own[2]; /* b1, b2, over its ancestors' links and its own, before any scale */
+    double scale;            /* in [0, 1], for the slopes of what it receives */
+    double whole[2];         /* b1, b2 once the rows are scaled, without `scale` */
+    double most;             /* the largest irradiance that |B| <= 1 makes at a corner */
+};
+
+struct linear_links {
+    struct linear_basis *basis;      /* [element], of surfaces */
+    float (*moment)[LINEAR_MOMENTS]; /* [link], in the refinement's order; 0 where a cluster is */
+    struct linear_row *row;          /* [element], of leaves */
+    const struct light_operator *of;
+    int limited; /* 1: all kernels have been made nonnegative */
+};
+
+/* Bases and moments over the links of the operator's refinement, sorted. Returns 0, or -1 when out
+ * of memory. */
+int linear_links_open(struct linear_links *l, const struct light_operator *op);
+
+/* Make the kernels of all links nonnegative. */
+void linear_links_limit(struct linear_links *l);
+
+/* The rows of the leaves below surface e, as sum_links of row_sums.c leaves them for constants:
+ * [0] of their mean, into the operator's row_scale and row_above, slopes into l->row. */
+void linear_links_rows(struct linear_links *l, struct light_operator *op, uint32_t e,
+                       const double above[3]);
+
+/* Once the rows are scaled: set row[].scale, whole and most. */
+void linear_links_scale(struct linear_links *l, const struct light_operator *op);
+
+/* Add to h[band][3] what element e gathers over its own links between surfaces from value
+ * [element * bands + band] and slope [(element * bands + band) * 2]. */
+void linear_links_gather(const struct linear_links *l, const struct light_operator *op,
+                         uint32_t bands, uint32_t e, const double *value, const double *slope,
+                         double h[3][3]);
+
+/* The part of a linear function over e, b[3], that is on its part `child`. */
+void linear_links_restrict(const struct linear_links *l, const struct hierarchy *h, uint32_t e,
+                           uint32_t child, const double b[3], double on_child[3]);
+
+/* 1: rows are made 1 all over the leaf, not in the mean alone. */
+static inline int linear_rows_closed(const struct light_operator *op)
+{
+    return op->problem->options.closure == CLOSURE_ROWS && op->problem->closed > 0;
+}
+
+void linear_links_close(struct linear_links *l);
+
+#endif
