@@ -169,7 +169,7 @@ void linear_links_scale(struct linear_links *l, const struct light_operator *op)
         linear_basis_range(&l->basis[i], e, row->whole, &least, &most);
         double high = closed ? 2 * fmax(most, -least) : most;
         room += closed ? 0 : 1 - op->row[i];
-        row->scale = op->uncovered[i] < 1 ? 0 : high > room ? fmax(0, room) / high : 1;
+        row->scale = op->uncovered[i] < 1 ? 0 : l->limited && high > room ? fmax(0, room) / high : 1;
         row->most = op->row[i] + row->scale * high;
     }
 }

@@ -237,10 +237,10 @@
 #define LINEAR_THIN 1e-6
 /* sums of radii. Cells farther apart than NEAR have 3 x 3 points each, than FAR 2 x 2; nearer ones
  * are quartered. TUNE */
-#define LINEAR_NEAR 1.25
-#define LINEAR_FAR 2.5
+#define LINEAR_NEAR 1.0
+#define LINEAR_FAR 1.5
 /* of the smaller element's radius: cells of that size that still touch are not quartered. TUNE */
-#define LINEAR_CELL 0.26
+#define LINEAR_CELL 0.51
 /* of 1 - rho: how far a row may exceed 1 at a corner of a leaf; more, and the slopes of that leaf
  * are made less. Must be above ROW_EXCESS, by which means may, and at most 1; derived in
  * linear_transport.c */
