@@ -153,24 +153,38 @@ void linear_links_rows(struct linear_links *l, struct light_operator *op, uint32
     }
 }
 
+/* How much of the row's slopes is error: all of them where rows are 1 all over, else what makes a
+ * corner see more than everything. */
+static double share_in_error(const struct linear_links *l, const struct light_operator *op,
+                             uint32_t leaf, double most)
+{
+    double room = fmax(0, 1 - op->row[leaf]);
+    if (l->limited)
+        return 0;
+    if (op->problem->options.closure == CLOSURE_ROWS && op->problem->closed > 0)
+        return 1;
+    return most > room ? 1 - room / most : 0;
+}
+
 void linear_links_scale(struct linear_links *l, const struct light_operator *op)
 {
     const struct hierarchy *h = op->hierarchy;
-    int closed = linear_rows_closed(op);
 #pragma omp parallel for schedule(static) num_threads(op->problem->options.threads)
     for (uint32_t i = 0; i < h->count; i++) {
         const struct element *e = &h->elements[i];
         struct linear_row *row = &l->row[i];
+        double least, most, slopes[2];
         if (!e->vertices || e->children)
             continue;
-        double least, most, room = (1 - op->problem->whitest[e->face]) * LINEAR_ROW_EXCESS;
         for (int a = 0; a < 2; a++)
-            row->whole[a] = row->above[a] * op->row_above[i] + row->own[a] * op->row_scale[i];
-        linear_basis_range(&l->basis[i], e, row->whole, &least, &most);
-        double high = closed ? 2 * fmax(most, -least) : most;
-        room += closed ? 0 : 1 - op->row[i];
-        row->scale = op->uncovered[i] < 1 ? 0 : l->limited && high > room ? fmax(0, room) / high : 1;
-        row->most = op->row[i] + row->scale * high;
+            slopes[a] = row->above[a] * op->row_above[i] + row->own[a] * op->row_scale[i];
+        linear_basis_range(&l->basis[i], e, slopes, &least, &most);
+        double off = share_in_error(l, op, i, most);
+        for (int a = 0; a < 2; a++)
+            row->flat[a] = op->row[i] > 0 ? off * slopes[a] / op->row[i] : 0;
+        double limit = 1 + (1 - op->problem->whitest[e->face]) * LINEAR_ROW_EXCESS,
+               room = fmax(0, limit - op->row[i]);
+        row->scale = op->uncovered[i] < 1 ? 0 : l->limited && most > room ? room / most : 1;
     }
 }
 

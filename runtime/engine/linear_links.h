@@ -14,9 +14,8 @@
  * phi_2 there. */
 struct linear_row {
     double above[2], own[2]; /* b1, b2, over its ancestors' links and its own, before any scale */
-    double scale;            /* in [0, 1], for the slopes of what it receives */
-    double whole[2];         /* b1, b2 once the rows are scaled, without `scale` */
-    double most;             /* the largest irradiance that |B| <= 1 makes at a corner */
+    double flat[2];          /* slopes to be taken off what it receives, per mean */
+    double scale;            /* in [0, 1], for what is left of the slopes */
 };
 
 struct linear_links {
@@ -39,7 +38,7 @@ void linear_links_limit(struct linear_links *l);
 void linear_links_rows(struct linear_links *l, struct light_operator *op, uint32_t e,
                        const double above[3]);
 
-/* Once the rows are scaled: set row[].scale, whole and most. */
+/* Once the rows are scaled: set flat and scale of the leaves' rows. */
 void linear_links_scale(struct linear_links *l, const struct light_operator *op);
 
 /* Add to h[band][3] what element e gathers over its own links between surfaces from value
@@ -51,12 +50,6 @@ void linear_links_gather(const struct linear_links *l, const struct light_operat
 /* The part of a linear function over e, b[3], that is on its part `child`. */
 void linear_links_restrict(const struct linear_links *l, const struct hierarchy *h, uint32_t e,
                            uint32_t child, const double b[3], double on_child[3]);
-
-/* 1: rows are made 1 all over the leaf, not in the mean alone. */
-static inline int linear_rows_closed(const struct light_operator *op)
-{
-    return op->problem->options.closure == CLOSURE_ROWS && op->problem->closed > 0;
-}
 
 void linear_links_close(struct linear_links *l);
 

@@ -95,10 +95,6 @@ static void push(const struct sweep *s, uint32_t e, const struct piece *above, d
             all.b[k][a] = above->b[k][a] * op->row_above[e] + own.b[k][a] * op->row_scale[e];
         double h = all.b[k][0];
         spare[k] += at->area * (op->problem->options.closure == CLOSURE_ROWS ? h : before - h);
-        for (int a = 0; a < 2; a++) {
-            double flat = linear_rows_closed(op) ? s->links->row[e].whole[a] * h : 0;
-            all.b[k][a + 1] = s->links->row[e].scale * (all.b[k][a + 1] - flat);
-        }
     }
     save(&all, s->x->means->irradiance, s->x->irradiance, s->bands, e);
 }
@@ -159,9 +155,12 @@ static void pull(const struct sweep *s, uint32_t e, const double spare[3], struc
                  h = load(m->irradiance, s->x->irradiance, s->bands, e);
     const double *source = &m->source[(m->by_element ? (size_t)e : (size_t)at->face) * s->bands];
     const double *rho = &m->reflectance[(size_t)at->face * s->bands];
+    const struct linear_row *row = &s->links->row[e];
     for (uint32_t k = 0; k < s->bands; k++) {
         double uncovered = op->uncovered[e], shared = spare[k] * op->row_share[e], square = 0;
         h.b[k][0] += uncovered > 0 ? shared : 0;
+        for (int a = 0; a < 2; a++)
+            h.b[k][a + 1] = row->scale * (h.b[k][a + 1] - row->flat[a] * h.b[k][0]);
         const double next[3] = {source[k]
                                     + rho[k] * (uncovered > 0 ? h.b[k][0] / uncovered : shared),
                                 rho[k] * h.b[k][1], rho[k] * h.b[k][2]};
