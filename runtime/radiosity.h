@@ -374,12 +374,13 @@ struct RadReport {
     struct {
         double build, refine, iterate, in_rays, clusters;
     } seconds;
-    /* of RAD_BASIS_LINEAR; sweeps 0: there is none. limited: 1, couplings were made nonnegative,
-     * for sweeps would not converge. Shares of all area whose slopes were made less, since a row
-     * exceeds 1 (weakened), or B would fall below 0 (lowered). seconds: part of iterate */
+    /* of RAD_BASIS_LINEAR; sweeps 0: there is none. limited: links whose slopes were made less, for
+     * they brought negative light. Shares of the leaves' area: flat, since a solid covers a part;
+     * lowered, slopes made less, since B would fall below 0. seconds: part of iterate */
     struct {
-        int sweeps, limited;
-        double weakened, lowered, seconds;
+        int sweeps;
+        uint64_t limited;
+        double flat, lowered, seconds;
     } linear;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);

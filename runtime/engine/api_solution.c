@@ -364,7 +364,7 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .tolerance = {s->error.target, s->error.largest, s->error.area},
         .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,
                     s->report.seconds.in_rays, s->report.seconds.clusters},
-        .linear = {s->linear.sweeps, s->linear.limited, s->linear.weakened, s->linear.lowered,
+        .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,
                    s->linear.seconds}};
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);

@@ -49,8 +49,9 @@ int linear_links_open(struct linear_links *l, const struct light_operator *op)
     l->of = op;
     l->basis = calloc(h->count, sizeof *l->basis);
     l->moment = calloc(r->link_count + 1, sizeof *l->moment);
+    l->nonnegative = calloc(r->link_count + 1, sizeof *l->nonnegative);
     l->row = calloc(h->count, sizeof *l->row);
-    if (!l->basis || !l->moment || !l->row) {
+    if (!l->basis || !l->moment || !l->nonnegative || !l->row) {
         linear_links_close(l);
         return -1;
     }
@@ -69,26 +70,33 @@ int linear_links_open(struct linear_links *l, const struct light_operator *op)
         linear_coupling_scale(c, (double)link->form_factor);
         if (link->visibility < LINK_VISIBLE)
             linear_coupling_limit(c, to, from);
+        l->nonnegative[i] = link->visibility < LINK_VISIBLE;
         store(l->moment[i], c);
     }
     return 0;
 }
 
-void linear_links_limit(struct linear_links *l)
+size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers)
 {
     const struct hierarchy *h = l->of->hierarchy;
     const struct refinement *r = l->of->refinement;
-    l->limited = 1;
-#pragma omp parallel for schedule(dynamic, 256) num_threads(l->of->problem->options.threads)
+    size_t made = 0;
+    l->limited |= !receivers;
+#pragma omp parallel for schedule(dynamic, 256) num_threads(l->of->problem->options.threads) \
+    reduction(+ : made)
     for (size_t i = 0; i < r->link_count; i++) {
         const struct link *link = &r->links[i];
         double c[3][3];
-        if (!between_surfaces(h, link))
+        if ((receivers && !receivers[link->receiver]) || l->nonnegative[i]
+            || !between_surfaces(h, link))
             continue;
         recall(l->moment[i], (double)link->form_factor, c);
         linear_coupling_limit(c, side_of(l, h, link->receiver), side_of(l, h, link->emitter));
         store(l->moment[i], c);
+        l->nonnegative[i] = 1;
+        made++;
     }
+    return made;
 }
 
 void linear_links_gather(const struct linear_links *l, const struct light_operator *op,
@@ -192,6 +200,7 @@ void linear_links_close(struct linear_links *l)
 {
     free(l->basis);
     free(l->moment);
+    free(l->nonnegative);
     free(l->row);
     memset(l, 0, sizeof *l);
 }

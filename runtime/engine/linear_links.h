@@ -23,15 +23,17 @@ struct linear_links {
     float (*moment)[LINEAR_MOMENTS]; /* [link], in the refinement's order; 0 where a cluster is */
     struct linear_row *row;          /* [element], of leaves */
     const struct light_operator *of;
-    int limited; /* 1: all kernels have been made nonnegative */
+    unsigned char *nonnegative; /* [link]: 1: the kernel has been made so */
+    int limited;                /* 1: all have been */
 };
 
 /* Bases and moments over the links of the operator's refinement, sorted. Returns 0, or -1 when out
  * of memory. */
 int linear_links_open(struct linear_links *l, const struct light_operator *op);
 
-/* Make the kernels of all links nonnegative. */
-void linear_links_limit(struct linear_links *l);
+/* Make the kernels of links nonnegative: of those whose receiver is marked, or, with NULL, of all.
+ * Returns how many were made so. */
+size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers);
 
 /* The rows of the leaves below surface e, as sum_links of row_sums.c leaves them for constants:
  * [0] of their mean, into the operator's row_scale and row_above, slopes into l->row. */

@@ -18,7 +18,7 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
     s->gradient = calloc((size_t)h->count * bands * 3, sizeof *s->gradient);
     if (!s->gradient)
         return -1;
-    s->lowered = s->weakened = 0;
+    s->lowered = s->flat = 0;
     for (uint32_t i = 0; i < h->count; i++) {
         const struct element *e = &h->elements[i];
         int is_leaf = e->vertices && !e->children, lowered = 0;
@@ -35,21 +35,18 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
         }
         leaves += is_leaf ? e->area : 0;
         s->lowered += is_leaf && lowered ? e->area : 0;
-        s->weakened += is_leaf && l->row[i].scale < 1 ? e->area : 0;
+        s->flat += is_leaf && op->uncovered[i] < 1 ? e->area : 0;
     }
     s->lowered /= leaves;
-    s->weakened /= leaves;
+    s->flat /= leaves;
     return 0;
 }
 
-/* Rows and sweeps, from constants. Returns 0, -1, or 1 when changes grow. */
-static int solve_once(struct light_operator *op, struct linear_links *l, struct linear_transport *x,
-                      struct row_report *rows)
+/* Rows and sweeps from what there is. Returns 0, -1, or 1 when changes grow. */
+static int solve_once(struct linear_solution *s, struct light_operator *op, struct linear_links *l,
+                      struct linear_transport *x, struct row_report *rows)
 {
     const struct problem *p = op->problem;
-    size_t slopes = (size_t)op->hierarchy->count * x->means->bands * 2;
-    memset(x->value, 0, slopes * sizeof *x->value);
-    memset(x->irradiance, 0, slopes * sizeof *x->irradiance);
     separable_links_close(&op->separable);
     if (separable_links_open(&op->separable, op->hierarchy, op->refinement, (int)p->bands,
                              p->options.threads)
@@ -57,7 +54,54 @@ static int solve_once(struct light_operator *op, struct linear_links *l, struct 
         return -1;
     row_sums_scale(op, rows);
     linear_links_scale(l, op);
-    return linear_transport_solve(op, l, x);
+    int result = linear_transport_solve(op, l, x);
+    s->sweeps += x->means->sweeps;
+    return result;
+}
+
+/* Limit the links that bring light to leaves whose irradiance is below 0. Returns how many were
+ * not limited yet, or -1 when out of memory. */
+static int64_t limit_negative(struct linear_links *l, const struct light_operator *op,
+                              const struct transport *x)
+{
+    const struct element *elements = op->hierarchy->elements;
+    unsigned char *marked = calloc(op->hierarchy->count, sizeof *marked);
+    int any = 0;
+    if (!marked)
+        return -1;
+    for (uint32_t i = 0; i < op->hierarchy->count; i++)
+        for (uint32_t k = 0; elements[i].vertices && !elements[i].children && k < x->bands; k++)
+            if (x->irradiance[(size_t)i * x->bands + k] < 0) {
+                any = 1;
+                marked[i] = 1;
+                for (uint32_t up = i; elements[up].depth > 0; up = elements[up].parent)
+                    marked[elements[up].parent] = 1;
+            }
+    size_t made = any ? linear_links_limit(l, marked) : 0;
+    free(marked);
+    return (int64_t)made;
+}
+
+/* Solve, and again while light is negative or sweeps do not converge, with links limited where
+ * they must be. Returns 0 or -1. */
+static int solve_links(struct linear_solution *s, struct light_operator *op, struct linear_links *l,
+                       struct linear_transport *x, struct row_report *rows)
+{
+    size_t slopes = (size_t)op->hierarchy->count * x->means->bands * 2;
+    for (;;) {
+        int result = solve_once(s, op, l, x, rows);
+        if (result < 0)
+            return -1;
+        if (result > 0) {
+            memset(x->value, 0, slopes * sizeof *x->value);
+            s->limited += linear_links_limit(l, NULL);
+            continue;
+        }
+        int64_t made = limit_negative(l, op, x->means);
+        if (made <= 0)
+            return (int)made;
+        s->limited += (uint64_t)made;
+    }
 }
 
 int linear_solution_solve(struct linear_solution *s, struct light_operator *op, struct transport *x,
@@ -67,20 +111,13 @@ int linear_solution_solve(struct linear_solution *s, struct light_operator *op, 
     size_t slopes = (size_t)op->hierarchy->count * x->bands * 2;
     struct linear_links links;
     struct linear_transport linear = {.means = x,
-                                      .value = malloc(slopes * sizeof *linear.value),
-                                      .irradiance = malloc(slopes * sizeof *linear.irradiance)};
+                                      .value = calloc(slopes, sizeof *linear.value),
+                                      .irradiance = calloc(slopes, sizeof *linear.irradiance)};
     int result = linear.value && linear.irradiance ? linear_links_open(&links, op) : -1;
     linear_solution_free(s);
     if (result == 0) {
         op->linear = &links;
-        result = solve_once(op, &links, &linear, rows);
-        s->sweeps = x->sweeps;
-        if (result > 0) {
-            linear_links_limit(&links);
-            result = solve_once(op, &links, &linear, rows);
-            s->sweeps += x->sweeps;
-        }
-        s->limited = links.limited;
+        result = solve_links(s, op, &links, &linear, rows);
         if (result == 0) {
             transport_average(op, x);
             result = make_gradients(s, op, &links, &linear);

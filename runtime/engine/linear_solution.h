@@ -17,10 +17,12 @@ struct linear_solution {
      * the mean stays */
     double *gradient;
     int sweeps;
-    int limited; /* 1: kernels were made nonnegative, for sweeps did not converge */
-    double
-        weakened;   /* share of area whose leaves' slopes were made less, for their rows exceed 1 */
-    double lowered; /* share of area whose leaves' gradients were, for B would be below 0 */
+    /* links whose kernels were made nonnegative, for they brought negative light or sweeps did not
+     * converge */
+    uint64_t limited;
+    /* shares of the leaves' area: constant, for a solid covers a part; gradients made less, for B
+     * would be below 0 */
+    double flat, lowered;
     double seconds;
 };
 

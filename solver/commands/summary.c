@@ -72,9 +72,9 @@ static json_t *basis_json(const struct RadReport *r)
 {
     if (!r->linear.sweeps)
         return json_pack("{s:s}", "name", "constant");
-    return json_pack("{s:s, s:i, s:b, s:f, s:f, s:f}", "name", "linear", "iterations",
-                     r->linear.sweeps, "limited", r->linear.limited, "weakened_area",
-                     r->linear.weakened, "lowered_area", r->linear.lowered, "seconds",
+    return json_pack("{s:s, s:i, s:I, s:f, s:f, s:f}", "name", "linear", "iterations",
+                     r->linear.sweeps, "links_limited", (json_int_t)r->linear.limited, "flat_area",
+                     r->linear.flat, "lowered_area", r->linear.lowered, "seconds",
                      r->linear.seconds);
 }
 
@@ -174,11 +174,10 @@ void summary_print(const struct summary *s)
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
     if (r->linear.sweeps)
-        printf("basis     linear over the last links: %d sweeps of %.2f s; slopes made less on "
-               "%.2g %% "
-               "of the area%s\n",
-               r->linear.sweeps, r->linear.seconds, 100 * (r->linear.weakened + r->linear.lowered),
-               r->linear.limited ? ", and of all links, for sweeps would not converge" : "");
+        printf(
+            "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
+            "area, where a solid stands on a part\n",
+            r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",

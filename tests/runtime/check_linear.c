@@ -360,11 +360,12 @@ static double under_square(double x, double y)
     return sum;
 }
 
-/* The L2 distance from the closed form, by 3 x 3 points per leaf. */
+/* The L2 distance from the closed form, by 4 x 4 Gauss rules of 3 x 3 points per leaf. */
 static double arvo_error(int depth, int linear)
 {
     static const double node[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
     static const double weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
+    enum { RULES = 4, POINTS = 3 * RULES };
     const struct script script = {{depth, 0}};
     struct scene scene;
     struct solve s;
@@ -376,13 +377,16 @@ static double arvo_error(int depth, int linear)
     run_script(&s, &scene, &script, with_basis(linear, 1));
     for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
-        for (int j = 0; e->vertices && !e->children && e->face == 0 && j < 9; j++) {
-            double x[3] = {0, 0, 0};
-            for (int k = 0; k < 2; k++)
-                x[k] =
-                    e->vertex[0][k] + node[k ? j / 3 : j % 3] * (e->vertex[2][k] - e->vertex[0][k]);
+        for (int j = 0; e->vertices && !e->children && e->face == 0 && j < POINTS * POINTS; j++) {
+            double x[3] = {0, 0, 0}, share = 1.0 / (RULES * RULES);
+            for (int k = 0; k < 2; k++) {
+                int at = k ? j / POINTS : j % POINTS;
+                x[k] = e->vertex[0][k]
+                       + (at / 3 + node[at % 3]) / RULES * (e->vertex[2][k] - e->vertex[0][k]);
+                share *= weight[at % 3];
+            }
             double off = value_in(&s, i, x) / 0.999 - under_square(x[0], x[1]);
-            sum += e->area * weight[j / 3] * weight[j % 3] * off * off;
+            sum += e->area * share * off * off;
         }
     }
     ck_assert((s.linear.gradient != NULL) == linear);
@@ -404,7 +408,7 @@ START_TEST(test_order)
         "unit source over 10 x 10, n 8, 16, 32: constant %.5f %.5f %.5f, linear %.5f %.5f %.5f\n",
         error[0][0], error[0][1], error[0][2], error[1][0], error[1][1], error[1][2]);
     for (int i = 0; i < 3; i += 2)
-        ck_assert_double_eq_tol(error[0][i], known[i], 0.01 * known[i]);
+        ck_assert_double_eq_tol(error[0][i], known[i], 0.002 * known[i]);
     ck_assert_double_lt(error[0][1] / error[0][2], 2.1);
     ck_assert_double_gt(error[1][1] / error[1][2], 3.6);
     ck_assert_double_lt(error[1][2], 0.1 * error[0][2]);
@@ -488,7 +492,7 @@ START_TEST(test_furnace)
     how.closure = closed ? CLOSURE_ROWS : CLOSURE_NONE;
     shape[_i / 2 % 3](&scene, r);
     solve_with(&s, &scene, "bf_guarded", RELEASE_FLAT, NULL, how);
-    ck_assert_int_eq(s.linear.limited, 0);
+    ck_assert_uint_eq(s.linear.limited, 0);
     for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
         for (int j = 0; j < e->vertices; j++)
@@ -532,7 +536,7 @@ START_TEST(test_limited)
     s.operator.linear = & links;
     for (int limited = 0; limited < 2; limited++) {
         if (limited)
-            linear_links_limit(&links);
+            linear_links_limit(&links, NULL);
         memset(slope, 0, 4 * count * sizeof *slope);
         row_sums_scale(&s.operator, & s.report.rows);
         linear_links_scale(&links, &s.operator);
@@ -556,12 +560,13 @@ START_TEST(test_limited)
 }
 END_TEST
 
-/* A furnished room: the same bits for any number of threads; no corner below 0; a leaf that is
+/* A furnished room, linked so coarsely that some links bring negative light and are limited: the
+ * same bits for any number of threads; no corner below 0; a leaf that is
  * covered in part, below the box, is constant; the links are those of constants, and without the
  * option nothing is made. */
 START_TEST(test_room)
 {
-    static char *settings[] = {"relative=0.2", NULL};
+    static char *settings[] = {"relative=0.5", NULL};
     struct scene scene;
     struct solve s[3];
     furnished(&scene, 1);
@@ -597,7 +602,8 @@ START_TEST(test_room)
         fabs(s[0].report.emitted - s[0].report.absorbed) / s[0].report.emitted);
     ck_assert_double_ge(low, -1e-12);
     ck_assert_double_gt(sloped, 0.5 * (double)count);
-    ck_assert_double_lt(lost, 0.75 * lost_by_constants);
+    ck_assert_double_lt(lost, lost_by_constants);
+    ck_assert_uint_gt(s[1].linear.limited, 0);
     for (int i = 0; i < 3; i++)
         solve_close(&s[i]);
     made_close(&scene);
