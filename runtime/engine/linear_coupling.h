@@ -11,16 +11,15 @@
  * constants are what they are without slopes.
  *
  * k >= 0, so light is never negative; its projection K(x, y) = sum C_ab phi_a(x) phi_b(y) may be,
- * where elements touch. It is made >= 0 with the same F: first the two marginals, F + sum C_a0
- * phi_a(x) and F + sum C_0b phi_b(y), by a factor each where they need it; then what K has beside
- * the marginals' product by the largest factor that will do. What a nonnegative function sends is
- * nonnegative then, and transport over such links is bounded as that of constants is
- * (linear_transport.c). The limits treat both sides alike: A_r C_ab(r, s) = A_s C_ba(s, r) stays.
+ * where elements touch or differ much in size. To limit a coupling is to make K >= 0 with the same
+ * F: first the two marginals, F + sum C_a0 phi_a(x) and F + sum C_0b phi_b(y), by a factor each
+ * where they need it; then what K has beside the marginals' product by the largest factor that will
+ * do. What a nonnegative function sends is nonnegative then. It costs accuracy (all links limited:
+ * a tenth more error in coarse solutions of rooms), so links in half shadow are limited, whose
+ * couplings are guesses anyway, and those that have brought negative light (linear_solution.c).
+ * The limits treat both sides alike: A_r C_ab(r, s) = A_s C_ba(s, r) stays.
  * [Zatz 1993 for higher orders; Gortler et al. 1993 for hierarchies of them; the limits: derived
  * here]
- *
- * Measured against products of thousands of points (tests/runtime/check_linear.c): see
- * LINEAR_NEAR.
  * SPDX-License-Identifier: MIT */
 #ifndef LINEAR_COUPLING_H
 #define LINEAR_COUPLING_H

@@ -1,12 +1,14 @@
 /* linear_links.c - see linear_links.h.
  *
- * Scales of slopes. A row that is capped or closed is scaled as for constants, slopes and mean by
- * the same factor; the power that this moves within a face is that of the means, and no slope
- * changes a mean. Then at a corner of a leaf the row may still exceed 1 by the noise of
- * visibilities: the leaf's slopes are made so much less that it is at most 1 + (1 - rho)
- * LINEAR_ROW_EXCESS, below 1 / rho. In a closed scene under closure a row is 1 everywhere: what
- * slope it has is error, and H_a less that slope times H_0 is received; a constant radiosity is
- * reproduced exactly then.
+ * Rows. The row of a leaf is linear, too: what a radiosity of 1 everywhere brings. Its mean is
+ * capped or closed as that of constants is, slopes and mean of what is received by the same
+ * factors; so power is kept within each face, for no slope changes a mean. Links of many sizes
+ * leave rows that exceed 1 at corners. No point sees more than everything: of the row's slopes r_a
+ * so large a share c is error as makes it 1 there, and c r_a H_0 / row is taken off H_a. In a
+ * closed scene rows are nearly 1, c is nearly 1 and a constant radiosity stays what it is; in an
+ * open one, where rows are below 1, slopes stay. Under closure of a closed scene c = 1.
+ *
+ * Where a solid covers a part of a leaf the leaf is constant.
  * SPDX-License-Identifier: MIT */
 #include "engine/linear_links.h"
 

@@ -3,6 +3,9 @@
  *
  * Links that have a cluster at one end stay constant: each face of the receiver takes what it takes
  * without slopes, and of the emitter the means are sent (separable_links.h).
+ *
+ * Visibility is one number per link: a shadow that falls across a leaf shows no slope, and the
+ * slopes that a link in half shadow has are those of its light, evenly thinned.
  * SPDX-License-Identifier: MIT */
 #ifndef LINEAR_LINKS_H
 #define LINEAR_LINKS_H

@@ -1,4 +1,10 @@
 /* linear_solution.c - see linear_solution.h.
+ *
+ * Light below 0. The couplings of a mean over a large emitter may be negative in a corner of it,
+ * and bring less than nothing to a small receiver where all light of the emitter is in that corner.
+ * Then the links of that leaf and of what it is part of are limited, and the solve goes on from
+ * where it is, until no irradiance of a leaf is negative. What is left may be so at corners: there
+ * the gradient is made less, and the mean stays.
  * SPDX-License-Identifier: MIT */
 #include "engine/linear_solution.h"
 

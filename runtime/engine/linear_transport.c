@@ -8,10 +8,10 @@
  * When to stop. Exact couplings are a projection of K, whose norm in L2 is at most rho; with it, of
  * changes d, what is left is at most rho / (1 - rho) |d|, and that, in L2 over the mean of x, is
  * what the tolerance is held against: an estimate, since visibilities and form factors are not
- * exact. Should changes grow, one starts again with kernels made nonnegative (linear_coupling.h).
- * Then with rows of at most 1 + (1 - rho) LINEAR_ROW_EXCESS at every corner, K is at most rho (1 +
- * ...) < 1 in the maximum norm, and sweeps converge whatever the oracle has done: as in
- * transport.c, for a nonnegative operator on functions that have their extremes at corners.
+ * exact. Should changes grow, one starts again with all couplings limited (linear_coupling.h). Then
+ * K is nonnegative, its rows at most 1 + (1 - rho) LINEAR_ROW_EXCESS at every corner, so that its
+ * norm is below 1 in the maximum norm, on functions that have their extremes at corners: sweeps
+ * converge whatever the oracle has done.
  * SPDX-License-Identifier: MIT */
 #include "engine/linear_transport.h"
 

@@ -87,36 +87,37 @@ END_TEST
 /* A linear function is the same on the parts, and projected from them it is itself. */
 START_TEST(test_two_scale)
 {
-    struct element e;
-    struct linear_basis basis;
-    make_shape(&e, _i);
-    linear_basis_of(&basis, &e);
-    for (int a = 0; a < 2; a++) {
-        double back[3] = {0, 0, 0};
-        for (int i = 0; i < 4; i++) {
-            struct element part;
-            struct linear_basis of_part;
-            struct two_scale t;
-            surface_quarter(&e, i, &part);
-            linear_basis_of(&of_part, &part);
-            linear_two_scale(&t, &basis, &e, &of_part, &part);
-            for (int j = 0; j < part.vertices; j++) {
-                double phi[2], small[2];
-                linear_basis_at(&basis, e.centre, part.vertex[j], phi);
-                linear_basis_at(&of_part, part.centre, part.vertex[j], small);
-                ck_assert_double_eq_tol(
-                    t.mean[a] + t.from[a][0] * small[0] + t.from[a][1] * small[1], phi[a], 1e-12);
-            }
-            back[0] += part.area / e.area * t.mean[a];
-            for (int b = 0; b < 2; b++)
-                back[b + 1] += part.area / e.area
-                               * (t.mean[a] * t.mean[b] + t.from[a][0] * t.from[b][0]
-                                  + t.from[a][1] * t.from[b][1]);
+    static const double b[3] = {0.25, 1, -0.75};
+    struct element e[5];
+    struct linear_basis basis[5];
+    struct hierarchy h = {.elements = e};
+    struct linear_links links = {.basis = basis};
+    double back[3] = {0, 0, 0};
+    make_shape(&e[0], _i);
+    linear_basis_of(&basis[0], &e[0]);
+    for (uint32_t i = 1; i < 5; i++) {
+        struct two_scale t;
+        double on_part[3], share;
+        surface_quarter(&e[0], (int)i - 1, &e[i]);
+        linear_basis_of(&basis[i], &e[i]);
+        linear_links_restrict(&links, &h, 0, i, b, on_part);
+        for (int j = 0; j < e[i].vertices; j++) {
+            double phi[2], small[2];
+            linear_basis_at(&basis[0], e[0].centre, e[i].vertex[j], phi);
+            linear_basis_at(&basis[i], e[i].centre, e[i].vertex[j], small);
+            ck_assert_double_eq_tol(on_part[0] + on_part[1] * small[0] + on_part[2] * small[1],
+                                    b[0] + b[1] * phi[0] + b[2] * phi[1], 1e-12);
         }
-        ck_assert_double_eq_tol(back[0], 0, 1e-12);
-        ck_assert_double_eq_tol(back[1], a == 0, 1e-12);
-        ck_assert_double_eq_tol(back[2], a == 1, 1e-12);
+        linear_two_scale(&t, &basis[0], &e[0], &basis[i], &e[i]);
+        share = e[i].area / e[0].area;
+        back[0] += share * on_part[0];
+        for (int a = 0; a < 2; a++)
+            back[a + 1] +=
+                share
+                * (on_part[0] * t.mean[a] + on_part[1] * t.from[a][0] + on_part[2] * t.from[a][1]);
     }
+    for (int a = 0; a < 3; a++)
+        ck_assert_double_eq_tol(back[a], b[a], 1e-12);
 }
 END_TEST
 
@@ -141,6 +142,10 @@ static const struct pair_case cases[] = {
     {"perpendicular, one edge", 1, {4, 4}, {SQUARE, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}}},
     {"straddling", 1, {4, 4}, {SQUARE, {{0, 0, -1}, {0, 1, -1}, {0, 1, 1}, {0, 0, 1}}}},
     {"one corner", 1, {4, 4}, {SQUARE, {{0, 1, 0}, {0, 2, 0}, {0, 2, 1}, {0, 1, 1}}}},
+    {"five corners in front",
+     1,
+     {4, 4},
+     {SQUARE, {{0, 0.2, -0.3}, {0, 1, 0.2}, {0, 0.8, 0.9}, {0, -0.4, 0.6}}}},
     {"triangles, one edge",
      1,
      {3, 3},
@@ -280,6 +285,7 @@ END_TEST
 /* Leaves of one depth for each face, all linked. */
 struct script {
     int depth[2]; /* of face 0, of the others */
+    int above;    /* emitters are linked so many levels above their leaves */
 };
 
 static enum decision follow(const void *state, struct discussion *d)
@@ -293,7 +299,7 @@ static enum decision follow(const void *state, struct discussion *d)
     if (r->face == e->face)
         return DECISION_STOP;
     int split_r = r->depth < script->depth[r->face > 0],
-        split_e = e->depth < script->depth[e->face > 0];
+        split_e = e->depth < script->depth[e->face > 0] - script->above;
     if (split_r || split_e)
         return split_r && split_e ? DECISION_SUBDIVIDE_BOTH
                : split_r          ? DECISION_SUBDIVIDE_RECEIVER
@@ -331,14 +337,14 @@ static double value_in(const struct solve *s, uint32_t e, const double x[3])
            + (s->linear.gradient ? dot3(&s->linear.gradient[3 * (size_t)e], away) : 0);
 }
 
-/* The mean of B over the leaves of a face that have x as a corner or in them. */
-static double value_at(const struct solve *s, uint32_t face, const double x[3])
+/* The mean of B over the leaves that x is on. */
+static double value_at(const struct solve *s, const double x[3])
 {
     double sum = 0;
     int count = 0;
     for (uint32_t i = 0; i < s->hierarchy.count; i++) {
         const struct element *e = &s->hierarchy.elements[i];
-        if (!e->vertices || e->children || e->face != face
+        if (!e->vertices || e->children
             || polygon_distance(x, (const double(*)[3])e->vertex, e->vertices, e->normal) > 1e-9)
             continue;
         sum += value_in(s, i, x);
@@ -366,7 +372,7 @@ static double arvo_error(int depth, int linear)
     static const double node[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
     static const double weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
     enum { RULES = 4, POINTS = 3 * RULES };
-    const struct script script = {{depth, 0}};
+    const struct script script = {{depth, 0}, 0};
     struct scene scene;
     struct solve s;
     double sum = 0;
@@ -415,33 +421,97 @@ START_TEST(test_order)
 }
 END_TEST
 
-/* Two parallel unit squares: the continuous solution at the centre, the middle of an edge and a
- * corner, and its mean. */
+/* Two parallel unit squares, or four triangles: the continuous solution at the centre, the middle
+ * of an edge and a corner, and its mean. */
 START_TEST(test_plates)
 {
     static const double at[3][3] = {{0.5, 0.5, 0}, {0.5, 0, 0}, {0, 0, 0}};
     static const double known[4] = {1.133303564992, 1.100306232464, 1.076981393145, 1.111165244298};
-    static const struct script script = {{2, 2}};
+    static const double square[2][4][3] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                           {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}};
+    static const struct script script = {{2, 2}, 0};
     double off[2] = {0, 0}, mean[2];
     for (int linear = 0; linear < 2; linear++) {
         struct scene scene;
         struct solve s;
         made_open(&scene);
         made_material(&scene, 0.5, 1);
-        made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-        made_quad(&scene, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+        for (int i = 0; i < 2 && _i == 0; i++)
+            made_face(&scene, 0, 4, square[i]);
+        for (int i = 0; i < 4 && _i == 1; i++) {
+            const double(*v)[3] = square[i / 2];
+            const double half[3][3] = {{v[0][0], v[0][1], v[0][2]},
+                                       {v[1 + i % 2][0], v[1 + i % 2][1], v[1 + i % 2][2]},
+                                       {v[2 + i % 2][0], v[2 + i % 2][1], v[2 + i % 2][2]}};
+            made_face(&scene, 0, 3, half);
+        }
         run_script(&s, &scene, &script, with_basis(linear, 1));
         for (int i = 0; i < 3; i++)
-            off[linear] = fmax(off[linear], fabs(value_at(&s, 0, at[i]) - known[i]));
+            off[linear] = fmax(off[linear], fabs(value_at(&s, at[i]) - known[i]));
         mean[linear] = fabs(face_radiosity(&s, 0) - known[3]);
         solve_close(&s);
         made_close(&scene);
     }
-    printf("plates, 16 elements: points off by %.5f constant, %.5f linear; mean by %.6f, %.6f\n",
-           off[0], off[1], mean[0], mean[1]);
+    printf("plates, %s: points off by %.5f constant, %.5f linear; mean by %.6f, %.6f\n",
+           _i ? "32 triangles" : "16 squares", off[0], off[1], mean[0], mean[1]);
     ck_assert_double_lt(off[1], 0.2 * off[0]);
     ck_assert_double_lt(mean[1], 0.2 * mean[0]);
     ck_assert_double_lt(mean[1], 2e-5);
+}
+END_TEST
+
+/* The mean over e of value times phi_a of element `in`, value linear over the triangles of e: their
+ * edges' middles are a rule exact to degree 2. */
+static double mean_with(const struct solve *s, uint32_t e, uint32_t in, int a)
+{
+    const struct element *at = &s->hierarchy.elements[e], *whole = &s->hierarchy.elements[in];
+    struct linear_basis basis;
+    double sum = 0;
+    linear_basis_of(&basis, whole);
+    for (int t = 2; t < at->vertices; t++) {
+        const double *v[3] = {at->vertex[0], at->vertex[t - 1], at->vertex[t]};
+        double x[3], u[3], w[3], c[3], phi[2];
+        sub3(u, v[1], v[0]);
+        sub3(w, v[2], v[0]);
+        cross3(c, u, w);
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 3; k++)
+                x[k] = 0.5 * (v[i][k] + v[(i + 1) % 3][k]);
+            linear_basis_at(&basis, whole->centre, x, phi);
+            sum += 0.5 * length3(c) / 3 * value_in(s, e, x) * phi[a];
+        }
+    }
+    return sum / at->area;
+}
+
+/* Two plates of leaves two deep, quads and triangles, linked from emitters two levels above: what
+ * an element sends is the projection of its leaves' light. */
+START_TEST(test_projection)
+{
+    static const struct script script = {{2, 2}, 2};
+    struct scene scene;
+    struct solve s;
+    int checked = 0;
+    made_open(&scene);
+    made_material(&scene, 0.5, 1);
+    const double low[4][3] = {{0, 0, 0}, {1, 0, 0}, {0.7, 0.8, 0}, {0.1, 1, 0}},
+                 high[3][3] = {{0, 0, 0.4}, {0, 1, 0.4}, {1, 0, 0.4}};
+    made_face(&scene, 0, 4, low);
+    made_face(&scene, 0, 3, high);
+    run_script(&s, &scene, &script, with_basis(1, 1));
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
+        const struct element *e = &s.hierarchy.elements[i];
+        for (int a = 0; e->vertices && e->children && a < 2; a++) {
+            double parts = 0;
+            for (uint32_t c = e->child; c < e->child + e->children; c++)
+                parts += s.hierarchy.elements[c].area / e->area * mean_with(&s, c, i, a);
+            ck_assert_double_eq_tol(mean_with(&s, i, i, a), parts, 1e-9);
+            checked += fabs(parts) > 1e-4;
+        }
+    }
+    ck_assert_int_gt(checked, 10);
+    solve_close(&s);
+    made_close(&scene);
 }
 END_TEST
 
@@ -454,7 +524,7 @@ START_TEST(test_cube)
     double error[2][2] = {{0, 0}, {0, 0}};
     for (int linear = 0; linear < 2; linear++)
         for (int depth = 1; depth < 3; depth++) {
-            const struct script script = {{depth, depth}};
+            const struct script script = {{depth, depth}, 0};
             struct scene scene;
             struct solve s;
             made_open(&scene);
@@ -512,7 +582,7 @@ END_TEST
  * links converge, and no light is negative. */
 START_TEST(test_limited)
 {
-    static const struct script script = {{1, 1}};
+    static const struct script script = {{1, 1}, 0};
     struct scene scene;
     struct solve s;
     struct linear_links links;
@@ -620,8 +690,9 @@ int main(void)
     tcase_add_loop_test(couplings, test_coupling, 0, CASES);
     tcase_add_loop_test(couplings, test_limit, 0, CASES);
     tcase_add_test(solutions, test_order);
-    tcase_add_test(solutions, test_plates);
+    tcase_add_loop_test(solutions, test_plates, 0, 2);
     tcase_add_test(solutions, test_cube);
+    tcase_add_test(solutions, test_projection);
     tcase_add_loop_test(solutions, test_furnace, 0, thorough() ? 12 : 6);
     tcase_add_test(solutions, test_limited);
     tcase_add_test(solutions, test_room);
