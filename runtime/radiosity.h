@@ -284,6 +284,11 @@ struct RadCamera {
     double wide, high;                /* tangents of half the angles of view */
 };
 
+enum RadBasis {
+    RAD_BASIS_CONSTANT, /* one value per element */
+    RAD_BASIS_LINEAR    /* refined as for constants; over the final links, linear in each surface */
+};
+
 struct RadSolveOptions {
     /* Relative L1 error of B that iteration may leave; 0: a tenth of what constants on the leaves
      * leave of it, estimated, within 1e-4 and 1e-3 (RadReport.solved says what it came to).
@@ -298,6 +303,7 @@ struct RadSolveOptions {
     /* whose picture counts, for oracles that read importance; NULL: all places alike */
     const struct RadCamera *camera;
     int unit; /* 1: every face has B = 1 and stays so: links and rows alone */
+    enum RadBasis basis;
 };
 /* NULL-terminated; constant. */
 RAD_API const char *const *radGetClusteringNames(void);
@@ -345,6 +351,11 @@ struct RadElements {
     uint32_t bands;
     const double *radiosity, *irradiance; /* [element * bands + band]; clusters hold means */
     const double *uncovered; /* [count]: share of the element that no solid stands on */
+    /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL: [(element * bands +
+     * band) * 3]. B at point x of a surface is radiosity + gradient . (x - centre), W/m2, and not
+     * below 0 where its mean is not; radiosity stays the mean over the element. 0 of clusters and
+     * where a solid covers a part. */
+    const double *gradient;
 };
 struct RadLinks {
     const struct RadLink *links; /* [count], by receiver */
@@ -403,6 +414,14 @@ struct RadReport {
     struct {
         double build, refine, iterate, in_rays, clusters;
     } seconds;
+    /* of RAD_BASIS_LINEAR; sweeps 0: there is none. limited: links whose slopes were made less, for
+     * they brought negative light. Shares of the leaves' area: flat, since a solid covers a part;
+     * lowered, slopes made less, since B would fall below 0. seconds: part of iterate */
+    struct {
+        int sweeps;
+        uint64_t limited;
+        double flat, lowered, seconds;
+    } linear;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
 

@@ -80,6 +80,12 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadSolveOptions.solver is %d; it takes one of enum RadSolver",
                         (int)o->solver);
+    if (o->basis == RAD_BASIS_LINEAR
+        && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
+            || o->solver == RAD_SOLVER_LU))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RAD_BASIS_LINEAR goes with RAD_PROJECTION_GALERKIN and with Gauss-Seidel "
+                        "or Jacobi sweeps");
     if (o->projection != RAD_PROJECTION_GALERKIN && o->projection != RAD_PROJECTION_COLLOCATION)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadSolveOptions.projection takes RAD_PROJECTION_GALERKIN or "
@@ -87,6 +93,9 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
     if (o->closure != RAD_CLOSURE_NONE && o->closure != RAD_CLOSURE_ROWS)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadSolveOptions.closure takes RAD_CLOSURE_NONE or RAD_CLOSURE_ROWS");
+    if (o->basis != RAD_BASIS_CONSTANT && o->basis != RAD_BASIS_LINEAR)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.basis takes RAD_BASIS_CONSTANT or RAD_BASIS_LINEAR");
     if (o->clustering && clustering_of(o->clustering) < 0)
         return api_fail(
             device, RAD_ERROR_INVALID_ARGUMENT,
@@ -119,6 +128,7 @@ static struct solve_options engine_options(RadSolution solution, const struct Ra
         .threads = solution->scene->device->threads,
         .closure = o->closure == RAD_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE,
         .clusters = o->clustering ? 1 + clustering_of(o->clustering) : 0,
+        .linear = o->basis == RAD_BASIS_LINEAR,
         .unit = o->unit != 0,
         .progress = watch,
         .context = solution};
@@ -334,10 +344,11 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
     if (!solution || solution->dead)
         return;
     const struct solve *s = &solution->solve;
-    *elements =
-        (struct RadElements){s->hierarchy.elements, s->started, s->hierarchy.built,
-                             s->hierarchy.face_element, s->problem.bands, solve_shown(s)->radiosity,
-                             solve_shown(s)->irradiance, s->operator.uncovered };
+    *elements = (struct RadElements){s->hierarchy.elements,      s->started,
+                                     s->hierarchy.built,         s->hierarchy.face_element,
+                                     s->problem.bands,           solve_shown(s)->radiosity,
+                                     solve_shown(s)->irradiance, s->operator.uncovered,
+                                     s->linear.gradient};
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)
@@ -400,7 +411,9 @@ void radGetReport(RadSolution solution, struct RadReport *report)
                        s->importance.seen},
         .tolerance = {s->error.target, s->error.largest, s->error.area},
         .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,
-                    s->report.seconds.in_rays, s->report.seconds.clusters}};
+                    s->report.seconds.in_rays, s->report.seconds.clusters},
+        .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,
+                   s->linear.seconds}};
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

@@ -11,6 +11,8 @@
 #include "engine/refine.h"
 #include "engine/separable_links.h"
 
+struct linear_links;
+
 struct light_operator {
     const struct problem *problem;
     const struct hierarchy *hierarchy;
@@ -19,6 +21,8 @@ struct light_operator {
      * the mean over the receiver */
     float *collocated;
     struct separable_links separable;
+    /* while a linear solution is made (linear_solution.h): rows are of its links; else NULL */
+    struct linear_links *linear;
     double *uncovered; /* [element]: share of the area that no solid stands on */
     double *row_scale; /* [element]: of leaves only, the factor for what comes over its own links */
     /* [element]: of leaves only, the factor for what comes over those of the elements above it */

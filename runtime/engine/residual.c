@@ -53,7 +53,6 @@ static void add_link(struct residual_points *p, const struct light_operator *op,
                      const double *radiosity, size_t link, const struct element *leaf)
 {
     const struct link *l = &op->refinement->links[link];
-    const struct link *l = &op->refinement->links[link];
     uint32_t bands = op->problem->bands;
     double visible = l->visibility * (1.0 / LINK_VISIBLE),
            (*sum)[3] = p->sum[l->mark == LINK_GUARDED];

@@ -23,6 +23,7 @@
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include "engine/linear_links.h"
 #include "engine/row_sums.h"
 #include "kernel/constants.h"
 
@@ -122,10 +123,14 @@ void row_sums_scale(struct light_operator *op, struct row_report *report)
 {
     const struct problem *p = op->problem;
     const struct hierarchy *h = op->hierarchy;
+    static const double nothing[3] = {0, 0, 0};
     double uncovered = 0;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(p->options.threads)
     for (uint32_t i = 0; i < h->face_count; i++)
-        sum_links(op, h->face_element[i], 0);
+        if (op->linear)
+            linear_links_rows(op->linear, op, h->face_element[i], nothing);
+        else
+            sum_links(op, h->face_element[i], 0);
     *report = (struct row_report){.low = INFINITY};
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];

@@ -347,6 +347,21 @@ static int64_t refine_for_error(struct solve *s)
     }
 }
 
+/* Solve once more over the final links for functions linear over the elements. Returns 0 or -1. */
+static int solve_linear(struct solve *s, const char **cause)
+{
+    struct transport x = light(s, s->problem.options.tolerance);
+    x.watch = watch_light;
+    x.watch_context = s;
+    if (linear_solution_solve(&s->linear, &s->operator, & x, &s->report.rows) < 0)
+        return fail(s, "out of memory for linear elements; a coarser oracle parameter needs less",
+                    cause);
+    s->report.converged &= x.converged;
+    s->report.seconds.iterate += s->linear.seconds;
+    sum_power(&s->report, &s->operator, s->state.irradiance);
+    return 0;
+}
+
 int solve_step(struct solve *s, const char **cause)
 {
     const struct problem *p = &s->problem;
@@ -371,7 +386,8 @@ int solve_step(struct solve *s, const char **cause)
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
     solve_sum_power(s);
-    return changed > 0 || rough;
+    int more = changed > 0 || rough;
+    return !more && p->options.linear && solve_linear(s, cause) < 0 ? -1 : more;
 }
 
 int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)
@@ -401,6 +417,8 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
         return -1;
     while (more > 0 && s->report.passes < (s->error.target > 0 ? PASSES_OF_ERROR_CONTROL : PASSES))
         more = solve_step(s, cause);
+    if (more > 0 && s->problem.options.linear)
+        more = solve_linear(s, cause);
     return more < 0 ? -1 : 0;
 }
 
@@ -420,6 +438,7 @@ void solve_close(struct solve *s)
     hierarchy_free(&s->hierarchy);
     importance_free(&s->importance);
     error_control_free(&s->error);
+    linear_solution_free(&s->linear);
     double *const lists[] = {s->state.radiosity,    s->state.irradiance,    s->inputs.least,
                              s->inputs.most,        s->operator.uncovered,  s->operator.row_scale,
                              s->operator.row_above, s->operator.row_share,  s->operator.row,

@@ -5,6 +5,7 @@
 
 #include "engine/error_control.h"
 #include "engine/importance.h"
+#include "engine/linear_solution.h"
 #include "engine/operator.h"
 #include "engine/oracle_inputs.h"
 #include "engine/problem.h"
@@ -50,6 +51,7 @@ struct solve {
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;
+    struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;

@@ -294,6 +294,28 @@
 #define FORM_FACTOR_POLYGON_TYPICAL 1e-5
 #define FORM_FACTOR_POLYGON_MOST 4e-4
 #define FORM_FACTOR_CONTOUR_MOST 1e-9
+/* ---- linear elements (engine) */
+
+/* of the radius. An element has no slope across where its root-mean-square width is less: rounding
+ * of its corners would decide it. chosen */
+#define LINEAR_THIN 1e-6
+/* sums of radii. Cells farther apart than FAR have 2 x 2 points each, than NEAR 3 x 3, nearer ones
+ * are quartered. So couplings of elements apart are within 2e-3 of F, slope to slope within 4e-3:
+ * tests/runtime/check_linear.c, where FAR below NEAR, 2 x 2 points throughout, fails */
+#define LINEAR_NEAR 1.0
+#define LINEAR_FAR 1.5
+/* of the smaller element's radius: cells of that size that are still near are not quartered. Where
+ * elements touch, couplings of a mean are then within 3e-2 of F and slope to slope within .15; at
+ * half the size 4e-3 and .02 for five times the work, and solutions of a cube and of rooms are no
+ * better (tests/runtime/check_linear.c) */
+#define LINEAR_CELL 0.51
+/* of 1 - rho: how far the row of a nonnegative kernel may exceed 1 at a corner of a leaf; more, and
+ * the slopes of that leaf are made less. Above ROW_EXCESS, by which means may, and at most 1, so
+ * that rho times the row is below 1; derived in linear_transport.c */
+#define LINEAR_ROW_EXCESS 0.75
+/* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
+ * change of a convergent one may rise in norms that are not its own, by a few times */
+#define LINEAR_GROWS 10.0
 
 /* ---- exchange areas (engine) */
 

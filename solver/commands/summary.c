@@ -80,6 +80,16 @@ static json_t *solver_json(const struct options *o, const struct RadReport *r)
                      r->solved.variation);
 }
 
+static json_t *basis_json(const struct RadReport *r)
+{
+    if (!r->linear.sweeps)
+        return json_pack("{s:s}", "name", "constant");
+    return json_pack("{s:s, s:i, s:I, s:f, s:f, s:f}", "name", "linear", "iterations",
+                     r->linear.sweeps, "links_limited", (json_int_t)r->linear.limited, "flat_area",
+                     r->linear.flat, "lowered_area", r->linear.lowered, "seconds",
+                     r->linear.seconds);
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -88,7 +98,7 @@ json_t *summary_json(const struct summary *s)
     radGetOracleReport(s->oracle, &oracle);
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
-        "s:i, s:i, s:b, s:I, s:f, s:o, s:f, s:f, s:f,"
+        "s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f,"
         " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, "
         "s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
@@ -99,10 +109,10 @@ json_t *summary_json(const struct summary *s)
         (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
         "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
         "converged", r->converged, "links_changing", (json_int_t)r->changing, "residual",
-        r->residual, "solver", solver_json(s->options, r), "power_emitted", r->emitted,
-        "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums", "smallest",
-        r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved, "defect_mean",
-        r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
+        r->residual, "solver", solver_json(s->options, r), "basis", basis_json(r), "power_emitted",
+        r->emitted, "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums",
+        "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
+        "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
         closure_json(s->options, r), "importance", importance_json(r), "error_control",
         error_control_json(r), "error", measured_json(s->measured), "correction",
         mended_json(s->measured), "accuracy",
@@ -193,6 +203,11 @@ void summary_print(const struct summary *s)
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
     print_solver(s->options, r);
+    if (r->linear.sweeps)
+        printf(
+            "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
+            "area, where a solid stands on a part\n",
+            r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",

@@ -155,6 +155,13 @@ static int read_projection(struct options *o, const struct option_row *row, cons
     return n < 0 ? -1 : 0;
 }
 
+static int read_basis(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->basis = (enum RadBasis)n;
+    return n < 0 ? -1 : 0;
+}
+
 static int read_format(struct options *o, const struct option_row *row, const char *value)
 {
     int n = word_number(row, value);
@@ -339,6 +346,7 @@ static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
 const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", NULL};
 const char *const projection_words[] = {"galerkin", "collocation", NULL};
+static const char *const bases[] = {"constant", "linear", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
@@ -403,6 +411,8 @@ const struct option_row option_rows[] = {
     {"exitance-error", "X", SOLVE, NULL, "each E may be off by X of itself, as 5%",
      "a number from 0, below 1, or percent", .read = read_share, IN(account.exitance_error),
      .rare = 1},
+    {"basis", "constant|linear", SOLVE, NULL,
+     "B over an element; linear: the last solve (constant)", WORD(read_basis, bases), .rare = 1},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"accuracy", "SHARE", REFERENCE, "0.2%", "the standard error to reach",

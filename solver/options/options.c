@@ -318,6 +318,11 @@ static int check_together(struct options *o)
                      o->no_errors ? "--no-errors" : "--no-correct");
     if (o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if (o->basis == RAD_BASIS_LINEAR
+        && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
+            || o->solver == RAD_SOLVER_LU))
+        return wrong(c->name, "--basis linear goes with --projection galerkin, and with --solver "
+                              "gauss-seidel or jacobi");
     if (o->correct && o->no_correct)
         return wrong(c->name, "--correct and --no-correct contradict each other");
     if (o->mesh && !o->image && !o->image_error)

@@ -51,6 +51,7 @@ struct options {
     size_t setting_capacity;
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
+    enum RadBasis basis;
     double tolerance;
     enum RadSolver solver;
     enum RadProjection projection;
@@ -96,6 +97,7 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
                                     .solver = o->solver,
                                     .projection = o->projection,
                                     .closure = o->closure,
+                                    .basis = o->basis,
                                     .clustering = o->clusters};
 }
 

@@ -73,6 +73,7 @@ for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
+says 2 "--basis takes constant or linear, not quadratic" solve "$scene" --basis quadratic
 says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --closure x
 says 2 "--clusters takes sah, embree, octree, kd or halves, not x" solve "$scene" --clusters x
 says 2 "--only takes sah, embree" study clustering "$scene" --only x
