@@ -39,13 +39,14 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
 /* Write all that was asked for. Returns the exit status. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct surfaces *surfaces, const struct solved *solved,
-                         const struct measured *measured, RadOracle oracle)
+                         const struct measured *measured, const struct power_promise *promise,
+                         RadOracle oracle)
 {
     double start = seconds();
     int status = write_solution(o, surfaces, solved->solution, measured->measured) < 0;
     if (o->statistics && statistics_write(o->statistics, oracle) < 0)
         status = 1;
-    const struct summary summary = {o, scene, solved, oracle, measured, seconds() - start};
+    const struct summary summary = {o, scene, solved, oracle, measured, promise, seconds() - start};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
@@ -77,8 +78,11 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     struct solved s;
     struct measured measured;
+    struct power_promise promise;
     int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
-    if (status == 0 && measured_take(&measured, o, scene->device, s.solution) < 0) {
+    if (status == 0
+        && (measured_take(&measured, o, scene->device, s.solution) < 0
+            || power_promise_hold(&promise, &measured, o, scene->device, s.solution) < 0)) {
         solved_close(&s);
         status = -1;
     }
@@ -94,7 +98,9 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     }
     if (!o->quiet)
         measured_warn(&measured, o->scene);
-    status = write_outputs(o, scene, &surfaces, &s, &measured, oracle);
+    if (!o->quiet)
+        power_promise_warn(&promise, o->scene);
+    status = write_outputs(o, scene, &surfaces, &s, &measured, &promise, oracle);
     solved_close(&s);
     return status;
 }

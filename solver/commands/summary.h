@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 #include "commands/error_summary.h"
+#include "commands/power_promise.h"
 #include "options/options.h"
 #include "scene/open_scene.h"
 #include "util/solved.h"
@@ -17,6 +18,7 @@ struct summary {
     const struct solved *solved;
     RadOracle oracle;
     const struct measured *measured;
+    const struct power_promise *promise;
     double output_seconds;
 };
 
