@@ -344,6 +344,7 @@ int solve_with_factors(struct solve *s, const float *form_factors, const char **
 {
     struct refinement *r = &s->refinement;
     const double start = seconds();
+    solve_forget_mended(s);
     for (size_t i = 0; i < r->link_count; i++) {
         struct link *l = &r->links[i];
         if (s->hierarchy.elements[l->receiver].vertices

@@ -28,6 +28,8 @@ static void look(struct power_promise *p, const struct measured *m)
     p->value = m->error.l1_faces.value * reflected;
     p->low = m->error.l1_faces.low * reflected;
     p->high = m->error.l1_faces.high * reflected;
+    if (m->mended) /* by luck no measurement makes it less than what mending left to chance */
+        p->high = fmax(p->high, m->alone.noise.high * reflected);
 }
 
 int power_promise_hold(struct power_promise *p, struct measured *m, const struct options *o,
@@ -72,15 +74,16 @@ void power_promise_warn(const struct power_promise *p, const char *where)
         return;
     const char *together = p->bands > 1 ? ", all bands together" : "";
     if (is_broken(p))
-        report_warning(where, 0,
-                       "the oracle promised powers of faces right to %.3g W in all, but they are "
-                       "off by %.3g to %.3g W%s; ask for less, or let particles mend it, without "
-                       "--no-correct",
-                       p->tolerance, p->low, p->high, together);
+        report_warning(
+            where, 0,
+            "the oracle promised powers of faces right to %.3g W in all, but they are "
+            "off by %.3g to %.3g W%s; allow more watts, or let particles mend it, without "
+            "--no-correct",
+            p->tolerance, p->low, p->high, together);
     else
         report_warning(where, 0,
                        "the oracle promised powers of faces right to %.3g W in all, which cannot "
-                       "be shown: they may be off by %.3g W%s; ask for less",
+                       "be shown: they may be off by %.3g W%s; allow so much",
                        p->tolerance, p->high, together);
 }
 

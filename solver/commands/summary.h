@@ -4,6 +4,7 @@
 #define SUMMARY_H
 
 #include <jansson.h>
+#include "commands/accuracy.h"
 #include "commands/error_summary.h"
 #include "commands/power_promise.h"
 #include "options/options.h"
@@ -19,6 +20,7 @@ struct summary {
     RadOracle oracle;
     const struct measured *measured;
     const struct power_promise *promise;
+    const struct accuracy *accuracy; /* NULL: none was asked for */
     double output_seconds;
 };
 
