@@ -409,6 +409,10 @@ struct RadReport {
     struct {
         double target, largest, area;
     } tolerance;
+    /* W: what the oracle promises that the powers (area times radiosity) of all faces together are
+     * wrong by at the most, in each band; 0: nothing. Only a measurement tells whether they are:
+     * radMeasureError */
+    double power_tolerance;
     /* clusters: the tree above the faces, part of build; in_rays: within Embree, mean over
      * threads, part of refine */
     struct {

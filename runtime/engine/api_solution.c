@@ -410,6 +410,7 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .importance = {s->importance.sweeps, s->importance.largest, s->importance.mean,
                        s->importance.seen},
         .tolerance = {s->error.target, s->error.largest, s->error.area},
+        .power_tolerance = power_tolerance(solution->oracle->refiner, rays_host(s->problem.rays)),
         .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,
                     s->report.seconds.in_rays, s->report.seconds.clusters},
         .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,

@@ -35,6 +35,12 @@ double error_control_target(const struct refiner *r, const struct host *host)
     return refiner_reads(r, FACT_RECEIVER_TOLERANCE) ? fmax(absolute, relative) : 0;
 }
 
+double power_tolerance(const struct refiner *r, const struct host *host)
+{
+    return fmax(parameter(r, ROLE_POWER_TOLERANCE),
+                parameter(r, ROLE_RELATIVE_POWER_TOLERANCE) * host->irradiance * host->area);
+}
+
 /* The least of the children's, bottom up, where that is less than what is there. */
 static void lower_ancestors(struct hierarchy *h, struct oracle_inputs *in)
 {

@@ -96,29 +96,40 @@ json_t *summary_json(const struct summary *s)
     const struct RadSceneReport *scene = &s->scene->report;
     struct RadOracleReport oracle;
     radGetOracleReport(s->oracle, &oracle);
-    return json_pack(
-        "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
-        "s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f,"
-        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, "
-        "s:f}",
-        "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
+    json_t *all = json_pack(
+        "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "scene", s->options->scene,
+        "oracle", oracle.name, "release", oracle.release, "parameters",
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
         "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
-        (int)scene->parts, "elements", (int)r->elements, "leaves", (int)r->leaves, "links",
-        (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "guard_hits",
-        (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
-        "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
-        "converged", r->converged, "links_changing", (json_int_t)r->changing, "residual",
-        r->residual, "solver", solver_json(s->options, r), "basis", basis_json(r), "power_emitted",
-        r->emitted, "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums",
-        "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
-        "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
-        closure_json(s->options, r), "importance", importance_json(r), "error_control",
-        error_control_json(r), "error", measured_json(s->measured), "correction",
-        mended_json(s->measured), "accuracy",
-        s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null(), "seconds", "build",
-        r->seconds.build, "refine", r->seconds.refine, "in_rays", r->seconds.in_rays, "iterate",
-        r->seconds.iterate, "output", s->output_seconds, "peak_memory_mb", peak_megabytes());
+        (int)scene->parts, "elements", (int)r->elements, "leaves", (int)r->leaves);
+    json_t *links =
+        json_pack("{s:I, s:I, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links, "pairs",
+                  (json_int_t)r->pairs, "guard_hits", (json_int_t)r->marked[GUARDED], "marks",
+                  marks_json(r), "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
+    json_t *solution =
+        json_pack("{s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f}", "passes", r->passes,
+                  "iterations", r->iterations, "converged", r->converged, "links_changing",
+                  (json_int_t)r->changing, "residual", r->residual, "solver",
+                  solver_json(s->options, r), "basis", basis_json(r), "power_emitted", r->emitted,
+                  "power_absorbed", r->absorbed, "power_imbalance", imbalance(r));
+    json_t *quality =
+        json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "row_sums",
+                  "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
+                  "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
+                  "closure", closure_json(s->options, r), "importance", importance_json(r),
+                  "error_control", error_control_json(r), "error", measured_json(s->measured),
+                  "correction", mended_json(s->measured), "promise", power_promise_json(s->promise),
+                  "accuracy", s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null());
+    json_t *cost = json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:f}", "seconds", "build",
+                             r->seconds.build, "refine", r->seconds.refine, "in_rays",
+                             r->seconds.in_rays, "iterate", r->seconds.iterate, "output",
+                             s->output_seconds, "peak_memory_mb", peak_megabytes());
+    json_t *const parts[] = {links, solution, quality, cost};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        json_object_update(all, parts[i]);
+        json_decref(parts[i]);
+    }
+    return all;
 }
 
 /* Links that a graph has marked. A mark other than the guard's means what the graph's author
@@ -224,6 +235,7 @@ void summary_print(const struct summary *s)
     measured_print(s->measured, scene->polygons);
     if (s->measured->accounted)
         account_print(&s->measured->account);
+    power_promise_print(s->promise);
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "

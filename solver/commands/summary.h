@@ -6,6 +6,7 @@
 #include <jansson.h>
 #include "commands/accuracy.h"
 #include "commands/error_summary.h"
+#include "commands/power_promise.h"
 #include "options/options.h"
 #include "scene/open_scene.h"
 #include "util/solved.h"
@@ -18,6 +19,7 @@ struct summary {
     const struct solved *solved;
     RadOracle oracle;
     const struct measured *measured;
+    const struct power_promise *promise;
     const struct accuracy *accuracy; /* NULL: none was asked for */
     double output_seconds;
 };
