@@ -309,7 +309,7 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures)},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
-    {"errors", "[=all]", SOLVE, NULL, "how far off the answer is; all: by cause, with bounds",
+    {"errors", "[=all]", SOLVE, NULL, "how far off B is; all: by cause, with bounds",
      "all, or no value", .read = read_errors},
     {"reflectance-error", "X", SOLVE, NULL, "each rho may be off by X, as 0.02 (--errors=all)",
      "a number from 0, below 1, or percent", .read = read_share, IN(account.reflectance_error)},
