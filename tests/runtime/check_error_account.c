@@ -208,6 +208,11 @@ static void tell(const char *kind, struct results *r)
     }
     printf("\n");
     ck_assert_int_eq(r->below, 0);
+    /* an estimate is good to a factor of three, in the median */
+    for (int k = 0; k < NORMS; k++) {
+        ck_assert_double_gt(r->near[k][r->count / 2], 1 / 3.0);
+        ck_assert_double_lt(r->near[k][r->count / 2], 3);
+    }
 }
 
 static void make_account(struct solve *s, const struct RadAccountOptions *o,
