@@ -29,6 +29,12 @@ struct error_account {
 /* Fill a->report. Returns 0; -1 when out of memory or stopped by the watch. */
 int error_account_make(struct error_account *a);
 
+/* Set cap and left. */
+void error_local_signed(const struct error_account *a);
+/* Set factor, and the estimates of discretization, form factors and visibility, and of what is left
+ * together with cap and left. Returns 0, or -1 when out of memory. */
+int error_local_make(const struct error_account *a);
+
 /* The bounds alone; the arrays and the report's estimates are there. Returns 0 or -1. */
 int error_bounds_make(struct error_account *a);
 

@@ -272,9 +272,9 @@
 /* of the way from a leaf's centre to its corners, where its winding number is asked for: chosen, a
  * leaf belongs to one volume but for such a rim */
 #define WINDING_INSET 0.98
-/* of a scene's mean irradiance. An emitter that may bring no more than that in doubt is not taken by
- * parts: 0.002 takes half as long again for bounds of 0.55 instead of 0.63 of the reflected light, 0.01 three
- * quarters for 0.76 (radiosity solve cornell.obj --errors=all) */
+/* of a scene's mean irradiance. An emitter that may bring no more than that in doubt is not taken
+ * by parts: 0.002 takes half as long again for bounds of 0.55 instead of 0.63 of the reflected
+ * light, 0.01 three quarters for 0.76 (radiosity solve cornell.obj --errors=all) */
 #define RANGE_DETAIL 0.005
 /* of RANGE_DETAIL. Ranges of form factors that differ by less as they come are not narrowed; the
  * same measurement: 0.1 instead of 1 takes a tenth longer, for bounds narrower by a sixteenth */
@@ -284,7 +284,8 @@
 /* of the bound. Bounds are iterated until what iteration may still take off them, or must add, is
  * no more: chosen */
 #define BOUND_ENOUGH 0.01
-/* of a radiosity: what policies are not improved for, since their weights are floats: 16 roundings */
+/* of a radiosity: what policies are not improved for, since their weights are floats: 16
+ * roundings */
 #define BOUND_WEIGHTS 1e-6
 /* of a radiosity: what rounding may have done to the sums of its bound; as DISTANCE_ROUNDING */
 #define BOUND_ROUNDING 1e-12

@@ -165,7 +165,8 @@ static int read_value(struct options *o, const struct option_row *row, const cha
     option_text(row, text);
     text[strcspn(text, " [")] = 0;
     if (row->argument && value && !*value)
-        return wrong(command, "%s takes %s, not an empty value", text, row->argument);
+        return wrong(command, "%s takes %s, not an empty value", text,
+                     is_optional(row) ? option_takes(row) : row->argument);
     if (row->read(o, row, value) < 0)
         return wrong(command, "%s takes %s, not %s", text, option_takes(row), value);
     return -1;

@@ -70,6 +70,14 @@ for value in 1 0,0,0 0,0,0:0,0,0 0,0,0:1,1,1: 0,0,0:1,1,1:200 inf,0,0:1,1,1 1e30
 done
 for value in 1e308 inf nan 0 -1 5,5 5,3 5, ,5 x 1,,2; do says 2 "--thresholds takes rising numbers from 1e-300 to 1e300" study visibility "$scene" --thresholds $value; done
 for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64,256,1024" study visibility "$scene" --rays $value; done
+for value in -1 1 100% 2x x nan 1e400; do
+    says 2 "--reflectance-error takes a number from 0, below 1, or percent" solve "$scene" --errors=all --reflectance-error $value
+    says 2 "--exitance-error takes a number from 0, below 1, or percent" solve "$scene" --errors=all --exitance-error $value
+done
+says 2 "--errors takes all, or no value, not x" solve "$scene" --errors=x
+says 2 "--errors takes all, or no value, not an empty value" solve "$scene" --errors=
+says 2 "for the account of error: add --errors=all" solve "$scene" --reflectance-error 2%
+says 2 "for the account of error: add --errors=all" solve "$scene" --errors --exitance-error 0.1
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
