@@ -182,12 +182,12 @@ static int split_first(const struct element *r, const struct element *e)
     return r->face == 0 && r->depth == 0;
 }
 
-static double step; /* relative, from half to half of face 0 */
+static double step; /* relative, of one quarter of face 0 up and of one down */
 
 static double each_other_unevenly(const struct element *r, const struct element *e)
 {
-    double part = r->face != 0 ? 1 : quarter(r) & 2 ? 1 + step : 1 - step;
-    return part * each_other(r, e);
+    static const double steps[4] = {0, 0, -1, 1};
+    return (r->face == 0 ? 1 + step * steps[quarter(r)] : 1) * each_other(r, e);
 }
 
 /* Nobody asks for a tolerance: iteration stops at a tenth of what constants leave, here rho F step
