@@ -34,7 +34,7 @@ says() {
 
 # ---- no value, or one that is none: wrong usage, exit 2
 scene=$scenes/furnace.obj
-for option in --oracle --release --set --tolerance --iterations --closure --statistics --threads -o --image --size --view --faces --json; do
+for option in --oracle --release --set --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --size --view --faces --json; do
     says 2 "$option takes" solve "$scene" "$option" ""
 done
 for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
@@ -59,6 +59,9 @@ for value in 1e308 inf nan 0 -1 5,5 5,3 5, ,5 x 1,,2; do says 2 "--thresholds ta
 for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64,256,1024" study visibility "$scene" --rays $value; done
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
+says 2 "--solver takes gauss-seidel, jacobi, southwell or lu, not x" solve "$scene" --solver x
+says 2 "--projection takes galerkin or collocation, not x" compare "$scene" --projection x
+says 1 "LU solves for at most 5000 leaves, and there are" solve "$scenes/room.obj" --solver lu
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
 says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --closure x
 says 2 "--clusters takes sah, embree, octree, kd or halves, not x" solve "$scene" --clusters x
