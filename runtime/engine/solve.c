@@ -284,7 +284,9 @@ static int iterate(struct solve *s, double tolerance, int rough)
     s->report.tolerance = x.held;
     s->report.bound = x.bound;
     s->report.variation = x.variation;
-    s->inputs.known = rough ? SOLVE_TOLERANCE : x.held;
+    s->inputs.known = s->problem.options.tolerance > 0 ? s->problem.options.tolerance
+                      : rough                          ? SOLVE_TOLERANCE
+                                                       : x.held;
     transport_average(op, &x);
     oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
     if (s->importance.capacity == 0)
