@@ -93,7 +93,7 @@ struct RadProgress {
     /* "refine", "solve", "matrix" (of RAD_SOLVER_LU, which says nothing until it is done),
      * "factors" */
     const char *phase;
-    int pass;          /* from 1 */
+    int pass; /* from 1 */
     uint64_t rounds, pairs, waiting, links, rays;
     double residual;
 };
