@@ -92,8 +92,10 @@ RAD_API const char *radGetDeviceErrorMessage(RadDevice device);
 
 /* Where long work is. All counts rise; 0 where the phase has none. */
 struct RadProgress {
-    const char *phase; /* "refine", "solve", "factors", "particles", "paths" */
-    int pass;          /* from 1 */
+    /* "refine", "solve", "matrix" (of RAD_SOLVER_LU, which says nothing until it is done),
+     * "particles", "paths", "account", "factors" */
+    const char *phase;
+    int pass; /* from 1 */
     uint64_t rounds, pairs, waiting, links, rays;
     double residual;
 };

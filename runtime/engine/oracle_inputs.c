@@ -70,8 +70,7 @@ void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator 
         if (in->changed[i] || brightest < (1 - HYSTERESIS) * e->radiosity)
             e->radiosity = brightest;
         double spread = measure_spread(in, op, radiosity, i);
-        int spread_grew =
-            spread > (1 + HYSTERESIS) * e->spread + in->known * brightest;
+        int spread_grew = spread > (1 + HYSTERESIS) * e->spread + in->known * brightest;
         in->changed[i] |= (unsigned char)spread_grew;
         if (spread_grew || spread < (1 - HYSTERESIS) * e->spread)
             e->spread = spread;

@@ -274,6 +274,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
         < 0)
         return -1;
     row_sums_scale(op, &s->report.rows);
+    if (s->problem.options.solver == RAD_SOLVER_LU && !rough && tell(s, "matrix"))
+        return -1;
     x.watch = watch_light;
     x.watch_context = s;
     if (transport_solve(op, &x) < 0)
@@ -282,7 +284,9 @@ static int iterate(struct solve *s, double tolerance, int rough)
     s->report.tolerance = x.held;
     s->report.bound = x.bound;
     s->report.variation = x.variation;
-    s->inputs.known = rough ? SOLVE_TOLERANCE : x.held;
+    s->inputs.known = s->problem.options.tolerance > 0 ? s->problem.options.tolerance
+                      : rough                          ? SOLVE_TOLERANCE
+                                                       : x.held;
     transport_average(op, &x);
     oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
     if (s->importance.capacity == 0)

@@ -736,6 +736,57 @@ START_TEST(test_bad_scenes)
 }
 END_TEST
 
+/* Solver and projection are what was asked for and are reported, with what iteration was held to; a
+ * scene that is too much for a matrix is told as such. */
+START_TEST(test_solvers)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    double *mean[3];
+    struct RadSceneReport of;
+    radGetSceneReport(scene, &of);
+    ck_assert_int_eq(radSetOracleParameter(oracle, "min_share", 5e-3), 0);
+    for (int i = 0; i < 3; i++) {
+        const struct RadSolveOptions how = {.tolerance = i ? 1e-9 : 0,
+                                            .solver = i == 2 ? RAD_SOLVER_LU : RAD_SOLVER_SOUTHWELL,
+                                            .projection = RAD_PROJECTION_COLLOCATION};
+        RadSolution solution = radNewSolution(scene, oracle, &how);
+        struct RadReport report;
+        mean[i] = calloc(of.polygons, sizeof *mean[i]);
+        ck_assert_int_eq(radSolve(solution), 0);
+        ck_assert_int_eq(radGetPolygonValues(solution, 0, mean[i], NULL), 0);
+        radGetReport(solution, &report);
+        ck_assert_int_eq(report.converged, 1);
+        ck_assert_int_eq(report.solver, how.solver);
+        ck_assert_int_eq(report.projection, RAD_PROJECTION_COLLOCATION);
+        ck_assert_double_le(report.solved.bound, report.solved.tolerance);
+        if (i)
+            ck_assert_double_eq(report.solved.tolerance, 1e-9);
+        else
+            ck_assert_double_le(fabs(log10(report.solved.tolerance) + 3.5), 0.5 + 1e-9);
+        ck_assert((report.solved.variation > 0) == (i == 0));
+        radReleaseSolution(solution);
+    }
+    for (uint32_t i = 0; i < of.polygons; i++) {
+        ck_assert_double_eq_tol(mean[0][i], mean[1][i], 1e-2 * mean[1][i]);
+        ck_assert_double_eq_tol(mean[1][i], mean[2][i], 1e-7 * mean[1][i]);
+    }
+    for (int i = 0; i < 3; i++)
+        free(mean[i]);
+    ck_assert_int_eq(radSetOracleParameter(oracle, "min_share", 2e-5), 0);
+    ck_assert_int_eq(radSetOracleParameter(oracle, "relative", 1e-2), 0);
+    RadSolution solution =
+        radNewSolution(scene, oracle, &(struct RadSolveOptions){.solver = RAD_SOLVER_LU});
+    ck_assert_int_eq(radSolve(solution), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "LU solves for at most 5000 leaves");
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 START_TEST(test_bad_options)
 {
     RadDevice device = radNewDevice(NULL);
@@ -975,6 +1026,7 @@ int main(void)
     tcase_add_test(t, test_statistics);
     tcase_add_test(t, test_no_handle);
     tcase_add_test(t, test_bad_scenes);
+    tcase_add_test(t, test_solvers);
     tcase_add_test(t, test_bad_options);
     tcase_add_test(t, test_first_error);
     tcase_add_test(t, test_cancel);

@@ -34,7 +34,7 @@ says() {
 
 # ---- no value, or one that is none: wrong usage, exit 2
 scene=$scenes/furnace.obj
-for option in --oracle --release --set --tolerance --iterations --closure --statistics --threads -o --image --size --view --faces --json; do
+for option in --oracle --release --set --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --size --view --faces --json; do
     says 2 "$option takes" solve "$scene" "$option" ""
 done
 for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
@@ -80,6 +80,9 @@ says 2 "for the account of error: add --errors=all" solve "$scene" --reflectance
 says 2 "for the account of error: add --errors=all" solve "$scene" --errors --exitance-error 0.1
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
+says 2 "--solver takes gauss-seidel, jacobi, southwell or lu, not x" solve "$scene" --solver x
+says 2 "--projection takes galerkin or collocation, not x" compare "$scene" --projection x
+says 1 "LU solves for at most 5000 leaves, and there are" solve "$scenes/room.obj" --solver lu
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
 says 2 "--basis takes constant or linear, not quadratic" solve "$scene" --basis quadratic
 says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --closure x
