@@ -591,14 +591,14 @@ START_TEST(test_limited)
     made_room(&scene, (const uint32_t[6]){grey, lamp, grey, grey, grey, grey}, 1, 1, 1);
     run_script(&s, &scene, &script, with_basis(0, 1));
     size_t count = s.hierarchy.count;
-    double *slope = calloc(4 * count, sizeof *slope);
+    double *value = calloc(5 * count, sizeof *value);
     struct transport means = {.bands = 1,
                               .value = s.state.radiosity,
                               .irradiance = s.state.irradiance,
                               .source = s.problem.exitance,
                               .reflectance = s.problem.reflectance,
                               .tolerance = 1e-6};
-    struct linear_transport x = {&means, slope, slope + 2 * count};
+    struct linear_transport x = {&means, value, value + 3 * count};
     ck_assert_int_eq(linear_links_open(&links, &s.operator), 0);
     for (size_t i = 0; i < s.refinement.link_count; i++)
         for (int k = 0; k < LINEAR_MOMENTS; k++)
@@ -607,7 +607,8 @@ START_TEST(test_limited)
     for (int limited = 0; limited < 2; limited++) {
         if (limited)
             linear_links_limit(&links, NULL);
-        memset(slope, 0, 4 * count * sizeof *slope);
+        memset(value, 0, 5 * count * sizeof *value);
+        linear_transport_start(&s.operator, & links, &x);
         row_sums_scale(&s.operator, & s.report.rows);
         linear_links_scale(&links, &s.operator);
         ck_assert_int_eq(linear_transport_solve(&s.operator, & links, &x), !limited);
@@ -618,13 +619,13 @@ START_TEST(test_limited)
         double least, most;
         if (!s.hierarchy.elements[i].vertices)
             continue;
-        linear_basis_range(&links.basis[i], &s.hierarchy.elements[i], &slope[2 * (size_t)i], &least,
-                           &most);
+        linear_basis_range(&links.basis[i], &s.hierarchy.elements[i], &value[3 * (size_t)i + 1],
+                           &least, &most);
         ck_assert_double_ge(means.value[i] + least, -1e-6);
     }
     s.operator.linear = NULL;
     linear_links_close(&links);
-    free(slope);
+    free(value);
     solve_close(&s);
     made_close(&scene);
 }
