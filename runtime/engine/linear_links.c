@@ -8,6 +8,11 @@
  * closed scene rows are nearly 1, c is nearly 1 and a constant radiosity stays what it is; in an
  * open one, where rows are below 1, slopes stay. Under closure of a closed scene c = 1.
  *
+ * Both ways round: an emitter's slopes send b_a r_a more than its mean does, or less, by the same
+ * sums, so c r_a b_a / row is taken off the mean that it sends, and A_r C_ab(r, s) = A_s C_ba(s, r)
+ * stays. Else the bright side of a slope would light what stands before it and, visibility being
+ * one number per link, take nothing from what that hides.
+ *
  * Where a solid covers a part of a leaf the leaf is constant.
  * SPDX-License-Identifier: MIT */
 #include "engine/linear_links.h"
@@ -102,8 +107,7 @@ size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers
 }
 
 void linear_links_gather(const struct linear_links *l, const struct light_operator *op,
-                         uint32_t bands, uint32_t e, const double *value, const double *slope,
-                         double h[3][3])
+                         uint32_t bands, uint32_t e, const double *sent, double h[3][3])
 {
     const struct refinement *r = op->refinement;
     for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
@@ -111,9 +115,8 @@ void linear_links_gather(const struct linear_links *l, const struct light_operat
         const float *m = l->moment[i];
         double visible = link->visibility * (1.0 / LINK_VISIBLE);
         for (uint32_t k = 0; k < bands; k++) {
-            size_t from = (size_t)link->emitter * bands + k;
-            double b = visible * value[from], b1 = visible * slope[2 * from],
-                   b2 = visible * slope[2 * from + 1];
+            const double *from = &sent[((size_t)link->emitter * bands + k) * 3];
+            double b = visible * from[0], b1 = visible * from[1], b2 = visible * from[2];
             h[k][0] += (double)link->form_factor * b + (double)m[LINEAR_01] * b1
                        + (double)m[LINEAR_02] * b2;
             h[k][1] +=

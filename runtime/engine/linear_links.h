@@ -46,11 +46,10 @@ void linear_links_rows(struct linear_links *l, struct light_operator *op, uint32
 /* Once the rows are scaled: set flat and scale of the leaves' rows. */
 void linear_links_scale(struct linear_links *l, const struct light_operator *op);
 
-/* Add to h[band][3] what element e gathers over its own links between surfaces from value
- * [element * bands + band] and slope [(element * bands + band) * 2]. */
+/* Add to h[band][3] what element e gathers over its own links between surfaces from `sent`
+ * [(element * bands + band) * 3]. */
 void linear_links_gather(const struct linear_links *l, const struct light_operator *op,
-                         uint32_t bands, uint32_t e, const double *value, const double *slope,
-                         double h[3][3]);
+                         uint32_t bands, uint32_t e, const double *sent, double h[3][3]);
 
 /* The part of a linear function over e, b[3], that is on its part `child`. */
 void linear_links_restrict(const struct linear_links *l, const struct hierarchy *h, uint32_t e,

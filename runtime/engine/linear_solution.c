@@ -30,7 +30,7 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
         int is_leaf = e->vertices && !e->children, lowered = 0;
         for (uint32_t k = 0; e->vertices && k < bands; k++) {
             size_t at = (size_t)i * bands + k;
-            const double *slope = &x->value[2 * at];
+            const double *slope = &x->value[3 * at + 1];
             double mean = x->means->value[at], least, most;
             linear_basis_range(&l->basis[i], e, slope, &least, &most);
             double keep = !(mean > 0) ? 0 : mean + least < 0 ? mean / -least : 1;
@@ -93,13 +93,15 @@ static int64_t limit_negative(struct linear_links *l, const struct light_operato
 static int solve_links(struct linear_solution *s, struct light_operator *op, struct linear_links *l,
                        struct linear_transport *x, struct row_report *rows)
 {
-    size_t slopes = (size_t)op->hierarchy->count * x->means->bands * 2;
+    size_t values = (size_t)op->hierarchy->count * x->means->bands * 3;
+    linear_transport_start(op, l, x);
     for (;;) {
         int result = solve_once(s, op, l, x, rows);
         if (result < 0)
             return -1;
         if (result > 0) {
-            memset(x->value, 0, slopes * sizeof *x->value);
+            memset(x->value, 0, values * sizeof *x->value);
+            linear_transport_start(op, l, x);
             s->limited += linear_links_limit(l, NULL);
             continue;
         }
@@ -114,11 +116,11 @@ int linear_solution_solve(struct linear_solution *s, struct light_operator *op, 
                           struct row_report *rows)
 {
     double start = seconds();
-    size_t slopes = (size_t)op->hierarchy->count * x->bands * 2;
+    size_t values = (size_t)op->hierarchy->count * x->bands;
     struct linear_links links;
     struct linear_transport linear = {.means = x,
-                                      .value = calloc(slopes, sizeof *linear.value),
-                                      .irradiance = calloc(slopes, sizeof *linear.irradiance)};
+                                      .value = calloc(3 * values, sizeof *linear.value),
+                                      .irradiance = calloc(2 * values, sizeof *linear.irradiance)};
     int result = linear.value && linear.irradiance ? linear_links_open(&links, op) : -1;
     linear_solution_free(s);
     if (result == 0) {
@@ -126,6 +128,7 @@ int linear_solution_solve(struct linear_solution *s, struct light_operator *op, 
         result = solve_links(s, op, &links, &linear, rows);
         if (result == 0) {
             transport_average(op, x);
+            linear_transport_start(op, &links, &linear);
             result = make_gradients(s, op, &links, &linear);
         }
         op->linear = NULL;

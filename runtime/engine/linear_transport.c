@@ -27,25 +27,41 @@ struct piece {
     double b[3][3];
 };
 
-static struct piece load(const double *means, const double *slopes, uint32_t bands, uint32_t e)
+static struct piece load_value(const struct linear_transport *x, uint32_t e)
 {
     struct piece p = {0};
-    for (uint32_t k = 0; k < bands; k++) {
-        size_t at = (size_t)e * bands + k;
-        p.b[k][0] = means[at];
-        p.b[k][1] = slopes[2 * at];
-        p.b[k][2] = slopes[2 * at + 1];
+    for (uint32_t k = 0; k < x->means->bands; k++)
+        for (int a = 0; a < 3; a++)
+            p.b[k][a] = x->value[((size_t)e * x->means->bands + k) * 3 + (size_t)a];
+    return p;
+}
+
+static void save_value(const struct linear_transport *x, const struct piece *p, uint32_t e)
+{
+    for (uint32_t k = 0; k < x->means->bands; k++)
+        for (int a = 0; a < 3; a++)
+            x->value[((size_t)e * x->means->bands + k) * 3 + (size_t)a] = p->b[k][a];
+}
+
+static struct piece load_irradiance(const struct linear_transport *x, uint32_t e)
+{
+    struct piece p = {0};
+    for (uint32_t k = 0; k < x->means->bands; k++) {
+        size_t at = (size_t)e * x->means->bands + k;
+        p.b[k][0] = x->means->irradiance[at];
+        p.b[k][1] = x->irradiance[2 * at];
+        p.b[k][2] = x->irradiance[2 * at + 1];
     }
     return p;
 }
 
-static void save(const struct piece *p, double *means, double *slopes, uint32_t bands, uint32_t e)
+static void save_irradiance(const struct linear_transport *x, const struct piece *p, uint32_t e)
 {
-    for (uint32_t k = 0; k < bands; k++) {
-        size_t at = (size_t)e * bands + k;
-        means[at] = p->b[k][0];
-        slopes[2 * at] = p->b[k][1];
-        slopes[2 * at + 1] = p->b[k][2];
+    for (uint32_t k = 0; k < x->means->bands; k++) {
+        size_t at = (size_t)e * x->means->bands + k;
+        x->means->irradiance[at] = p->b[k][0];
+        x->irradiance[2 * at] = p->b[k][1];
+        x->irradiance[2 * at + 1] = p->b[k][2];
     }
 }
 
@@ -62,11 +78,11 @@ static void gather_below(const struct sweep *s, uint32_t e)
     const struct element *at = &s->op->hierarchy->elements[e];
     struct piece h = {0};
     double over_clusters[3] = {0, 0, 0};
-    linear_links_gather(s->links, s->op, s->bands, e, s->x->means->value, s->x->value, h.b);
+    linear_links_gather(s->links, s->op, s->bands, e, s->x->value, h.b);
     separable_links_gather(&s->op->separable, (int)s->bands, e, over_clusters);
     for (uint32_t k = 0; k < s->bands; k++)
         h.b[k][0] += over_clusters[k];
-    save(&h, s->x->means->irradiance, s->x->irradiance, s->bands, e);
+    save_irradiance(s->x, &h, e);
     for (int c = 0; c < at->children; c++)
         gather_below(s, at->child + (uint32_t)c);
 }
@@ -76,7 +92,7 @@ static void push(const struct sweep *s, uint32_t e, const struct piece *above, d
 {
     const struct light_operator *op = s->op;
     const struct element *at = &op->hierarchy->elements[e];
-    struct piece own = load(s->x->means->irradiance, s->x->irradiance, s->bands, e), all = own;
+    struct piece own = load_irradiance(s->x, e), all = own;
     for (uint32_t k = 0; k < s->bands; k++)
         for (int a = 0; a < 3; a++)
             all.b[k][a] += above->b[k][a];
@@ -96,42 +112,51 @@ static void push(const struct sweep *s, uint32_t e, const struct piece *above, d
         double h = all.b[k][0];
         spare[k] += at->area * (op->problem->options.closure == CLOSURE_ROWS ? h : before - h);
     }
-    save(&all, s->x->means->irradiance, s->x->irradiance, s->bands, e);
+    save_irradiance(s->x, &all, e);
 }
 
-/* Set element e to the projection of its children. */
+/* Set what element e sends to the projection of what its children do. */
 static void project(const struct sweep *s, uint32_t e)
 {
     const struct light_operator *op = s->op;
     const struct element *elements = op->hierarchy->elements, *at = &elements[e];
-    struct piece mean = {0}, received = {0};
-    struct two_scale t[4];
+    struct piece sent = {0}, part[4];
     for (int c = 0; c < at->children; c++) {
         uint32_t j = at->child + (uint32_t)c;
-        double sent = operator_share(op, j, e), part = elements[j].area / at->area;
-        linear_two_scale(&t[c], &s->links->basis[e], at, &s->links->basis[j], &elements[j]);
+        part[c] = load_value(s->x, j);
+        for (uint32_t k = 0; k < s->bands; k++)
+            sent.b[k][0] += operator_share(op, j, e) * part[c].b[k][0];
+    }
+    for (int c = 0; c < at->children; c++) {
+        uint32_t j = at->child + (uint32_t)c;
+        double share = elements[j].area / at->area * op->uncovered[j];
+        struct two_scale t;
+        linear_two_scale(&t, &s->links->basis[e], at, &s->links->basis[j], &elements[j]);
         for (uint32_t k = 0; k < s->bands; k++) {
-            mean.b[k][0] += sent * s->x->means->value[(size_t)j * s->bands + k];
-            received.b[k][0] += part * s->x->means->irradiance[(size_t)j * s->bands + k];
+            const double *x = part[c].b[k];
+            for (int a = 0; a < 2; a++)
+                sent.b[k][a + 1] += share
+                                    * ((x[0] - sent.b[k][0]) * t.mean[a] + x[1] * t.from[a][0]
+                                       + x[2] * t.from[a][1]);
         }
     }
-    for (int c = 0; c < at->children; c++) {
-        uint32_t j = at->child + (uint32_t)c;
-        double part = elements[j].area / at->area;
-        struct piece x = load(s->x->means->value, s->x->value, s->bands, j),
-                     h = load(s->x->means->irradiance, s->x->irradiance, s->bands, j);
-        for (uint32_t k = 0; k < s->bands; k++)
-            for (int a = 0; a < 2; a++) {
-                const double *from = t[c].from[a];
-                mean.b[k][a + 1] += part * op->uncovered[j]
-                                    * ((x.b[k][0] - mean.b[k][0]) * t[c].mean[a]
-                                       + x.b[k][1] * from[0] + x.b[k][2] * from[1]);
-                received.b[k][a + 1] +=
-                    part * (h.b[k][0] * t[c].mean[a] + h.b[k][1] * from[0] + h.b[k][2] * from[1]);
-            }
+    save_value(s->x, &sent, e);
+}
+
+/* Set the means of element e to those of its children. */
+static void average(const struct sweep *s, uint32_t e)
+{
+    const struct element *elements = s->op->hierarchy->elements, *at = &elements[e];
+    const struct transport *m = s->x->means;
+    for (uint32_t k = 0; k < s->bands; k++) {
+        double value = 0, irradiance = 0;
+        for (uint32_t j = at->child; j < at->child + at->children; j++) {
+            value += operator_share(s->op, j, e) * m->value[(size_t)j * s->bands + k];
+            irradiance += elements[j].area / at->area * m->irradiance[(size_t)j * s->bands + k];
+        }
+        m->value[(size_t)e * s->bands + k] = value;
+        m->irradiance[(size_t)e * s->bands + k] = irradiance;
     }
-    save(&mean, s->x->means->value, s->x->value, s->bands, e);
-    save(&received, s->x->means->irradiance, s->x->irradiance, s->bands, e);
 }
 
 /* What a sweep changes on one face, over uncovered leaves and all bands. */
@@ -148,31 +173,35 @@ static void pull(const struct sweep *s, uint32_t e, const double spare[3], struc
     if (at->children) {
         for (int c = 0; c < at->children; c++)
             pull(s, at->child + (uint32_t)c, spare, change);
+        average(s, e);
         project(s, e);
         return;
     }
-    struct piece x = load(m->value, s->x->value, s->bands, e),
-                 h = load(m->irradiance, s->x->irradiance, s->bands, e);
+    struct piece x = load_value(s->x, e), h = load_irradiance(s->x, e);
     const double *source = &m->source[(m->by_element ? (size_t)e : (size_t)at->face) * s->bands];
     const double *rho = &m->reflectance[(size_t)at->face * s->bands];
     const struct linear_row *row = &s->links->row[e];
     for (uint32_t k = 0; k < s->bands; k++) {
-        double uncovered = op->uncovered[e], shared = spare[k] * op->row_share[e], square = 0;
+        double uncovered = op->uncovered[e], shared = spare[k] * op->row_share[e];
         h.b[k][0] += uncovered > 0 ? shared : 0;
         for (int a = 0; a < 2; a++)
             h.b[k][a + 1] = row->scale * (h.b[k][a + 1] - row->flat[a] * h.b[k][0]);
         const double next[3] = {source[k]
                                     + rho[k] * (uncovered > 0 ? h.b[k][0] / uncovered : shared),
                                 rho[k] * h.b[k][1], rho[k] * h.b[k][2]};
-        change->mean += at->area * uncovered * fabs(next[0] - x.b[k][0]);
-        for (int a = 0; a < 3; a++) {
-            square += (next[a] - x.b[k][a]) * (next[a] - x.b[k][a]);
-            x.b[k][a] = next[a];
+        double *mean = &m->value[(size_t)e * s->bands + k],
+               square = (next[0] - *mean) * (next[0] - *mean);
+        change->mean += at->area * uncovered * fabs(next[0] - *mean);
+        *mean = x.b[k][0] = next[0];
+        for (int a = 0; a < 2; a++) {
+            square += (next[a + 1] - x.b[k][a + 1]) * (next[a + 1] - x.b[k][a + 1]);
+            x.b[k][a + 1] = next[a + 1];
+            x.b[k][0] -= row->flat[a] * next[a + 1];
         }
         change->square += at->area * uncovered * square;
     }
-    save(&x, m->value, s->x->value, s->bands, e);
-    save(&h, m->irradiance, s->x->irradiance, s->bands, e);
+    save_value(s->x, &x, e);
+    save_irradiance(s->x, &h, e);
 }
 
 /* One sweep over all faces. change: [face]. */
@@ -219,6 +248,19 @@ static void measure(const struct sweep *s, const struct change *change, double r
     }
     m->residual = power > 0 ? all.mean / power : 0;
     m->bound = power > 0 ? rho / (1 - rho) * sqrt(all.square * area) / power : 0;
+}
+
+void linear_transport_start(const struct light_operator *op, const struct linear_links *l,
+                            const struct linear_transport *x)
+{
+    const struct sweep s = {op, l, x, x->means->bands};
+    const struct hierarchy *h = op->hierarchy;
+    for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
+        for (uint32_t k = 0; k < s.bands; k++)
+            x->value[((size_t)i * s.bands + k) * 3] = x->means->value[(size_t)i * s.bands + k];
+        if (h->elements[i].vertices && h->elements[i].children)
+            project(&s, i);
+    }
 }
 
 int linear_transport_solve(const struct light_operator *op, const struct linear_links *l,

@@ -9,9 +9,16 @@
 /* Slopes beside the means of a transport. */
 struct linear_transport {
     struct transport *means; /* bands, value, irradiance, ... and what becomes of the solve */
-    /* [(element * bands + band) * 2], in the elements' bases: start and result */
-    double *value, *irradiance;
+    /* [(element * bands + band) * 3]: what the element sends in its basis; the mean is less by what
+     * is error in the leaves' rows (linear_links.c). Start and result */
+    double *value;
+    double *irradiance; /* [(element * bands + band) * 2]: slopes */
 };
+
+/* Let elements send the means that x has, with the slopes that the leaves have; means and slopes
+ * of what has parts are projections then. */
+void linear_transport_start(const struct light_operator *op, const struct linear_links *l,
+                            const struct linear_transport *x);
 
 /* Sweep from the means and slopes as they are until what iteration leaves is within the tolerance;
  * row scales are set for these links (row_sums.h, linear_links_scale). Returns 0, -1 when out of

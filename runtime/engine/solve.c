@@ -274,7 +274,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
         < 0)
         return -1;
     row_sums_scale(op, &s->report.rows);
-    if (s->problem.options.solver == RAD_SOLVER_LU && !rough && tell(s, "matrix"))
+    if (s->problem.options.solver == RAD_SOLVER_LU && !rough && solve_tell(s, "matrix"))
         return -1;
     x.watch = watch_light;
     x.watch_context = s;

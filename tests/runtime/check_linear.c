@@ -286,6 +286,7 @@ END_TEST
 struct script {
     int depth[2]; /* of face 0, of the others */
     int above;    /* emitters are linked so many levels above their leaves */
+    int twice;    /* links claim twice their F */
 };
 
 static enum decision follow(const void *state, struct discussion *d)
@@ -305,7 +306,7 @@ static enum decision follow(const void *state, struct discussion *d)
                : split_r          ? DECISION_SUBDIVIDE_RECEIVER
                                   : DECISION_SUBDIVIDE_EMITTER;
     memset(&d->terms, 0, sizeof d->terms);
-    d->terms.form_factor = polygon_factor(r, e, 0);
+    d->terms.form_factor = (1 + script->twice) * polygon_factor(r, e, 0);
     d->terms.visibility = 1;
     return d->terms.form_factor > 0 ? DECISION_LINK : DECISION_STOP;
 }
@@ -372,7 +373,7 @@ static double arvo_error(int depth, int linear)
     static const double node[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
     static const double weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
     enum { RULES = 4, POINTS = 3 * RULES };
-    const struct script script = {{depth, 0}, 0};
+    const struct script script = {{depth, 0}, 0, 0};
     struct scene scene;
     struct solve s;
     double sum = 0;
@@ -429,7 +430,7 @@ START_TEST(test_plates)
     static const double known[4] = {1.133303564992, 1.100306232464, 1.076981393145, 1.111165244298};
     static const double square[2][4][3] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                                            {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}};
-    static const struct script script = {{2, 2}, 0};
+    static const struct script script = {{2, 2}, 0, 0};
     double off[2] = {0, 0}, mean[2];
     for (int linear = 0; linear < 2; linear++) {
         struct scene scene;
@@ -488,7 +489,7 @@ static double mean_with(const struct solve *s, uint32_t e, uint32_t in, int a)
  * an element sends is the projection of its leaves' light. */
 START_TEST(test_projection)
 {
-    static const struct script script = {{2, 2}, 2};
+    static const struct script script = {{2, 2}, 2, 0};
     struct scene scene;
     struct solve s;
     int checked = 0;
@@ -515,6 +516,34 @@ START_TEST(test_projection)
 }
 END_TEST
 
+/* Three walls of a corner, one element each, whose links claim twice what they bring: rows are
+ * below 1, but above it along the edges. What is taken off there is taken off both ways round: the
+ * light that the second wall has from the first, times area, is what the first has from the second.
+ */
+START_TEST(test_reciprocal)
+{
+    static const struct script script = {{0, 0}, 0, 1};
+    double sent[2];
+    for (int lamp = 0; lamp < 2; lamp++) {
+        struct scene scene;
+        struct solve s;
+        made_open(&scene);
+        for (int i = 0; i < 3; i++)
+            made_material(&scene, 0.5, i == lamp);
+        made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0);
+        made_quad(&scene, 1, 0, 0, 0, 0, 2, 0, 0, 0, 1.5);
+        made_quad(&scene, 2, 0, 0, 0, 0, 0, 1.5, 1, 0, 0);
+        run_script(&s, &scene, &script, with_basis(1, 1));
+        ck_assert_double_lt(s.report.rows.high, 1);
+        sent[lamp] = (lamp ? 2 : 3) * face_radiosity(&s, !lamp);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    printf("three walls: %.9f W and %.9f W\n", sent[0], sent[1]);
+    ck_assert_double_eq_tol(sent[0], sent[1], 1e-5 * sent[0]);
+}
+END_TEST
+
 /* A cube with one emitting face, rho .5: the continuous solution's means, from 4 and 16 elements
  * a face; constants come nearer to the same. */
 START_TEST(test_cube)
@@ -524,7 +553,7 @@ START_TEST(test_cube)
     double error[2][2] = {{0, 0}, {0, 0}};
     for (int linear = 0; linear < 2; linear++)
         for (int depth = 1; depth < 3; depth++) {
-            const struct script script = {{depth, depth}, 0};
+            const struct script script = {{depth, depth}, 0, 0};
             struct scene scene;
             struct solve s;
             made_open(&scene);
@@ -582,7 +611,7 @@ END_TEST
  * links converge, and no light is negative. */
 START_TEST(test_limited)
 {
-    static const struct script script = {{1, 1}, 0};
+    static const struct script script = {{1, 1}, 0, 0};
     struct scene scene;
     struct solve s;
     struct linear_links links;
@@ -591,14 +620,14 @@ START_TEST(test_limited)
     made_room(&scene, (const uint32_t[6]){grey, lamp, grey, grey, grey, grey}, 1, 1, 1);
     run_script(&s, &scene, &script, with_basis(0, 1));
     size_t count = s.hierarchy.count;
-    double *slope = calloc(4 * count, sizeof *slope);
+    double *value = calloc(5 * count, sizeof *value);
     struct transport means = {.bands = 1,
                               .value = s.state.radiosity,
                               .irradiance = s.state.irradiance,
                               .source = s.problem.exitance,
                               .reflectance = s.problem.reflectance,
                               .tolerance = 1e-6};
-    struct linear_transport x = {&means, slope, slope + 2 * count};
+    struct linear_transport x = {&means, value, value + 3 * count};
     ck_assert_int_eq(linear_links_open(&links, &s.operator), 0);
     for (size_t i = 0; i < s.refinement.link_count; i++)
         for (int k = 0; k < LINEAR_MOMENTS; k++)
@@ -607,7 +636,8 @@ START_TEST(test_limited)
     for (int limited = 0; limited < 2; limited++) {
         if (limited)
             linear_links_limit(&links, NULL);
-        memset(slope, 0, 4 * count * sizeof *slope);
+        memset(value, 0, 5 * count * sizeof *value);
+        linear_transport_start(&s.operator, & links, &x);
         row_sums_scale(&s.operator, & s.report.rows);
         linear_links_scale(&links, &s.operator);
         ck_assert_int_eq(linear_transport_solve(&s.operator, & links, &x), !limited);
@@ -618,13 +648,13 @@ START_TEST(test_limited)
         double least, most;
         if (!s.hierarchy.elements[i].vertices)
             continue;
-        linear_basis_range(&links.basis[i], &s.hierarchy.elements[i], &slope[2 * (size_t)i], &least,
-                           &most);
+        linear_basis_range(&links.basis[i], &s.hierarchy.elements[i], &value[3 * (size_t)i + 1],
+                           &least, &most);
         ck_assert_double_ge(means.value[i] + least, -1e-6);
     }
     s.operator.linear = NULL;
     linear_links_close(&links);
-    free(slope);
+    free(value);
     solve_close(&s);
     made_close(&scene);
 }
@@ -693,6 +723,7 @@ int main(void)
     tcase_add_loop_test(solutions, test_plates, 0, 2);
     tcase_add_test(solutions, test_cube);
     tcase_add_test(solutions, test_projection);
+    tcase_add_test(solutions, test_reciprocal);
     tcase_add_loop_test(solutions, test_furnace, 0, thorough() ? 12 : 6);
     tcase_add_test(solutions, test_limited);
     tcase_add_test(solutions, test_room);
