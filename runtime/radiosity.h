@@ -92,8 +92,10 @@ RAD_API const char *radGetDeviceErrorMessage(RadDevice device);
 struct RadProgress {
     const char *phase; /* "refine", "solve", "particles", "factors" */
     int pass;          /* from 1 */
-    uint64_t rounds, pairs, waiting, links, rays;
+    uint64_t rounds, pairs, waiting, links;
+    uint64_t rays; /* of "particles": those that they have taken, about */
     double residual;
+    double share; /* of this phase's work that is done, about, 0 to 1; 0 where nobody knows */
 };
 /* Called from the thread that called in, up to some hundred times a second. Return 0 to go on,
  * anything else to cancel: the call then fails with RAD_ERROR_CANCELLED, and its handle may only be
