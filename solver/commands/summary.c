@@ -178,10 +178,12 @@ void summary_print(const struct summary *s)
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
     measured_print(s->measured, scene->polygons);
-    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "
-           "%.2f; %.0f MB\n",
-           r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds,
+    double particles = measured_seconds(s->measured);
+    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, particles "
+           "%.2f, output %.2f; %.0f MB\n",
+           r->seconds.build + r->seconds.refine + r->seconds.iterate + particles
+               + s->output_seconds,
            r->seconds.build, r->seconds.refine,
            r->seconds.refine > 0 ? 100 * r->seconds.in_rays / r->seconds.refine : 0,
-           r->seconds.iterate, s->output_seconds, peak_megabytes());
+           r->seconds.iterate, particles, s->output_seconds, peak_megabytes());
 }
