@@ -8,7 +8,6 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
-# make reference  build/bin/reference, which path traces radiosities per face to measure solutions by
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make bench    what the releases cost, in instructions
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
@@ -210,12 +209,6 @@ clean:
 
 include install.mk
 -include $(OBJECTS:.o=.d) $(TESTS:=.d)
-
-# Path-traced radiosities per face, to measure solutions by.
-.PHONY: reference
-reference: $(BUILD)/bin/reference
-$(BUILD)/bin/reference: $(BUILD)/tests/runtime/reference.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
 
 # Rows of view factors against rays, in a room of 6,528 faces or any other number.
 .PHONY: factor-rays

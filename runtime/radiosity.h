@@ -1,13 +1,14 @@
 /* radiosity.h - hierarchical radiosity as a library: scenes and oracles in, light and view factors
  * out.
  *
- * Five opaque handles, in the manner of Embree's API:
+ * Six opaque handles, in the manner of Embree's API:
  *
  *     RadDevice    threads, errors and progress; owns nothing else
  *     RadScene     faces and materials; after radCommitScene what solutions are made over
  *     RadOracle    a refinement oracle: built in, a .dag file or text, or a compiled refiner
  *     RadSolution  elements, links and radiosities of one scene by one oracle
  *     RadExchange  exchange areas A_i F_ij between the polygons of a scene (view factors)
+ *     RadReference what the polygons of a scene radiate, by chance alone, to judge solutions by
  *
  * Handles count references: radNew... returns one that you hold, radRetain... adds one,
  * radRelease... gives one up; a handle keeps alive what it was made from. NULL may be released.
@@ -49,6 +50,7 @@ typedef struct RadSceneObject *RadScene;
 typedef struct RadOracleObject *RadOracle;
 typedef struct RadSolutionObject *RadSolution;
 typedef struct RadExchangeObject *RadExchange;
+typedef struct RadReferenceObject *RadReference;
 
 /* ---- devices */
 
@@ -90,7 +92,7 @@ RAD_API const char *radGetDeviceErrorMessage(RadDevice device);
 
 /* Where long work is. All counts rise; 0 where the phase has none. */
 struct RadProgress {
-    const char *phase; /* "refine", "solve", "particles", "factors" */
+    const char *phase; /* "refine", "solve", "factors", "particles", "paths" */
     int pass;          /* from 1 */
     uint64_t rounds, pairs, waiting, links;
     uint64_t rays; /* of "particles": those that they have taken, about */
@@ -387,6 +389,8 @@ struct RadMeasureOptions {
     /* which random numbers, 0 to 2^31: measurements of different ones are independent of each
      * other, and all of what a solution is mended with */
     uint32_t stream;
+    /* 1: the errors over the surfaces, l2 and p999, too */
+    int surfaces;
 };
 #define RAD_MEASURE_SHARE 0.01
 #define RAD_MEASURE_LEAST (1u << 15)
@@ -395,6 +399,13 @@ struct RadMeasureOptions {
 struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
     struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
+    /* over the surfaces, of what RadMeasureOptions.surfaces asked for: root of the integral of the
+     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area mean
+     * of B - E */
+    struct RadMeasure l2, p999;
+    /* the L1 error per polygon that these particles, by chance, have themselves: what is left of it
+     * in what is mended with them */
+    struct RadMeasure noise;
     double reflected;           /* light reflected, as counted, all bands (W) */
     /* of polygons that reflect a hundredth of all light or more, the one that is most surely wrong,
      * and by which share of what it reflects; RadSceneReport.polygons: none is, surely */
@@ -475,6 +486,54 @@ struct RadExchangeReport {
     } seconds;
 };
 RAD_API void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report);
+
+/* ---- references */
+
+/* Two ways of which neither knows of links, elements or form factors: particles from the emitters,
+ * which survive with the reflectance and are counted where they land, and paths from points spread
+ * over the polygons, which look for emitters at each turn [Pattanaik and Mudur 1992; Veach and
+ * Guibas 1995]. Both are right in the mean, and their noise is known. BOTH weights them by it. */
+enum RadMethod { RAD_METHOD_PARTICLES, RAD_METHOD_PATHS, RAD_METHOD_BOTH, RAD_METHODS };
+
+/* Of a committed scene, nothing traced yet. Returns NULL on error. */
+RAD_API RadReference radNewReference(RadScene scene);
+RAD_API void radRetainReference(RadReference reference);
+RAD_API void radReleaseReference(RadReference reference);
+
+/* Trace on by PARTICLES or PATHS until there are `count` in all, or a few more: particles come in
+ * sixteen sets, and a polygon that reflects has 64 paths at least. Nothing where there are as many.
+ * The same bits for any number of threads, and, in the same calls, whether it was saved and loaded
+ * between them or not. Returns 0, or -1. */
+RAD_API int radTraceReference(RadReference reference, enum RadMethod method, uint64_t count);
+
+/* Area means of B over each polygon, both sides of two-sided ones, in one band, and one standard
+ * error of each (W/m2); [RadSceneReport.polygons], the caller's; either may be NULL. 0 of polygons
+ * without area. Returns 0, or -1. */
+RAD_API int radGetReferenceValues(RadReference reference, enum RadMethod method, uint32_t band,
+                                  double *radiosity, double *deviation);
+
+struct RadReferenceReport {
+    uint64_t traced[2], rays[2]; /* particles, paths, and the rays for them */
+    double emitted, reflected;   /* W, all bands; reflected by both */
+    /* standard errors of B, mean by area, as shares of the reflected light: by particles, by paths,
+     * by both; 0 where nothing is reflected */
+    double noise[RAD_METHODS];
+    /* light reflected by particles less by paths, and one standard error of that, as shares */
+    double difference, deviation;
+    /* squares of their differences over those expected, mean over polygons and bands that both
+     * know well: about 1 where only chance parts them; from so many */
+    double chi_square;
+    uint64_t compared;
+};
+/* Returns 0, or -1. */
+RAD_API int radGetReferenceReport(RadReference reference, struct RadReferenceReport *report);
+
+/* All that has been traced, to go on with another day. Returns how many bytes it takes; writes them
+ * where there is room for `size`. For this machine's order of bytes and this library's version. */
+RAD_API size_t radSaveReference(RadReference reference, void *bytes, size_t size);
+/* Back to what was saved of the same scene, byte for byte. Returns 0, or -1: it is of another
+ * scene, or damaged, and nothing has changed. */
+RAD_API int radLoadReference(RadReference reference, const void *bytes, size_t size);
 
 #ifdef __cplusplus
 }

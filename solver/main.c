@@ -19,6 +19,7 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_SOLVE] = command_solve,
     [COMMAND_COMPARE] = command_compare,
     [COMMAND_VIEWFACTORS] = command_viewfactors,
+    [COMMAND_REFERENCE] = command_reference,
     [COMMAND_ERROR] = command_error,
     [COMMAND_STABILITY] = study_stability,
     [COMMAND_VISIBILITY] = study_visibility,

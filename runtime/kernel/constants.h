@@ -272,6 +272,16 @@
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
 #define CLOSURE_ENOUGH 1e-12
 
+/* ---- references (engine) */
+
+/* particles. Where fewer than these are to be expected, how replicates differ does not say how sure
+ * they are: their variance then depends on their mean, and weights by it favour what is dark by
+ * chance, by a share of the standard error that falls with the root of this: 3 % here; chosen */
+#define REFERENCE_FEW 1000
+/* of the mean over its standard error, squared: so many paths at the least have found light, and
+ * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */
+#define REFERENCE_SURE 100
+
 /* ---- pictures and meshes (solver/output) */
 
 /* cosine of one degree: faces turned less are one surface. chosen: flat when shaded */

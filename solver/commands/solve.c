@@ -1,6 +1,7 @@
 /* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
+#include "commands/accuracy.h"
 #include "commands/commands.h"
 #include "commands/summary.h"
 #include "output/error_image.h"
@@ -55,18 +56,33 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
 /* Write all that was asked for. Returns the exit status. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct surfaces *surfaces, const struct solved *solved,
-                         const struct measured *measured, RadOracle oracle)
+                         const struct measured *measured, const struct accuracy *accuracy,
+                         RadOracle oracle)
 {
     double start = seconds();
     int status = write_solution(o, surfaces, solved->solution, measured->measured) < 0;
     if (o->statistics && statistics_write(o->statistics, oracle) < 0)
         status = 1;
-    const struct summary summary = {o, scene, solved, oracle, measured, seconds() - start};
+    const struct summary summary = {
+        o, scene, solved, oracle, measured, o->accuracy > 0 ? accuracy : NULL, seconds() - start};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
         summary_print(&summary);
     return status;
+}
+
+/* Solve, mend and measure as the options say. Returns 0, or -1 after a message. */
+static int solve_once(struct solved *s, struct measured *measured, const struct options *o,
+                      const struct open_scene *scene, RadOracle oracle,
+                      const struct RadSolveOptions *how)
+{
+    if (solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
+        return -1;
+    if (measured_take(measured, o, scene->device, s->solution) == 0)
+        return 0;
+    solved_close(s);
+    return -1;
 }
 
 /* Solve by the oracle and write the outputs. Returns the exit status. */
@@ -93,11 +109,10 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     struct solved s;
     struct measured measured;
-    int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
-    if (status == 0 && measured_take(&measured, o, scene->device, s.solution) < 0) {
-        solved_close(&s);
-        status = -1;
-    }
+    struct accuracy accuracy = {.reached = 1};
+    int status = o->accuracy > 0 ? accuracy_solve(&accuracy, &s, &measured, o, scene->device,
+                                                  scene->scene, oracle, &how)
+                                 : solve_once(&s, &measured, o, scene, oracle, &how);
     progress_end(&progress);
     if (status < 0)
         return 1;
@@ -110,7 +125,11 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     }
     if (!o->quiet)
         measured_warn(&measured, o->scene);
-    status = write_outputs(o, scene, &surfaces, &s, &measured, oracle);
+    status = write_outputs(o, scene, &surfaces, &s, &measured, &accuracy, oracle);
+    if (!accuracy.reached) {
+        report_warning(o->scene, 0, "--accuracy was not kept: stopped by %s", accuracy.why);
+        status = status ? status : 3;
+    }
     solved_close(&s);
     return status;
 }

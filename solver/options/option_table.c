@@ -62,6 +62,34 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
 
+/* A share, as such or in per cent. */
+static int read_share(struct options *o, const struct option_row *row, const char *value)
+{
+    char *end;
+    double share = strtod(value, &end);
+    int percent = end != value && strcmp(end, "%") == 0;
+    share /= percent ? 100 : 1;
+    if (end == value || end[percent] || !(share > 0 && share < 1))
+        return -1;
+    *(double *)field_of(o, row) = share;
+    return 0;
+}
+
+/* "[l1:|l2:|power:]X[%]": a share of the reflected light. */
+static int read_accuracy(struct options *o, const struct option_row *row, const char *value)
+{
+    o->norm = ACCURACY_L1;
+    for (int i = 0; norm_words[i]; i++) {
+        size_t length = strlen(norm_words[i]);
+        if (strncmp(value, norm_words[i], length) == 0 && value[length] == ':') {
+            o->norm = (enum accuracy_norm)i;
+            value += length + 1;
+            break;
+        }
+    }
+    return read_share(o, row, value);
+}
+
 static int read_setting(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
@@ -211,6 +239,15 @@ const struct command_row command_rows[COMMANDS] = {
          "F_ij is the share of what leaves face i evenly that meets face j, occlusion\n"
          "included. Rows and columns are the faces of the scene file, in its order.\n",
          "radiosity viewfactors room.obj -o factors.csv --closure reciprocal"},
+    [COMMAND_REFERENCE] =
+        {"reference", "SCENE", "what faces radiate, traced to a stated accuracy",
+         "Trace what each face radiates, by particles from the emitters and by paths from\n"
+         "the faces, until the standard error of a face's light, mean by area, is a given\n"
+         "share of the reflected light; then hold the two against each other. Independent\n"
+         "of links and oracles: to judge solutions by, with radiosity error. The table has\n"
+         "columns face, area, B_k and se_k, the standard error of B_k. A run that is\n"
+         "stopped goes on from FILE.csv.state when it is started again.\n",
+         "radiosity reference room.obj -o ref.csv --accuracy 0.5%"},
     [COMMAND_ERROR] =
         {"error", "FACES.csv REF.csv", "how far a table of faces is from a reference",
          "Compare B of each face, as solve --faces wrote it, with a reference: made by\n"
@@ -261,19 +298,21 @@ enum {
     SOLVE = 1 << COMMAND_SOLVE,
     COMPARE = 1 << COMMAND_COMPARE,
     FACTORS = 1 << COMMAND_VIEWFACTORS,
+    REFERENCE = 1 << COMMAND_REFERENCE,
     ERROR = 1 << COMMAND_ERROR,
     STABILITY = 1 << COMMAND_STABILITY,
     VISIBILITY = 1 << COMMAND_VISIBILITY,
     CLUSTERING = 1 << COMMAND_CLUSTERING,
     FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
-    MATRICES = SOLVE | COMPARE | CLUSTERING, /* they solve for radiosities */
-    SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS,
-    THREADED = SCENES | STABILITY | ARVO,
+    MATRICES = SOLVE | COMPARE | CLUSTERING,                 /* they solve for radiosities */
+    SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
+    THREADED = SCENES | REFERENCE | STABILITY | ARVO,
     ALL = THREADED | ERROR
 };
 
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
+const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
@@ -320,8 +359,12 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
-    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap",
-     FLAG(errors)},
+    {"accuracy", "NORM:X%", SOLVE, NULL, "solve until the error is at most this: l1, l2, power",
+     "a share such as 1%, or l2:5% or power:0.5%; above 0 and below 100%", .read = read_accuracy,
+     IN(accuracy)},
+    {"limit-seconds", "N", SOLVE, NULL, "when --accuracy gives up (exit status 3)",
+     "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX), .rare = 1},
+    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap", FLAG(errors)},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
      FLAG(correct), .rare = 1},
@@ -329,6 +372,9 @@ const struct option_row option_rows[] = {
      FLAG(no_correct)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
+    {"accuracy", "SHARE", REFERENCE, "0.2%", "the standard error to reach",
+     "a share such as 0.2% or 0.002, above 0 and below 1", .read = read_share, IN(noise)},
+    {"keep", NULL, REFERENCE, NULL, "the state file stays, for a finer run", FLAG(keep)},
     {"worst", "N", ERROR, "10", "faces to name", "a whole number from 0 to 100000",
      WHOLE(worst, 0, 100000)},
     {"only", "CASE", STABILITY, NULL, "one of the scenes", TEXT(only)},
@@ -342,13 +388,15 @@ const struct option_row option_rows[] = {
      "some of 4,16,64,256,1024, rising, parted by commas", .read = read_rays},
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
-    {"two-sided", NULL, SCENES, NULL, "faces have two sides, not only those *_2s", FLAG(two_sided)},
+    {"two-sided", NULL, SCENES | REFERENCE, NULL, "faces have two sides, not only those *_2s",
+     FLAG(two_sided)},
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
     {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
      NAMED(out, tables)},
+    {"o", "FILE.csv", REFERENCE, NULL, "the table; must be given", NAMED(out, csv)},
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
@@ -368,7 +416,7 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS | ERROR, NULL,
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };

@@ -303,12 +303,21 @@ static int check_together(struct options *o)
         return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
     if (*c->argument && !o->scene)
         return wrong(c->name, "no scene is given");
+    if (o->command == COMMAND_REFERENCE && !o->out)
+        return wrong(c->name, "the table's name is missing: -o FILE.csv");
     if (o->statistics && o->release_given && o->release != RAD_RELEASE_DAG)
         return wrong(
             c->name,
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
     if (o->statistics)
         o->release = RAD_RELEASE_DAG;
+    if (o->accuracy > 0 && (o->no_errors || o->no_correct))
+        return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
+                     o->no_errors ? "--no-errors" : "--no-correct");
+    if (o->limit_seconds && !(o->accuracy > 0))
+        return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if (o->correct && o->no_correct)
+        return wrong(c->name, "--correct and --no-correct contradict each other");
     if (o->mesh && !o->image && !o->image_error)
         return wrong(c->name, "--mesh is for a picture: add --image FILE.png or --image-error "
                               "FILE.png");

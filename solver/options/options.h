@@ -11,6 +11,7 @@ enum command {
     COMMAND_SOLVE,
     COMMAND_COMPARE,
     COMMAND_VIEWFACTORS,
+    COMMAND_REFERENCE,
     COMMAND_ERROR,
     COMMAND_STABILITY,
     COMMAND_VISIBILITY,
@@ -23,6 +24,11 @@ enum command {
 
 /* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
 extern const char *const release_words[], *const closure_words[];
+
+/* The norms that --accuracy is asked in: of face means, over the surfaces, of all light together.
+ */
+enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
+extern const char *const norm_words[];
 
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
@@ -46,6 +52,9 @@ struct options {
 
     /* How far from the truth. */
     int errors, no_errors, correct, no_correct;
+    double accuracy; /* share of the reflected light; 0: not asked for */
+    enum accuracy_norm norm;
+    int limit_seconds; /* 0: none */
 
     /* What to write. */
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
@@ -61,8 +70,10 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    int worst;   /* error: how many faces to name */
-    int samples; /* arvo: across the receiver; 0: exactly */
+    double noise; /* reference: the standard error to reach, a share */
+    int keep;     /* reference: its state file stays */
+    int worst;    /* error: how many faces to name */
+    int samples;  /* arvo: across the receiver; 0: exactly */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on

@@ -47,6 +47,11 @@ says 2 "no command" ""
 says 2 "scene's name" solve ""
 says 2 "study what?" study ""
 says 2 "a table's name is empty" error ""
+says 2 "the table's name is missing: -o FILE.csv" reference "$scene"
+says 2 "-o takes a file named .csv, not x" reference "$scene" -o x
+for option in -o --accuracy --json; do says 2 "$option takes" reference "$scene" "$option" ""; done
+for value in 0 0% 1 100% -1% nan inf 1%% x %; do says 2 "--accuracy takes a share" reference "$scene" -o x.csv --accuracy $value; done
+says 2 "this is the scene, which would be lost" reference "$scene" -o x.csv --json "$scene"
 says 2 "two tables are needed" error a.csv
 says 2 "two tables are needed" error
 says 2 "more than two tables: c.csv" error a.csv b.csv c.csv
@@ -108,7 +113,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors error study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" oracles; do
+for command in "" solve compare viewfactors reference error study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -127,7 +132,7 @@ for command in "" solve compare viewfactors error study "study stability" "study
     esac
     rm -f out err
 done
-for command in solve compare viewfactors error "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
+for command in solve compare viewfactors reference error "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
@@ -155,6 +160,7 @@ for option in --image --image-error --faces --json --statistics; do
 done
 says 1 "make the folder first" compare none.obj --json nowhere/x
 says 1 "make the folder first" viewfactors none.obj -o nowhere/x.csv
+says 1 "make the folder first" reference none.obj -o nowhere/x.csv
 says 1 "make the folder first" viewfactors none.obj --json nowhere/x
 says 1 "make the folder first" viewfactors none.obj --names nowhere/x
 says 1 "make the folder first" study stability -o nowhere/x.csv

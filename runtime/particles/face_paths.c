@@ -1,0 +1,114 @@
+/* face_paths.c - see face_paths.h.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include <omp.h>
+#include "particles/face_paths.h"
+#include "particles/paths.h"
+
+enum { BLOCKS = 1 << 13 }; /* traced before their sums are added */
+
+int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t stream)
+{
+    uint32_t faces = t->hierarchy->face_count;
+    size_t values = (size_t)faces * t->bands;
+    *p = (struct face_paths){.faces = faces, .bands = t->bands, .stream = stream};
+    p->share = calloc(faces, sizeof *p->share);
+    p->sum = calloc(values, sizeof *p->sum);
+    p->square = calloc(values, sizeof *p->square);
+    if (!p->share || !p->sum || !p->square) {
+        face_paths_close(p);
+        return -1;
+    }
+    double all = 0;
+    for (uint32_t i = 0; i < faces; i++) {
+        double rho = 0;
+        for (uint32_t k = 0; k < t->bands; k++)
+            rho = fmax(rho, t->reflectance[(size_t)i * t->bands + k]);
+        double each = rho * tracer_surface(t, i)->area;
+        p->share[i] = cbrt(each * each);
+        all += p->share[i];
+    }
+    for (uint32_t i = 0; i < faces && all > 0; i++)
+        p->share[i] /= all;
+    return 0;
+}
+
+void face_paths_close(struct face_paths *p)
+{
+    free(p->share);
+    free(p->sum);
+    free(p->square);
+    *p = (struct face_paths){0};
+}
+
+/* PATH_BLOCK paths of one face, from number `first` on. */
+struct block {
+    uint64_t first, rays;
+    uint32_t face;
+    double sum[3], square[3];
+};
+
+static void trace(struct block *b, const struct tracer *t, uint64_t stream)
+{
+    for (uint64_t i = b->first; i < b->first + PATH_BLOCK; i++) {
+        struct dice dice = dice_of(stream + b->face, i);
+        double u = dice_throw(&dice), v = dice_throw(&dice), p[3], h[3] = {0, 0, 0};
+        tracer_point(t, b->face, u, v, p);
+        path_irradiance(t, b->face, p, &dice, h, &b->rays);
+        for (uint32_t k = 0; k < t->bands; k++) {
+            b->sum[k] += h[k];
+            b->square[k] += h[k] * h[k];
+        }
+    }
+}
+
+static void add(struct face_paths *p, const struct block *b)
+{
+    p->rays += b->rays;
+    for (uint32_t k = 0; k < p->bands; k++) {
+        p->sum[(size_t)b->face * p->bands + k] += b->sum[k];
+        p->square[(size_t)b->face * p->bands + k] += b->square[k];
+    }
+}
+
+/* Trace the blocks, then add them in their order. Returns 0, or -1 when stopped. */
+static int flush(struct face_paths *p, const struct tracer *t, struct block *blocks, int count,
+                 const struct tally_watch *watch, double share)
+{
+#pragma omp parallel for schedule(dynamic, 16) num_threads(t->threads)
+    for (int i = 0; i < count; i++)
+        trace(&blocks[i], t, p->stream);
+    for (int i = 0; i < count; i++)
+        add(p, &blocks[i]);
+    return watch && watch->tell(watch->context, share) ? -1 : 0;
+}
+
+int face_paths_trace(struct face_paths *p, const struct tracer *t, uint64_t paths,
+                     const struct tally_watch *watch)
+{
+    uint64_t wanted = 0, done = 0;
+    if (paths <= p->paths)
+        return 0;
+    struct block *blocks = malloc(BLOCKS * sizeof *blocks);
+    if (!blocks)
+        return -1;
+    for (uint32_t i = 0; i < p->faces; i++)
+        wanted += face_paths_count(p, i, paths) - face_paths_count(p, i, p->paths);
+    int waiting = 0, stopped = 0;
+    for (uint32_t i = 0; i < p->faces && !stopped; i++) {
+        uint64_t to = face_paths_count(p, i, paths);
+        for (uint64_t at = face_paths_count(p, i, p->paths); at < to && !stopped;
+             at += PATH_BLOCK, done += PATH_BLOCK) {
+            blocks[waiting++] = (struct block){.first = at, .face = i};
+            if (waiting < BLOCKS)
+                continue;
+            stopped = flush(p, t, blocks, waiting, watch, (double)done / (double)wanted);
+            waiting = 0;
+        }
+    }
+    stopped = stopped || flush(p, t, blocks, waiting, watch, 1);
+    free(blocks);
+    p->paths = paths;
+    return stopped ? -1 : 0;
+}

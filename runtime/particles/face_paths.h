@@ -1,0 +1,59 @@
+/* face_paths.h - mean irradiances of faces by paths from points spread over them.
+ *
+ * How many paths a face gets of so many in all is fixed: by its share, in whole blocks, the first
+ * of them by being there. So what has been traced depends on the sum of what was asked for, not on
+ * the pieces it was asked in.
+ *
+ * Invariant: a block is summed up by one thread and blocks in their order, so neither threads nor
+ * pieces show.
+ * SPDX-License-Identifier: MIT */
+#ifndef FACE_PATHS_H
+#define FACE_PATHS_H
+
+#include "particles/particles.h"
+
+enum { PATH_BLOCK = 64 };
+
+struct face_paths {
+    uint32_t faces, bands;
+    uint64_t stream; /* which random numbers */
+    uint64_t paths;  /* asked for so far, all faces */
+    uint64_t rays;   /* cast for them */
+    double *share;   /* [faces]: of all paths; 0: none */
+    double *sum;     /* [faces * bands + band]: of the irradiances h that paths found (W/m2) */
+    double *square;  /* the same of h^2 */
+};
+
+/* None yet. Faces share paths by (A rho)^(2/3), rho of the strongest band, which gives the sum of
+ * A rho times the standard error its least where all are equally noisy; where nothing is reflected
+ * none is traced. Returns 0, or -1 when out of memory. */
+int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t stream);
+void face_paths_close(struct face_paths *p);
+
+/* Trace on until `paths` have been asked for in all. watch: NULL, or asked. Returns 0, or -1 when
+ * stopped or out of memory: then the sums are of no use. */
+int face_paths_trace(struct face_paths *p, const struct tracer *t, uint64_t paths,
+                     const struct tally_watch *watch);
+
+/* How many the face has got. */
+static inline uint64_t face_paths_count(const struct face_paths *p, uint32_t face, uint64_t paths)
+{
+    if (!(p->share[face] > 0) || paths == 0)
+        return 0;
+    uint64_t blocks = (uint64_t)((double)paths * p->share[face] / PATH_BLOCK);
+    return PATH_BLOCK * (blocks > 0 ? blocks : 1);
+}
+
+/* Mean irradiance of the face in a band (W/m2), and the variance of that mean. 0 where no path was
+ * traced. */
+static inline void face_paths_mean(const struct face_paths *p, uint32_t face, uint32_t band,
+                                   double *mean, double *variance)
+{
+    double n = (double)face_paths_count(p, face, p->paths);
+    size_t at = (size_t)face * p->bands + band;
+    *mean = n > 0 ? p->sum[at] / n : 0;
+    double spread = n > 0 ? p->square[at] / n - *mean * *mean : 0;
+    *variance = spread > 0 ? spread / (n - 1) : 0;
+}
+
+#endif

@@ -1,0 +1,308 @@
+/* check_reference.c - references: right where the answer is known, as sure as they say, and the
+ * same bits however they were come by.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "engine/reference.h"
+#include "runtime/path_reference.h"
+#include "scene/make_scene.h"
+#include "scene/read_scene.h"
+#include "suite.h"
+
+enum { RUNS = 40 };
+
+static void read_file(struct scene *scene, const char *path)
+{
+    const struct scene_options how = {0, 1};
+    ck_assert_int_eq(scene_read(scene, path, &how), 0);
+}
+
+static void open_reference(struct reference *r, const struct scene *scene, int threads)
+{
+    const char *cause;
+    ck_assert_int_eq(reference_open(r, scene, threads, &cause), 0);
+}
+
+static void trace(struct reference *r, uint64_t particles, uint64_t paths)
+{
+    ck_assert_int_eq(tally_trace(&r->tally, &r->tracer, particles / REPLICATES, NULL), 0);
+    ck_assert_int_eq(face_paths_trace(&r->paths, &r->tracer, paths, NULL), 0);
+}
+
+/* Closed, all of E = 1 and rho = 1/2: H = E / (1 - rho) = 2 everywhere, by any method. */
+START_TEST(furnace)
+{
+    struct scene scene;
+    struct reference r;
+    read_file(&scene, "examples/scenes/furnace.obj");
+    open_reference(&r, &scene, 2);
+    trace(&r, 1 << 18, 1 << 17);
+    double mean[16], variance[16];
+    ck_assert_uint_le(scene.input_count, 16);
+    const struct RadMaterial *m = &scene.materials[scene.faces[0].material];
+    double h = m->exitance[0] / (1 - m->reflectance[0]);
+    for (enum reference_method way = 0; way < REFERENCE_METHODS;
+         way = (enum reference_method)(way + 1)) {
+        ck_assert_int_eq(reference_irradiance(&r, way, 0, mean, variance), 0);
+        for (uint32_t i = 0; i < scene.input_count; i++) {
+            /* of sixteen replicates once in 6,000 */
+            ck_assert_double_eq_tol(mean[i], h, 5 * sqrt(variance[i]));
+            ck_assert_double_lt(sqrt(variance[i]), 0.01 * h);
+        }
+    }
+    struct reference_summary s;
+    ck_assert_int_eq(reference_summary(&r, &s), 0);
+    ck_assert_double_eq_tol(s.reflected, s.emitted / (1 / m->reflectance[0] - 1),
+                            5e-3 * s.reflected);
+    ck_assert_double_le(fabs(s.difference), 4 * s.deviation);
+    reference_close(&r);
+    scene_free(&scene);
+}
+END_TEST
+
+/* Scatter of RUNS values over the variance told of them; 0 where they are all 0. */
+static double scatter(const double *value, size_t stride, double told)
+{
+    double middle = 0, spread = 0;
+    for (int run = 0; run < RUNS; run++)
+        middle += value[(size_t)run * stride] / RUNS;
+    for (int run = 0; run < RUNS; run++)
+        spread += pow(value[(size_t)run * stride] - middle, 2) / (RUNS - 1);
+    return middle > 0 ? spread / told : 0;
+}
+
+/* Runs that share no random number scatter about their mean as each says of itself. */
+START_TEST(as_sure_as_it_says)
+{
+    struct scene scene;
+    read_file(&scene, "examples/scenes/cornell.obj");
+    size_t n = scene.input_count;
+    double *mean[REFERENCE_METHODS], *told[REFERENCE_METHODS],
+        *variance = calloc(n, sizeof(double));
+    for (int way = 0; way < REFERENCE_METHODS; way++) {
+        mean[way] = calloc(RUNS * n, sizeof(double));
+        told[way] = calloc(n, sizeof(double));
+    }
+    double chi = 0, off = 0, outside = 0, bias = 0;
+    for (size_t run = 0; run < RUNS; run++) {
+        struct reference r;
+        struct reference_summary s;
+        open_reference(&r, &scene, 2);
+        r.tally.stream += 1000 + run;
+        r.paths.stream += (1 + run) << 33;
+        trace(&r, 1 << 15, 1 << 13);
+        for (int way = 0; way < REFERENCE_METHODS; way++) {
+            ck_assert_int_eq(reference_irradiance(&r, (enum reference_method)way, 1,
+                                                  mean[way] + run * n, variance),
+                             0);
+            for (size_t i = 0; i < n; i++)
+                told[way][i] += variance[i] / RUNS;
+        }
+        ck_assert_int_eq(reference_summary(&r, &s), 0);
+        chi += s.chi_square / RUNS;
+        bias += s.difference / s.deviation / RUNS;
+        off += pow(s.difference / s.deviation, 2) / RUNS;
+        outside += fabs(s.difference) > 1.96 * s.deviation;
+        reference_close(&r);
+    }
+    for (int way = 0; way < REFERENCE_METHODS; way++) {
+        double sum = 0;
+        int known = 0;
+        for (size_t i = 0; i < n; i++) {
+            double each = scatter(mean[way] + i, n, told[way][i]);
+            sum += each;
+            known += each > 0;
+        }
+        printf("method %d: scatter over what is told %.3f, %d faces\n", way, sum / known, known);
+        ck_assert_int_ge(known, 20);
+        /* a variance from RUNS values is known to root (2 / RUNS); of 20 faces, some go together */
+        ck_assert_double_eq_tol(sum / known, 1, 0.15);
+        free(mean[way]);
+        free(told[way]);
+    }
+    printf("difference: mean %.2f, mean square %.2f, outside 95 %%: %g of %d; chi-square %.3f\n",
+           bias, off, outside, RUNS, chi);
+    ck_assert_double_lt(fabs(bias), 3 / sqrt(RUNS));
+    ck_assert_double_eq_tol(off, 1, 3 * sqrt(2. / RUNS));
+    ck_assert_double_le(outside, 0.05 * RUNS + 3 * sqrt(0.05 * RUNS));
+    ck_assert_double_eq_tol(chi, 1, 0.2);
+    free(variance);
+    scene_free(&scene);
+}
+END_TEST
+
+/* Another program's particles, of which nothing is shared but Embree. */
+START_TEST(as_others_find)
+{
+    struct scene scene;
+    struct reference r;
+    read_file(&scene, "examples/scenes/room.obj");
+    open_reference(&r, &scene, 2);
+    trace(&r, 1 << 18, 1 << 16);
+    uint32_t bands = scene.bands;
+    double *other = calloc((size_t)scene.face_count * bands, sizeof *other),
+           *noise = calloc((size_t)scene.face_count * bands, sizeof *noise),
+           *mean = calloc(scene.input_count, sizeof *mean),
+           *variance = calloc(scene.input_count, sizeof *variance),
+           *sum = calloc(scene.input_count, sizeof *sum),
+           *area = calloc(scene.input_count, sizeof *area);
+    path_reference(&scene, 1 << 18, other, noise);
+    double mine = 0, theirs = 0, worst = 0;
+    for (uint32_t b = 0; b < bands; b++) {
+        ck_assert_int_eq(reference_irradiance(&r, REFERENCE_BOTH, b, mean, variance), 0);
+        memset(sum, 0, scene.input_count * sizeof *sum);
+        memset(area, 0, scene.input_count * sizeof *area);
+        for (uint32_t i = 0; i < scene.face_count; i++) {
+            double a = tracer_surface(&r.tracer, i)->area;
+            sum[scene.faces[i].input] += a * other[(size_t)i * bands + b];
+            area[scene.faces[i].input] += a;
+        }
+        for (uint32_t i = 0; i < scene.input_count; i++) {
+            mine += area[i] * mean[i];
+            theirs += sum[i];
+            if (area[i] > 5) /* m2; both know them to a percent or so */
+                worst = fmax(worst, fabs(area[i] * mean[i] / sum[i] - 1));
+        }
+    }
+    printf("room: %.4f W received, by others %.4f; walls differ by %.2f %% at the most\n", mine,
+           theirs, 100 * worst);
+    ck_assert_double_eq_tol(mine, theirs, 5e-3 * mine);
+    ck_assert_double_lt(worst, 0.02);
+    free(other);
+    free(noise);
+    free(mean);
+    free(variance);
+    free(sum);
+    free(area);
+    reference_close(&r);
+    scene_free(&scene);
+}
+END_TEST
+
+static unsigned char *state_of(const struct reference *r)
+{
+    unsigned char *bytes = malloc(reference_state_size(r));
+    ck_assert_ptr_nonnull(bytes);
+    reference_state(r, bytes);
+    return bytes;
+}
+
+static void same_state(const struct reference *a, const struct reference *b)
+{
+    unsigned char *x = state_of(a), *y = state_of(b);
+    ck_assert_uint_eq(reference_state_size(a), reference_state_size(b));
+    ck_assert(memcmp(x, y, reference_state_size(a)) == 0);
+    free(x);
+    free(y);
+}
+
+START_TEST(same_bits)
+{
+    struct scene scene;
+    struct reference whole, other;
+    const char *cause;
+    read_file(&scene, "examples/scenes/room.obj");
+    open_reference(&whole, &scene, 1);
+    trace(&whole, 1 << 14, 20000);
+    trace(&whole, 3 << 14, 50000);
+    open_reference(&other, &scene, 3); /* threads; paths in other pieces */
+    ck_assert_int_eq(face_paths_trace(&other.paths, &other.tracer, 33333, NULL), 0);
+    trace(&other, 1 << 14, 20000);
+    trace(&other, 3 << 14, 50000);
+    same_state(&whole, &other);
+    reference_close(&other);
+    open_reference(&other, &scene, 2); /* saved between */
+    trace(&other, 1 << 14, 20000);
+    unsigned char *bytes = state_of(&other);
+    size_t size = reference_state_size(&other);
+    reference_close(&other);
+    open_reference(&other, &scene, 2);
+    ck_assert_int_eq(reference_restore(&other, bytes, size, &cause), 0);
+    trace(&other, 3 << 14, 50000);
+    same_state(&whole, &other);
+    double *mean = malloc(4 * scene.input_count * sizeof *mean);
+    for (size_t i = 0; i < 2; i++)
+        ck_assert_int_eq(reference_irradiance(i ? &whole : &other, REFERENCE_BOTH, 2,
+                                              mean + 2 * i * scene.input_count,
+                                              mean + (2 * i + 1) * scene.input_count),
+                         0);
+    ck_assert(memcmp(mean, mean + 2 * scene.input_count, 2 * scene.input_count * sizeof *mean)
+              == 0);
+    free(mean);
+    /* what is damaged, short, or of another scene changes nothing */
+    static const size_t places[] = {0, 3, 9, 40, 200, 4000};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        bytes[places[i]] ^= 4;
+        ck_assert_int_eq(reference_restore(&other, bytes, size, &cause), -1);
+        bytes[places[i]] ^= 4;
+    }
+    for (size_t cut = 0; cut < size; cut += 1 + size / 50)
+        ck_assert_int_eq(reference_restore(&other, bytes, cut, &cause), -1);
+    same_state(&whole, &other);
+    reference_close(&other);
+    struct scene cornell;
+    read_file(&cornell, "examples/scenes/cornell.obj");
+    open_reference(&other, &cornell, 2);
+    ck_assert_int_eq(reference_restore(&other, bytes, size, &cause), -1);
+    ck_assert_ptr_nonnull(strstr(cause, "another scene"));
+    ck_assert_uint_eq(other.tally.particles, 0);
+    reference_close(&other);
+    scene.materials[scene.faces[0].material].reflectance[0] *= 0.5; /* another light */
+    open_reference(&other, &scene, 2);
+    ck_assert_int_eq(reference_restore(&other, bytes, size, &cause), -1);
+    reference_close(&other);
+    reference_close(&whole);
+    free(bytes);
+    scene_free(&cornell);
+    scene_free(&scene);
+}
+END_TEST
+
+/* Without light, without reflection, of a polygon without area: exact, and no nan. */
+START_TEST(nothing_to_find)
+{
+    for (int lamp = 0; lamp < 2; lamp++) {
+        struct scene scene;
+        struct reference r;
+        struct reference_summary s;
+        double mean[4], variance[4];
+        made_open(&scene);
+        made_material(&scene, 0, lamp);
+        made_material(&scene, lamp ? 0 : 0.5, 0);
+        made_quad(&scene, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+        made_quad(&scene, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+        open_reference(&r, &scene, 1);
+        trace(&r, 1 << 12, 1 << 12);
+        for (enum reference_method way = 0; way < REFERENCE_METHODS;
+             way = (enum reference_method)(way + 1)) {
+            ck_assert_int_eq(reference_irradiance(&r, way, 0, mean, variance), 0);
+            for (int i = 0; i < 2; i++)
+                ck_assert(isfinite(mean[i]) && isfinite(variance[i]) && (lamp || mean[i] == 0));
+        }
+        ck_assert_int_eq(reference_summary(&r, &s), 0);
+        ck_assert_double_eq(s.reflected, 0);
+        for (int way = 0; way < REFERENCE_METHODS; way++)
+            ck_assert_double_eq(s.noise[way], 0);
+        ck_assert(isfinite(s.chi_square) && isfinite(s.deviation));
+        reference_close(&r);
+        scene_free(&scene);
+    }
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("reference");
+    TCase *c = tcase_create("reference");
+    tcase_set_timeout(c, 300);
+    tcase_add_test(c, furnace);
+    tcase_add_test(c, as_sure_as_it_says);
+    tcase_add_test(c, as_others_find);
+    tcase_add_test(c, same_bits);
+    tcase_add_test(c, nothing_to_find);
+    suite_add_tcase(suite, c);
+    return suite_failures(suite) != 0;
+}

@@ -1,0 +1,106 @@
+#!/bin/bash
+# check_reference.sh - `radiosity reference`: its table, the accuracy that it promises, runs that are stopped and go on, and
+# states that are damaged or of another scene. RADIOSITY names the command.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+scenes=$top/examples/scenes
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+count=0 bad=0
+check() { # WHAT COMMAND...: the command must succeed
+    what=$1
+    shift
+    count=$((count + 1))
+    "$@" || { bad=$((bad + 1)); echo "failed: $what"; cat err 2>/dev/null; }
+}
+value() { sed -n "s/.*\"$1\": \\([-0-9.e+]*\\),*$/\\1/p" "$2" | head -n 1; }
+less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
+
+# ---- a furnace: B = E / (1 - rho) = 2 on all faces, within what the table says of itself
+"$radiosity" reference "$scenes/furnace.obj" -o f.csv --accuracy 0.4% --json f.json >out 2>err
+check "a furnace" [ $? = 0 ]
+check "no word on standard error" [ ! -s err ]
+check "columns" [ "$(head -n 1 f.csv)" = "face,area,B_0,se_0" ]
+check "rows" [ "$(wc -l <f.csv)" = 7 ]
+check "B of a furnace" awk -F, 'NR > 1 && !($2 == 1 && $4 > 0 && ($3 - 2) ^ 2 < 25 * $4 ^ 2) { bad = 1 } END { exit bad }' f.csv
+check "the promised error" less "$(value both f.json)" 0.004
+check "reflected" less 5.9 "$(value reflected f.json)"
+check "they agree" grep -q '"agree": true' f.json
+check "no state is left" [ ! -e f.csv.state ]
+cat >exact.csv <<END
+face,area,E_0,B_0
+0,1,1,2
+1,1,1,2
+2,1,1,2
+3,1,1,2
+4,1,1,2
+5,1,1,2
+END
+"$radiosity" error exact.csv f.csv --json e.json >out 2>err
+check "error reads it" less "$(value l1_faces e.json)" 0.008
+check "two-sided area" sh -c "'$radiosity' reference '$scenes/furnace.obj' --two-sided -q -o t.csv --accuracy 2% && sed -n 2p t.csv | grep -q '^0,2,'"
+
+# ---- three bands, any number of threads, in one go or in two: the same bytes
+how="$scenes/cornell.obj --accuracy 0.6% -q"
+check "one thread" "$radiosity" reference $how -o one.csv --threads 1
+check "three threads" "$radiosity" reference $how -o three.csv --threads 3
+check "the same on any threads" cmp one.csv three.csv
+check "bands" [ "$(head -n 1 one.csv)" = "face,area,B_0,B_1,B_2,se_0,se_1,se_2" ]
+check "coarse first" "$radiosity" reference "$scenes/cornell.obj" --accuracy 3% -q --keep -o two.csv
+check "its state is kept" [ -s two.csv.state ]
+check "not yet the same" sh -c '! cmp -s one.csv two.csv'
+cp two.csv.state state
+"$radiosity" reference "$scenes/cornell.obj" --accuracy 0.6% -o two.csv >out 2>err
+check "it goes on" grep -q "^goes on from two.csv.state: .* particles" out
+check "the same in two runs" cmp one.csv two.csv
+check "the state is gone" [ ! -e two.csv.state ]
+
+# ---- stopped by a signal, three times, at whatever place
+: >long.csv.log
+for i in 1 2 3 4 5 6 7 8; do
+    "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% --threads 1 -o long.csv >out 2>err &
+    pid=$!
+    [ $i -lt 4 ] && { sleep 0.4; kill -INT $pid 2>/dev/null || kill -TERM $pid 2>/dev/null; }
+    wait $pid
+    status=$?
+    echo $status >>long.csv.log
+    [ $status = 130 ] || break
+    check "a stopped run has no table" [ ! -e long.csv ]
+    if [ -s err ]; then # else it was stopped before it began
+        check "it says so" grep -q "^stopped after .*goes on from long.csv.state" err
+        check "it leaves a state" [ -s long.csv.state ]
+    fi
+done
+check "it was stopped at least once" grep -q 130 long.csv.log
+check "and ended" [ $status = 0 ]
+check "at one go" "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% -q -o whole.csv
+check "the same after being stopped" cmp whole.csv long.csv
+
+# ---- states that are none of this scene's
+says() { # TEXT: the run with the state x.csv.state ends with 1 and this line, and touches nothing
+    count=$((count + 1))
+    cp x.csv.state before
+    "$radiosity" reference "$scenes/cornell.obj" --accuracy 3% -o x.csv >out 2>err
+    if [ $? != 1 ] || ! grep -q "^x.csv.state: error: $1.*; remove it to start anew" err || [ "$(wc -l <err)" != 1 ] ||
+        [ -e x.csv ] || ! cmp -s before x.csv.state; then
+        bad=$((bad + 1))
+        echo "failed: $1"
+        cat err
+    fi
+}
+"$radiosity" reference "$scenes/furnace.obj" --accuracy 3% -q --keep -o x.csv && rm x.csv
+says "it is of another scene"
+head -c 1000 state >x.csv.state
+says "it is damaged"
+{ head -c 1000 state; echo; tail -c +1002 state; } >x.csv.state
+says "it is damaged"
+: >x.csv.state
+says "it is no state of a reference"
+echo "this is a text, and longer than what stands before a state, which is some hundred bytes long, as far as one can see, or more" >x.csv.state
+says "it is no state of a reference"
+
+echo "reference: $count checks, $bad failed"
+[ "$bad" = 0 ]
