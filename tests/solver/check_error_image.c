@@ -200,7 +200,7 @@ START_TEST(test_beyond)
         const struct element *e = &r->h.elements[inner];
         int x = (int)(300 + 100 * e->centre[0]), y = (int)(150 - 100 * e->centre[2]);
         const unsigned char *beyond = at(&p, x, y), *end = at(&p, 450, 100),
-                            *dim = at(&p, 550, 100);
+                            *dim = at(&p, 596, 100);
         ck_assert_int_gt(sign * red_less_blue(beyond), 20);
         ck_assert_int_gt(sign * red_less_blue(dim), 40);
         ck_assert_int_lt(sum(dim), sum(end));
@@ -368,6 +368,12 @@ START_TEST(test_text)
     }
     ck_assert_int_eq(bitmap_text_width(""), 0);
     ck_assert_int_eq(bitmap_text_width("11"), 7);
+    uint8_t two[3 * 12 * 12] = {0};
+    bitmap_text(&(struct bitmap){two, 12, 12}, 2, 2, 1, (const uint8_t[3]){9, 9, 9}, "1-");
+    int right = 0;
+    for (int j = 0; j < 144; j++)
+        right = two[3 * j] && j % 12 > right ? j % 12 : right;
+    ck_assert_int_eq(right, 2 + bitmap_text_width("1-") - 1);
 }
 END_TEST
 
