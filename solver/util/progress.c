@@ -31,8 +31,9 @@ void progress_say(struct progress *p, const char *format, ...)
 
 int progress_show(void *user, const struct RadProgress *at)
 {
-    if (strcmp(at->phase, "particles") == 0)
-        progress_say(user, "particles %.0f %% done, %.3g rays", 100 * at->share, (double)at->rays);
+    if (strcmp(at->phase, "particles") == 0 || at->share > 0)
+        progress_say(user, "%-7s %.0f %% done, %.3g rays", at->phase, 100 * at->share,
+                     (double)at->rays);
     else
         progress_say(user,
                      "%-7s pass %d, round %llu: %.3g pairs (%.3g waiting), %.3g links, %.3g rays, "
