@@ -96,8 +96,10 @@ struct RadProgress {
      * "particles", "paths", "account", "factors" */
     const char *phase;
     int pass; /* from 1 */
-    uint64_t rounds, pairs, waiting, links, rays;
+    uint64_t rounds, pairs, waiting, links;
+    uint64_t rays; /* of "particles": those that they have taken, about */
     double residual;
+    double share; /* of this phase's work that is done, about, 0 to 1; 0 where nobody knows */
 };
 /* Called from the thread that called in, up to some hundred times a second. Return 0 to go on,
  * anything else to cancel: the call then fails with RAD_ERROR_CANCELLED, and its handle may only be
@@ -353,10 +355,10 @@ struct RadElements {
     uint32_t bands;
     const double *radiosity, *irradiance; /* [element * bands + band]; clusters hold means */
     const double *uncovered; /* [count]: share of the element that no solid stands on */
-    /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL: [(element * bands +
-     * band) * 3]. B at point x of a surface is radiosity + gradient . (x - centre), W/m2, and not
-     * below 0 where its mean is not; radiosity stays the mean over the element. 0 of clusters and
-     * where a solid covers a part. */
+    /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL:
+     * [(element * bands + band) * 3]. B at point x of a surface is radiosity + gradient . (x -
+     * centre), W/m2, and not below 0 where its mean is not; radiosity stays the mean over the
+     * element. 0 of clusters and where a solid covers a part. */
     const double *gradient;
 };
 struct RadLinks {
@@ -456,8 +458,8 @@ struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
     struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
     /* over the surfaces, of what RadMeasureOptions.surfaces asked for: root of the integral of the
-     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area mean
-     * of B - E */
+     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area
+     * mean of B - E */
     struct RadMeasure l2, p999;
     /* the L1 error per polygon that these particles, by chance, have themselves: what is left of it
      * in what is mended with them */

@@ -21,7 +21,8 @@ static int watch(void *context, uint64_t done, uint64_t ranges)
                                          s->hierarchy.face_count - done,
                                          s->refinement.link_count,
                                          rays_count(s->problem.rays).rays,
-                                         s->report.residual};
+                                         s->report.residual,
+                                         (double)done / fmax(s->hierarchy.face_count, 1)};
     w->cancelled |= api_progress(w->solution->scene->device, &progress);
     return w->cancelled;
 }

@@ -72,11 +72,10 @@ static int not_dead(RadReference r)
 static int watch(void *context, double share)
 {
     RadReference r = context;
-    const struct RadProgress progress = {
-        .phase = r->phase,
-        .pass = 1,
-        .waiting = (uint64_t)(1000 * (1 - share)), /* thousandths of the call */
-        .rays = rays_count(r->reference.solve.problem.rays).rays};
+    const struct RadProgress progress = {.phase = r->phase,
+                                         .pass = 1,
+                                         .rays = rays_count(r->reference.solve.problem.rays).rays,
+                                         .share = share};
     r->cancelled |= api_progress(r->scene->device, &progress) != 0;
     return r->cancelled;
 }

@@ -107,14 +107,17 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
 static int watch(void *context, const struct solve *s, const char *phase)
 {
     const struct RadSolutionObject *solution = context;
+    const struct counting *counting = s->counting;
     const struct RadProgress progress = {phase,
                                          s->report.passes + 1,
                                          s->refinement.rounds,
                                          s->refinement.pairs,
                                          s->refinement.queue_count,
                                          s->refinement.link_count,
-                                         rays_count(s->problem.rays).rays,
-                                         s->report.residual};
+                                         counting ? counting->rays
+                                                  : rays_count(s->problem.rays).rays,
+                                         s->report.residual,
+                                         counting ? counting->share : 0};
     return api_progress(solution->scene->device, &progress);
 }
 

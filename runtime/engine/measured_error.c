@@ -26,23 +26,39 @@ static struct tracer tracer_of(const struct solve *s)
                            .threads = s->problem.options.threads};
 }
 
+/* Rays cast before, now, and in the end, about. */
+struct watched {
+    struct solve *solve;
+    uint64_t before;
+    double now, all;
+};
+
 static int tell(void *context, double share)
 {
-    struct solve *s = context;
-    (void)share;
-    return solve_tell(s, "particles");
+    const struct watched *w = context;
+    double rays = (double)w->before + share * w->now;
+    const struct counting counting = {(uint64_t)rays, rays < w->all ? rays / w->all : 1};
+    w->solve->counting = &counting;
+    int quit = solve_tell(w->solve, "particles");
+    w->solve->counting = NULL;
+    return quit;
 }
 
-/* Trace until about so many rays are cast in all. Returns 0, or -1 when cancelled. */
-static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tally, uint64_t rays)
+/* Trace until about so many rays are cast, of `all` that may follow. Returns 0, or -1 when
+ * cancelled. */
+static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tally, uint64_t rays,
+                      double all)
 {
-    const struct tally_watch watch = {tell, s};
+    struct watched watched = {.solve = s, .all = all};
+    const struct tally_watch watch = {tell, &watched};
     if (tally->particles == 0 && tally_trace(tally, t, FIRST, &watch) < 0)
         return -1;
     if (tally->rays == 0 || tally->rays >= rays)
         return 0;
     double each = (double)tally->rays / (double)tally->particles;
     double more = (double)(rays - tally->rays) / each;
+    watched.before = tally->rays;
+    watched.now = (double)(rays - tally->rays);
     return tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch);
 }
 
@@ -89,7 +105,8 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, struct measur
     struct tally tally = {0};
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
-                         || trace_rays(s, &t, &tally, rays) < 0 || hold_against(s, &tally, m) < 0
+                         || trace_rays(s, &t, &tally, rays, (double)rays) < 0
+                         || hold_against(s, &tally, m) < 0
                      ? give_up(s, cause)
                      : 0;
     tally_close(&tally);
@@ -159,11 +176,13 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measur
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
     int failed = tracer_open(&t) < 0 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || trace_rays(s, &t, &tally, 1) < 0;
-    for (double left = t.lights.power > 0 ? INFINITY : 0;
-         !failed && left > noise && tally.rays < most;) {
-        uint64_t twice = 2 * tally.rays;
-        failed = trace_rays(s, &t, &tally, twice < most ? twice : most) < 0
+                 || trace_rays(s, &t, &tally, 1, (double)most) < 0;
+    double left = t.lights.power > 0 ? INFINITY : 0;
+    for (uint64_t goal = 0; !failed && left > noise && goal < most;) {
+        goal = 2 * tally.rays < most ? 2 * tally.rays : most;
+        /* noise falls with the root of the number, which doubles until it is enough */
+        double all = (double)tally.rays * exp2(ceil(2 * log2(left / noise)));
+        failed = trace_rays(s, &t, &tally, goal, fmin(all, (double)most)) < 0
                  || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, &tally, &left) < 0;
     }
     failed = failed || hold_against(s, &tally, alone) < 0 || mend(s, &tally) < 0;

@@ -38,6 +38,12 @@ struct report {
     int cancelled; /* by the progress function */
 };
 
+/* How far particles are: rays that they have taken, and the share that is done, about. */
+struct counting {
+    uint64_t rays;
+    double share;
+};
+
 /* Who may write what stands in the signatures: functions take the parts they change, and the others
  * const. The parts point at each other, so a solve stays where it was opened. */
 struct solve {
@@ -53,6 +59,7 @@ struct solve {
     struct error_control error;
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
+    const struct counting *counting; /* NULL: no particles are traced now */
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;
     uint32_t started;

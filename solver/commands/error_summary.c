@@ -34,19 +34,39 @@ int measured_account(struct measured *m, const struct options *o, RadDevice devi
     return 0;
 }
 
-static const char *direction(double power)
+/* "2.1 % (1.9 to 2.3)", or "at most 1.9 %" where nothing is surely off. */
+static void print_share(FILE *out, const struct RadMeasure *m)
 {
-    return power < 0 ? "too little" : "too much";
+    if (m->low > 0)
+        fprintf(out, "%.2g %% (%.2g to %.2g)", 100 * m->value, 100 * m->low, 100 * m->high);
+    else
+        fprintf(out, "at most %.2g %%", 100 * m->high);
+}
+
+/* ", 1.2 % too little in all", or ", in all right within 1.2 %" where that says more than the error
+ * per face, which the error in all is never above. */
+static void print_power(FILE *out, const struct RadErrorReport *r)
+{
+    double within = fmax(-r->power.low, r->power.high);
+    if (r->power.low > 0 || r->power.high < 0)
+        fprintf(out, ", %.2g %% too %s in all", 100 * fabs(r->power.value),
+                r->power.value < 0 ? "little" : "much");
+    else if (within < r->l1_faces.high)
+        fprintf(out, ", in all right within %.2g %%", 100 * within);
 }
 
 void measured_warn(const struct measured *m, const char *where)
 {
     const struct RadMeasure *l1 = &m->error.l1_faces;
     if (m->measured && l1->value > MEASURED_WARNING)
-        report_warning(where, 0, "reflected light per face is off by %.2g %% (%.2g to %.2g): %s",
-                       100 * l1->value, 100 * l1->low, 100 * l1->high,
-                       m->mended ? "more particles or smaller thresholds (--accuracy) bring it down"
-                                 : "leave out --no-correct, or take smaller thresholds (--set)");
+        report_warning(
+            where, 0,
+            "reflected light per face is off by %.2g %% (%.2g to %.2g): %s; --image-error FILE.png "
+            "shows where",
+            100 * l1->value, 100 * l1->low, 100 * l1->high,
+            m->mended
+                ? "smaller thresholds (--set) or --accuracy bring it down"
+                : "leave out --no-correct, which mends it, or take smaller thresholds (--set)");
     else if (m->measured && l1->high > 2 * MEASURED_WARNING)
         report_warning(where, 0,
                        "reflected light per face may be off by as much as %.2g %%: too few "
@@ -54,36 +74,36 @@ void measured_warn(const struct measured *m, const char *where)
                        100 * l1->high);
 }
 
+double measured_seconds(const struct measured *m)
+{
+    return (m->mended ? m->alone.seconds : 0) + (m->measured ? m->error.seconds : 0);
+}
+
 void measured_print(const struct measured *m, uint32_t polygons)
 {
-    if (m->mended)
-        printf(
-            "mended    by %.3g particles (%.3g rays, %.2f s); the links alone are off by %.2g %% "
-            "per face (%.2g to %.2g), %.2g %% %s in all\n",
-            (double)m->alone.particles, (double)m->alone.rays, m->alone.seconds,
-            100 * m->alone.l1_faces.value, 100 * m->alone.l1_faces.low,
-            100 * m->alone.l1_faces.high, 100 * fabs(m->alone.power.value),
-            direction(m->alone.power.value));
+    const struct RadErrorReport *e = &m->error;
+    if (m->mended && m->alone.reflected > 0) {
+        printf("mended    by particles (%.3g rays); the links alone are off by ",
+               (double)m->alone.rays);
+        print_share(stdout, &m->alone.l1_faces);
+        fputs(" per face", stdout);
+        print_power(stdout, &m->alone);
+        putchar('\n');
+    }
     if (!m->measured)
         return;
-    const struct RadErrorReport *e = &m->error;
     if (!(e->reflected > 0)) {
         printf("error     none: no light is reflected\n");
         return;
     }
-    if (e->l1_faces.low > 0)
-        printf("error     reflected light per face: off by %.2g %% (%.2g to %.2g)",
-               100 * e->l1_faces.value, 100 * e->l1_faces.low, 100 * e->l1_faces.high);
-    else
-        printf("error     reflected light per face: off by at most %.2g %%",
-               100 * e->l1_faces.high);
-    printf(", %.2g %% %s in all (+-%.2g); ", 100 * fabs(e->power.value), direction(e->power.value),
-           50 * (e->power.high - e->power.low));
+    fputs("error     reflected light per face: off by ", stdout);
+    print_share(stdout, &e->l1_faces);
+    print_power(stdout, e);
     if (e->worst < polygons)
-        printf("worst large face %u: %.2g %% too %s\n", (unsigned)e->worst,
+        printf("; worst large face %u: %.2g %% too %s\n", (unsigned)e->worst,
                100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright");
     else
-        printf("no large face is surely wrong\n");
+        printf("; no large face is surely wrong\n");
 }
 
 static json_t *measure_json(const struct RadMeasure *m)

@@ -238,10 +238,12 @@ void summary_print(const struct summary *s)
     power_promise_print(s->promise);
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
-    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "
-           "%.2f; %.0f MB\n",
-           r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds,
+    double particles = measured_seconds(s->measured);
+    printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, particles "
+           "%.2f, output %.2f; %.0f MB\n",
+           r->seconds.build + r->seconds.refine + r->seconds.iterate + particles
+               + s->output_seconds,
            r->seconds.build, r->seconds.refine,
            r->seconds.refine > 0 ? 100 * r->seconds.in_rays / r->seconds.refine : 0,
-           r->seconds.iterate, s->output_seconds, peak_megabytes());
+           r->seconds.iterate, particles, s->output_seconds, peak_megabytes());
 }

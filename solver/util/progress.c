@@ -4,6 +4,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "util/clock.h"
@@ -30,11 +31,15 @@ void progress_say(struct progress *p, const char *format, ...)
 
 int progress_show(void *user, const struct RadProgress *at)
 {
-    progress_say(
-        user,
-        "%-7s pass %d, round %llu: %.3g pairs (%.3g waiting), %.3g links, %.3g rays, residual %.1e",
-        at->phase, at->pass, (unsigned long long)at->rounds, (double)at->pairs, (double)at->waiting,
-        (double)at->links, (double)at->rays, at->residual);
+    if (strcmp(at->phase, "particles") == 0 || at->share > 0)
+        progress_say(user, "%-7s %.0f %% done, %.3g rays", at->phase, 100 * at->share,
+                     (double)at->rays);
+    else
+        progress_say(user,
+                     "%-7s pass %d, round %llu: %.3g pairs (%.3g waiting), %.3g links, %.3g rays, "
+                     "residual %.1e",
+                     at->phase, at->pass, (unsigned long long)at->rounds, (double)at->pairs,
+                     (double)at->waiting, (double)at->links, (double)at->rays, at->residual);
     return 0;
 }
 

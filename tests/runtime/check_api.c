@@ -833,6 +833,57 @@ START_TEST(test_bad_options)
 }
 END_TEST
 
+/* Particles tell how far they are: shares and rays rise, to all of them; other phases know none. */
+struct course {
+    int calls;
+    double share;
+    uint64_t rays;
+};
+
+static int follow(void *user, const struct RadProgress *p)
+{
+    struct course *course = user;
+    if (strcmp(p->phase, "particles") != 0) {
+        ck_assert_double_eq(p->share, 0);
+        return 0;
+    }
+    course->calls++;
+    ck_assert(p->share >= 0 && p->share <= 1);
+    ck_assert_uint_ge(p->rays, course->rays);
+    course->share = p->share;
+    course->rays = p->rays;
+    return 0;
+}
+
+START_TEST(test_particles_tell)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.8);
+    RadOracle oracle = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    struct course course = {0};
+    radSetDeviceProgressFunction(device, follow, &course);
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(course.calls, 0);
+    struct RadErrorReport report;
+    const struct RadMeasureOptions how = {.rays = 400000};
+    ck_assert_int_eq(radMeasureError(solution, &how, &report), 0);
+    ck_assert_int_gt(course.calls, 10);
+    ck_assert_double_gt(course.share, 0.5); /* the last told is before the end */
+    ck_assert(fabs((double)course.rays - course.share * 400000) < 4000);
+    course = (struct course){0};
+    const struct RadCorrectOptions until = {.noise = 1e-6, .rays = 400000};
+    ck_assert_int_eq(radCorrect(solution, &until, &report), 0);
+    ck_assert_int_gt(course.calls, 10);
+    ck_assert_double_gt(course.share, 0.5);
+    ck_assert(fabs((double)course.rays - course.share * 400000) < 4000);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* The first error stays until it is asked for; the message function hears of all. */
 static void count_messages(void *user, enum RadError code, const char *message)
 {
@@ -1030,6 +1081,7 @@ int main(void)
     tcase_add_test(t, test_bad_options);
     tcase_add_test(t, test_first_error);
     tcase_add_test(t, test_cancel);
+    tcase_add_test(t, test_particles_tell);
     tcase_add_test(t, test_side_by_side);
     tcase_add_test(t, test_count_side_by_side);
     tcase_add_test(t, test_lifetimes);

@@ -34,7 +34,7 @@ says() {
 
 # ---- no value, or one that is none: wrong usage, exit 2
 scene=$scenes/furnace.obj
-for option in --oracle --release --set --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --size --view --faces --json; do
+for option in --oracle --release --set --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --image-error --size --view --faces --json; do
     says 2 "$option takes" solve "$scene" "$option" ""
 done
 for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
@@ -110,7 +110,8 @@ says 2 "oracles takes no scene, but got x.obj" oracles x.obj
 says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
 says 2 "a command comes first, not --image" --image x solve "$scene"
-says 2 "--mesh is for a picture: add --image FILE.png" solve "$scene" --mesh
+says 2 "--mesh is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --mesh
+says 2 "--no-errors and --image-error contradict each other" solve "$scene" --no-errors --image-error x.png
 says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 # An abbreviation is good as long as it is clear, with --name=value as well; one that is not names what it could be.
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol 7
@@ -165,7 +166,7 @@ says 1 "clusters: error: no hand-written release of this oracle; use --release f
 
 # ---- outputs that cannot be written are told before the scene is read, which is not there
 says 1 "nowhere/x.ply: error: cannot write: No such file or directory; make the folder first" solve none.obj -o nowhere/x.ply
-for option in --image --faces --json --statistics; do
+for option in --image --image-error --faces --json --statistics; do
     says 1 "make the folder first" solve none.obj $option nowhere/x
     says 1 "give the name of a file, not of a folder" solve none.obj $option /
 done
@@ -195,7 +196,7 @@ count=$((count + 1))
 rm -f ../"$(basename "$tmp").kept"
 # The scene is no output, whatever its name is there.
 mkdir "$tmp.scene" && cp "$scenes"/furnace.* "$tmp.scene" && ln -s furnace.obj "$tmp.scene/link.obj"
-for option in -o --image --faces --json --statistics; do
+for option in -o --image --image-error --faces --json --statistics; do
     says 2 "this is the scene, which would be lost" solve "$tmp.scene/furnace.obj" $option "$tmp.scene/link.obj"
 done
 says 2 "this is the scene, which would be lost" viewfactors "$tmp.scene/furnace.obj" -o "$tmp.scene/../${tmp##*/}.scene/furnace.obj"
@@ -216,6 +217,13 @@ done
 count=$((count + 1))
 mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
 [ $? = 1 ] && grep -q none.obj err || { bad=$((bad + 1)); echo "failed: a pipe as output"; cat err; }
+
+# ---- the picture of the error takes what that of the light takes, and both come from one run
+count=$((count + 1))
+"$radiosity" solve "$scene" -q --image-error e.png --mesh --view 0.5,0.5,0.5:1,0.5,0.5 --size 60x40 >out 2>err &&
+    "$radiosity" solve "$scene" -q --image i.png --image-error e.png --size 60x40 >>out 2>>err && [ -s i.png ] && [ -s e.png ] &&
+    [ ! -s err ] && [ ! -s out ] || { bad=$((bad + 1)); echo "failed: --image-error"; cat err; }
+rm -f out err i.png e.png
 
 # ---- a chart of a single threshold draws without a word
 if ! command -v gnuplot >/dev/null; then

@@ -11,6 +11,7 @@
 
 /* A made-up report, for shipped oracles settle. */
 static struct RadReport report;
+static struct measured measured;
 
 /* Prints the summary into `text`; returns its JSON, which the caller frees. */
 static json_t *summarise(char *text, size_t size)
@@ -24,8 +25,12 @@ static json_t *summarise(char *text, size_t size)
     ck_assert_ptr_nonnull(oracle);
     const struct measured measured = {0};
     const struct power_promise promise = {0};
-    const struct summary summary = {&options,  &scene,   &solved, oracle,
-                                    &measured, &promise, NULL,    0};
+    const struct summary summary = {.options = &options,
+                                    .scene = &scene,
+                                    .solved = &solved,
+                                    .oracle = oracle,
+                                    .measured = &measured,
+                                    .promise = &promise};
     FILE *file = tmpfile();
     ck_assert_ptr_nonnull(file);
     fflush(stdout);
@@ -112,6 +117,69 @@ START_TEST(test_converged)
 }
 END_TEST
 
+/* What the error is, in words: surely off, not surely off, and the links alone. */
+START_TEST(test_error)
+{
+    char text[4096];
+    report = (struct RadReport){.passes = 2, .converged = 1, .seconds = {.build = 1}};
+    measured = (struct measured){.measured = 1,
+                                 .error = {.power = {0.171, 0.161, 0.181},
+                                           .l1_faces = {0.174, 0.162, 0.183},
+                                           .reflected = 1,
+                                           .worst = 0,
+                                           .worst_share = 0.28,
+                                           .seconds = 2}};
+    /* the scene has no faces, hence none is the worst */
+    json_decref(summarise(text, sizeof text));
+    ck_assert_ptr_nonnull(strstr(text,
+                                 "\nerror     reflected light per face: off by 17 % (16 to 18), "
+                                 "17 % too much in all; no large face is surely wrong\n"));
+    ck_assert_ptr_null(strstr(text, "mended"));
+    ck_assert_ptr_nonnull(strstr(text, "\ntime      3.00 s: "));
+    measured.mended = 1;
+    measured.alone = measured.error;
+    measured.alone.power = (struct RadMeasure){-0.012, -0.02, -0.004};
+    measured.alone.rays = 250000;
+    measured.error.l1_faces = (struct RadMeasure){0.003, 0, 0.006};
+    measured.error.power = (struct RadMeasure){0.001, -0.012, 0.014};
+    json_decref(summarise(text, sizeof text));
+    ck_assert_ptr_nonnull(strstr(text,
+                                 "\nmended    by particles (2.5e+05 rays); the links alone are "
+                                 "off by 17 % (16 to 18) per face, 1.2 % too little in all\n"));
+    ck_assert_ptr_nonnull(strstr(text, "per face: off by at most 0.6 %; no large"));
+    ck_assert_ptr_nonnull(strstr(text, "\ntime      5.00 s: "));
+    measured.error.power = (struct RadMeasure){0.001, -0.002, 0.004};
+    json_decref(summarise(text, sizeof text));
+    ck_assert_ptr_nonnull(
+        strstr(text, "off by at most 0.6 %, in all right within 0.4 %; no large"));
+    measured = (struct measured){0};
+}
+END_TEST
+
+/* The worst face, by its number and which way. */
+START_TEST(test_worst_face)
+{
+    char text[4096];
+    measured = (struct measured){
+        .measured = 1,
+        .error = {.l1_faces = {0.1, 0.09, 0.11}, .reflected = 1, .worst = 3, .worst_share = -0.2}};
+    FILE *file = tmpfile();
+    ck_assert_ptr_nonnull(file);
+    fflush(stdout);
+    int before = dup(STDOUT_FILENO);
+    dup2(fileno(file), STDOUT_FILENO);
+    measured_print(&measured, 4);
+    fflush(stdout);
+    dup2(before, STDOUT_FILENO);
+    close(before);
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    (void)fclose(file);
+    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 20 % too dark\n"));
+    measured = (struct measured){0};
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("summary");
@@ -119,6 +187,8 @@ int main(void)
     tcase_add_test(c, test_links_change);
     tcase_add_test(c, test_iteration_ends);
     tcase_add_test(c, test_converged);
+    tcase_add_test(c, test_error);
+    tcase_add_test(c, test_worst_face);
     tcase_add_test(c, test_solver);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
