@@ -329,6 +329,11 @@ struct RadLinks {
 };
 RAD_API void radGetElements(RadSolution solution, struct RadElements *elements);
 RAD_API void radGetLinks(RadSolution solution, struct RadLinks *links);
+/* Give the links other form factors, [RadLinks.count] in their order, each from 0 and finite, and
+ * solve over them: no link is discussed again, visibility stays, and radStep and radSolve find
+ * nothing left to do. For studies of what form factors are worth; those of links with a cluster at
+ * an end are not looked at. After radRefine, radStep or radSolve. Returns 0, or -1. */
+RAD_API int radSolveWithFactors(RadSolution solution, const float *form_factors);
 /* What discussions of two elements of this solution ask: rays, candidates, totals. With it a
  * program can ask an oracle, a term or a tool about a pair of its own choice. Good until the
  * solution is stepped or released; NULL: there is none. */
@@ -367,6 +372,73 @@ struct RadReport {
     } seconds;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
+
+/* ---- how far from the truth */
+
+/* A share of the reflected light (0.021: 2.1 %), and its 95 % interval. */
+struct RadMeasure {
+    double value, low, high;
+};
+
+struct RadMeasureOptions {
+    /* how many to cast, about; 0: RAD_MEASURE_SHARE of what the solution has cast, and no fewer
+     * than RAD_MEASURE_LEAST */
+    uint64_t rays;
+    /* which random numbers, 0 to 2^31: measurements of different ones are independent of each
+     * other, and all of what a solution is mended with */
+    uint32_t stream;
+};
+#define RAD_MEASURE_SHARE 0.01
+#define RAD_MEASURE_LEAST (1u << 15)
+
+/* Errors are those of the light that is reflected, B - E: to E nothing can be wrong. */
+struct RadErrorReport {
+    struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
+    struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
+    double reflected;           /* light reflected, as counted, all bands (W) */
+    /* of polygons that reflect a hundredth of all light or more, the one that is most surely wrong,
+     * and by which share of what it reflects; RadSceneReport.polygons: none is, surely */
+    uint32_t worst;
+    double worst_share;
+    uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
+    double seconds;
+};
+/* Measure how far the solution, mended or not, is from the truth, by particles traced from the
+ * emitters that no part of it comes from: unbiased whatever oracle and links are, with the noise
+ * of chance, which the intervals tell. NULL options: the defaults. The same figures for any number
+ * of threads. Returns 0, or -1. [Pattanaik and Mudur 1992; engine/face_error.c] */
+RAD_API int radMeasureError(RadSolution solution, const struct RadMeasureOptions *options,
+                            struct RadErrorReport *report);
+
+/* Of the last measurement: the mean B of each polygon less the truth, and the standard error of
+ * that (W/m2), in one band; [RadSceneReport.polygons], the caller's; either may be NULL. B is
+ * E + rho H, H the mean over both sides. Returns 0, or -1: nothing has been measured. */
+RAD_API int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error,
+                                double *deviation);
+/* The same of each element, as far as it stands out of its noise: [element * bands + band], W/m2,
+ * the solution's own until it is measured again or stepped; NULL: nothing has been measured. */
+RAD_API const double *radGetElementErrors(RadSolution solution);
+
+struct RadCorrectOptions {
+    /* particles are traced until their noise in the L1 error of polygons is below this share of the
+     * reflected light; 0: RAD_CORRECT_NOISE */
+    double noise;
+    /* or until about so many rays are cast; 0: RAD_CORRECT_SHARE of what the solution has cast, and
+     * no fewer than RAD_CORRECT_LEAST */
+    uint64_t rays;
+};
+#define RAD_CORRECT_NOISE 0.005
+#define RAD_CORRECT_SHARE 0.25
+#define RAD_CORRECT_LEAST (1u << 18)
+
+/* Mend the solution: add to each element what particles see of its error, level by level from the
+ * root down, as far as it stands out of their noise (engine/mend.c). From then on elements,
+ * polygons and pictures show mended values, B = E + rho H in all of them; links stay as they are,
+ * and radStep goes on from what they say. *alone, which may be NULL: the error of the links alone,
+ * by the same particles; its rays are what mending took. NULL options: the defaults. Returns 0, or
+ * -1. */
+RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
+                       struct RadErrorReport *alone);
 
 /* ---- exchange areas */
 

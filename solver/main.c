@@ -24,6 +24,7 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_STABILITY] = study_stability,
     [COMMAND_VISIBILITY] = study_visibility,
     [COMMAND_CLUSTERING] = study_clustering,
+    [COMMAND_FORM_FACTORS] = study_form_factors,
     [COMMAND_ARVO] = study_arvo,
     [COMMAND_ORACLES] = command_oracles,
 };

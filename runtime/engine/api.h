@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include "engine/solve.h"
+#include "engine/measured_error.h"
 #include "hierarchy/scene.h"
 #include "oracle/oracles.h"
 #include "oracle/refiner.h"
@@ -63,7 +63,8 @@ struct RadSolutionObject {
     RadOracle oracle;
     struct camera camera;
     struct solve solve;
-    int done; /* the last step said so */
+    struct measured_error measured; /* .element NULL: nothing has been, or not what is shown */
+    int done;                       /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
 
@@ -78,6 +79,11 @@ int api_progress(RadDevice device, const struct RadProgress *progress);
 /* A handle that takes the refiner over; NULL for a refiner is out of memory. Returns NULL after
  * an error. */
 RadOracle api_oracle(RadDevice device, struct refiner *refiner);
+
+/* After a call that could not do its work: the solution is dead. Returns -1. */
+int api_give_up(RadSolution solution, const char *cause);
+/* Returns 0, or -1 with the device told that the solution can do no more. */
+int api_not_dead(RadSolution solution);
 
 /* The code of a cause that the engine gives as a constant string. */
 enum RadError api_cause(const char *cause);

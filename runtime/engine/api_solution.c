@@ -174,14 +174,14 @@ void radReleaseSolution(RadSolution solution)
 {
     if (!solution || atomic_fetch_sub(&solution->holders, 1) != 1)
         return;
+    measured_error_free(&solution->measured);
     solve_close(&solution->solve);
     radReleaseOracle(solution->oracle);
     radReleaseScene(solution->scene);
     free(solution);
 }
 
-/* After a call that could not do its work. Returns -1. */
-static int give_up(RadSolution solution, const char *cause)
+int api_give_up(RadSolution solution, const char *cause)
 {
     RadDevice device = solution->scene->device;
     solution->dead = 1;
@@ -190,7 +190,7 @@ static int give_up(RadSolution solution, const char *cause)
     return api_fail(device, api_cause(cause), "%s", cause);
 }
 
-static int not_dead(RadSolution solution)
+int api_not_dead(RadSolution solution)
 {
     if (!solution)
         return -1;
@@ -208,48 +208,75 @@ static int is_refined(RadSolution solution)
 
 int radRefine(RadSolution solution)
 {
-    if (not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0)
         return -1;
     if (is_refined(solution))
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION,
                         "radRefine comes first and once; radStep refines further");
     const char *cause;
     if (solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
-        return give_up(solution, cause);
+        return api_give_up(solution, cause);
     return 0;
 }
 
 int radStep(RadSolution solution)
 {
-    if (not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0)
         return -1;
     if (solution->done)
         return 0;
     const char *cause;
     if (!is_refined(solution)
         && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
-        return give_up(solution, cause);
+        return api_give_up(solution, cause);
+    measured_error_free(&solution->measured);
     int more = solve_step(&solution->solve, &cause);
     solution->done = more == 0;
-    return more < 0 ? give_up(solution, cause) : more;
+    return more < 0 ? api_give_up(solution, cause) : more;
 }
 
 int radSolve(RadSolution solution)
 {
-    if (not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0)
         return -1;
     const char *cause;
     if (!solution->done && solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
-        return give_up(solution, cause);
+        return api_give_up(solution, cause);
+    solution->done = 1;
+    return 0;
+}
+
+int radSolveWithFactors(RadSolution solution, const float *form_factors)
+{
+    if (api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    if (!is_refined(solution))
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "radRefine or radSolve comes before radSolveWithFactors: there are no "
+                        "links yet");
+    if (!form_factors)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "radSolveWithFactors needs a form factor for each link");
+    const size_t count = solution->solve.refinement.link_count;
+    for (size_t i = 0; i < count; i++)
+        if (!(form_factors[i] >= 0 && isfinite(form_factors[i])))
+            return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                            "form factor %zu of %zu is %g; it takes a finite number from 0", i,
+                            count, (double)form_factors[i]);
+    const char *cause;
+    if (solve_with_factors(&solution->solve, form_factors, &cause) < 0)
+        return api_give_up(solution, cause);
     solution->done = 1;
     return 0;
 }
 
 int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, double *irradiance)
 {
-    if (not_dead(solution) < 0)
+    if (api_not_dead(solution) < 0)
         return -1;
     const struct solve *s = &solution->solve;
+    const struct state *shown = solve_shown(s);
     const struct scene *scene = s->problem.scene;
     const uint32_t bands = s->problem.bands;
     if (band >= bands)
@@ -274,9 +301,9 @@ int radGetPolygonValues(RadSolution solution, uint32_t band, double *radiosity, 
         bare[input] += a * s->operator.uncovered[e];
         if (radiosity)
             radiosity[input] +=
-                a * s->operator.uncovered[e] * s->state.radiosity[(size_t)e * bands + band];
+                a * s->operator.uncovered[e] * shown->radiosity[(size_t)e * bands + band];
         if (irradiance)
-            irradiance[input] += a * s->state.irradiance[(size_t)e * bands + band];
+            irradiance[input] += a * shown->irradiance[(size_t)e * bands + band];
     }
     for (uint32_t i = 0; i < scene->input_count; i++) {
         if (radiosity && bare[i] > 0)
@@ -296,9 +323,10 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
     if (!solution || solution->dead)
         return;
     const struct solve *s = &solution->solve;
-    *elements = (struct RadElements){
-        s->hierarchy.elements, s->started, s->hierarchy.built, s->hierarchy.face_element,
-        s->problem.bands, s->state.radiosity, s->state.irradiance, s->operator.uncovered };
+    *elements =
+        (struct RadElements){s->hierarchy.elements, s->started, s->hierarchy.built,
+                             s->hierarchy.face_element, s->problem.bands, solve_shown(s)->radiosity,
+                             solve_shown(s)->irradiance, s->operator.uncovered };
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)

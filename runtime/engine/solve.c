@@ -171,7 +171,7 @@ fail:
 
 /* ---- progress, which may cancel */
 
-static int tell(struct solve *s, const char *phase)
+int solve_tell(struct solve *s, const char *phase)
 {
     const struct solve_options *o = &s->problem.options;
     s->report.cancelled |= o->progress && o->progress(o->context, s, phase);
@@ -181,7 +181,7 @@ static int tell(struct solve *s, const char *phase)
 static int watch_refinement(void *context, const struct refinement *r)
 {
     (void)r;
-    return tell(context, "refine");
+    return solve_tell(context, "refine");
 }
 
 static int watch_light(void *context, const struct transport *x)
@@ -189,7 +189,7 @@ static int watch_light(void *context, const struct transport *x)
     struct solve *s = context;
     s->report.sweeps++;
     s->report.residual = x->residual;
-    return tell(s, "solve");
+    return solve_tell(s, "solve");
 }
 
 static int watch_importance(void *context, const struct transport *x)
@@ -197,7 +197,7 @@ static int watch_importance(void *context, const struct transport *x)
     struct solve *s = context;
     (void)x;
     s->report.sweeps++;
-    return tell(s, "solve");
+    return solve_tell(s, "solve");
 }
 
 /* What keeps a step from going on. Returns -1. */
@@ -271,19 +271,18 @@ static int iterate(struct solve *s, double tolerance, int rough)
     return 0;
 }
 
-/* The account of power. */
-static void sum_power(struct report *report, const struct light_operator *op,
-                      const double *irradiance)
+void solve_sum_power(struct solve *s)
 {
-    const struct problem *p = op->problem;
-    report->emitted = report->absorbed = 0;
-    for (uint32_t i = 0; i < op->hierarchy->face_count; i++) {
-        uint32_t e = op->hierarchy->face_element[i];
-        double area = op->hierarchy->elements[e].area;
+    const struct problem *p = &s->problem;
+    const double *irradiance = solve_shown(s)->irradiance;
+    s->report.emitted = s->report.absorbed = 0;
+    for (uint32_t i = 0; i < s->hierarchy.face_count; i++) {
+        uint32_t e = s->hierarchy.face_element[i];
+        double area = s->hierarchy.elements[e].area;
         for (uint32_t k = 0; k < p->bands; k++) {
             size_t at = (size_t)i * p->bands + k;
-            report->emitted += area * op->uncovered[e] * p->exitance[at];
-            report->absorbed +=
+            s->report.emitted += area * s->operator.uncovered[e] * p->exitance[at];
+            s->report.absorbed +=
                 area * (1 - p->reflectance[at]) * irradiance[(size_t)e * p->bands + k];
         }
     }
@@ -321,6 +320,7 @@ int solve_step(struct solve *s, const char **cause)
 {
     const struct problem *p = &s->problem;
     double start = seconds(), tolerance = p->options.tolerance;
+    solve_forget_mended(s);
     int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
     int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
     rough = rough && !settled && tolerance < ROUGH_TOLERANCE;
@@ -336,8 +336,28 @@ int solve_step(struct solve *s, const char **cause)
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
-    sum_power(&s->report, &s->operator, s->state.irradiance);
+    solve_sum_power(s);
     return changed > 0 || rough;
+}
+
+int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)
+{
+    struct refinement *r = &s->refinement;
+    const double start = seconds();
+    solve_forget_mended(s);
+    for (size_t i = 0; i < r->link_count; i++) {
+        struct link *l = &r->links[i];
+        if (s->hierarchy.elements[l->receiver].vertices
+            && s->hierarchy.elements[l->emitter].vertices)
+            l->form_factor = form_factors[i];
+    }
+    if (iterate(s, s->problem.options.tolerance, 0) < 0)
+        return fail(s, "out of memory", cause);
+    s->report.passes++;
+    s->report.changing = 0;
+    s->report.seconds.iterate += seconds() - start;
+    solve_sum_power(s);
+    return 0;
 }
 
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause)
@@ -350,8 +370,16 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     return more < 0 ? -1 : 0;
 }
 
+void solve_forget_mended(struct solve *s)
+{
+    free(s->mended.radiosity);
+    free(s->mended.irradiance);
+    s->mended = (struct state){0};
+}
+
 void solve_close(struct solve *s)
 {
+    solve_forget_mended(s);
     refinement_close(&s->refinement);
     separable_links_close(&s->operator.separable);
     rays_close(s->problem.rays);

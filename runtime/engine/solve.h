@@ -43,6 +43,7 @@ struct solve {
     struct refinement refinement; /* links and the queue of pairs */
     struct light_operator operator;
     struct state state;
+    struct state mended; /* of state, by particles (measured_error.h); NULLs: it is not */
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;
@@ -67,6 +68,25 @@ int solve_step(struct solve *s, const char **cause);
 /* Refine, unless that is done, and step until no link changes and iteration error is below
  * tolerance, or passes run out. Returns 0, or -1 with *cause set. */
 int solve_run(struct solve *s, const struct refiner *refiner, const char **cause);
+
+/* The solution that is shown: mended, where it is. */
+static inline const struct state *solve_shown(const struct solve *s)
+{
+    return s->mended.radiosity ? &s->mended : &s->state;
+}
+
+/* Show what the links say. */
+void solve_forget_mended(struct solve *s);
+
+/* The account of power in the report, of the solution that is shown. */
+void solve_sum_power(struct solve *s);
+
+/* Tell the progress function which phase of the work goes on. Returns nonzero when it cancels. */
+int solve_tell(struct solve *s, const char *phase);
+/* Give the links other form factors, [link_count] in their order, and solve over them as they are
+ * then, without discussing any; those of links with a cluster at an end are not looked at. Returns
+ * 0, or -1 with *cause set. */
+int solve_with_factors(struct solve *s, const float *form_factors, const char **cause);
 
 void solve_close(struct solve *s);
 

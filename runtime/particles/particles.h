@@ -72,12 +72,18 @@ static inline double tally_leaf(const struct tally *tally, uint32_t element, uin
            * (double)tally->element[(size_t)element * tally->bands + band];
 }
 
+/* W that one particle of all replicates stands for. */
+static inline double tally_power_of_one(const struct tally *tally)
+{
+    return tally_unit(tally) * (PARTICLE_ONE / REPLICATES);
+}
+
 /* The variance of a mean over all replicates (W2), if chance alone spread particles: of the power
  * `received` (W) in a band. A pseudo-count of one particle keeps places that none has met from
  * seeming certain. */
 static inline double tally_chance(const struct tally *tally, double received, uint32_t band)
 {
-    double one = tally->particles > 0 ? tally->power / ((double)tally->particles * REPLICATES) : 0;
+    double one = tally_power_of_one(tally);
     return one * (tally->square[band] * received + one);
 }
 

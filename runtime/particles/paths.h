@@ -14,7 +14,7 @@
 
 #include "particles/tracer.h"
 
-/* How many rays of each kind look for emitters from one point. Where there are none, light: 0. */
+/* How many rays of each kind look for emitters from one point; some by the cosine. */
 struct path_rays {
     double cosine, light;
 };

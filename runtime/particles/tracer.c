@@ -11,6 +11,7 @@ int tracer_open(struct tracer *t)
     struct lights *l = &t->lights;
     uint32_t count = 0, faces = t->hierarchy->face_count;
     *l = (struct lights){0};
+    t->light_tree = (struct light_tree){0};
     for (uint32_t pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i < faces; i++) {
             double power = 0;
@@ -34,11 +35,15 @@ int tracer_open(struct tracer *t)
             }
         }
     }
-    return 0;
+    if (light_tree_open(&t->light_tree, t->hierarchy, t->exitance, t->bands) == 0)
+        return 0;
+    tracer_close(t);
+    return -1;
 }
 
 void tracer_close(struct tracer *t)
 {
+    light_tree_close(&t->light_tree);
     free(t->lights.face);
     free(t->lights.until);
     t->lights = (struct lights){0};

@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include "hierarchy/hierarchy.h"
 #include "kernel/hash.h"
+#include "particles/light_tree.h"
 #include "visibility/rays.h"
 
 /* Faces that emit, to be chosen by the power they send. */
@@ -26,10 +27,11 @@ struct tracer {
     const double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
     uint32_t bands;                       /* 1 or 3 */
     int threads;
-    struct lights lights; /* owned */
+    struct lights lights;         /* owned, as the next */
+    struct light_tree light_tree; /* the same emitters, for paths */
 };
 
-/* lights is made of the rest. Returns 0, or -1 when out of memory. */
+/* lights and light_tree are made of the rest. Returns 0, or -1 when out of memory. */
 int tracer_open(struct tracer *t);
 void tracer_close(struct tracer *t);
 

@@ -25,7 +25,7 @@ TOOL double reference_trace(struct discussion *d, int rays)
                                              rays <= 64     ? 64
                                              : rays <= 256  ? 256
                                              : rays <= 1024 ? 1024
-                                                            : VISIBILITY_MOST);
+                                                            : SOBOL_MOST);
     d->terms.reference_level = REFERENCE_PRESENT;
     return d->terms.reference;
 }

@@ -15,7 +15,7 @@
 #include "util/report.h"
 
 static int write_solution(const struct options *o, const struct surfaces *surfaces,
-                          RadSolution solved)
+                          RadSolution solved, int measured)
 {
     const struct solution solution = solution_of(surfaces, solved);
     int failed = 0;
@@ -32,20 +32,20 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
         vertex_values_free(&values);
     }
     if (o->faces)
-        failed |= faces_csv_write(o->faces, &solution) < 0;
+        failed |= faces_csv_write(o->faces, &solution, measured ? solved : NULL) < 0;
     return failed ? -1 : 0;
 }
 
 /* Write all that was asked for. Returns the exit status. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct surfaces *surfaces, const struct solved *solved,
-                         RadOracle oracle)
+                         const struct measured *measured, RadOracle oracle)
 {
     double start = seconds();
-    int status = write_solution(o, surfaces, solved->solution) < 0;
+    int status = write_solution(o, surfaces, solved->solution, measured->measured) < 0;
     if (o->statistics && statistics_write(o->statistics, oracle) < 0)
         status = 1;
-    const struct summary summary = {o, scene, solved, oracle, seconds() - start};
+    const struct summary summary = {o, scene, solved, oracle, measured, seconds() - start};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
@@ -76,17 +76,25 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     progress_start(&progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     struct solved s;
+    struct measured measured;
     int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
+    if (status == 0 && measured_take(&measured, o, scene->device, s.solution) < 0) {
+        solved_close(&s);
+        status = -1;
+    }
     progress_end(&progress);
     if (status < 0)
         return 1;
+    radGetReport(s.solution, &s.report);
     if (!s.report.converged && !o->quiet) {
         char cause[SUMMARY_CAUSE];
         summary_cause(&s.report, cause, sizeof cause);
         report_warning(o->scene, 0, "not converged after %d sweeps (residual %.1e): %s",
                        s.report.iterations, s.report.residual, cause);
     }
-    status = write_outputs(o, scene, &surfaces, &s, oracle);
+    if (!o->quiet)
+        measured_warn(&measured, o->scene);
+    status = write_outputs(o, scene, &surfaces, &s, &measured, oracle);
     solved_close(&s);
     return status;
 }

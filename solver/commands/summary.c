@@ -49,7 +49,7 @@ static json_t *importance_json(const struct RadReport *r)
                      r->importance.seen);
 }
 
-static json_t *error_json(const struct RadReport *r)
+static json_t *error_control_json(const struct RadReport *r)
 {
     if (!(r->tolerance.target > 0))
         return json_null();
@@ -77,7 +77,7 @@ json_t *summary_json(const struct summary *s)
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
         "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
-        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
+        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
         "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
@@ -89,9 +89,10 @@ json_t *summary_json(const struct summary *s)
         r->residual, "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance",
         imbalance(r), "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
         r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-        "closure", closure_json(s->options, r), "importance", importance_json(r), "error",
-        error_json(r), "seconds", "build", r->seconds.build, "refine", r->seconds.refine, "in_rays",
-        r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
+        "closure", closure_json(s->options, r), "importance", importance_json(r), "error_control",
+        error_control_json(r), "error", measured_json(s->measured), "correction",
+        mended_json(s->measured), "seconds", "build", r->seconds.build, "refine", r->seconds.refine,
+        "in_rays", r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
         "peak_memory_mb", peak_megabytes());
 }
 
@@ -168,7 +169,7 @@ void summary_print(const struct summary *s)
                "%d of the sweeps\n",
                r->importance.seen, r->importance.mean, r->importance.largest, r->importance.sweeps);
     if (r->tolerance.target > 0)
-        printf("error     estimated %.3g W/m2 at the most, %.3g were asked for; above that are "
+        printf("control   estimated %.3g W/m2 at the most, %.3g were asked for; above that are "
                "%.3g m2%s\n",
                r->tolerance.largest, r->tolerance.target, r->tolerance.area,
                r->tolerance.area > 0 ? ", which nothing more can split" : "");
@@ -176,6 +177,7 @@ void summary_print(const struct summary *s)
            100 * fabs(imbalance(r)),
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
+    measured_print(s->measured, scene->polygons);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "
            "%.2f; %.0f MB\n",
            r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds,

@@ -4,6 +4,7 @@
 #define SUMMARY_H
 
 #include <jansson.h>
+#include "commands/error_summary.h"
 #include "options/options.h"
 #include "scene/open_scene.h"
 #include "util/solved.h"
@@ -15,6 +16,7 @@ struct summary {
     const struct open_scene *scene;
     const struct solved *solved;
     RadOracle oracle;
+    const struct measured *measured;
     double output_seconds;
 };
 

@@ -9,7 +9,7 @@ escape='s/\\/\\e/g; s/-/\\-/g'
 
 # "  --name ARGUMENT   text" becomes an item of a list.
 options() { # COMMAND...
-    "$radiosity" "$@" --help | sed -n -e "/^  -/{$escape" -e 'p;}' | sed \
+    "$radiosity" "$@" --help=all | sed -n -e "/^  -/{$escape" -e 'p;}' | sed \
         -e 's/^  \\\(-[^ ]*\) \([^ ][^ ]*\)  *\(.*\)$/.It Fl \1 Ar \2\n\\\&\3/' -e t \
         -e 's/^  \\\(-[^ ]*\)  *\(.*\)$/.It Fl \1\n\\\&\2/' | sed 's/^\.It Fl -/.It Fl /'
 }

@@ -259,6 +259,12 @@ const struct command_row command_rows[COMMANDS] = {
          "Solve a scene once for each way of grouping its faces into clusters, and compare\n"
          "time, links, rays, memory and error:\n",
          "radiosity study clustering room.obj --reference room.csv -o table.md"},
+    [COMMAND_FORM_FACTORS] =
+        {"study form-factors", "SCENE", "what ways to compute form factors cost and give",
+         "Solve a scene once, then compute the form factor of every link by 1/d^2, disc,\n"
+         "hemicube, one point, rays, polygon and contour: how far it is off, what that\n"
+         "makes of the reflected light, and nanoseconds.\n",
+         "radiosity study form-factors room.obj -o table.md --chart chart.svg"},
     [COMMAND_ARVO] =
         {"study arvo", "", "constants against the best there are, in three norms",
          "What constants over n x n elements leave of the light that a square lamp throws\n"
@@ -282,9 +288,10 @@ enum {
     STABILITY = 1 << COMMAND_STABILITY,
     VISIBILITY = 1 << COMMAND_VISIBILITY,
     CLUSTERING = 1 << COMMAND_CLUSTERING,
+    FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
-    MATRICES = SOLVE | COMPARE | CLUSTERING,  /* they solve for radiosities */
-    SCENES = MATRICES | FACTORS | VISIBILITY, /* with an oracle */
+    MATRICES = SOLVE | COMPARE | CLUSTERING,                 /* they solve for radiosities */
+    SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
     THREADED = SCENES | REFERENCE | STABILITY | ARVO,
     ALL = THREADED | ERROR
 };
@@ -309,26 +316,39 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 const struct option_row option_rows[] = {
     {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING, "clusters", "the refinement oracle",
      TEXT(oracle)},
+    /* Few links, of all sizes and distances, none of clusters. */
+    {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
+     TEXT(oracle)},
     /* The one nearest to the default that has a release by hand. */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
-    {"release", "flat|dag|hand", SOLVE | CLUSTERING, NULL,
-     "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words)},
+    {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
+     "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
+     .rare = 1},
     {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
      .read = read_setting},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
-     .read = read_clustering, IN(clusters)},
+     .read = read_clustering, IN(clusters), .rare = 1},
     {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
+     "a number above 0 and below 1", .read = read_tolerance},
+    /* Below what the best kinds differ by. */
+    {"tolerance", "X", FORM_FACTORS, "1e-9", "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
-    {"iterations", "N", MATRICES, "100000", "sweeps per solve at the most", "a whole number from 1",
-     WHOLE(iterations, 1, INT_MAX)},
+    {"iterations", "N", MATRICES | FORM_FACTORS, "100000", "sweeps per solve at the most",
+     "a whole number from 1", WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
-     FLAG(jacobi)},
+     FLAG(jacobi), .rare = 1},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
-     WORD(read_closure, closures)},
+     WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
+    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap", FLAG(errors)},
+    {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
+    {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
+     FLAG(correct), .rare = 1},
+    {"no-correct", NULL, SOLVE, NULL, "what the links alone say, not mended by particles",
+     FLAG(no_correct)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"accuracy", "SHARE", REFERENCE, "0.2%", "the standard error to reach",
@@ -353,7 +373,8 @@ const struct option_row option_rows[] = {
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
-    {"o", "FILE", STABILITY | CLUSTERING, NULL, "the table, .csv or .md", NAMED(out, tables)},
+    {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
+     NAMED(out, tables)},
     {"o", "FILE.csv", REFERENCE, NULL, "the table; must be given", NAMED(out, csv)},
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
@@ -364,14 +385,16 @@ const struct option_row option_rows[] = {
      .read = read_size},
     {"view", "X,Y,Z:X,Y,Z[:FOV]", SOLVE, NULL, "eye, point looked at, degrees of height (70)",
      "X,Y,Z:X,Y,Z[:FOV], two different points and 1 to 170 degrees", .read = read_view},
+    {"image-error", "FILE.png", SOLVE, NULL, "the measured error on the surfaces",
+     OUTPUT(image_error)},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},
     {"csv", "FILE", ARVO, NULL, "the table with nine digits", OUTPUT(csv)},
-    {"chart", "FILE", VISIBILITY | CLUSTERING | ARVO, NULL, "a drawing, .svg or .png",
-     NAMED(chart, drawings)},
+    {"chart", "FILE", VISIBILITY | CLUSTERING | FORM_FACTORS | ARVO, NULL,
+     "a drawing, .svg or .png", NAMED(chart, drawings)},
     {"faces", "FILE.csv", SOLVE, NULL, "E, rho, H, B of each face of the scene file",
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
-     OUTPUT(statistics)},
+     OUTPUT(statistics), .rare = 1},
     {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},

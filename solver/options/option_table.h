@@ -16,7 +16,7 @@ extern const struct command_row command_rows[COMMANDS];
 
 struct option_row {
     const char *name;     /* without dashes; of one letter: it has one dash, else two */
-    const char *argument; /* NULL: none */
+    const char *argument; /* NULL: none; in brackets: it may be left out, and follows a '=' */
     /* those that take it: bits 1 << enum command. A name may have a row for each */
     unsigned commands;
     const char *preset; /* its value when it is not given; NULL: none */
@@ -29,6 +29,7 @@ struct option_row {
     size_t field;             /* in struct options, of a reader that serves many options */
     int low, high;            /* of read_whole */
     const char *const *words; /* to choose from, or endings of a file's name; NULL-terminated */
+    int rare;                 /* 1: only --help=all shows it */
     int output;               /* 1: its value names a file that is written */
 };
 extern const struct option_row option_rows[];

@@ -66,17 +66,24 @@ static int print_studies_help(void)
     return 0;
 }
 
+static int is_optional(const struct option_row *row)
+{
+    return row->argument && *row->argument == '[';
+}
+
 /* "--name ARGUMENT". Returns its length. */
 static int option_text(const struct option_row *row, char text[64])
 {
     return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name,
-                    row->argument ? " " : "", row->argument ? row->argument : "");
+                    row->argument && !is_optional(row) ? " " : "",
+                    row->argument ? row->argument : "");
 }
 
-static int print_command_help(enum command command)
+/* all: with the rare options. */
+static int print_command_help(enum command command, int all)
 {
     const struct command_row *c = &command_rows[command];
-    int width = 0;
+    int width = 0, rare = 0;
     printf("usage: radiosity %s%s%s%s\n%s", c->name, *c->argument ? " " : "", c->argument,
            command == COMMAND_ORACLES ? "" : " [options]", c->lesson);
     const char *const *names = radGetClusteringNames();
@@ -85,18 +92,23 @@ static int print_command_help(enum command command)
     printf("\n");
     char text[64];
     for (int i = 0; i < option_row_count; i++) {
-        int length =
-            option_rows[i].commands >> command & 1 ? option_text(&option_rows[i], text) : 0;
+        const struct option_row *row = &option_rows[i];
+        if (!(row->commands >> command & 1))
+            continue;
+        rare += row->rare;
+        int length = row->rare && !all ? 0 : option_text(row, text);
         width = length > width ? length : width;
     }
     for (int i = 0; i < option_row_count; i++) {
         const struct option_row *row = &option_rows[i];
-        if (!(row->commands >> command & 1))
+        if (!(row->commands >> command & 1) || (row->rare && !all))
             continue;
         option_text(row, text);
         printf("  %-*s  %s", width, text, row->help);
         printf(row->preset ? " (%s)\n" : "\n", row->preset);
     }
+    if (rare && !all)
+        printf("  %-*s  %d options more\n", width, "--help=all", rare);
     printf("%s    %s\n", width ? "\n" : "", c->example);
     return 0;
 }
@@ -149,8 +161,8 @@ static int read_value(struct options *o, const struct option_row *row, const cha
     char text[64];
     const char *command = command_rows[o->command].name;
     option_text(row, text);
-    text[strcspn(text, " ")] = 0;
-    if (row->argument && !*value)
+    text[strcspn(text, " [")] = 0;
+    if (row->argument && value && !*value)
         return wrong(command, "%s takes %s, not an empty value", text, row->argument);
     if (row->read(o, row, value) < 0)
         return wrong(command, "%s takes %s, not %s", text, option_takes(row), value);
@@ -212,11 +224,15 @@ static void options_of(enum command command, struct option longs[OPTIONS_MAX],
         if (!(row->commands >> command & 1))
             continue;
         if (row->name[1])
-            longs[n++] = (struct option){row->name, row->argument != NULL, NULL, ROWS + i};
+            longs[n++] = (struct option){row->name,
+                                         is_optional(row) ? optional_argument
+                                         : row->argument  ? required_argument
+                                                          : no_argument,
+                                         NULL, ROWS + i};
         else
             snprintf(shorts + strlen(shorts), 3, "%s%s", row->name, row->argument ? ":" : "");
     }
-    longs[n++] = (struct option){"help", 0, NULL, HELP};
+    longs[n++] = (struct option){"help", optional_argument, NULL, HELP};
     longs[n++] = (struct option){"version", 0, NULL, VERSION};
     longs[n] = (struct option){0};
 }
@@ -260,7 +276,9 @@ static int read_argument(struct options *o, int number, const char *last)
         return set_scene(o, optarg);
     case 'h':
     case HELP:
-        return print_command_help(o->command);
+        if (number == HELP && optarg && strcmp(optarg, "all") != 0)
+            return wrong(command, "--help takes nothing or =all, not %s", optarg);
+        return print_command_help(o->command, number == HELP && optarg);
     case VERSION:
         printf("radiosity %s\n", RADIOSITY_VERSION);
         return 0;
@@ -295,6 +313,9 @@ static int check_together(struct options *o)
         o->release = RAD_RELEASE_DAG;
     if (o->mesh && !o->image)
         return wrong(c->name, "--mesh is for a picture: add --image FILE.png");
+    if (o->no_errors && (o->errors || o->image_error))
+        return wrong(c->name, "--no-errors and %s contradict each other",
+                     o->errors ? "--errors" : "--image-error");
     return -1;
 }
 

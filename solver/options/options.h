@@ -16,6 +16,7 @@ enum command {
     COMMAND_STABILITY,
     COMMAND_VISIBILITY,
     COMMAND_CLUSTERING,
+    COMMAND_FORM_FACTORS,
     COMMAND_ARVO,
     COMMAND_ORACLES,
     COMMANDS
@@ -44,8 +45,11 @@ struct options {
     double tolerance;
     int iterations, jacobi, threads, two_sided, quiet;
 
+    /* How far from the truth. */
+    int errors, no_errors, correct, no_correct;
+
     /* What to write. */
-    const char *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
+    const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int width, height, mesh; /* of the picture */
     struct view view;

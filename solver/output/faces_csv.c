@@ -32,17 +32,19 @@ static void write_name(FILE *out, const char *name)
     putc('"', out);
 }
 
-static void write_header(FILE *out, uint32_t bands)
+static void write_header(FILE *out, uint32_t bands, int measured)
 {
-    static const char *const quantity[4] = {"E", "rho", "H", "B"};
+    static const char *const quantity[] = {"E", "rho", "H", "B", "err", "se"};
     fputs("face,material,area", out);
-    for (int q = 0; q < 4; q++)
+    for (int q = 0; q < (measured ? 6 : 4); q++)
         for (uint32_t k = 0; k < bands; k++)
             fprintf(out, ",%s_%u", quantity[q], (unsigned)k);
     putc('\n', out);
 }
 
-static void write_row(FILE *out, const struct solution *s, uint32_t i, const struct total *t)
+/* errors: [2][bands][polygons], error and deviation; NULL: none. */
+static void write_row(FILE *out, const struct solution *s, uint32_t i, const struct total *t,
+                      const double *errors)
 {
     uint32_t material = s->surfaces.polygon_materials[i], bands = s->tree.bands;
     const struct RadMaterial *m = &s->surfaces.materials[material];
@@ -59,18 +61,32 @@ static void write_row(FILE *out, const struct solution *s, uint32_t i, const str
     for (uint32_t k = 0; k < bands; k++)
         fprintf(out, ",%.12g",
                 dropped ? 0 : m->exitance[k] + m->reflectance[k] * t->irradiance[k] / t->area);
+    for (size_t k = 0; errors && k < 2 * (size_t)bands; k++)
+        fprintf(out, ",%.6g", errors[k * s->surfaces.polygon_count + i]);
     putc('\n', out);
 }
 
-int faces_csv_write(const char *path, const struct solution *s)
+/* Returns NULL when out of memory. */
+static double *errors_of(const struct solution *s, RadSolution measured)
+{
+    size_t polygons = s->surfaces.polygon_count, bands = s->tree.bands;
+    double *errors = malloc((2 * bands * polygons + 1) * sizeof *errors);
+    for (uint32_t k = 0; errors && k < bands; k++)
+        radGetPolygonErrors(measured, k, errors + k * polygons, errors + (bands + k) * polygons);
+    return errors;
+}
+
+int faces_csv_write(const char *path, const struct solution *s, RadSolution measured)
 {
     uint32_t polygons = s->surfaces.polygon_count, bands = s->tree.bands;
     struct total *total = calloc((size_t)polygons + 1, sizeof *total);
-    if (!total)
-        return report_error(path, 0, "out of memory for the table of faces");
+    double *errors = measured ? errors_of(s, measured) : NULL;
     struct atomic_file file;
-    if (atomic_open(&file, path)) {
+    if (!total || (measured && !errors) || atomic_open(&file, path)) {
+        if (!total || (measured && !errors))
+            report_error(path, 0, "out of memory for the table of faces");
         free(total);
+        free(errors);
         return -1;
     }
     for (uint32_t i = 0; i < s->surfaces.face_count; i++) {
@@ -81,9 +97,10 @@ int faces_csv_write(const char *path, const struct solution *s)
         for (uint32_t k = 0; k < bands; k++)
             t->irradiance[k] += area * s->tree.irradiance[element * bands + k];
     }
-    write_header(file.stream, bands);
+    write_header(file.stream, bands, measured != NULL);
     for (uint32_t i = 0; i < polygons; i++)
-        write_row(file.stream, s, i, &total[i]);
+        write_row(file.stream, s, i, &total[i], errors);
     free(total);
+    free(errors);
     return atomic_commit(&file);
 }

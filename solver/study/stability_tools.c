@@ -10,21 +10,17 @@
 double stability_factor(const struct stability_method *method, const struct element *r,
                         const struct element *s)
 {
-    double axis[3];
     struct discussion d;
     memset(&d, 0, sizeof d);
     d.receiver = r;
     d.emitter = s;
-    double square, cos_r, cos_s, kernel;
+    double kernel;
     switch ((enum stability_factor)method->number) {
     case FACTOR_KERNEL:
+        return form_factor_inverse_square(&d);
     case FACTOR_CULLED:
-        sub3(axis, s->centre, r->centre);
-        square = dot3(axis, axis);
-        cos_r = dot3(r->normal, axis);
-        cos_s = -dot3(s->normal, axis);
-        kernel = cos_r > 0 && cos_s > 0 ? cos_r * cos_s / (LAMBERT_PI * square * square) : 0;
-        return method->number == FACTOR_CULLED && kernel < 1e-6 ? 0 : kernel * s->area;
+        kernel = lambert_points(r->centre, r->normal, s->centre, s->normal, 0);
+        return kernel < 1e-6 ? 0 : kernel * s->area;
     case FACTOR_DISC:
         return form_factor_disc(&d);
     case FACTOR_POINT:

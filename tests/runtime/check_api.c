@@ -199,6 +199,68 @@ START_TEST(test_views)
 }
 END_TEST
 
+/* The same links with other form factors: with their own the same light, with none no more than is
+ * emitted; and then nothing is left to do. */
+START_TEST(test_factors)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    const struct RadSolveOptions exact = {.tolerance = 1e-12};
+    RadSolution solution = radNewSolution(scene, oracle, &exact);
+    float none = 0;
+    ck_assert_int_eq(radSolveWithFactors(solution, &none), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "no links yet");
+    ck_assert_int_eq(radSolve(solution), 0);
+    struct RadLinks links;
+    struct RadElements x;
+    double before[6], after[6];
+    radGetLinks(solution, &links);
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, before, NULL), 0);
+    const size_t count = links.count;
+    float *factors = malloc(count * sizeof *factors);
+    ck_assert_ptr_nonnull(factors);
+    for (size_t i = 0; i < count; i++)
+        factors[i] = links.links[i].form_factor;
+    ck_assert_int_eq(radSolveWithFactors(solution, NULL), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "a form factor for each link");
+    const float bad[] = {-1, (float)NAN, (float)INFINITY};
+    for (int i = 0; i < 3; i++) {
+        const float good = factors[count / 2];
+        factors[count / 2] = bad[i];
+        ck_assert_int_eq(radSolveWithFactors(solution, factors), -1);
+        expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "it takes a finite number from 0");
+        factors[count / 2] = good;
+    }
+    ck_assert_int_eq(radSolveWithFactors(solution, factors), 0);
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, after, NULL), 0);
+    for (int i = 0; i < 6; i++)
+        ck_assert_double_eq_tol(after[i], before[i], 1e-10);
+    for (size_t i = 0; i < count; i++)
+        factors[i] *= 0.5F;
+    ck_assert_int_eq(radSolveWithFactors(solution, factors), 0);
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, after, NULL), 0);
+    for (int i = 0; i < 6; i++)
+        ck_assert(after[i] <= before[i] && after[i] >= 0);
+    memset(factors, 0, count * sizeof *factors);
+    ck_assert_int_eq(radSolveWithFactors(solution, factors), 0);
+    radGetElements(solution, &x);
+    radGetLinks(solution, &links);
+    ck_assert_uint_eq(links.count, count);
+    for (uint32_t e = 0; e < x.count; e++)
+        ck_assert_double_eq(x.irradiance[e], 0);
+    ck_assert_int_eq(radStep(solution), 0);
+    ck_assert_int_eq(radSolve(solution), 0);
+    radGetElements(solution, &x);
+    ck_assert_double_eq(x.irradiance[x.face_element[0]], 0);
+    free(factors);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* Bent, concave, two-sided and empty polygons; the arrays may go after the commit. */
 START_TEST(test_polygons)
 {
@@ -842,6 +904,7 @@ int main(void)
     tcase_add_test(t, test_furnace);
     tcase_add_test(t, test_steps);
     tcase_add_test(t, test_views);
+    tcase_add_test(t, test_factors);
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_exchange);
     tcase_add_test(t, test_oracles);

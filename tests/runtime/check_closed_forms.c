@@ -262,12 +262,16 @@ static double cut(enum form_factor_level level, int k)
 }
 
 /* Perpendicular with a common edge: cutting finer does not help the disc at first, so halving
- * misleads; one point converges, slowly; the polygon and the contour are right at once. */
+ * misleads; one point converges, slowly, and 1 / d^2 by half each time; the polygon and the contour
+ * are right at once. */
 START_TEST(test_shared_edge)
 {
-    static const double disc[] = {-0.028, -0.044, -0.036, -0.023, -0.013};
-    for (int k = 0; k < 5; k++)
+    static const double disc[] = {-0.028, -0.044, -0.036, -0.023, -0.013},
+                        square[] = {0.59, 0.32, 0.165, 0.084, 0.042};
+    for (int k = 0; k < 5; k++) {
         ck_assert_double_eq_tol(cut(FORM_FACTOR_DISC, k), disc[k], 0.0006);
+        ck_assert_double_eq_tol(cut(FORM_FACTOR_INVERSE_SQUARE, k), square[k], 0.002);
+    }
     ck_assert_double_eq_tol(cut(FORM_FACTOR_POINT, 0), -0.0495, 0.0001);
     ck_assert_double_lt(fabs(cut(FORM_FACTOR_POINT, 3)), 0.01);
     for (int k = 0; k < 3; k++) {

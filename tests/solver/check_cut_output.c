@@ -303,7 +303,7 @@ START_TEST(test_table)
     int row = 0;
     struct stage s;
     stage_open(&s);
-    ck_assert_int_eq(faces_csv_write(in_folder("cut.csv"), &s.solution), 0);
+    ck_assert_int_eq(faces_csv_write(in_folder("cut.csv"), &s.solution, NULL), 0);
     FILE *f = fopen(in_folder("cut.csv"), "r");
     ck_assert_ptr_nonnull(f);
     char line[256];

@@ -1,0 +1,112 @@
+/* api_error.c - measured error and mended solutions.
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+#include "engine/api.h"
+
+/* A share of the rays that links have cast, but no fewer than `least`. */
+static uint64_t share_of_rays(RadSolution solution, double share, uint64_t least)
+{
+    double rays = share * (double)rays_count(solution->solve.problem.rays).rays;
+    return rays > (double)least ? (uint64_t)rays : least;
+}
+
+static struct RadErrorReport report_of(const struct measured_error *m)
+{
+    return (struct RadErrorReport){.power = m->faces.power,
+                                   .l1_faces = m->faces.l1,
+                                   .reflected = m->faces.reflected,
+                                   .worst = m->faces.worst,
+                                   .worst_share = m->faces.worst_share,
+                                   .rays = m->rays,
+                                   .particles = m->particles,
+                                   .seconds = m->seconds};
+}
+
+/* Is there a solution to be measured? */
+static int check_solved(RadSolution solution, const char *what)
+{
+    if (api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    if (solution->solve.report.passes == 0)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "%s needs a solution: radSolve or radStep comes first", what);
+    if (solution->solve.problem.options.unit)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "%s needs the scene's own light; RadSolveOptions.unit has none", what);
+    return 0;
+}
+
+int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,
+                    struct RadErrorReport *report)
+{
+    static const struct RadMeasureOptions defaults;
+    const struct RadMeasureOptions *o = given ? given : &defaults;
+    if (check_solved(solution, "radMeasureError") < 0)
+        return -1;
+    if (o->stream > 1u << 31)
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadMeasureOptions.stream is %u; it takes 0 to 2^31", (unsigned)o->stream);
+    uint64_t rays =
+        o->rays ? o->rays : share_of_rays(solution, RAD_MEASURE_SHARE, RAD_MEASURE_LEAST);
+    const char *cause;
+    measured_error_free(&solution->measured);
+    if (measure_error(&solution->solve, rays, 1 + (uint64_t)o->stream, &solution->measured, &cause)
+        < 0)
+        return api_give_up(solution, cause);
+    if (report)
+        *report = report_of(&solution->measured);
+    return 0;
+}
+
+int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error, double *deviation)
+{
+    if (api_not_dead(solution) < 0)
+        return -1;
+    const struct face_error *f = &solution->measured.faces;
+    if (!f->error)
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_OPERATION,
+                        "nothing has been measured of what is shown: radMeasureError comes first");
+    if (band >= f->bands)
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "there is no band %u; there are %u, from 0", (unsigned)band,
+                        (unsigned)f->bands);
+    for (uint32_t i = 0; i < f->polygons; i++) {
+        if (error)
+            error[i] = f->error[(size_t)i * f->bands + band];
+        if (deviation)
+            deviation[i] = f->deviation[(size_t)i * f->bands + band];
+    }
+    return 0;
+}
+
+const double *radGetElementErrors(RadSolution solution)
+{
+    return solution && !solution->dead ? solution->measured.element : NULL;
+}
+
+int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
+               struct RadErrorReport *alone)
+{
+    static const struct RadCorrectOptions defaults;
+    const struct RadCorrectOptions *o = given ? given : &defaults;
+    if (check_solved(solution, "radCorrect") < 0)
+        return -1;
+    if (!(o->noise >= 0 && o->noise < 1))
+        return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadCorrectOptions.noise is %g; it takes a share above 0 and below 1, or 0 "
+                        "for the default",
+                        o->noise);
+    double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
+    uint64_t rays =
+        o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_SHARE, RAD_CORRECT_LEAST);
+    struct measured_error links;
+    const char *cause;
+    measured_error_free(&solution->measured);
+    if (measure_and_mend(&solution->solve, noise, rays, &links, &cause) < 0)
+        return api_give_up(solution, cause);
+    if (alone)
+        *alone = report_of(&links);
+    measured_error_free(&links);
+    return 0;
+}

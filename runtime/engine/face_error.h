@@ -1,0 +1,34 @@
+/* face_error.h - the measured error of the light that polygons reflect: a solution held against
+ * counted particles.
+ * SPDX-License-Identifier: MIT */
+#ifndef FACE_ERROR_H
+#define FACE_ERROR_H
+
+#include "engine/problem.h"
+#include "particles/particles.h"
+#include "radiosity.h"
+
+struct face_error {
+    uint32_t polygons, bands;
+    double *error;     /* [polygon * bands + band]: mean B of the solution less B counted (W/m2) */
+    double *deviation; /* the same: its standard error (W/m2) */
+    struct RadMeasure power, l1; /* shares of the reflected light */
+    double reflected;            /* light reflected, as counted, all bands (W) */
+    /* of polygons that reflect at least FACE_ERROR_LARGE of the light: the one that is most
+     * surely wrong, and its error as a share of what it reflects; polygons: there is none */
+    uint32_t worst;
+    double worst_share;
+};
+
+/* Hold the mean irradiances of faces, irradiance[element * bands + band] (W/m2), against a tally
+ * that nothing in them comes from. Returns 0, or -1 when out of memory. */
+int face_error_open(struct face_error *f, const struct problem *p, const struct hierarchy *h,
+                    const double *irradiance, const struct tally *tally);
+/* The L1 error of polygons that the noise of the tally alone makes, as a share of the reflected
+ * light. Returns 0, or -1 when out of memory. */
+int face_noise(const struct problem *p, const struct hierarchy *h, const double *irradiance,
+               const struct tally *tally, double *noise);
+
+void face_error_close(struct face_error *f);
+
+#endif

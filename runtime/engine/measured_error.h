@@ -1,0 +1,32 @@
+/* measured_error.h - how far a solution is from the truth, measured by light that is counted; and
+ * what it measured used to mend the solution.
+ * SPDX-License-Identifier: MIT */
+#ifndef MEASURED_ERROR_H
+#define MEASURED_ERROR_H
+
+#include "engine/face_error.h"
+#include "engine/solve.h"
+
+/* What a measurement found of the solution that is shown. */
+struct measured_error {
+    struct face_error faces;
+    double *element; /* [elements * bands]: B less the truth, as far as it stands out (W/m2) */
+    uint64_t rays, particles;
+    double seconds;
+};
+
+/* Measure what solve_shown says by about so many rays, with random numbers of a stream that the
+ * solution has not been mended with (any but MEND_STREAM). Returns 0, or -1 with *cause set. */
+enum { MEND_STREAM = 0 };
+int measure_error(struct solve *s, uint64_t rays, uint64_t stream, struct measured_error *m,
+                  const char **cause);
+void measured_error_free(struct measured_error *m);
+
+/* Mend the radiosities of the links, which a mended solution then shows: particles are traced until
+ * their noise in the L1 error of polygons is below `noise`, a share of the reflected light, or
+ * about `most` rays are cast. *alone: the links' error as the same particles measure it. Returns 0,
+ * or -1 with *cause set. */
+int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measured_error *alone,
+                     const char **cause);
+
+#endif

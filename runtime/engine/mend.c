@@ -1,0 +1,216 @@
+/* mend.c - the solution plus the measured error, level by level: better than links or particles
+ * alone.
+ *
+ * Links know how light is spread over small places, particles how much there is in large ones. So
+ * the tree is gone down from the root. What an element receives is known when its children's turn
+ * comes; how it is shared among them is told twice, by the links (q~ of each child) and by the
+ * particles that landed there (q^). Taken is
+ *     q = q~ + k (q^ - q~),   k = max(0, 1 - sum s^2 / sum m^2),   m = q^ - q~,
+ * one k for the children of one element, s the standard errors of m: what particles see is believed
+ * as far as it stands out of their noise. Both are shares, so none is below 0, and power is neither
+ * made nor lost on the way down. The root takes k of what it lacks.
+ *
+ * sum m^2 of two or four children is a noisy thing itself. So elements are put in classes, clusters
+ * or surfaces by how many particles they met: within a class noise is alike, and what is seen of it
+ * is what links are worth at that size in this scene. In place of an element's own sum m^2 stands a
+ * mean of it and of what its class expects. Where a class shows nothing beyond noise, links are
+ * left alone, so that good links are not made worse; but an element that is far out is believed
+ * for itself.
+ *
+ * s^2 above the faces and among them is told by the replicates, which see correlations that chance
+ * does not; below, where few particles land and replicates would say little, it is that of chance,
+ * of a multinomial.
+ *
+ * [James and Stein 1961, for k; Efron and Morris 1972, for classes and outliers; Cai 1999, blocks
+ * in a tree; shares of a tree's nodes: Polya trees, Lavine 1992; the rest: derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include "engine/mend.h"
+#include "kernel/constants.h"
+
+/* Sums of m^2 and of s^2, of one element or of a class. */
+struct sight {
+    double seen, noise;
+    uint32_t elements;
+};
+
+enum { CLASSES = 48 };
+
+struct mending {
+    const struct light_operator *op;
+    const struct tally *tally;
+    uint32_t bands;
+    double *irradiance; /* [element * bands + band]: by links, then mended (W/m2) */
+    double *linked;     /* [element * bands + band]: power by links (W) */
+    double *received;   /* the same, counted, mean of all replicates */
+    double *replicate;  /* [REPLICATES][built * bands]: by each (W) */
+    /* clusters, then surfaces, by the logarithm of their particles */
+    struct sight class[2][CLASSES];
+};
+
+enum { CHILDREN = 255 };
+
+static size_t place(const struct mending *m, uint32_t element, uint32_t band)
+{
+    return (size_t)element * m->bands + band;
+}
+
+/* q~ of each child of e in a band. */
+static void shares_by_links(const struct mending *m, uint32_t e, uint32_t k, double given[CHILDREN])
+{
+    const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
+    double linked = 0;
+    for (uint32_t c = 0; c < at->children; c++)
+        linked += m->linked[place(m, at->child + c, k)];
+    for (uint32_t c = 0; c < at->children; c++) {
+        uint32_t j = at->child + c;
+        given[c] = linked > 0 ? m->linked[place(m, j, k)] / linked : elements[j].area / at->area;
+    }
+}
+
+/* m^2 and s^2 among the children of e, which some particles met. */
+static struct sight see(const struct mending *m, uint32_t e, uint32_t k, const double *given)
+{
+    const struct hierarchy *h = m->op->hierarchy;
+    const struct element *at = &h->elements[e];
+    double noise = 0, seen = 0, whole = m->received[place(m, e, k)];
+    for (uint32_t c = 0; c < at->children; c++) {
+        uint32_t j = at->child + c;
+        double off = m->received[place(m, j, k)] - given[c] * whole;
+        seen += off * off;
+        if (j < h->built) {
+            for (int r = 0; r < REPLICATES; r++) {
+                const double *of = &m->replicate[(size_t)r * h->built * m->bands];
+                double d = of[place(m, j, k)] - given[c] * of[place(m, e, k)] - off;
+                noise += d * d / (REPLICATES * (REPLICATES - 1.0));
+            }
+        } else {
+            double here = m->received[place(m, j, k)];
+            noise += (1 - given[c]) * (1 - given[c]) * tally_chance(m->tally, here, k)
+                     + given[c] * given[c] * tally_chance(m->tally, whole - here, k);
+        }
+    }
+    return (struct sight){seen / (whole * whole), noise / (whole * whole), 1};
+}
+
+/* The class of an element in a band. */
+static struct sight *class_of(struct mending *m, uint32_t e, uint32_t k)
+{
+    double particles = m->received[place(m, e, k)] / tally_power_of_one(m->tally);
+    int class = particles > 1 ? (int)log2(particles) : 0;
+    return &m->class[m->op->hierarchy->elements[e].vertices > 0]
+                    [class < CLASSES ? class : CLASSES - 1];
+}
+
+/* k of one element among its class. */
+static double believed(const struct sight *own, const struct sight *class)
+{
+    double ratio = class->seen / class->noise, expected = own->noise * fmax(1, ratio), seen = 0;
+    if (ratio > 1 + MEND_EVIDENCE * sqrt(2.0 / class->elements))
+        seen = MEND_OWN * own->seen + (1 - MEND_OWN) * expected;
+    if (own->seen > MEND_OUTLIER * MEND_OUTLIER * expected)
+        seen = own->seen;
+    return seen > own->noise ? 1 - own->noise / seen : 0;
+}
+
+/* Share out what e receives, mended by now, among its children. */
+static void share_out(struct mending *m, uint32_t e, uint32_t k)
+{
+    const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
+    double given[CHILDREN], whole = m->irradiance[place(m, e, k)] * at->area;
+    double counted = m->received[place(m, e, k)], belief = 0;
+    shares_by_links(m, e, k, given);
+    if (counted > 0) {
+        struct sight own = see(m, e, k, given);
+        belief = believed(&own, class_of(m, e, k));
+    }
+    for (uint32_t c = 0; c < at->children; c++) {
+        uint32_t j = at->child + c;
+        double share = given[c];
+        if (belief > 0)
+            share += belief * (m->received[place(m, j, k)] / counted - given[c]);
+        m->irradiance[place(m, j, k)] = share * whole / elements[j].area;
+    }
+}
+
+/* What all elements of each class show. */
+static void fill_classes(struct mending *m)
+{
+    const struct hierarchy *h = m->op->hierarchy;
+    double given[CHILDREN];
+    for (uint32_t e = 0; e < h->count; e++)
+        for (uint32_t k = 0; k < m->bands && h->elements[e].children; k++) {
+            if (!(m->received[place(m, e, k)] > 0))
+                continue;
+            shares_by_links(m, e, k, given);
+            struct sight own = see(m, e, k, given), *class = class_of(m, e, k);
+            class->seen += own.seen;
+            class->noise += own.noise;
+            class->elements++;
+        }
+}
+
+static void mend_root(struct mending *m, uint32_t k)
+{
+    const struct hierarchy *h = m->op->hierarchy;
+    double noise = 0, off = m->received[place(m, 0, k)] - m->linked[place(m, 0, k)];
+    for (int r = 0; r < REPLICATES; r++) {
+        double d = m->replicate[(size_t)r * h->built * m->bands + place(m, 0, k)]
+                   - m->received[place(m, 0, k)];
+        noise += d * d / (REPLICATES * (REPLICATES - 1.0));
+    }
+    double belief = off * off > noise ? 1 - noise / (off * off) : 0;
+    m->irradiance[place(m, 0, k)] =
+        (m->linked[place(m, 0, k)] + belief * off) / h->elements[0].area;
+}
+
+/* Powers of leaves and faces, then sums from there up. */
+static void fill(struct mending *m)
+{
+    const struct hierarchy *h = m->op->hierarchy;
+    for (uint32_t e = 0; e < h->count; e++)
+        for (uint32_t k = 0; k < m->bands; k++) {
+            const struct element *at = &h->elements[e];
+            m->linked[place(m, e, k)] = at->children ? 0 : at->area * m->irradiance[place(m, e, k)];
+            m->received[place(m, e, k)] = at->children ? 0 : tally_leaf(m->tally, e, k);
+            for (int r = 0; r < REPLICATES && e < h->built; r++)
+                m->replicate[(size_t)r * h->built * m->bands + place(m, e, k)] =
+                    at->vertices ? tally_face(m->tally, r, at->face, k) : 0;
+        }
+    for (uint32_t e = h->count; e-- > 1;) { /* children follow their parents */
+        uint32_t parent = h->elements[e].parent;
+        for (uint32_t k = 0; k < m->bands; k++) {
+            m->linked[place(m, parent, k)] += m->linked[place(m, e, k)];
+            m->received[place(m, parent, k)] += m->received[place(m, e, k)];
+            for (int r = 0; r < REPLICATES && e < h->built; r++) {
+                double *of = &m->replicate[(size_t)r * h->built * m->bands];
+                of[place(m, parent, k)] += of[place(m, e, k)];
+            }
+        }
+    }
+}
+
+int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance)
+{
+    const struct hierarchy *h = op->hierarchy;
+    size_t values = (size_t)h->count * tally->bands;
+    struct mending m = {.op = op, .tally = tally, .bands = tally->bands, .irradiance = irradiance};
+    m.linked = malloc(values * sizeof *m.linked);
+    m.received = malloc(values * sizeof *m.received);
+    m.replicate = malloc((size_t)REPLICATES * h->built * m.bands * sizeof *m.replicate);
+    int result = m.linked && m.received && m.replicate ? 0 : -1;
+    if (result == 0) {
+        fill(&m);
+        fill_classes(&m);
+        for (uint32_t k = 0; k < m.bands; k++)
+            mend_root(&m, k);
+        for (uint32_t e = 0; e < h->count; e++) /* children follow their parents */
+            for (uint32_t k = 0; k < m.bands && h->elements[e].children; k++)
+                share_out(&m, e, k);
+    }
+    free(m.linked);
+    free(m.received);
+    free(m.replicate);
+    return result;
+}

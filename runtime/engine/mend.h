@@ -1,0 +1,14 @@
+/* mend.h - radiosities of links mended by particles, as far as these stand out of their noise.
+ * SPDX-License-Identifier: MIT */
+#ifndef MEND_H
+#define MEND_H
+
+#include "engine/operator.h"
+#include "particles/particles.h"
+
+/* What each element receives once mended: irradiance[element * bands + band] (W/m2), whose values
+ * by the links are given, are set anew on all surfaces and clusters. The tally has counts of
+ * leaves. Returns 0, or -1 when out of memory. */
+int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance);
+
+#endif

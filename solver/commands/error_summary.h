@@ -1,0 +1,32 @@
+/* error_summary.h - a solution mended and measured by particles, and what is told of it.
+ * SPDX-License-Identifier: MIT */
+#ifndef ERROR_SUMMARY_H
+#define ERROR_SUMMARY_H
+
+#include <jansson.h>
+#include "options/options.h"
+
+/* What mending and measuring said. */
+struct measured {
+    int mended, measured;
+    struct RadErrorReport alone; /* of the links, by the particles that mended them */
+    struct RadErrorReport error; /* of what is shown, by others */
+};
+
+/* Mend and measure as the options say. Returns 0, or -1 after a message. */
+int measured_take(struct measured *m, const struct options *o, RadDevice device,
+                  RadSolution solution);
+
+/* Above this share of the reflected light a warning is given. */
+#define MEASURED_WARNING 0.05
+/* Warn of a large error. */
+void measured_warn(const struct measured *m, const char *where);
+
+void measured_print(const struct measured *m, uint32_t polygons);
+
+/* Object `error` of the JSON; null when nothing was measured. */
+json_t *measured_json(const struct measured *m);
+/* Object `correction`; null when nothing was mended. */
+json_t *mended_json(const struct measured *m);
+
+#endif
