@@ -387,6 +387,8 @@ struct RadMeasureOptions {
     /* which random numbers, 0 to 2^31: measurements of different ones are independent of each
      * other, and all of what a solution is mended with */
     uint32_t stream;
+    /* 1: the errors over the surfaces, l2 and p999, too */
+    int surfaces;
 };
 #define RAD_MEASURE_SHARE 0.01
 #define RAD_MEASURE_LEAST (1u << 15)
@@ -395,6 +397,13 @@ struct RadMeasureOptions {
 struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
     struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
+    /* over the surfaces, of what RadMeasureOptions.surfaces asked for: root of the integral of the
+     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area mean
+     * of B - E */
+    struct RadMeasure l2, p999;
+    /* the L1 error per polygon that these particles, by chance, have themselves: what is left of it
+     * in what is mended with them */
+    struct RadMeasure noise;
     double reflected;           /* light reflected, as counted, all bands (W) */
     /* of polygons that reflect a hundredth of all light or more, the one that is most surely wrong,
      * and by which share of what it reflects; RadSceneReport.polygons: none is, surely */

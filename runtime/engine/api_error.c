@@ -14,6 +14,7 @@ static struct RadErrorReport report_of(const struct measured_error *m)
 {
     return (struct RadErrorReport){.power = m->faces.power,
                                    .l1_faces = m->faces.l1,
+                                   .noise = m->faces.noise,
                                    .reflected = m->faces.reflected,
                                    .worst = m->faces.worst,
                                    .worst_share = m->faces.worst_share,

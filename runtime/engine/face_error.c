@@ -28,8 +28,9 @@
 
 enum { CLASSES = 24, BINS = 160, HALVINGS = 50 };
 
-/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom. */
+/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom, and of the normal. */
 #define T_QUANTILE 2.131449545559323
+#define NORMAL_QUANTILE 1.959963984540054
 _Static_assert(REPLICATES == 16, "T_QUANTILE is that of 15 degrees of freedom");
 
 /* Polygons and bands alike in number of particles and in x = |e^| / s: sums of s, s^2 and s x. */
@@ -316,16 +317,26 @@ static struct counted *counted_open(const struct problem *p, const struct hierar
     return c;
 }
 
+/* The sum of |s z| over all values, z normal and independent. */
+static struct RadMeasure expected_noise(const struct counted *c)
+{
+    double mean = 0, variance = 0;
+    for (size_t i = 0; i < c->values; i++) {
+        mean += sqrt(2 / LAMBERT_PI) * c->deviation[i];
+        variance += (1 - 2 / LAMBERT_PI) * c->deviation[i] * c->deviation[i];
+    }
+    double off = NORMAL_QUANTILE * sqrt(variance);
+    return (struct RadMeasure){mean / c->reflected, fmax(0, mean - off) / c->reflected,
+                               (mean + off) / c->reflected};
+}
+
 int face_noise(const struct problem *p, const struct hierarchy *h, const double *irradiance,
                const struct tally *tally, double *noise)
 {
     struct counted *c = counted_open(p, h, irradiance, tally);
     if (!c)
         return -1;
-    double sum = 0;
-    for (size_t i = 0; i < c->values; i++)
-        sum += sqrt(2 / LAMBERT_PI) * c->deviation[i];
-    *noise = c->reflected > 0 ? sum / c->reflected : 0;
+    *noise = c->reflected > 0 ? expected_noise(c).value : 0;
     counted_close(c);
     return 0;
 }
@@ -356,6 +367,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     f->reflected = c->reflected;
     find_shares(c);
     if (f->reflected > 0) {
+        f->noise = expected_noise(c);
         f->power = measure_power(c);
         f->l1 = measure_l1(c);
     }

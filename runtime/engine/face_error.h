@@ -13,6 +13,7 @@ struct face_error {
     double *error;     /* [polygon * bands + band]: mean B of the solution less B counted (W/m2) */
     double *deviation; /* the same: its standard error (W/m2) */
     struct RadMeasure power, l1; /* shares of the reflected light */
+    struct RadMeasure noise;     /* the L1 error that chance makes of what is counted itself */
     double reflected;            /* light reflected, as counted, all bands (W) */
     /* of polygons that reflect at least FACE_ERROR_LARGE of the light: the one that is most
      * surely wrong, and its error as a share of what it reflects; polygons: there is none */

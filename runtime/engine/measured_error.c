@@ -43,7 +43,7 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
         return 0;
     double each = (double)tally->rays / (double)tally->particles;
     double more = (double)(rays - tally->rays) / each;
-    return more >= 1 ? tally_trace(tally, t, (uint64_t)more, &watch) : 0;
+    return tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch);
 }
 
 /* What the tally, which nothing of the shown solution comes from, says of it. */

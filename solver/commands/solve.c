@@ -1,8 +1,10 @@
 /* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
+#include "commands/accuracy.h"
 #include "commands/commands.h"
 #include "commands/summary.h"
+#include "output/error_image.h"
 #include "output/export.h"
 #include "output/faces_csv.h"
 #include "output/image.h"
@@ -14,21 +16,36 @@
 #include "util/open_oracle.h"
 #include "util/report.h"
 
+/* Both pictures, of the light and of its error, through the same camera. */
+static int write_pictures(const struct options *o, const struct solution *solution,
+                          const struct vertex_values *values, const double *error)
+{
+    const struct view *view = o->view_given ? &o->view : NULL;
+    int failed = 0;
+    if (o->image)
+        failed |= image_write(o->image, solution, values, view, o->width, o->height, o->mesh) < 0;
+    if (o->image_error)
+        failed |= error_image_write(o->image_error, solution, values, error, view, o->width,
+                                    o->height, o->mesh)
+                  < 0;
+    return failed;
+}
+
 static int write_solution(const struct options *o, const struct surfaces *surfaces,
                           RadSolution solved, int measured)
 {
     const struct solution solution = solution_of(surfaces, solved);
     int failed = 0;
-    if (o->out || o->image) {
+    if (o->out || o->image || o->image_error) {
         struct vertex_values values;
         if (vertex_values_build(&values, &solution) < 0)
-            return report_error(o->image ? o->image : o->out, 0, "out of memory");
+            return report_error(o->image         ? o->image
+                                : o->image_error ? o->image_error
+                                                 : o->out,
+                                0, "out of memory");
         if (o->out)
             failed |= export_write(o->out, &solution, &values) < 0;
-        if (o->image)
-            failed |= image_write(o->image, &solution, &values, o->view_given ? &o->view : NULL,
-                                  o->width, o->height, o->mesh)
-                      < 0;
+        failed |= write_pictures(o, &solution, &values, radGetElementErrors(solved));
         vertex_values_free(&values);
     }
     if (o->faces)
@@ -39,18 +56,33 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
 /* Write all that was asked for. Returns the exit status. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct surfaces *surfaces, const struct solved *solved,
-                         const struct measured *measured, RadOracle oracle)
+                         const struct measured *measured, const struct accuracy *accuracy,
+                         RadOracle oracle)
 {
     double start = seconds();
     int status = write_solution(o, surfaces, solved->solution, measured->measured) < 0;
     if (o->statistics && statistics_write(o->statistics, oracle) < 0)
         status = 1;
-    const struct summary summary = {o, scene, solved, oracle, measured, seconds() - start};
+    const struct summary summary = {
+        o, scene, solved, oracle, measured, o->accuracy > 0 ? accuracy : NULL, seconds() - start};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
         summary_print(&summary);
     return status;
+}
+
+/* Solve, mend and measure as the options say. Returns 0, or -1 after a message. */
+static int solve_once(struct solved *s, struct measured *measured, const struct options *o,
+                      const struct open_scene *scene, RadOracle oracle,
+                      const struct RadSolveOptions *how)
+{
+    if (solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
+        return -1;
+    if (measured_take(measured, o, scene->device, s->solution) == 0)
+        return 0;
+    solved_close(s);
+    return -1;
 }
 
 /* Solve by the oracle and write the outputs. Returns the exit status. */
@@ -62,10 +94,10 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     struct RadSolveOptions how = solve_options(o);
     struct RadOracleReport report;
     radGetOracleReport(oracle, &report);
-    if (o->view_given && !o->image && !report.reads_importance) {
-        report_error(
-            "--view", 0,
-            "is for a picture, or for an oracle that reads importance: add --image FILE.png");
+    if (o->view_given && !o->image && !o->image_error && !report.reads_importance) {
+        report_error("--view", 0,
+                     "is for a picture, or for an oracle that reads importance: add --image "
+                     "FILE.png or --image-error FILE.png");
         return 2;
     }
     if (o->statistics && radCountOracle(oracle) < 0)
@@ -77,11 +109,10 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     struct solved s;
     struct measured measured;
-    int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
-    if (status == 0 && measured_take(&measured, o, scene->device, s.solution) < 0) {
-        solved_close(&s);
-        status = -1;
-    }
+    struct accuracy accuracy = {.reached = 1};
+    int status = o->accuracy > 0 ? accuracy_solve(&accuracy, &s, &measured, o, scene->device,
+                                                  scene->scene, oracle, &how)
+                                 : solve_once(&s, &measured, o, scene, oracle, &how);
     progress_end(&progress);
     if (status < 0)
         return 1;
@@ -94,7 +125,11 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     }
     if (!o->quiet)
         measured_warn(&measured, o->scene);
-    status = write_outputs(o, scene, &surfaces, &s, &measured, oracle);
+    status = write_outputs(o, scene, &surfaces, &s, &measured, &accuracy, oracle);
+    if (!accuracy.reached) {
+        report_warning(o->scene, 0, "--accuracy was not kept: stopped by %s", accuracy.why);
+        status = status ? status : 3;
+    }
     solved_close(&s);
     return status;
 }

@@ -77,7 +77,8 @@ json_t *summary_json(const struct summary *s)
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
         "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
-        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, s:f}",
+        " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, "
+        "s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
         "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
@@ -91,9 +92,10 @@ json_t *summary_json(const struct summary *s)
         r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
         "closure", closure_json(s->options, r), "importance", importance_json(r), "error_control",
         error_control_json(r), "error", measured_json(s->measured), "correction",
-        mended_json(s->measured), "seconds", "build", r->seconds.build, "refine", r->seconds.refine,
-        "in_rays", r->seconds.in_rays, "iterate", r->seconds.iterate, "output", s->output_seconds,
-        "peak_memory_mb", peak_megabytes());
+        mended_json(s->measured), "accuracy",
+        s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null(), "seconds", "build",
+        r->seconds.build, "refine", r->seconds.refine, "in_rays", r->seconds.in_rays, "iterate",
+        r->seconds.iterate, "output", s->output_seconds, "peak_memory_mb", peak_megabytes());
 }
 
 /* Links that a graph has marked. A mark other than the guard's means what the graph's author
@@ -178,6 +180,8 @@ void summary_print(const struct summary *s)
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
     measured_print(s->measured, scene->polygons);
+    if (s->accuracy)
+        accuracy_print(s->accuracy, s->options);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "
            "%.2f; %.0f MB\n",
            r->seconds.build + r->seconds.refine + r->seconds.iterate + s->output_seconds,

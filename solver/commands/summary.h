@@ -4,6 +4,7 @@
 #define SUMMARY_H
 
 #include <jansson.h>
+#include "commands/accuracy.h"
 #include "commands/error_summary.h"
 #include "options/options.h"
 #include "scene/open_scene.h"
@@ -17,6 +18,7 @@ struct summary {
     const struct solved *solved;
     RadOracle oracle;
     const struct measured *measured;
+    const struct accuracy *accuracy; /* NULL: none was asked for */
     double output_seconds;
 };
 

@@ -75,6 +75,21 @@ static int read_share(struct options *o, const struct option_row *row, const cha
     return 0;
 }
 
+/* "[l1:|l2:|power:]X[%]": a share of the reflected light. */
+static int read_accuracy(struct options *o, const struct option_row *row, const char *value)
+{
+    o->norm = ACCURACY_L1;
+    for (int i = 0; norm_words[i]; i++) {
+        size_t length = strlen(norm_words[i]);
+        if (strncmp(value, norm_words[i], length) == 0 && value[length] == ':') {
+            o->norm = (enum accuracy_norm)i;
+            value += length + 1;
+            break;
+        }
+    }
+    return read_share(o, row, value);
+}
+
 static int read_setting(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
@@ -297,6 +312,7 @@ enum {
 };
 
 const char *const release_words[] = {"flat", "dag", "hand", NULL};
+const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
@@ -343,6 +359,11 @@ const struct option_row option_rows[] = {
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
+    {"accuracy", "NORM:X%", SOLVE, NULL, "solve until the error is at most this: l1, l2, power",
+     "a share such as 1%, or l2:5% or power:0.5%; above 0 and below 100%", .read = read_accuracy,
+     IN(accuracy)},
+    {"limit-seconds", "N", SOLVE, NULL, "when --accuracy gives up (exit status 3)",
+     "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX), .rare = 1},
     {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap", FLAG(errors)},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
@@ -352,7 +373,7 @@ const struct option_row option_rows[] = {
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"accuracy", "SHARE", REFERENCE, "0.2%", "the standard error to reach",
-     "a share such as 0.2% or 0.002, above 0 and below 1", .read = read_share, IN(noise)},
+     "a share such as 0.2% or 0.002, above 0 and below 1", .read = read_share, IN(accuracy)},
     {"keep", NULL, REFERENCE, NULL, "the state file stays, for a finer run", FLAG(keep)},
     {"worst", "N", ERROR, "10", "faces to name", "a whole number from 0 to 100000",
      WHOLE(worst, 0, 100000)},

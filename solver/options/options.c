@@ -311,8 +311,16 @@ static int check_together(struct options *o)
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
     if (o->statistics)
         o->release = RAD_RELEASE_DAG;
-    if (o->mesh && !o->image)
-        return wrong(c->name, "--mesh is for a picture: add --image FILE.png");
+    if (o->accuracy > 0 && (o->no_errors || o->no_correct))
+        return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
+                     o->no_errors ? "--no-errors" : "--no-correct");
+    if (o->limit_seconds && !(o->accuracy > 0))
+        return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if (o->correct && o->no_correct)
+        return wrong(c->name, "--correct and --no-correct contradict each other");
+    if (o->mesh && !o->image && !o->image_error)
+        return wrong(c->name, "--mesh is for a picture: add --image FILE.png or --image-error "
+                              "FILE.png");
     if (o->no_errors && (o->errors || o->image_error))
         return wrong(c->name, "--no-errors and %s contradict each other",
                      o->errors ? "--errors" : "--image-error");

@@ -25,6 +25,11 @@ enum command {
 /* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
 extern const char *const release_words[], *const closure_words[];
 
+/* The norms that --accuracy is asked in: of face means, over the surfaces, of all light together.
+ */
+enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
+extern const char *const norm_words[];
+
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
 /* What a command does not take is zero. Texts are the command line's own; NULL: not given, not
@@ -47,6 +52,9 @@ struct options {
 
     /* How far from the truth. */
     int errors, no_errors, correct, no_correct;
+    double accuracy; /* share of the reflected light; 0: not asked for. reference: of its noise */
+    enum accuracy_norm norm;
+    int limit_seconds; /* 0: none */
 
     /* What to write. */
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
@@ -62,10 +70,9 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    double noise; /* reference: the standard error to reach, a share */
-    int keep;     /* reference: its state file stays */
-    int worst;    /* error: how many faces to name */
-    int samples;  /* arvo: across the receiver; 0: exactly */
+    int keep;    /* reference: its state file stays */
+    int worst;   /* error: how many faces to name */
+    int samples; /* arvo: across the receiver; 0: exactly */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on

@@ -1,217 +1,33 @@
 /* image.c - see image.h.
  *
- * Nine samples per pixel. Each asks the raster for its face, meets the face's plane, and goes down
- * to the leaf for its value; so the cost is that of the samples, whatever the number of leaves.
  * Colours are averaged after the exposure's curve: a lamp's edge is smooth although the lamp is a
  * hundred times brighter than white.
  * SPDX-License-Identifier: MIT */
 #include "output/image.h"
 
-#include <math.h>
 #include <stdlib.h>
 
-#include "geometry.h"
-#include "output/exposure.h"
+#include "output/picture.h"
 #include "output/png_file.h"
-#include "output/raster.h"
-#include "util/report.h"
 
-/* samples per pixel side, pixels per meter sample, pixel rows per task */
-enum { SIDE = 3, METER = 4, BAND = 4 };
-
-struct picture {
-    const struct solution *solution;
-    const struct vertex_values *values;
-    struct raster raster;
-    struct exposure exposure;
-    int mesh;
-};
-
-/* Half the width of a mesh line on either side of an edge, in samples. */
-static const double LINE = 0.5 * SIDE;
-
-/* Dark, yet told from a black face. */
-static const double BACKGROUND = 0.015;
-
-/* Where the ray of sample (x, y) meets the plane of a face. */
-static void point_seen(const struct picture *p, uint32_t face, double x, double y,
-                       double direction[3], double point[3])
+static uint32_t light(const void *context, uint32_t face, const double point[3], double colour[3])
 {
-    const struct raster *r = &p->raster;
-    const struct element *e = element_of_face(p->solution, face);
-    raster_direction(r, x, y, direction);
-    double to[3];
-    sub3(to, e->vertex[0], r->eye);
-    double t = dot3(e->normal, to) / dot3(e->normal, direction);
-    for (int k = 0; k < 3; k++)
-        point[k] = r->eye[k] + t * direction[k];
-}
-
-/* How much a mesh line covers the sample: its distance in the picture from the leaf's edges. The
- * plane through the eye and an edge is linear in the picture, so no edge needs to be clipped. */
-static double line_cover(const struct raster *r, const struct element *leaf,
-                         const double direction[3])
-{
-    double nearest = INFINITY, widest = 0;
-    for (int i = 0; i < leaf->vertices; i++) {
-        double a[3], b[3], n[3];
-        sub3(a, leaf->vertex[i], r->eye);
-        sub3(b, leaf->vertex[(i + 1) % leaf->vertices], r->eye);
-        cross3(n, a, b);
-        double slope = hypot(dot3(n, r->step_x), dot3(n, r->step_y));
-        double distance = fabs(dot3(n, direction)) / slope;
-        nearest = fmin(nearest, distance);
-        widest = fmax(widest, distance);
-    }
-    /* Leaves of a few pixels: fade, or the lines would hide what they divide. */
-    double fade = fmin(widest / (3.0 * SIDE), 1), cover = fmin(fmax(LINE - nearest + 0.5, 0), 1);
-    return cover * fade;
-}
-
-/* The edge of a leaf over its colour: dark on bright, bright on dark. */
-static void draw_line(double colour[3], double cover)
-{
-    double ink = luminance(colour, 3) > 0.08 ? 0.0 : 0.3;
-    for (int k = 0; k < 3; k++)
-        colour[k] += 0.6 * cover * (ink - colour[k]);
-}
-
-/* The colour of sample (x, y), which sees that face. */
-static void shade(const struct picture *p, uint32_t face, double x, double y, double colour[3])
-{
-    const struct solution *s = p->solution;
-    double direction[3], point[3], radiosity[3];
-    colour[0] = colour[1] = colour[2] = BACKGROUND;
-    if (face == NO_FACE)
-        return;
-    point_seen(p, face, x, y, direction, point);
-    uint32_t leaf = vertex_values_at(p->values, s, face, point, radiosity);
-    exposure_apply(&p->exposure, radiosity, s->tree.bands, colour);
-    if (p->mesh)
-        draw_line(colour, line_cover(&p->raster, &s->tree.elements[leaf], direction));
-}
-
-/* The mean colour of pixel (x, y), whose samples' faces stand in rows that begin with sample row
- * `from`. */
-static void shade_pixel(const struct picture *p, const uint32_t *faces, int from, int x, int y,
-                        uint8_t rgb[3])
-{
-    double sum[3] = {0, 0, 0}, colour[3];
-    for (int j = 0; j < SIDE * SIDE; j++) {
-        int sx = x * SIDE + j % SIDE, sy = y * SIDE + j / SIDE;
-        shade(p, faces[(size_t)(sy - from) * (size_t)p->raster.width + (size_t)sx], sx, sy, colour);
-        for (int k = 0; k < 3; k++)
-            sum[k] += colour[k] / (SIDE * SIDE);
-    }
-    for (int k = 0; k < 3; k++)
-        rgb[k] = srgb_byte(sum[k]);
-}
-
-/* Which face each sample of some rows sees. */
-struct samples {
-    uint32_t *face;
-    double *nearness;
-};
-
-static int samples_open(struct samples *s, size_t count)
-{
-    s->face = malloc((count + 1) * sizeof *s->face);
-    s->nearness = malloc((count + 1) * sizeof *s->nearness);
-    return s->face && s->nearness ? 0 : -1;
-}
-
-static void samples_close(struct samples *s)
-{
-    free(s->face);
-    free(s->nearness);
-}
-
-/* Rows [from, to) of pixels into rgb. */
-static int draw_rows(const struct picture *p, int width, int from, int to, uint8_t *rgb)
-{
-    struct samples samples;
-    int failed = samples_open(&samples, (size_t)((to - from) * SIDE) * (size_t)p->raster.width);
-    if (!failed) {
-        raster_rows(&p->raster, from * SIDE, to * SIDE, samples.face, samples.nearness);
-        for (int y = from; y < to; y++)
-            for (int x = 0; x < width; x++)
-                shade_pixel(p, samples.face, from * SIDE, x, y,
-                            &rgb[((size_t)y * (size_t)width + (size_t)x) * 3]);
-    }
-    samples_close(&samples);
-    return failed;
-}
-
-/* Luminances of what samples of w a row see: of lamps, or of all else. Returns how many. */
-static size_t read_meter(const struct picture *p, const uint32_t *face, size_t samples, size_t w,
-                         int lamps, struct meter_sample *meter)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < samples; i++) {
-        double direction[3], point[3], radiosity[3];
-        if (face[i] == NO_FACE || is_lamp(&p->solution->surfaces, face[i]) != lamps)
-            continue;
-        point_seen(p, face[i], (double)(i % w), (double)(i / w), direction, point);
-        vertex_values_at(p->values, p->solution, face[i], point, radiosity);
-        double l = luminance(radiosity, p->solution->tree.bands);
-        if (l > 0)
-            meter[count++] = (struct meter_sample){l, 1};
-    }
-    return count;
-}
-
-/* Expose for what a coarse picture shows: what is lit by the scene, or the lamps if that is all. */
-static int measure(struct picture *p, const struct view *view, int width, int height)
-{
-    int w = (width + METER - 1) / METER, h = (height + METER - 1) / METER;
-    size_t all = (size_t)w * (size_t)h, count = 0;
-    struct meter_sample *meter = malloc(all * sizeof *meter);
-    struct samples samples;
-    int failed = samples_open(&samples, all) || !meter
-                 || raster_begin(&p->raster, &p->solution->surfaces, view, w, h, 0);
-    if (!failed)
-        raster_rows(&p->raster, 0, h, samples.face, samples.nearness);
-    for (int lamps = 0; lamps < 2 && !failed && !count; lamps++)
-        count = read_meter(p, samples.face, all, (size_t)w, lamps, meter);
-    if (!failed)
-        p->exposure = exposure_measure(meter, count);
-    raster_end(&p->raster);
-    free(meter);
-    samples_close(&samples);
-    return failed ? -1 : 0;
-}
-
-static int draw(struct picture *p, const struct view *view, int width, int height, uint8_t *rgb)
-{
-    int failed = 0;
-    if (measure(p, view, width, height)
-        || raster_begin(&p->raster, &p->solution->surfaces, view, width * SIDE, height * SIDE, 0))
-        return -1;
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) reduction(| : failed)
-#endif
-    for (int from = 0; from < height; from += BAND)
-        failed |= draw_rows(p, width, from, from + BAND < height ? from + BAND : height, rgb) != 0;
-    raster_end(&p->raster);
-    return failed ? -1 : 0;
+    const struct picture *p = context;
+    double radiosity[3];
+    uint32_t leaf = vertex_values_at(p->values, p->solution, face, point, radiosity);
+    exposure_apply(&p->exposure, radiosity, p->solution->tree.bands, colour);
+    return leaf;
 }
 
 int image_write(const char *path, const struct solution *solution,
                 const struct vertex_values *values, const struct view *view, int width, int height,
                 int mesh)
 {
-    struct picture p = {.solution = solution, .values = values, .mesh = mesh};
-    if (width < 1 || height < 1 || width > 16384 || height > 16384)
-        return report_error(path, 0, "a picture of %d x %d; give 1 to 16384 pixels each way", width,
-                            height);
-    uint8_t *rgb = malloc((size_t)width * (size_t)height * 3);
-    int result = -1;
-    struct view guessed;
-    if (!rgb || (!view && view_guess(&solution->surfaces, &guessed))
-        || draw(&p, view ? view : &guessed, width, height, rgb))
-        report_error(path, 0, "out of memory for the picture; ask for a smaller one");
-    else
-        result = png_file_write(path, width, height, rgb);
+    struct picture p;
+    if (picture_open(&p, path, solution, values, view, width, height, mesh) < 0)
+        return -1;
+    uint8_t *rgb = picture_draw(&p, light, &p);
+    int result = rgb ? png_file_write(path, width, height, rgb) : -1;
     free(rgb);
     return result;
 }

@@ -1,0 +1,37 @@
+/* picture.h - a scene seen through a camera, coloured by whatever one wants to see.
+ *
+ * The image of the light and that of its error are the same picture in other colours: same camera,
+ * same samples, same lines of the mesh; pixel by pixel one can be laid over the other.
+ * SPDX-License-Identifier: MIT */
+#ifndef PICTURE_H
+#define PICTURE_H
+
+#include "output/exposure.h"
+#include "output/vertex_values.h"
+#include "output/view.h"
+
+struct picture {
+    const char *path; /* of the file it is for, which messages name */
+    const struct solution *solution;
+    const struct vertex_values *values;
+    struct view view;
+    int width, height, mesh;  /* pixels; mesh: the edges of the leaves over it */
+    struct exposure exposure; /* for what the picture shows of the light */
+};
+
+/* The colour, linear, each channel 0 to 1, of a point of a face. Returns the leaf there. Asked on
+ * many threads at once. */
+typedef uint32_t (*picture_colour)(const void *context, uint32_t face, const double point[3],
+                                   double colour[3]);
+
+/* View NULL: one is guessed. Backs of one-sided faces are cut away, so that one can look into a
+ * closed room from outside. Nothing is copied. Returns 0, or -1 after one line on stderr. */
+int picture_open(struct picture *p, const char *path, const struct solution *solution,
+                 const struct vertex_values *values, const struct view *view, int width, int height,
+                 int mesh);
+
+/* The pixels, sRGB, from the top left, [height * width * 3]; the caller frees them. NULL after one
+ * line on stderr. Colours are averaged over nine samples a pixel. */
+uint8_t *picture_draw(const struct picture *p, picture_colour colour, const void *context);
+
+#endif
