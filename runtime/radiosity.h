@@ -398,13 +398,13 @@ struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
     struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
     /* over the surfaces, of what RadMeasureOptions.surfaces asked for: root of the integral of the
-     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area mean
-     * of B - E */
+     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area
+     * mean of B - E */
     struct RadMeasure l2, p999;
     /* the L1 error per polygon that these particles, by chance, have themselves: what is left of it
      * in what is mended with them */
     struct RadMeasure noise;
-    double reflected;           /* light reflected, as counted, all bands (W) */
+    double reflected; /* light reflected, as counted, all bands (W) */
     /* of polygons that reflect a hundredth of all light or more, the one that is most surely wrong,
      * and by which share of what it reflects; RadSceneReport.polygons: none is, surely */
     uint32_t worst;
@@ -501,7 +501,8 @@ RAD_API void radReleaseReference(RadReference reference);
 /* Trace on by PARTICLES or PATHS until there are `count` in all, or a few more: particles come in
  * sixteen sets, and a polygon that reflects has 64 paths at least. Nothing where there are as many.
  * The same bits for any number of threads, and, in the same calls, whether it was saved and loaded
- * between them or not. Returns 0, or -1. */
+ * between them or not. Progress tells as `waiting` the thousandths of the call that are left.
+ * Returns 0, or -1. */
 RAD_API int radTraceReference(RadReference reference, enum RadMethod method, uint64_t count);
 
 /* Area means of B over each polygon, both sides of two-sided ones, in one band, and one standard
