@@ -28,8 +28,8 @@ EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # What the library is linked with, and what the command needs besides.
 # clang's OpenMP stands in a folder of clang's own, where other compilers that link the archive do not look.
 OPENMP   := $(if $(findstring clang,$(shell $(CC) --version)),$(or $(wildcard $(abspath $(shell $(CC) -print-resource-dir)/../..)/libomp.so),-lomp),-lgomp)
-ENGINE_LIBS = $(EMBREE) $(OPENMP) -lpthread -ldl -lm
-LIBS     = $(EMBREE) -lassimp -ljansson -lpng -ldl -lm
+ENGINE_LIBS = $(EMBREE) -llapacke $(OPENMP) -lpthread -ldl -lm
+LIBS     = $(EMBREE) -llapacke -lassimp -ljansson -lpng -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls

@@ -257,22 +257,53 @@ enum RadClosure {
     RAD_CLOSURE_RECIPROCAL /* of exchange areas only: rows sum to 1, A_i F_ij = A_j F_ji */
 };
 
+/* How the equations that the links stand for are solved; all to the same answer. */
+enum RadSolver {
+    RAD_SOLVER_GAUSS_SEIDEL, /* in blocks of faces */
+    RAD_SOLVER_JACOBI,
+    /* progressive shooting: the most unshot power first. A solve that `iterations` cut short has
+     * the ambient estimate of Cohen et al. 1988 added; no other is changed by it */
+    RAD_SOLVER_SOUTHWELL,
+    /* a dense matrix, by LAPACKE; RAD_LU_LEAVES at the most. While links change much, and so
+     * solves need be rough only, Gauss-Seidel; LAPACK decides the last bits */
+    RAD_SOLVER_LU
+};
+enum { RAD_LU_LEAVES = 5000 };
+
+/* What an element keeps of the irradiance on it. */
+enum RadProjection {
+    RAD_PROJECTION_GALERKIN, /* its mean */
+    /* its value at the centre: links between surfaces have the form factor from there. RadLink's
+     * stays the mean, which oracles decide by. [Arvo et al. 1994, section 4.2] */
+    RAD_PROJECTION_COLLOCATION
+};
+
 struct RadCamera {
     double eye[3];                    /* m */
     double right[3], up[3], ahead[3]; /* unit vectors, at right angles to each other */
     double wide, high;                /* tangents of half the angles of view */
 };
 
+enum RadBasis {
+    RAD_BASIS_CONSTANT, /* one value per element */
+    RAD_BASIS_LINEAR    /* refined as for constants; over the final links, linear in each surface */
+};
+
 struct RadSolveOptions {
-    double tolerance;        /* relative L1 error of B that iteration may leave; 0: 1e-4 */
-    int iterations;          /* sweeps per solve at the most; 0: 100000 */
-    int jacobi;              /* 1: Jacobi sweeps instead of block Gauss-Seidel */
+    /* Relative L1 error of B that iteration may leave; 0: a tenth of what constants on the leaves
+     * leave of it, estimated, within 1e-4 and 1e-3 (RadReport.solved says what it came to).
+     * [Arvo et al. 1994, section 6.3] */
+    double tolerance;
+    int iterations; /* sweeps per solve at the most; 0: 100000 */
+    enum RadSolver solver;
+    enum RadProjection projection;
     enum RadClosure closure; /* NONE or ROWS */
     /* how faces are grouped, one of radGetClusteringNames(); NULL: the default */
     const char *clustering;
     /* whose picture counts, for oracles that read importance; NULL: all places alike */
     const struct RadCamera *camera;
     int unit; /* 1: every face has B = 1 and stays so: links and rows alone */
+    enum RadBasis basis;
 };
 /* NULL-terminated; constant. */
 RAD_API const char *const *radGetClusteringNames(void);
@@ -320,6 +351,11 @@ struct RadElements {
     uint32_t bands;
     const double *radiosity, *irradiance; /* [element * bands + band]; clusters hold means */
     const double *uncovered; /* [count]: share of the element that no solid stands on */
+    /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL: [(element * bands +
+     * band) * 3]. B at point x of a surface is radiosity + gradient . (x - centre), W/m2, and not
+     * below 0 where its mean is not; radiosity stays the mean over the element. 0 of clusters and
+     * where a solid covers a part. */
+    const double *gradient;
 };
 struct RadLinks {
     const struct RadLink *links; /* [count], by receiver */
@@ -346,9 +382,17 @@ struct RadReport {
     uint64_t decided[8];                 /* how often each enum decision was taken */
     /* converged: iteration reached its tolerance and no link changes any more */
     int passes, iterations, converged;
+    enum RadSolver solver;
+    enum RadProjection projection;
     uint64_t changing;        /* links that the last pass changed */
     double residual;          /* of the last sweep: sum A |dB| / sum A B */
     double emitted, absorbed; /* W, all bands */
+    /* of the last solve: the bound on what iteration left of B, relative in L1, the tolerance that
+     * was held against; and what constants leave (estimated, the same unit), 0 where the tolerance
+     * was given or nothing came near it */
+    struct {
+        double bound, tolerance, variation;
+    } solved;
     /* row sums of leaves before cap or closure */
     struct {
         double low, high, defect_mean, defect_most, blind_area, moved;
@@ -370,6 +414,14 @@ struct RadReport {
     struct {
         double build, refine, iterate, in_rays, clusters;
     } seconds;
+    /* of RAD_BASIS_LINEAR; sweeps 0: there is none. limited: links whose slopes were made less, for
+     * they brought negative light. Shares of the leaves' area: flat, since a solid covers a part;
+     * lowered, slopes made less, since B would fall below 0. seconds: part of iterate */
+    struct {
+        int sweeps;
+        uint64_t limited;
+        double flat, lowered, seconds;
+    } linear;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
 
@@ -448,6 +500,70 @@ struct RadCorrectOptions {
  * -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
                        struct RadErrorReport *alone);
+/* ---- the account of error, by cause */
+
+/* [Arvo, Torrance and Smits 1994] What may be wrong with B, as a function over the surfaces. */
+enum RadErrorCategory {
+    RAD_CATEGORY_BOUNDARY,       /* E and rho are not quite those that were given */
+    RAD_CATEGORY_DISCRETIZATION, /* B is taken for constant over each leaf, and over emitters */
+    /* computation: */
+    RAD_CATEGORY_FORM_FACTOR, /* quadrature */
+    RAD_CATEGORY_VISIBILITY,  /* rays */
+    RAD_CATEGORY_ROW_CAP,     /* what was done about row sums, cap or closure */
+    RAD_CATEGORY_SOLVER,      /* where iteration stopped */
+    RAD_CATEGORY_TOGETHER,    /* all, boundary data included */
+    RAD_CATEGORIES
+};
+
+struct RadErrorNorms {
+    double l1;   /* integral of the modulus, W, summed over bands */
+    double l2;   /* root of the integral of the square, W/m2 m, summed over bands */
+    double linf; /* largest modulus, W/m2 */
+};
+
+struct RadAccountOptions {
+    double reflectance_error; /* each rho may be off by so much, absolute: 0.02 is two hundredths */
+    double exitance_error;    /* each E may be off by so much of itself: 0.05 is five hundredths */
+    int estimates_only;       /* 1: no bounds, which cost most; they are INFINITY then */
+};
+
+/* Estimates are what the links and a few points of each leaf make likely: discretization, form
+ * factor and visibility before they are reflected on (signs differ, so that they cancel when they
+ * are gathered again), the others after all reflections; together: as of independent causes, but
+ * for discretization, cap and solver, whose signs are known and which mend each other. They cannot
+ * know of light that no link stands for, nor of what links between groups lose.
+ *
+ * Bounds hold for certain, after all reflections, for every point of every surface: proved by
+ * ranges of form factors and by shafts, never by rays (engine/light_ranges.h). Discretization: were
+ * the links' visibilities right; what form factors, cap and solver have done is in it. Visibility:
+ * what knowing no more of it than is proved adds to that, point by point. Form factor, cap, solver:
+ * of each by itself. Boundary: how far the true solution may move. Together: of all, less than the
+ * sum. */
+struct RadAccountReport {
+    struct RadErrorNorms estimate[RAD_CATEGORIES], bound[RAD_CATEGORIES];
+    struct RadErrorNorms reflected; /* norms of B - E: what the errors are shares of */
+    /* norms of the operator K that was solved with, by the largest row and the largest column
+     * (before the cap); columns NAN where groups are linked */
+    double kappa_inf, kappa_1;
+    double reflectance; /* the largest rho: bounds the norms of the true one */
+    /* of the inverse of 1 - K by rows: 1 / (1 - kappa_inf), INFINITY where that says nothing; and
+     * found by one more solve */
+    double inverse_bound, inverse_found;
+    double defect_mean, defect_most, blind_area; /* of rows before the cap: |1 - sum|; m2 */
+    uint64_t guarded;                            /* links that a guard kept whole */
+    /* 1: there are bounds. 0: none were asked for, or there are more ranges than fit */
+    int bounded;
+    uint64_t ranges;
+    double visible; /* share of them, by what they carry, of which it is proved that nothing is
+                       between */
+    double closed;  /* share of the area that was proved to see surfaces alone */
+    double seconds;
+};
+
+/* After radSolve or radStep. NULL options: E and rho are exact. Progress is told of, phase
+ * "account"; cancelled by it, the solution stays good. Returns 0, or -1. */
+RAD_API int radAccountErrors(RadSolution solution, const struct RadAccountOptions *options,
+                             struct RadAccountReport *report);
 
 /* ---- exchange areas */
 

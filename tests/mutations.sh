@@ -16,7 +16,17 @@ shadow .05 | runtime/kernel/constants.h | s/\(ROW_SHADOW\) *0.5$/\1 0.05/ | runt
 rough .2, settled 5 | runtime/kernel/constants.h | s/\(ROUGH_TOLERANCE\) *0.005$/\1 0.2/; s/\(SETTLED\) *1000$/\1 5/ | runtime/check_transport runtime/check_clusters
 rough .2 | runtime/kernel/constants.h | s/\(ROUGH_TOLERANCE\) *0.005$/\1 0.2/ | runtime/check_transport runtime/check_clusters
 settled 5 | runtime/kernel/constants.h | s/\(SETTLED\) *1000$/\1 5/ | runtime/check_transport runtime/check_clusters
-stop three times looser | runtime/engine/transport.c | s/x->bound <= x->tolerance/x->bound <= 3 * x->tolerance/ | runtime/check_transport runtime/check_solve
+stop three times looser | runtime/engine/transport.c | s/x->bound \/ x->held/x->bound \/ (3 * x->held)/ | runtime/check_transport runtime/check_solve
+a fifth for a tenth | runtime/kernel/constants.h | s/\(SOLVE_SHARE\) *0.1$/\1 0.2/ | runtime/check_transport
+one child's step | runtime/engine/variation.c | s/c < e->children; c++) {$/c < 1; c++) {/; s/^\( *\)for (int c = 0; c < e->children; c++) {$/\1for (int c = 0; c < 1; c++) {/ | runtime/check_transport runtime/check_projection
+shots lose parts | runtime/engine/southwell.c | s/links += send(s, op, x, at->child + (uint32_t)c)/links += at->depth > 0 ? 0 : send(s, op, x, at->child + (uint32_t)c)/ | runtime/check_solvers
+light waits for ever | runtime/engine/southwell.c | s/        s->unshot\[i\] += s->fresh\[i\]/        s->unshot[i] = s->fresh[i]/ | runtime/check_solvers
+ambient light twice | runtime/engine/southwell.c | s/ambient\[k\] \/ (area - rho\[k\])/4 * ambient[k] \/ (area - rho[k])/ | runtime/check_solvers
+nothing is sent afar | runtime/engine/southwell.c | s/s->afar\[(size_t)e \* s->bands + k\] += unshot\[k\]/(void)0/ | runtime/check_solvers
+LU without shares | runtime/engine/dense.c | s/double sum = share \* d->shared\[j\]/double sum = 0 * share/ | runtime/check_solvers
+LU of one band | runtime/engine/dense.c | s/face \* x->bands + k\];/face * x->bands];/ | runtime/check_solvers
+centres of one corner | runtime/engine/collocation.c | s/point_factor(to, from)/0.5 * (r->links[i].form_factor + point_factor(to, from))/ | runtime/check_projection
+faces take their mean | runtime/engine/separable_links.c | s/return c->centres ? separable_kernel_at_centre(faces, i, &b->s)/return c->centres \&\& 0 ? separable_kernel_at_centre(faces, i, \&b->s)/ | runtime/check_solvers
 backs 8 of 8 | runtime/kernel/constants.h | s/\(CONTACT_BACKS\) *6$/\1 8/ | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
 no plain pivots | runtime/engine/pivots.c | s/round_weight, &first, PASSING_PLAIN)/round_weight, \&first, PASSING)/ | runtime/check_separable_links runtime/check_clusters
 END

@@ -158,6 +158,7 @@ int api_progress(RadDevice device, const struct RadProgress *progress)
 enum RadError api_cause(const char *cause)
 {
     return strncmp(cause, "Embree finds", 12) == 0 ? RAD_ERROR_UNSUPPORTED
+           : strncmp(cause, "LU solves", 9) == 0   ? RAD_ERROR_INVALID_ARGUMENT
                                                    : RAD_ERROR_OUT_OF_MEMORY;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
+#include "engine/dense.h"
 #include "kernel/constants.h"
 
 /* What programs see is what the engine has, under other names. */
@@ -14,6 +15,7 @@ _Static_assert(sizeof(struct RadLink) == sizeof(struct link)
                    && (int)RAD_LINK_VISIBLE == (int)LINK_VISIBLE
                    && (int)RAD_LINK_MARKS == (int)LINK_MARKS,
                "RadLink is struct link");
+_Static_assert((int)RAD_LU_LEAVES == (int)DENSE_LEAVES, "one number");
 
 enum { ITERATIONS = 100000 };
 
@@ -74,9 +76,26 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
             device, RAD_ERROR_INVALID_ARGUMENT,
             "RadSolveOptions.iterations is %d; it takes 1 or more, or 0 for the default",
             o->iterations);
+    if ((unsigned)o->solver > RAD_SOLVER_LU)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.solver is %d; it takes one of enum RadSolver",
+                        (int)o->solver);
+    if (o->basis == RAD_BASIS_LINEAR
+        && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
+            || o->solver == RAD_SOLVER_LU))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RAD_BASIS_LINEAR goes with RAD_PROJECTION_GALERKIN and with Gauss-Seidel "
+                        "or Jacobi sweeps");
+    if (o->projection != RAD_PROJECTION_GALERKIN && o->projection != RAD_PROJECTION_COLLOCATION)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.projection takes RAD_PROJECTION_GALERKIN or "
+                        "RAD_PROJECTION_COLLOCATION");
     if (o->closure != RAD_CLOSURE_NONE && o->closure != RAD_CLOSURE_ROWS)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadSolveOptions.closure takes RAD_CLOSURE_NONE or RAD_CLOSURE_ROWS");
+    if (o->basis != RAD_BASIS_CONSTANT && o->basis != RAD_BASIS_LINEAR)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.basis takes RAD_BASIS_CONSTANT or RAD_BASIS_LINEAR");
     if (o->clustering && clustering_of(o->clustering) < 0)
         return api_fail(
             device, RAD_ERROR_INVALID_ARGUMENT,
@@ -102,12 +121,14 @@ static int watch(void *context, const struct solve *s, const char *phase)
 static struct solve_options engine_options(RadSolution solution, const struct RadSolveOptions *o)
 {
     struct solve_options options = {
-        .tolerance = o->tolerance > 0 ? o->tolerance : SOLVE_TOLERANCE,
+        .tolerance = o->tolerance,
         .iterations = o->iterations ? o->iterations : ITERATIONS,
-        .jacobi = o->jacobi != 0,
+        .solver = o->solver,
+        .projection = o->projection,
         .threads = solution->scene->device->threads,
         .closure = o->closure == RAD_CLOSURE_ROWS ? CLOSURE_ROWS : CLOSURE_NONE,
         .clusters = o->clustering ? 1 + clustering_of(o->clustering) : 0,
+        .linear = o->basis == RAD_BASIS_LINEAR,
         .unit = o->unit != 0,
         .progress = watch,
         .context = solution};
@@ -323,10 +344,11 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
     if (!solution || solution->dead)
         return;
     const struct solve *s = &solution->solve;
-    *elements =
-        (struct RadElements){s->hierarchy.elements, s->started, s->hierarchy.built,
-                             s->hierarchy.face_element, s->problem.bands, solve_shown(s)->radiosity,
-                             solve_shown(s)->irradiance, s->operator.uncovered };
+    *elements = (struct RadElements){s->hierarchy.elements,      s->started,
+                                     s->hierarchy.built,         s->hierarchy.face_element,
+                                     s->problem.bands,           solve_shown(s)->radiosity,
+                                     solve_shown(s)->irradiance, s->operator.uncovered,
+                                     s->linear.gradient};
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)
@@ -374,8 +396,11 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .passes = s->report.passes,
         .iterations = s->report.sweeps,
         .converged = s->report.converged,
+        .solver = s->problem.options.solver,
+        .projection = s->problem.options.projection,
         .changing = s->report.changing,
         .residual = s->report.residual,
+        .solved = {s->report.bound, s->report.tolerance, s->report.variation},
         .emitted = s->report.emitted,
         .absorbed = s->report.absorbed,
         .rows = {rows->low, rows->high, rows->defect_mean, rows->defect_most, rows->blind_area,
@@ -386,7 +411,9 @@ void radGetReport(RadSolution solution, struct RadReport *report)
                        s->importance.seen},
         .tolerance = {s->error.target, s->error.largest, s->error.area},
         .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,
-                    s->report.seconds.in_rays, s->report.seconds.clusters}};
+                    s->report.seconds.in_rays, s->report.seconds.clusters},
+        .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,
+                   s->linear.seconds}};
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

@@ -11,11 +11,18 @@
 #include "engine/refine.h"
 #include "engine/separable_links.h"
 
+struct linear_links;
+
 struct light_operator {
     const struct problem *problem;
     const struct hierarchy *hierarchy;
     const struct refinement *refinement; /* its links, sorted by receiver */
+    /* [link]: by collocation, F from the receiver's centre (collocation.c); NULL: the links' own,
+     * the mean over the receiver */
+    float *collocated;
     struct separable_links separable;
+    /* while a linear solution is made (linear_solution.h): rows are of its links; else NULL */
+    struct linear_links *linear;
     double *uncovered; /* [element]: share of the area that no solid stands on */
     double *row_scale; /* [element]: of leaves only, the factor for what comes over its own links */
     /* [element]: of leaves only, the factor for what comes over those of the elements above it */
@@ -26,6 +33,18 @@ struct light_operator {
     double *row; /* [element]: of leaves only, the row once scaled, what it is shared included: the
                     irradiance per uncovered area that a radiosity of 1 everywhere makes */
 };
+
+/* F of link i, by the projection that is asked for. */
+static inline double operator_factor(const struct light_operator *op, size_t i)
+{
+    return (double)(op->collocated ? op->collocated[i] : op->refinement->links[i].form_factor);
+}
+
+/* What link i brings of its emitter's radiosity to its receiver: F V. */
+static inline double operator_weight(const struct light_operator *op, size_t i)
+{
+    return operator_factor(op, i) * (op->refinement->links[i].visibility * (1.0 / LINK_VISIBLE));
+}
 
 /* The weight of child j in the mean radiosity of e: its share of the uncovered area, or of all
  * where none is. */

@@ -4,8 +4,8 @@
  * the elements that they see grow. The spread of an element is the largest less the smallest
  * radiosity of the leaves below it, in the band where that is most: for an emitter, how wrong it is
  * to send the mean [Lischinski et al. 1994]. Two radiosities that differ by less than iteration
- * leaves are not known to differ, so a spread has to grow by the tolerance too. What a solid covers
- * has no light of its own and does not count.
+ * leaves (known) are not known to differ, so a spread has to grow by the tolerance too. What a
+ * solid covers has no light of its own and does not count.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/oracle_inputs.h"
@@ -71,7 +71,7 @@ void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator 
             e->radiosity = brightest;
         double spread = measure_spread(in, op, radiosity, i);
         int spread_grew =
-            spread > (1 + HYSTERESIS) * e->spread + op->problem->options.tolerance * brightest;
+            spread > (1 + HYSTERESIS) * e->spread + in->known * brightest;
         in->changed[i] |= (unsigned char)spread_grew;
         if (spread_grew || spread < (1 - HYSTERESIS) * e->spread)
             e->spread = spread;

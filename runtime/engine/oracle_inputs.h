@@ -10,6 +10,7 @@ struct oracle_inputs {
     double *least, *most;
     /* [element]: what the oracles see of it has grown since the links were discussed */
     unsigned char *changed;
+    double known; /* relative: what iteration may have left of the radiosities they see */
 };
 
 /* Radiosity and spread of every element, from B [element * bands + band]. changed[e] becomes 1

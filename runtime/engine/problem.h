@@ -9,20 +9,25 @@
 #include "engine/camera.h"
 #include "engine/closure.h"
 #include "hierarchy/scene.h"
+#include "radiosity.h"
 #include "visibility/rays.h"
 
 struct solve;
 
 struct solve_options {
-    double tolerance; /* relative L1 error of B that iteration may leave, > 0 */
-    int iterations;   /* sweeps per solve at the most */
-    int jacobi;       /* Jacobi sweeps instead of block Gauss-Seidel */
+    /* relative L1 error of B that iteration may leave; 0: a tenth of what constants on leaves
+     * leave (transport.h) */
+    double tolerance;
+    int iterations; /* sweeps per solve at the most */
+    enum RadSolver solver;
+    enum RadProjection projection;
     int threads;
     /* none: rows above 1 are capped, each face keeping its power (row_sums.c); or rows */
     enum closure closure;
     int clusters; /* 1 + the strategy that groups faces; 0: the default */
     /* whose picture counts, for oracles that read importance; NULL: all places alike */
     const struct camera *camera;
+    int linear; /* 1: once links are final, solve for functions linear over each element */
     int unit; /* ignore the materials: every face has B = 1 and stays so (view factors) */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);

@@ -14,6 +14,9 @@
  * Where a link has a cluster at one end, the emitter is the pivot that the link takes it for
  * (separable_links.h), and what its whole face takes is what the leaf does. The receiver's clusters
  * count, too.
+ *
+ * The account of error asks at points of its own, and takes emitters by their leaves where their
+ * radiosities differ: then what the mean over an emitter costs is in the sum, too.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
@@ -21,38 +24,50 @@
 #include "kernel/constants.h"
 #include "kernel/point_factor.h"
 
-enum { POINTS = 5 };
-
-/* The points of one leaf, and what links would bring to each less what they bring to the leaf
- * (W/m2). */
-struct points {
-    double at[POINTS][3];
-    int count;
-    double sum[2][POINTS][3]; /* [band] of all links; [1]: of those that a guard kept whole */
-};
-
-static void add_link(struct points *p, const struct light_operator *op, const double *radiosity,
-                     const struct link *l, const struct element *leaf)
+/* Add what the emitter would bring to each point through visibility `visible`: as one, or, where
+ * its leaves differ enough to matter, part by part. */
+static void add_emitter(struct residual_points *p, const struct light_operator *op,
+                        const double *radiosity, uint32_t emitter, double visible,
+                        const struct element *leaf, double (*sum)[3])
 {
     uint32_t bands = op->problem->bands;
-    const struct element *emitter = &op->hierarchy->elements[l->emitter];
+    const struct element *e = &op->hierarchy->elements[emitter];
+    double factor[RESIDUAL_POINTS], most = 0;
+    struct polygon q;
+    point_factor_clip(&q, leaf, e);
+    for (int i = 0; i < p->count; i++) {
+        factor[i] = visible * point_factor_at(p->at[i], leaf, e, &q);
+        most = fmax(most, factor[i]);
+    }
+    if (p->spread && e->children && most * p->spread[emitter] > p->detail) {
+        for (int c = 0; c < e->children; c++)
+            add_emitter(p, op, radiosity, e->child + (uint32_t)c, visible, leaf, sum);
+        return;
+    }
+    for (int i = 0; i < p->count; i++)
+        for (uint32_t k = 0; k < bands; k++)
+            sum[i][k] += radiosity[(size_t)emitter * bands + k] * factor[i];
+}
+
+static void add_link(struct residual_points *p, const struct light_operator *op,
+                     const double *radiosity, size_t link, const struct element *leaf)
+{
+    const struct link *l = &op->refinement->links[link];
+    uint32_t bands = op->problem->bands;
     double visible = l->visibility * (1.0 / LINK_VISIBLE),
            (*sum)[3] = p->sum[l->mark == LINK_GUARDED];
-    struct polygon q;
-    point_factor_clip(&q, leaf, emitter);
-    for (int i = 0; i < p->count; i++) {
-        double off =
-            visible * (point_factor_at(p->at[i], leaf, emitter, &q) - (double)l->form_factor);
+    add_emitter(p, op, radiosity, l->emitter, visible, leaf, sum);
+    for (int i = 0; i < p->count; i++)
         for (uint32_t k = 0; k < bands; k++)
-            sum[i][k] += radiosity[(size_t)l->emitter * bands + k] * off;
-    }
+            sum[i][k] -=
+                radiosity[(size_t)l->emitter * bands + k] * visible * operator_factor(op, link);
 }
 
 /* The same for the separable links of element `up`, which is the leaf or holds it, and of which
  * `taker` takes the light: the whole face, or the part of it that has the links. Returns how many
  * there are. */
-static uint32_t add_separable(struct points *p, const struct light_operator *op, uint32_t up,
-                              const struct element *taker)
+static uint32_t add_separable(struct residual_points *p, const struct light_operator *op,
+                              uint32_t up, const struct element *taker)
 {
     const struct separable_links *s = &op->separable;
     uint32_t bands = op->problem->bands;
@@ -70,8 +85,8 @@ static uint32_t add_separable(struct points *p, const struct light_operator *op,
 }
 
 /* rho times the largest modulus over points and bands. */
-static double largest(const struct points *p, const struct problem *problem,
-                      const struct element *e, double sum[POINTS][3])
+static double largest(const struct residual_points *p, const struct problem *problem,
+                      const struct element *e, const double (*sum)[3])
 {
     const double *rho = &problem->reflectance[(size_t)e->face * problem->bands];
     double most = 0;
@@ -81,34 +96,50 @@ static double largest(const struct points *p, const struct problem *problem,
     return most;
 }
 
-struct leaf_residual residual_of_leaf(const struct light_operator *op, const double *radiosity,
-                                      uint32_t leaf)
+uint32_t residual_at_points(const struct light_operator *op, const double *radiosity, uint32_t leaf,
+                            struct residual_points *p)
 {
     const struct element *elements = op->hierarchy->elements, *e = &elements[leaf], *taker = e;
     const struct refinement *r = op->refinement;
-    struct leaf_residual result = {0, 0, 0};
-    struct points p = {.count = e->vertices + 1};
-    for (int i = 0; i < e->vertices; i++)
-        for (int c = 0; c < 3; c++)
-            p.at[i][c] = e->vertex[i][c] + CORNER_INSET * (e->centre[c] - e->vertex[i][c]);
-    memcpy(p.at[e->vertices], e->centre, sizeof e->centre);
+    uint32_t links = 0;
+    memset(p->sum, 0, sizeof p->sum);
     for (uint32_t up = leaf;; up = elements[up].parent) {
         if (elements[up].vertices)
             taker = &elements[up];
-        result.links += add_separable(&p, op, up, taker);
+        links += add_separable(p, op, up, taker);
         for (size_t l = r->first_link[up]; l < r->first_link[up + 1]; l++) {
             if (!elements[r->links[l].receiver].vertices || !elements[r->links[l].emitter].vertices)
                 continue;
-            add_link(&p, op, radiosity, &r->links[l], e);
-            result.links++;
+            add_link(p, op, radiosity, l, e);
+            links++;
         }
         if (up == 0)
             break;
     }
-    result.guarded = largest(&p, op->problem, e, p.sum[1]);
+    return links;
+}
+
+void residual_corners(const struct element *e, struct residual_points *p)
+{
+    p->count = e->vertices + 1;
+    for (int i = 0; i < e->vertices; i++)
+        for (int c = 0; c < 3; c++)
+            p->at[i][c] = e->vertex[i][c] + CORNER_INSET * (e->centre[c] - e->vertex[i][c]);
+    memcpy(p->at[e->vertices], e->centre, sizeof e->centre);
+}
+
+struct leaf_residual residual_of_leaf(const struct light_operator *op, const double *radiosity,
+                                      uint32_t leaf)
+{
+    const struct element *e = &op->hierarchy->elements[leaf];
+    struct leaf_residual result;
+    struct residual_points p = {.spread = NULL};
+    residual_corners(e, &p);
+    result.links = residual_at_points(op, radiosity, leaf, &p);
+    result.guarded = largest(&p, op->problem, e, (const double(*)[3])p.sum[1]);
     for (int i = 0; i < p.count; i++)
         for (int c = 0; c < 3; c++)
             p.sum[0][i][c] += p.sum[1][i][c];
-    result.all = largest(&p, op->problem, e, p.sum[0]);
+    result.all = largest(&p, op->problem, e, (const double(*)[3])p.sum[0]);
     return result;
 }

@@ -18,4 +18,24 @@ struct leaf_residual {
 struct leaf_residual residual_of_leaf(const struct light_operator *op, const double *radiosity,
                                       uint32_t leaf);
 
+/* Points of a leaf, and what links would bring to each less what they bring to the leaf (W/m2). */
+enum { RESIDUAL_POINTS = 9 };
+struct residual_points {
+    double at[RESIDUAL_POINTS][3]; /* [count] */
+    int count;
+    /* [element]: largest less smallest B below it; emitters that bring more than `detail` (W/m2)
+     * of it are taken by parts. NULL: emitters are what their links say */
+    const double *spread;
+    double detail;
+    double sum[2][RESIDUAL_POINTS]
+              [3]; /* [band]; [1]: of links that a guard kept whole, [0] others */
+};
+
+/* Set p->at and p->count: the leaf's corners, a little within, then its centre. */
+void residual_corners(const struct element *leaf, struct residual_points *p);
+
+/* Set p->sum. Returns how many links there are. Thread-safe. */
+uint32_t residual_at_points(const struct light_operator *op, const double *radiosity, uint32_t leaf,
+                            struct residual_points *p);
+
 #endif

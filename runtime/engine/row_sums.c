@@ -23,6 +23,7 @@
  * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include "engine/linear_links.h"
 #include "engine/row_sums.h"
 #include "kernel/constants.h"
 
@@ -43,7 +44,7 @@ static void sum_links(struct light_operator *op, uint32_t e, double above)
     const struct refinement *r = op->refinement;
     double row = above;
     for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-        row += (double)r->links[i].form_factor * (r->links[i].visibility * (1.0 / LINK_VISIBLE));
+        row += operator_weight(op, i);
     row += separable_links_row(&op->separable, e);
     for (int c = 0; c < x->children; c++)
         sum_links(op, x->child + (uint32_t)c, row);
@@ -122,10 +123,14 @@ void row_sums_scale(struct light_operator *op, struct row_report *report)
 {
     const struct problem *p = op->problem;
     const struct hierarchy *h = op->hierarchy;
+    static const double nothing[3] = {0, 0, 0};
     double uncovered = 0;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(p->options.threads)
     for (uint32_t i = 0; i < h->face_count; i++)
-        sum_links(op, h->face_element[i], 0);
+        if (op->linear)
+            linear_links_rows(op->linear, op, h->face_element[i], nothing);
+        else
+            sum_links(op, h->face_element[i], 0);
     *report = (struct row_report){.low = INFINITY};
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];

@@ -78,4 +78,18 @@ TOOL float separable_kernel(const struct separable_faces *f, size_t i, const str
     return near * far * inverse * inverse * (1 / (1 + positive_part(-more)) + positive_part(more));
 }
 
+/* The same at the face's centre. */
+TOOL float separable_kernel_at_centre(const struct separable_faces *f, size_t i,
+                                      const struct pivot *s)
+{
+    const float *n = s->normal;
+    float v[3] = {s->centre[0] - f->centre[0][i], s->centre[1] - f->centre[1][i],
+                  s->centre[2] - f->centre[2][i]};
+    float near =
+        positive_part(f->normal[0][i] * v[0] + f->normal[1][i] * v[1] + f->normal[2][i] * v[2]);
+    float far = positive_part(s->shift - (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]));
+    float inverse = 1 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + SEPARABLE_TINY);
+    return near * far * inverse * inverse;
+}
+
 #endif

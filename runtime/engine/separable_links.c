@@ -96,9 +96,15 @@ static void receive_below(const struct separable_links *c, int bands, uint32_t e
         const struct separable_link *link = &c->links[b];
         const float *arrives = &c->arrives[b * (size_t)bands];
         float value[CHUNK];
+        if (c->centres) {
 #pragma omp simd
-        for (size_t i = from; i < to; i++)
-            value[i - from] = separable_kernel(&c->faces, i, &link->s);
+            for (size_t i = from; i < to; i++)
+                value[i - from] = separable_kernel_at_centre(&c->faces, i, &link->s);
+        } else {
+#pragma omp simd
+            for (size_t i = from; i < to; i++)
+                value[i - from] = separable_kernel(&c->faces, i, &link->s);
+        }
         for (int k = 0; k < bands; k++) {
             float *received = &c->received[(size_t)k * count];
 #pragma omp simd
@@ -134,7 +140,7 @@ static double unit_of(const struct hierarchy *h)
 }
 
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
-                         const struct refinement *r, int bands, int threads)
+                         const struct refinement *r, int bands, int threads, int centres)
 {
     size_t n = 0, faces = h->face_count;
     memset(c, 0, sizeof *c);
@@ -145,6 +151,7 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h,
         return 0;
     c->bands = bands;
     c->threads = threads;
+    c->centres = centres;
     c->unit = unit_of(h);
     c->elements = h->count;
     c->links = malloc(n * sizeof *c->links);
@@ -205,6 +212,14 @@ void separable_links_send(const struct separable_links *c, int bands, const doub
     receive_all(c, bands);
 }
 
+/* What face i of `faces` takes of the link's J. */
+static float take(const struct separable_links *c, const struct separable_faces *faces, size_t i,
+                  const struct separable_link *b)
+{
+    return c->centres ? separable_kernel_at_centre(faces, i, &b->s)
+                      : separable_kernel(faces, i, &b->s);
+}
+
 void separable_links_gather(const struct separable_links *c, int bands, uint32_t e, double *h)
 {
     const struct element *x = &c->hierarchy->elements[e];
@@ -220,7 +235,7 @@ void separable_links_gather(const struct separable_links *c, int bands, uint32_t
         struct separable_side side;
         side_open(c, &side, e);
         for (size_t b = c->first[e]; b < c->first[e + 1]; b++) {
-            double value = (double)separable_kernel(&side.faces, 0, &c->links[b].s);
+            double value = (double)take(c, &side.faces, 0, &c->links[b]);
             for (size_t k = 0; k < count; k++)
                 h[k] += (double)c->arrives[b * count + k] * value;
         }
@@ -232,6 +247,29 @@ double separable_links_row(const struct separable_links *c, uint32_t e)
     double row = 0;
     separable_links_gather(c, 1, e, &row);
     return row;
+}
+
+double separable_links_sends(const struct separable_links *c, size_t b, uint32_t e)
+{
+    const struct element *x = &c->hierarchy->elements[e];
+    const struct separable_link *link = &c->links[b];
+    if (x->depth == 0) {
+        size_t i = c->place[x->face];
+        return (double)(link->scale * c->faces.area[i] * separable_kernel(&c->faces, i, &link->r));
+    }
+    struct separable_side side;
+    side_open(c, &side, e);
+    return (double)(link->scale * side.faces.area[0] * separable_kernel(&side.faces, 0, &link->r));
+}
+
+double separable_links_takes(const struct separable_links *c, size_t b, uint32_t e)
+{
+    const struct element *x = &c->hierarchy->elements[e];
+    if (x->depth == 0)
+        return (double)take(c, &c->faces, c->place[x->face], &c->links[b]);
+    struct separable_side side;
+    side_open(c, &side, e);
+    return (double)take(c, &side.faces, 0, &c->links[b]);
 }
 
 double separable_links_at(const struct separable_links *c, const struct separable_link *b,

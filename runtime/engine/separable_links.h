@@ -36,6 +36,7 @@ struct separable_link {
 struct separable_links {
     const struct hierarchy *hierarchy;
     int bands, threads;           /* bands: the most that `arrives` and `received` have room for */
+    int centres;                  /* 1: a surface takes light at its centre (collocation) */
     double unit;                  /* m; a power of two */
     struct separable_link *links; /* [count], by receiver */
     size_t count;
@@ -51,9 +52,10 @@ struct separable_links {
 };
 
 /* Take the links that have a cluster at one end from a sorted refinement. Pivots weigh faces by the
- * radiosities that the oracles see. Returns 0, or -1 when out of memory. */
+ * radiosities that the oracles see. `centres`: what a surface gathers is taken at its centre, not
+ * the mean over it. Returns 0, or -1 when out of memory. */
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
-                         const struct refinement *r, int bands, int threads);
+                         const struct refinement *r, int bands, int threads, int centres);
 
 /* Set J of each link, with the radiosities [elements * bands] as they are. */
 void separable_links_send(const struct separable_links *c, int bands, const double *radiosity);
@@ -65,6 +67,11 @@ void separable_links_gather(const struct separable_links *c, int bands, uint32_t
 /* The row of e over the same links: what they bring from a radiosity of 1. Only before the first
  * separable_links_send. */
 double separable_links_row(const struct separable_links *c, uint32_t e);
+
+/* J of link b by a radiosity of 1 on the element e alone, a face below its emitter or the part of a
+ * face that is it; and what e, a face below its receiver or the part that is it, takes over J. */
+double separable_links_sends(const struct separable_links *c, size_t b, uint32_t e);
+double separable_links_takes(const struct separable_links *c, size_t b, uint32_t e);
 
 /* What link b brings to a point x (m) with normal n, over J: k(x, s). */
 double separable_links_at(const struct separable_links *c, const struct separable_link *b,

@@ -12,8 +12,11 @@
  * [Hanrahan et al. 1991, sections 4 and 5]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/collocation.h"
+#include "engine/dense.h"
 #include "engine/solve.h"
 #include "engine/transport.h"
 #include "kernel/constants.h"
@@ -118,6 +121,18 @@ static struct transport light(struct solve *s, double tolerance)
                               .tolerance = tolerance};
 }
 
+/* Are there more leaves than a dense matrix is made for? Then s->too_many says so. */
+static int too_many(struct solve *s, uint32_t leaves)
+{
+    if (s->problem.options.solver != RAD_SOLVER_LU || leaves <= DENSE_LEAVES)
+        return 0;
+    snprintf(s->too_many, sizeof s->too_many,
+             "LU solves for at most %d leaves, and there are %u already; coarser oracle parameters "
+             "make fewer, and the other solvers take any number",
+             DENSE_LEAVES, (unsigned)leaves);
+    return 1;
+}
+
 int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
                const char **cause)
 {
@@ -128,6 +143,10 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     *cause = "out of memory";
     p->scene = scene;
     p->options = *options;
+    if (too_many(s, scene->face_count)) {
+        *cause = s->too_many;
+        return -1;
+    }
     p->bands = options->unit ? 1 : scene->bands;
     s->operator=(struct light_operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
     if (hierarchy_build_by(h, scene->faces, scene->face_count,
@@ -180,7 +199,9 @@ int solve_tell(struct solve *s, const char *phase)
 
 static int watch_refinement(void *context, const struct refinement *r)
 {
-    (void)r;
+    struct solve *s = context;
+    if (s->problem.options.solver == RAD_SOLVER_LU && too_many(s, dense_leaves(r->hierarchy)))
+        return -1;
     return solve_tell(context, "refine");
 }
 
@@ -203,7 +224,7 @@ static int watch_importance(void *context, const struct transport *x)
 /* What keeps a step from going on. Returns -1. */
 static int fail(const struct solve *s, const char *memory, const char **cause)
 {
-    *cause = s->report.cancelled ? "cancelled" : memory;
+    *cause = s->report.cancelled ? "cancelled" : s->too_many[0] ? s->too_many : memory;
     return -1;
 }
 
@@ -230,6 +251,8 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0
         || make_room(s) < 0)
         return fail(s, refining, cause);
+    if (collocation_update(&s->operator) < 0)
+        return fail(s, "out of memory", cause);
     if (!p->options.unit)
         measure_contact(s->operator.uncovered, &s->hierarchy, p, 0);
     s->report.seconds.refine += seconds() - start;
@@ -246,7 +269,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
     x.rough = rough;
     separable_links_close(&op->separable);
     if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)x.bands,
-                             s->problem.options.threads)
+                             s->problem.options.threads,
+                             s->problem.options.projection == RAD_PROJECTION_COLLOCATION)
         < 0)
         return -1;
     row_sums_scale(op, &s->report.rows);
@@ -255,6 +279,10 @@ static int iterate(struct solve *s, double tolerance, int rough)
     if (transport_solve(op, &x) < 0)
         return -1;
     s->report.converged = x.converged;
+    s->report.tolerance = x.held;
+    s->report.bound = x.bound;
+    s->report.variation = x.variation;
+    s->inputs.known = rough ? SOLVE_TOLERANCE : x.held;
     transport_average(op, &x);
     oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
     if (s->importance.capacity == 0)
@@ -294,7 +322,10 @@ static int64_t refine_again(struct solve *s)
 {
     uint32_t first = s->hierarchy.count;
     int64_t changed = refinement_again(&s->refinement, s->inputs.changed);
-    if (changed < 0 || (changed > 0 && refinement_sort(&s->refinement) < 0) || make_room(s) < 0)
+    if (changed < 0
+        || (changed > 0
+            && (refinement_sort(&s->refinement) < 0 || collocation_update(&s->operator) < 0))
+        || make_room(s) < 0)
         return -1;
     measure_contact(s->operator.uncovered, &s->hierarchy, &s->problem, first);
     return changed;
@@ -316,10 +347,28 @@ static int64_t refine_for_error(struct solve *s)
     }
 }
 
+/* Solve once more over the final links for functions linear over the elements. Returns 0 or -1. */
+static int solve_linear(struct solve *s, const char **cause)
+{
+    struct transport x = light(s, s->problem.options.tolerance);
+    x.watch = watch_light;
+    x.watch_context = s;
+    if (linear_solution_solve(&s->linear, &s->operator, & x, &s->report.rows) < 0)
+        return fail(s, "out of memory for linear elements; a coarser oracle parameter needs less",
+                    cause);
+    s->report.converged &= x.converged;
+    s->report.seconds.iterate += s->linear.seconds;
+    sum_power(&s->report, &s->operator, s->state.irradiance);
+    return 0;
+}
+
 int solve_step(struct solve *s, const char **cause)
 {
     const struct problem *p = &s->problem;
-    double start = seconds(), tolerance = p->options.tolerance;
+    /* error control holds an error anywhere, which what constants leave in the mean says nothing of
+     */
+    int fixed = s->error.target > 0 && !(p->options.tolerance > 0);
+    double start = seconds(), tolerance = fixed ? SOLVE_TOLERANCE : p->options.tolerance;
     solve_forget_mended(s);
     int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
     int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
@@ -337,7 +386,8 @@ int solve_step(struct solve *s, const char **cause)
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
     solve_sum_power(s);
-    return changed > 0 || rough;
+    int more = changed > 0 || rough;
+    return !more && p->options.linear && solve_linear(s, cause) < 0 ? -1 : more;
 }
 
 int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)
@@ -367,6 +417,8 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
         return -1;
     while (more > 0 && s->report.passes < (s->error.target > 0 ? PASSES_OF_ERROR_CONTROL : PASSES))
         more = solve_step(s, cause);
+    if (more > 0 && s->problem.options.linear)
+        more = solve_linear(s, cause);
     return more < 0 ? -1 : 0;
 }
 
@@ -386,6 +438,7 @@ void solve_close(struct solve *s)
     hierarchy_free(&s->hierarchy);
     importance_free(&s->importance);
     error_control_free(&s->error);
+    linear_solution_free(&s->linear);
     double *const lists[] = {s->state.radiosity,    s->state.irradiance,    s->inputs.least,
                              s->inputs.most,        s->operator.uncovered,  s->operator.row_scale,
                              s->operator.row_above, s->operator.row_share,  s->operator.row,
@@ -393,5 +446,6 @@ void solve_close(struct solve *s)
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]);
     free(s->inputs.changed);
+    free(s->operator.collocated);
     memset(s, 0, sizeof *s);
 }

@@ -5,6 +5,7 @@
 
 #include "engine/error_control.h"
 #include "engine/importance.h"
+#include "engine/linear_solution.h"
 #include "engine/operator.h"
 #include "engine/oracle_inputs.h"
 #include "engine/problem.h"
@@ -24,6 +25,9 @@ struct report {
     uint64_t changing; /* links that the last pass changed */
     /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
     double residual;
+    /* of the last solve: the bound on what iteration left, relative; the tolerance it was held
+     * against; and what constants leave, where the tolerance was made by that (transport.h) */
+    double bound, tolerance, variation;
     double emitted, absorbed; /* W, all bands */
     struct row_report rows;
     /* By the clock; in_rays: inside Embree, mean over threads, part of refine; clusters: the tree
@@ -47,10 +51,12 @@ struct solve {
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;
+    struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;
     uint32_t started;
+    char too_many[160]; /* leaves for the solver, in a sentence; "": there are not */
 };
 
 /* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set

@@ -10,26 +10,32 @@ struct transport {
     uint32_t bands;
     /* [element * bands + band]: start and result; clusters are left alone */
     double *value, *irradiance;
-    /* [face * bands + band], or [element * bands + band] (leaves are read) */
+    /* [face * bands + band], or [element * bands + band] (leaves are read); NULL: there is none */
     const double *source;
     const double *reflectance; /* [face * bands + band] */
     int by_element;            /* which of the two the source is given by */
-    double tolerance;          /* what iteration may leave, relative */
+    /* what iteration may leave, relative; 0: a tenth of what constants on leaves leave
+     * (variation.h), within SOLVE_TOLERANCE and SOLVE_TOLERANCE_MOST */
+    double tolerance;
     /* 1: an estimate of what it leaves will do; 0: the bound must be within the tolerance */
     int rough;
     /* after each sweep; NULL: none; nonzero stops */
     int (*watch)(void *context, const struct transport *x);
     void *watch_context;
 
-    int sweeps, converged; /* of this solve */
-    double residual;       /* of the last sweep: sum A |dx| / sum A x over leaves */
+    /* of this solve; what Southwell's method shoots between sweeps counts by the links it takes */
+    int sweeps, converged;
+    double residual; /* of the last sweep: sum A |dx| / sum A x over leaves */
     /* on what iteration has left: sum A |x - its limit| / sum A x; INFINITY where rows are too
      * large for one */
     double bound;
+    double held;      /* the tolerance that the bound was last held against */
+    double variation; /* where that was asked for, what constants leave; else 0 */
 };
 
-/* Sweep until what iteration leaves is within the tolerance; the row scales are set (row_sums.h).
- * Returns 0, or -1 when out of memory or stopped by `watch`. */
+/* Iterate until what that leaves is within the tolerance, by the solver that the problem's options
+ * name; the row scales are set (row_sums.h). Returns 0, or -1 when out of memory or stopped by
+ * `watch`. */
 int transport_solve(const struct light_operator *op, struct transport *x);
 
 /* Means of the clusters in value and irradiance, whose surfaces have theirs. */

@@ -212,8 +212,16 @@
 /* relative. What an oracle sees of radiosity, spread and importance lags this far behind the
  * truth, so that passes end; chosen, below the 5 % that the oracles' own thresholds decide by */
 #define HYSTERESIS 0.02
-/* relative L1 error of B that iteration may leave: the default of solutions. chosen */
+/* relative L1 error of B that iteration may leave, least, when nobody says: links hold V in steps
+ * of 2^-14, so that their own rounding is half of it. derived from LINK_VISIBLE */
 #define SOLVE_TOLERANCE 1e-4
+/* the same at the most. Constants' errors partly cancel, what iteration leaves is all missing: to
+ * this, 5e-5 to 4e-4 of the reflected light is (cornell, room, panels, furnace, maze_8, each over
+ * its last links) */
+#define SOLVE_TOLERANCE_MOST 1e-3
+/* of what constants on leaves leave (engine/variation.c): so much iteration may leave beside it.
+ * chosen: a tenth is little beside the whole */
+#define SOLVE_SHARE 0.1
 /* relative L1 error of B. Where groups are linked, passes before the last ones solve to this: a
  * quarter of HYSTERESIS, so that oracles do not notice; must stay below it */
 #define ROUGH_TOLERANCE 0.005
@@ -256,6 +264,58 @@
 /* the same for one element: what is so far out is believed whatever its class says; 3, as is usual
  * for outliers */
 #define MEND_OUTLIER 3.0
+/* ---- account of error (engine) */
+
+/* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats
+ * leave cracks of 1e-7 of a length, holes are larger */
+#define WINDING_WHOLE 1e-6
+/* of the way from a leaf's centre to its corners, where its winding number is asked for: chosen, a
+ * leaf belongs to one volume but for such a rim */
+#define WINDING_INSET 0.98
+/* of a scene's mean irradiance. An emitter that may bring no more than that in doubt is not taken by
+ * parts: 0.002 takes half as long again for bounds of 0.55 instead of 0.63 of the reflected light, 0.01 three
+ * quarters for 0.76 (radiosity solve cornell.obj --errors=all) */
+#define RANGE_DETAIL 0.005
+/* of RANGE_DETAIL. Ranges of form factors that differ by less as they come are not narrowed; the
+ * same measurement: 0.1 instead of 1 takes a tenth longer, for bounds narrower by a sixteenth */
+#define RANGE_FINE 0.3
+/* of a range of shares. What lies so far outside is rounding: of a float, twice */
+#define RANGE_ROUNDING 0x1p-22
+/* of the bound. Bounds are iterated until what iteration may still take off them, or must add, is
+ * no more: chosen */
+#define BOUND_ENOUGH 0.01
+/* of a radiosity: what policies are not improved for, since their weights are floats: 16 roundings */
+#define BOUND_WEIGHTS 1e-6
+/* of a radiosity: what rounding may have done to the sums of its bound; as DISTANCE_ROUNDING */
+#define BOUND_ROUNDING 1e-12
+/* relative. What iteration may leave of an estimate: chosen, below the digits that are told */
+#define ACCOUNT_TOLERANCE 1e-3
+/* of F, by the level of a link: what the term's header promises as typical, and as the most */
+#define FORM_FACTOR_POLYGON_TYPICAL 1e-5
+#define FORM_FACTOR_POLYGON_MOST 4e-4
+#define FORM_FACTOR_CONTOUR_MOST 1e-9
+/* ---- linear elements (engine) */
+
+/* of the radius. An element has no slope across where its root-mean-square width is less: rounding
+ * of its corners would decide it. chosen */
+#define LINEAR_THIN 1e-6
+/* sums of radii. Cells farther apart than FAR have 2 x 2 points each, than NEAR 3 x 3, nearer ones
+ * are quartered. So couplings of elements apart are within 2e-3 of F, slope to slope within 4e-3:
+ * tests/runtime/check_linear.c, where FAR below NEAR, 2 x 2 points throughout, fails */
+#define LINEAR_NEAR 1.0
+#define LINEAR_FAR 1.5
+/* of the smaller element's radius: cells of that size that are still near are not quartered. Where
+ * elements touch, couplings of a mean are then within 3e-2 of F and slope to slope within .15; at
+ * half the size 4e-3 and .02 for five times the work, and solutions of a cube and of rooms are no
+ * better (tests/runtime/check_linear.c) */
+#define LINEAR_CELL 0.51
+/* of 1 - rho: how far the row of a nonnegative kernel may exceed 1 at a corner of a leaf; more, and
+ * the slopes of that leaf are made less. Above ROW_EXCESS, by which means may, and at most 1, so
+ * that rho times the row is below 1; derived in linear_transport.c */
+#define LINEAR_ROW_EXCESS 0.75
+/* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
+ * change of a convergent one may rise in norms that are not its own, by a few times */
+#define LINEAR_GROWS 10.0
 
 /* ---- exchange areas (engine) */
 

@@ -141,8 +141,10 @@ static inline void form_factor_range_piece(struct form_factor_range *b, const do
     }
 }
 
-OUTLINE void form_factor_range_bound(const struct element *r, const struct element *s,
-                                     double range[2])
+/* The same by pieces halved so many times at the most; 0: the receiver as a whole, which is sooner
+ * done and wider. */
+OUTLINE void form_factor_range_bound_to(const struct element *r, const struct element *s, int depth,
+                                        double range[2])
 {
     double turn = dot3(r->normal, s->normal), level = 0;
     range[0] = range[1] = 0;
@@ -176,13 +178,18 @@ OUTLINE void form_factor_range_bound(const struct element *r, const struct eleme
     b.slope = turn * turn < 1 ? sqrt(1 - turn * turn) : 0;
     b.seen[0] = b.bound[0] = INFINITY;
     b.seen[1] = b.bound[1] = 0;
-    form_factor_range_piece(&b, (const double(*)[3])r->vertex, r->vertices,
-                            FORM_FACTOR_RANGE_DEPTH);
+    form_factor_range_piece(&b, (const double(*)[3])r->vertex, r->vertices, depth);
     /* What rounding may have done to the sums over edges. */
     range[0] = b.bound[0] * (1 - FORM_FACTOR_RANGE_ROUNDING) - FORM_FACTOR_RANGE_LEAST;
     range[0] = range[0] > 0 ? range[0] : 0;
     range[1] = b.bound[1] * (1 + FORM_FACTOR_RANGE_ROUNDING) + FORM_FACTOR_RANGE_LEAST;
     range[1] = range[1] < 1 ? range[1] : 1;
+}
+
+OUTLINE void form_factor_range_bound(const struct element *r, const struct element *s,
+                                     double range[2])
+{
+    form_factor_range_bound_to(r, s, FORM_FACTOR_RANGE_DEPTH, range);
 }
 
 TOOL const double *term_form_factor_range(struct discussion *d, enum form_factor_range_level level)

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
+#include "commands/account_summary.h"
 #include "commands/error_summary.h"
 #include "util/device.h"
 #include "util/report.h"
@@ -21,6 +22,15 @@ int measured_take(struct measured *m, const struct options *o, RadDevice device,
             return report_device(device, o->scene);
         m->measured = 1;
     }
+    return 0;
+}
+
+int measured_account(struct measured *m, const struct options *o, RadDevice device,
+                     RadSolution solution)
+{
+    if (radAccountErrors(solution, &o->account, &m->account) < 0)
+        return report_device(device, o->scene);
+    m->accounted = 1;
     return 0;
 }
 
@@ -90,7 +100,12 @@ static json_t *report_json(const struct RadErrorReport *r)
 
 json_t *measured_json(const struct measured *m)
 {
-    return m->measured ? report_json(&m->error) : json_null();
+    if (!m->measured && !m->accounted)
+        return json_null();
+    json_t *all = m->measured ? report_json(&m->error) : json_object();
+    if (m->accounted)
+        json_object_set_new(all, "account", account_json(&m->account));
+    return all;
 }
 
 json_t *mended_json(const struct measured *m)

@@ -11,11 +11,17 @@ struct measured {
     int mended, measured;
     struct RadErrorReport alone; /* of the links, by the particles that mended them */
     struct RadErrorReport error; /* of what is shown, by others */
+    int accounted;
+    struct RadAccountReport account; /* of what the links alone say, by cause */
 };
 
 /* Mend and measure as the options say. Returns 0, or -1 after a message. */
 int measured_take(struct measured *m, const struct options *o, RadDevice device,
                   RadSolution solution);
+
+/* The account of error by cause. Returns 0, or -1 after a message. */
+int measured_account(struct measured *m, const struct options *o, RadDevice device,
+                     RadSolution solution);
 
 /* Above this share of the reflected light a warning is given. */
 #define MEASURED_WARNING 0.05

@@ -114,7 +114,7 @@ static int load(struct run *r)
 static double time_left(const struct run *r)
 {
     double rays = (double)(r->report.rays[0] + r->report.rays[1]);
-    double ratio = noise_of(r) / r->options->accuracy;
+    double ratio = noise_of(r) / r->options->noise;
     double mine = rays - (double)r->loaded, gone = seconds() - r->start;
     return mine > 0 && ratio > 1 ? rays * (ratio * ratio - 1) * gone / mine : 0;
 }
@@ -140,7 +140,7 @@ static int show(void *context, const struct RadProgress *at)
         progress_say(&r->progress, "%s, %s", at->phase, time_text(seconds() - r->start, gone));
     else
         progress_say(&r->progress, "%s: %.2g %% so far, %.2g %% asked for; %s, %s to go", at->phase,
-                     100 * noise_of(r), 100 * r->options->accuracy,
+                     100 * noise_of(r), 100 * r->options->noise,
                      time_text(seconds() - r->start, gone), time_text(time_left(r), left));
     return 0;
 }
@@ -154,7 +154,7 @@ static void foretell(struct run *r)
     r->told = 1;
     progress_end(&r->progress);
     printf("%.2g %% after %s; %.2g %% will take about %s more\n", 100 * noise_of(r),
-           time_text(seconds() - r->start, gone), 100 * r->options->accuracy,
+           time_text(seconds() - r->start, gone), 100 * r->options->noise,
            time_text(time_left(r), left));
     fflush(stdout);
 }
@@ -222,7 +222,7 @@ static int trace_all(struct run *r)
         }
         if (radGetReferenceReport(r->reference, &r->report) < 0)
             return report_device(r->scene->device, r->scene->path) ? 1 : 0;
-        if (!(noise_of(r) > r->options->accuracy))
+        if (!(noise_of(r) > r->options->noise))
             return 0;
         foretell(r);
         step[next_method(r, step)]++;
@@ -322,7 +322,7 @@ static json_t *reference_json(const struct run *r)
         "{s:I, s:I, s:f, s:f, s:f, s:{s:f, s:f, s:f}, s:{s:I, s:I}, s:{s:I, s:I}, s:f, s:f, s:f, "
         "s:I, s:b, s:f}",
         "faces", (json_int_t)r->scene->report.polygons, "bands", (json_int_t)r->scene->report.bands,
-        "emitted", p->emitted, "reflected", p->reflected, "accuracy", r->options->accuracy,
+        "emitted", p->emitted, "reflected", p->reflected, "accuracy", r->options->noise,
         "standard_error", "particles", p->noise[0], "paths", p->noise[1], "both", p->noise[2],
         "traced", "particles", (json_int_t)p->traced[0], "paths", (json_int_t)p->traced[1], "rays",
         "particles", (json_int_t)p->rays[0], "paths", (json_int_t)p->rays[1], "difference",

@@ -113,6 +113,11 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     int status = o->accuracy > 0 ? accuracy_solve(&accuracy, &s, &measured, o, scene->device,
                                                   scene->scene, oracle, &how)
                                  : solve_once(&s, &measured, o, scene, oracle, &how);
+    if (status == 0 && o->errors == ERRORS_ALL
+        && measured_account(&measured, o, scene->device, s.solution) < 0) {
+        solved_close(&s);
+        status = -1;
+    }
     progress_end(&progress);
     if (status < 0)
         return 1;

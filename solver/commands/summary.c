@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <sys/resource.h>
+#include "commands/account_summary.h"
 #include "commands/summary.h"
 
 /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
@@ -68,6 +69,27 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
                      r->rows.blind_area);
 }
 
+/* How the links were solved over, and to what. */
+static json_t *solver_json(const struct options *o, const struct RadReport *r)
+{
+    int bounded = isfinite(r->solved.bound);
+    return json_pack("{s:s, s:s, s:b, s:f, s:o, s:f}", "method", solver_words[r->solver],
+                     "projection", projection_words[r->projection], "tolerance_given",
+                     o->tolerance > 0, "tolerance", r->solved.tolerance, "bound",
+                     bounded ? json_real(r->solved.bound) : json_null(), "variation",
+                     r->solved.variation);
+}
+
+static json_t *basis_json(const struct RadReport *r)
+{
+    if (!r->linear.sweeps)
+        return json_pack("{s:s}", "name", "constant");
+    return json_pack("{s:s, s:i, s:I, s:f, s:f, s:f}", "name", "linear", "iterations",
+                     r->linear.sweeps, "links_limited", (json_int_t)r->linear.limited, "flat_area",
+                     r->linear.flat, "lowered_area", r->linear.lowered, "seconds",
+                     r->linear.seconds);
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -76,7 +98,7 @@ json_t *summary_json(const struct summary *s)
     radGetOracleReport(s->oracle, &oracle);
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:I, s:I, s:o, s:I, s:I, "
-        "s:i, s:i, s:b, s:I, s:f, s:f, s:f, s:f,"
+        "s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f,"
         " s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:f, s:f, s:f, s:f, s:f}, "
         "s:f}",
         "scene", s->options->scene, "oracle", oracle.name, "release", oracle.release, "parameters",
@@ -87,10 +109,11 @@ json_t *summary_json(const struct summary *s)
         (json_int_t)r->marked[GUARDED], "marks", marks_json(r), "rays", (json_int_t)r->rays,
         "rounds", (json_int_t)r->rounds, "passes", r->passes, "iterations", r->iterations,
         "converged", r->converged, "links_changing", (json_int_t)r->changing, "residual",
-        r->residual, "power_emitted", r->emitted, "power_absorbed", r->absorbed, "power_imbalance",
-        imbalance(r), "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
-        r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-        "closure", closure_json(s->options, r), "importance", importance_json(r), "error_control",
+        r->residual, "solver", solver_json(s->options, r), "basis", basis_json(r), "power_emitted",
+        r->emitted, "power_absorbed", r->absorbed, "power_imbalance", imbalance(r), "row_sums",
+        "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
+        "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
+        closure_json(s->options, r), "importance", importance_json(r), "error_control",
         error_control_json(r), "error", measured_json(s->measured), "correction",
         mended_json(s->measured), "accuracy",
         s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null(), "seconds", "build",
@@ -108,6 +131,19 @@ static void print_marks(const struct RadReport *r)
                    (unsigned long long)r->marked[i], 100 * (double)r->marked[i] / (double)r->links,
                    i,
                    i == GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
+}
+
+static void print_solver(const struct options *o, const struct RadReport *r)
+{
+    printf("solver    %s, %s: iteration left at most %.1e of B, %.1e allowed",
+           solver_words[r->solver], projection_words[r->projection], r->solved.bound,
+           r->solved.tolerance);
+    if (o->tolerance > 0)
+        printf(" as asked\n");
+    else if (r->solved.variation > 0)
+        printf(" beside the elements' own %.1e\n", r->solved.variation);
+    else
+        putchar('\n');
 }
 
 static void print_rows(const struct options *o, const struct RadReport *r)
@@ -166,6 +202,12 @@ void summary_print(const struct summary *s)
         summary_cause(r, cause, sizeof cause);
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
+    print_solver(s->options, r);
+    if (r->linear.sweeps)
+        printf(
+            "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
+            "area, where a solid stands on a part\n",
+            r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
     if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",
@@ -180,6 +222,8 @@ void summary_print(const struct summary *s)
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
     measured_print(s->measured, scene->polygons);
+    if (s->measured->accounted)
+        account_print(&s->measured->account);
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, output "

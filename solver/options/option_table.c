@@ -62,14 +62,22 @@ static int read_tolerance(struct options *o, const struct option_row *row, const
     return end == value || *end || !(o->tolerance > 0 && o->tolerance < 1) ? -1 : 0;
 }
 
-/* A share, as such or in per cent. */
+/* --errors alone, or --errors=all. */
+static int read_errors(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    o->errors = value ? ERRORS_ALL : ERRORS_MEASURED;
+    return value && strcmp(value, "all") != 0 ? -1 : 0;
+}
+
+/* A share from 0, or with low 1 above it, below 1; or the same in per cent. */
 static int read_share(struct options *o, const struct option_row *row, const char *value)
 {
     char *end;
     double share = strtod(value, &end);
     int percent = end != value && strcmp(end, "%") == 0;
     share /= percent ? 100 : 1;
-    if (end == value || end[percent] || !(share > 0 && share < 1))
+    if (end == value || end[percent] || !(share >= 0 && share < 1) || (row->low && !(share > 0)))
         return -1;
     *(double *)field_of(o, row) = share;
     return 0;
@@ -117,7 +125,7 @@ static int word_number(const struct option_row *row, const char *value)
     return -1;
 }
 
-/* The three choices are enumerations of other headers, in whose order the words stand. */
+/* These choices are enumerations of other headers, in whose order the words stand. */
 static int read_release(struct options *o, const struct option_row *row, const char *value)
 {
     int n = word_number(row, value);
@@ -130,6 +138,27 @@ static int read_closure(struct options *o, const struct option_row *row, const c
 {
     int n = word_number(row, value);
     o->closure = (enum RadClosure)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_solver(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->solver = (enum RadSolver)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_projection(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->projection = (enum RadProjection)n;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_basis(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->basis = (enum RadBasis)n;
     return n < 0 ? -1 : 0;
 }
 
@@ -315,6 +344,9 @@ const char *const release_words[] = {"flat", "dag", "hand", NULL};
 const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
+const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", NULL};
+const char *const projection_words[] = {"galerkin", "collocation", NULL};
+static const char *const bases[] = {"constant", "linear", NULL};
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
@@ -344,7 +376,7 @@ const struct option_row option_rows[] = {
      .read = read_setting},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters), .rare = 1},
-    {"tolerance", "X", MATRICES, "1e-4", "relative error of B that iteration may leave",
+    {"tolerance", "X", MATRICES, NULL, "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
     /* Below what the best kinds differ by. */
     {"tolerance", "X", FORM_FACTORS, "1e-9", "relative error of B that iteration may leave",
@@ -353,27 +385,38 @@ const struct option_row option_rows[] = {
      "a number above 0 and below 1", .read = read_tolerance},
     {"iterations", "N", MATRICES | FORM_FACTORS, "100000", "sweeps per solve at the most",
      "a whole number from 1", WHOLE(iterations, 1, INT_MAX), .rare = 1},
-    {"jacobi", NULL, SOLVE | COMPARE, NULL, "Jacobi sweeps instead of block Gauss-Seidel",
-     FLAG(jacobi), .rare = 1},
+    {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell or lu",
+     WORD(read_solver, solver_words), .rare = 1},
+    {"projection", "NAME", SOLVE | COMPARE, NULL, "galerkin (element means) or collocation",
+     WORD(read_projection, projection_words), .rare = 1},
     {"closure", "none|rows", MATRICES, NULL, "rows of a closed scene are scaled to 1 (none)",
      WORD(read_closure, closures), .rare = 1},
     {"closure", "none|rows|reciprocal", FACTORS, NULL, "rows of a closed scene sum to 1 (none)",
      WORD(read_closure, closure_words)},
     {"accuracy", "NORM:X%", SOLVE, NULL, "solve until the error is at most this: l1, l2, power",
      "a share such as 1%, or l2:5% or power:0.5%; above 0 and below 100%", .read = read_accuracy,
-     IN(accuracy)},
+     IN(accuracy), .low = 1},
     {"limit-seconds", "N", SOLVE, NULL, "when --accuracy gives up (exit status 3)",
      "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX), .rare = 1},
-    {"errors", NULL, SOLVE, NULL, "how far from the truth; on where that is cheap", FLAG(errors)},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
      FLAG(correct), .rare = 1},
     {"no-correct", NULL, SOLVE, NULL, "what the links alone say, not mended by particles",
      FLAG(no_correct)},
+    {"errors", "[=all]", SOLVE, NULL, "how far off the answer is; all: by cause, with bounds",
+     "all, or no value", .read = read_errors},
+    {"reflectance-error", "X", SOLVE, NULL, "each rho may be off by X, as 0.02 (--errors=all)",
+     "a number from 0, below 1, or percent", .read = read_share, IN(account.reflectance_error),
+     .rare = 1},
+    {"exitance-error", "X", SOLVE, NULL, "each E may be off by X of itself, as 5%",
+     "a number from 0, below 1, or percent", .read = read_share, IN(account.exitance_error),
+     .rare = 1},
+    {"basis", "constant|linear", SOLVE, NULL,
+     "B over an element; linear: the last solve (constant)", WORD(read_basis, bases), .rare = 1},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"accuracy", "SHARE", REFERENCE, "0.2%", "the standard error to reach",
-     "a share such as 0.2% or 0.002, above 0 and below 1", .read = read_share, IN(accuracy)},
+     "a share such as 0.2% or 0.002, above 0 and below 1", .read = read_share, IN(noise), .low = 1},
     {"keep", NULL, REFERENCE, NULL, "the state file stays, for a finer run", FLAG(keep)},
     {"worst", "N", ERROR, "10", "faces to name", "a whole number from 0 to 100000",
      WHOLE(worst, 0, 100000)},

@@ -16,7 +16,7 @@ extern const struct command_row command_rows[COMMANDS];
 
 struct option_row {
     const char *name;     /* without dashes; of one letter: it has one dash, else two */
-    const char *argument; /* NULL: none; in brackets: it may be left out, and follows a '=' */
+    const char *argument; /* NULL: none; "[=VALUE]": may be left out, then `read` gets NULL */
     /* those that take it: bits 1 << enum command. A name may have a row for each */
     unsigned commands;
     const char *preset; /* its value when it is not given; NULL: none */

@@ -66,12 +66,13 @@ static int print_studies_help(void)
     return 0;
 }
 
+/* Its value may be left out. */
 static int is_optional(const struct option_row *row)
 {
     return row->argument && *row->argument == '[';
 }
 
-/* "--name ARGUMENT". Returns its length. */
+/* "--name ARGUMENT" or "--name[=ARGUMENT]". Returns its length. */
 static int option_text(const struct option_row *row, char text[64])
 {
     return snprintf(text, 64, "%s%s%s%s", row->name[1] ? "--" : "-", row->name,
@@ -156,6 +157,7 @@ static int wrong_option(enum command command, const char *argument)
 
 /* ---- parsing */
 
+/* value NULL: there is none. Returns -1, or the exit status. */
 static int read_value(struct options *o, const struct option_row *row, const char *value)
 {
     char text[64];
@@ -316,6 +318,11 @@ static int check_together(struct options *o)
                      o->no_errors ? "--no-errors" : "--no-correct");
     if (o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if (o->basis == RAD_BASIS_LINEAR
+        && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
+            || o->solver == RAD_SOLVER_LU))
+        return wrong(c->name, "--basis linear goes with --projection galerkin, and with --solver "
+                              "gauss-seidel or jacobi");
     if (o->correct && o->no_correct)
         return wrong(c->name, "--correct and --no-correct contradict each other");
     if (o->mesh && !o->image && !o->image_error)
@@ -324,6 +331,10 @@ static int check_together(struct options *o)
     if (o->no_errors && (o->errors || o->image_error))
         return wrong(c->name, "--no-errors and %s contradict each other",
                      o->errors ? "--errors" : "--image-error");
+    if (o->errors != ERRORS_ALL
+        && (o->account.reflectance_error > 0 || o->account.exitance_error > 0))
+        return wrong(c->name, "--reflectance-error and --exitance-error are for the account of "
+                              "error: add --errors=all");
     return -1;
 }
 

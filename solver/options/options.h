@@ -22,13 +22,17 @@ enum command {
     COMMANDS
 };
 
-/* What enum RadRelease and enum RadClosure are called; NULL-terminated. */
-extern const char *const release_words[], *const closure_words[];
+/* What enum RadRelease, RadClosure, RadSolver and RadProjection are called; NULL-terminated. */
+extern const char *const release_words[], *const closure_words[], *const solver_words[],
+                                                                      *const projection_words[];
 
 /* The norms that --accuracy is asked in: of face means, over the surfaces, of all light together.
  */
 enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
 extern const char *const norm_words[];
+
+/* What --errors asks for: what is measured; the account by cause, too. */
+enum errors_wanted { ERRORS_UNSAID, ERRORS_MEASURED, ERRORS_ALL };
 
 enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
 
@@ -47,12 +51,17 @@ struct options {
     size_t setting_capacity;
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
+    enum RadBasis basis;
     double tolerance;
-    int iterations, jacobi, threads, two_sided, quiet;
+    enum RadSolver solver;
+    enum RadProjection projection;
+    int iterations, threads, two_sided, quiet;
 
     /* How far from the truth. */
-    int errors, no_errors, correct, no_correct;
-    double accuracy; /* share of the reflected light; 0: not asked for. reference: of its noise */
+    enum errors_wanted errors;
+    struct RadAccountOptions account; /* of ERRORS_ALL */
+    int no_errors, correct, no_correct;
+    double accuracy; /* share of the reflected light; 0: not asked for */
     enum accuracy_norm norm;
     int limit_seconds; /* 0: none */
 
@@ -70,9 +79,10 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    int keep;    /* reference: its state file stays */
-    int worst;   /* error: how many faces to name */
-    int samples; /* arvo: across the receiver; 0: exactly */
+    double noise; /* reference: the standard error to reach, a share */
+    int keep;     /* reference: its state file stays */
+    int worst;    /* error: how many faces to name */
+    int samples;  /* arvo: across the receiver; 0: exactly */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on
@@ -84,8 +94,10 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
 {
     return (struct RadSolveOptions){.tolerance = o->tolerance,
                                     .iterations = o->iterations,
-                                    .jacobi = o->jacobi,
+                                    .solver = o->solver,
+                                    .projection = o->projection,
                                     .closure = o->closure,
+                                    .basis = o->basis,
                                     .clustering = o->clusters};
 }
 

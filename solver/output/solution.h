@@ -22,8 +22,9 @@ struct surfaces {
     char *const *material_names;
 };
 
-/* Values are constant over a leaf. Radiosity is the mean over what of an element no solid stands
- * on, irradiance the mean over all of it, what its ancestors receive included. */
+/* Values are constant over a leaf, or linear (tree.gradient). Radiosity is the mean over what of an
+ * element no solid stands on, irradiance the mean over all of it, what its ancestors receive
+ * included. */
 struct solution {
     struct surfaces surfaces;
     struct RadElements tree;
@@ -68,6 +69,20 @@ static inline const struct element *element_of_face(const struct solution *s, ui
 static inline const double *radiosity_of(const struct solution *s, uint32_t element)
 {
     return &s->tree.radiosity[(size_t)element * s->tree.bands];
+}
+
+/* B at a point of a leaf: what its basis says, and not below 0 by rounding. */
+static inline double radiosity_at(const struct solution *s, uint32_t element, uint32_t band,
+                                  const double point[3])
+{
+    size_t at = (size_t)element * s->tree.bands + band;
+    double value = s->tree.radiosity[at];
+    if (!s->tree.gradient)
+        return value;
+    for (int c = 0; c < 3; c++)
+        value +=
+            s->tree.gradient[3 * at + (size_t)c] * (point[c] - s->tree.elements[element].centre[c]);
+    return value > 0 ? value : 0;
 }
 
 static inline int is_lamp(const struct surfaces *s, uint32_t face)

@@ -230,11 +230,11 @@ static int by_leaf(const void *a, const void *b)
 static void add_leaf(struct vertex_values *v, const struct solution *solution, uint32_t leaf,
                      uint32_t vertex)
 {
-    const double *radiosity = radiosity_of(solution, leaf);
     double area = solution->tree.elements[leaf].area;
     v->weight[vertex] += area;
     for (uint32_t k = 0; k < v->bands; k++)
-        v->value[(size_t)vertex * v->bands + k] += area * radiosity[k];
+        v->value[(size_t)vertex * v->bands + k] +=
+            area * radiosity_at(solution, leaf, k, v->vertices[vertex].position);
 }
 
 /* Every leaf at its corners, which makes the vertices. Returns 0 or -1. */

@@ -108,10 +108,10 @@ int stability_near_white(struct stability_trial *trial)
     const double rho = 0.999, tolerance = 1e-3;
     struct RadSolveOptions how = {.tolerance = tolerance};
     if (trial->method == &stability_methods[JACOBI]) {
-        how.jacobi = 1;
+        how.solver = RAD_SOLVER_JACOBI;
         how.iterations = 100;
     } else if (trial->method == &stability_methods[NAIVE_STOP]) {
-        how.jacobi = 1;
+        how.solver = RAD_SOLVER_JACOBI;
         /* takes back what the solver allows for: stop where dB / B is 1e-3 */
         how.tolerance = tolerance * rho / (1 - rho);
     }
@@ -126,8 +126,10 @@ int stability_near_white(struct stability_trial *trial)
 int stability_sweeps(struct stability_trial *trial)
 {
     static const double rho[] = {0.5, 0.9, 0.99, 0.999};
-    const struct RadSolveOptions how = {
-        .tolerance = 1e-3, .jacobi = trial->method == &stability_methods[SWEEPS_JACOBI]};
+    const struct RadSolveOptions how = {.tolerance = 1e-3,
+                                        .solver = trial->method == &stability_methods[SWEEPS_JACOBI]
+                                                      ? RAD_SOLVER_JACOBI
+                                                      : RAD_SOLVER_GAUSS_SEIDEL};
     trial->error = 0;
     for (size_t i = 0; i < sizeof rho / sizeof *rho; i++) {
         double error;

@@ -199,6 +199,66 @@ START_TEST(test_views)
 }
 END_TEST
 
+/* Gradients: none before the last step, none without the basis; then B at the corners of every
+ * surface is not negative, and the mean over a face, of which its leaves' are parts, is the
+ * polygon's. */
+START_TEST(test_linear)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    const struct RadSolveOptions how = {.basis = RAD_BASIS_LINEAR};
+    RadSolution plain = radNewSolution(scene, oracle, NULL),
+                linear = radNewSolution(scene, oracle, &how);
+    struct RadElements x;
+    struct RadReport r;
+    int more;
+    while ((more = radStep(linear)) > 0) {
+        radGetElements(linear, &x);
+        ck_assert_ptr_null(x.gradient);
+    }
+    ck_assert_int_eq(more, 0);
+    radGetReport(linear, &r);
+    ck_assert_int_gt(r.linear.sweeps, 0);
+    ck_assert_int_eq(r.converged, 1);
+    radGetElements(linear, &x);
+    ck_assert_ptr_nonnull(x.gradient);
+    double steepest = 0;
+    for (uint32_t e = 0; e < x.count; e++)
+        for (uint32_t k = 0; k < x.bands; k++) {
+            size_t at = (size_t)e * x.bands + k;
+            const double *g = &x.gradient[3 * at];
+            double square = dot3(g, g);
+            steepest = fmax(steepest, square);
+            if (!x.elements[e].vertices)
+                ck_assert_double_eq(square, 0);
+            ck_assert_double_le(fabs(dot3(g, x.elements[e].normal)), 1e-9 * sqrt(square));
+            for (int i = 0; i < x.elements[e].vertices; i++) {
+                double away[3];
+                sub3(away, x.elements[e].vertex[i], x.elements[e].centre);
+                ck_assert_double_ge(x.radiosity[at] + dot3(g, away), -1e-12);
+            }
+        }
+    ck_assert_double_gt(steepest, 1e-4);
+    struct RadSceneReport report;
+    ck_assert_int_eq(radGetSceneReport(scene, &report), 0);
+    double *mean = malloc(report.polygons * sizeof *mean);
+    ck_assert_int_eq(radGetPolygonValues(linear, 0, mean, NULL), 0);
+    ck_assert_double_eq_tol(mean[0], x.radiosity[x.face_element[0] * x.bands], 1e-12);
+    free(mean);
+    ck_assert_int_eq(radSolve(plain), 0);
+    radGetElements(plain, &x);
+    ck_assert_ptr_null(x.gradient);
+    radGetReport(plain, &r);
+    ck_assert_int_eq(r.linear.sweeps, 0);
+    radReleaseSolution(plain);
+    radReleaseSolution(linear);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* The same links with other form factors: with their own the same light, with none no more than is
  * emitted; and then nothing is left to do. */
 START_TEST(test_factors)
@@ -762,6 +822,8 @@ START_TEST(test_bad_options)
         {{.tolerance = (double)NAN}, "tolerance is"},
         {{.tolerance = 1}, "tolerance is 1"},
         {{.iterations = -1}, "iterations is -1"},
+        {{.solver = (enum RadSolver)4}, "solver is 4"},
+        {{.projection = (enum RadProjection)2}, "projection"},
         {{.closure = RAD_CLOSURE_RECIPROCAL}, "closure"},
         {{.clustering = "heap"}, "no clustering 'heap'"},
         {{.camera = &camera}, "length 1"},
@@ -986,6 +1048,7 @@ int main(void)
     tcase_add_test(t, test_furnace);
     tcase_add_test(t, test_steps);
     tcase_add_test(t, test_views);
+    tcase_add_test(t, test_linear);
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_exchange);

@@ -91,7 +91,7 @@ openmp=$(objdump -p "$build/libradiosity.so" | sed -n 's/ *NEEDED *lib\(gomp\|om
 flags="-std=c11 -Wall -Wextra -Werror ${SANITIZE-} -I$top/runtime -I$top/dagc -I$build/gen"
 # shellcheck disable=SC2086
 check "a program with names of the engine's, and its own libdagc" \
-    $cc $flags -o own own.c "$build/libradiosity.a" "$build/libdagc.a" -l"$embree" -fopenmp -lpthread -ldl -lm
+    $cc $flags -o own own.c "$build/libradiosity.a" "$build/libdagc.a" -l"$embree" -llapacke -fopenmp -lpthread -ldl -lm
 check "it runs" ./own
 # shellcheck disable=SC2086
 check "the same by the shared library" $cc $flags -o shared_own own.c "$build/libradiosity.so" "$build/libdagc.a" -ldl -lm
@@ -111,7 +111,7 @@ done
 # ---- dagc alone is made of dagc alone
 check "make install-dagc" sh -c "make -n -B -C '$top' install-dagc BUILD='$tmp/none' PREFIX='$tmp/usr' >steps"
 check "it compiles dagc" grep -q 'dagc/read/parse\.c' steps
-grep -nE '(runtime|solver)/[a-z_/]*\.c( |$)|embree|assimp|jansson|-lpng' steps >more
+grep -nE '(runtime|solver)/[a-z_/]*\.c( |$)|embree|lapacke|assimp|jansson|-lpng' steps >more
 check "and nothing else" none more
 
 echo "library: $count checks, $bad failed"

@@ -168,7 +168,7 @@ START_TEST(test_methods)
 {
     struct solve one, other;
     struct solve_options jacobi = quick(2);
-    jacobi.jacobi = 1;
+    jacobi.solver = RAD_SOLVER_JACOBI;
     struct scene scene;
     furnished(&scene, 1);
     solve_with(&one, &scene, "bf_guarded", RELEASE_FLAT, NULL, quick(2));

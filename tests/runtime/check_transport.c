@@ -57,10 +57,10 @@ static void add_square(struct scene *scene, double side, double rho, double exit
               0, side, 0);
 }
 
-static struct solve_options options(double tolerance, int jacobi)
+static struct solve_options options(double tolerance, enum RadSolver solver)
 {
     return (struct solve_options){
-        .tolerance = tolerance, .iterations = 100000, .threads = 1, .jacobi = jacobi};
+        .tolerance = tolerance, .iterations = 100000, .threads = 1, .solver = solver};
 }
 
 static void open_solve(struct solve *s, const struct scene *scene, const struct script *script,
@@ -124,7 +124,7 @@ START_TEST(test_cap)
     add_square(&scene, 2, 0, 1024);
     add_square(&scene, 2, 0, 1);
     struct solve s;
-    run_solve(&s, &scene, &script, options(1e-9, 0));
+    run_solve(&s, &scene, &script, options(1e-9, RAD_SOLVER_GAUSS_SEIDEL));
     for (uint32_t i = 0; i < s.hierarchy.count; i++) {
         const struct element *e = &s.hierarchy.elements[i];
         if (!e->vertices || e->children || e->face != 0)
@@ -165,12 +165,55 @@ START_TEST(test_stop)
     add_square(&scene, 1, rho, 1);
     add_square(&scene, 1, rho, 1);
     struct solve s;
-    run_solve(&s, &scene, &script, options(tolerance, 1));
+    run_solve(&s, &scene, &script, options(tolerance, RAD_SOLVER_JACOBI));
     double error = fabs(face_value(&s, 0) - known) / face_value(&s, 0);
     printf("two faces, q %.4f: error %.5f of %.5f after %d sweeps\n", q, error, tolerance,
            s.report.sweeps);
     ck_assert_double_le(error, tolerance * (1 + 1e-9));
     ck_assert_double_ge(error, 0.9 * tolerance);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+static int split_first(const struct element *r, const struct element *e)
+{
+    (void)e;
+    return r->face == 0 && r->depth == 0;
+}
+
+static double step; /* relative, from half to half of face 0 */
+
+static double each_other_unevenly(const struct element *r, const struct element *e)
+{
+    double part = r->face != 0 ? 1 : quarter(r) & 2 ? 1 + step : 1 - step;
+    return part * each_other(r, e);
+}
+
+/* Nobody asks for a tolerance: iteration stops at a tenth of what constants leave, here rho F step
+ * on one of two faces alike, but within SOLVE_TOLERANCE and SOLVE_TOLERANCE_MOST. */
+START_TEST(test_tenth)
+{
+    static const struct script script = {split_first, each_other_unevenly, 0};
+    static const double steps[] = {0, 1e-3, 1e-2, 0.05}, rho = 0.9375;
+    mutual = 0.875;
+    step = steps[_i];
+    const double left = 0.5 * rho * mutual * step,
+                 held = fmin(fmax(0.1 * left, SOLVE_TOLERANCE), SOLVE_TOLERANCE_MOST);
+    struct scene scene;
+    made_open(&scene);
+    add_square(&scene, 2, rho, 1);
+    add_square(&scene, 2, rho, 1);
+    struct solve s;
+    run_solve(&s, &scene, &script, options(0, RAD_SOLVER_JACOBI));
+    double known = 1 / (1 - rho * mutual), error = fabs(face_value(&s, 1) / known - 1);
+    printf("constants leave %.5f: held to %.6f, off by %.6f after %d sweeps\n", s.report.variation,
+           s.report.tolerance, error, s.report.sweeps);
+    ck_assert_double_eq_tol(s.report.variation, left, 1e-3 * left + 1e-15);
+    ck_assert_double_eq_tol(s.report.tolerance, held, 1e-3 * held);
+    ck_assert_double_le(s.report.bound, s.report.tolerance);
+    ck_assert_double_le(error, held * (1 + 1e-2));
+    ck_assert_double_ge(error, 0.6 * held);
     solve_close(&s);
     made_close(&scene);
 }
@@ -192,7 +235,7 @@ START_TEST(test_stop_small)
     add_square(&scene, 1e-3, 0.5, 0);
     add_square(&scene, 1, 0.5, 0);
     struct solve s;
-    run_solve(&s, &scene, &script, options(1e-4, 1));
+    run_solve(&s, &scene, &script, options(1e-4, RAD_SOLVER_JACOBI));
     ck_assert_double_eq_tol(face_value(&s, 1), 0.5, 1e-4);
     ck_assert_double_eq_tol(face_value(&s, 2), 0.25, 1e-4);
     solve_close(&s);
@@ -273,7 +316,7 @@ static void solve_dense(double *k, double *b, int n)
 
 /* Eight faces, each linked to all others by numbers that were drawn: rows far above 1, so that the
  * cap is at work in every face, rho 0.97. What iteration leaves is within the tolerance of a dense
- * matrix's solution, by both methods. */
+ * matrix's solution, by all methods. */
 START_TEST(test_dense)
 {
     static const struct script script = {split_odd, drawn, 0};
@@ -285,7 +328,7 @@ START_TEST(test_dense)
     for (int i = 0; i < FACES; i++)
         add_square(&scene, 2, 0.97, draw(1000, (uint64_t)i));
     struct solve s;
-    run_solve(&s, &scene, &script, options(tolerance, _i));
+    run_solve(&s, &scene, &script, options(tolerance, (enum RadSolver)_i));
     uint32_t leaf[LEAVES];
     for (uint32_t i = 0; i < s.hierarchy.count; i++)
         if (s.hierarchy.elements[i].vertices && !s.hierarchy.elements[i].children) {
@@ -307,8 +350,9 @@ START_TEST(test_dense)
         off += s.hierarchy.elements[leaf[i]].area * fabs(s.state.radiosity[leaf[i]] - known[i]);
         all += s.hierarchy.elements[leaf[i]].area * s.state.radiosity[leaf[i]];
     }
-    printf("dense, %s: error %.5f of %.5f after %d sweeps\n", _i ? "Jacobi" : "Gauss-Seidel",
-           off / all, tolerance, s.report.sweeps);
+    static const char *const solver[] = {"Gauss-Seidel", "Jacobi", "Southwell", "LU"};
+    printf("dense, %s: error %.5f of %.5f after %d sweeps\n", solver[_i], off / all, tolerance,
+           s.report.sweeps);
     ck_assert_double_le(off / all, tolerance);
     solve_close(&s);
     made_close(&scene);
@@ -330,7 +374,7 @@ START_TEST(test_rough)
     add_square(&scene, 1, rho, 1);
     struct solve s;
     struct refiner refiner;
-    open_solve(&s, &scene, &script, &refiner, options(1e-7, 0));
+    open_solve(&s, &scene, &script, &refiner, options(1e-7, RAD_SOLVER_GAUSS_SEIDEL));
     const char *cause;
     ck_assert_int_eq(solve_step(&s, &cause), 1);
     ck_assert_int_eq(s.report.converged, 0);
@@ -386,7 +430,7 @@ START_TEST(test_converged)
         scene.face_count = PASSERS_BY + 2;
     struct solve s;
     struct refiner refiner;
-    open_solve(&s, &scene, &script, &refiner, options(1e-9, 0));
+    open_solve(&s, &scene, &script, &refiner, options(1e-9, RAD_SOLVER_GAUSS_SEIDEL));
     ck_assert((s.refinement.link_count > SETTLED) == (_i == 0));
     const char *cause;
     ck_assert_int_eq(solve_step(&s, &cause), 1);
@@ -456,8 +500,9 @@ int main(void)
     TCase *c = tcase_create("transport");
     tcase_add_test(c, test_cap);
     tcase_add_loop_test(c, test_stop, 0, 2);
+    tcase_add_loop_test(c, test_tenth, 0, 4);
     tcase_add_test(c, test_stop_small);
-    tcase_add_loop_test(c, test_dense, 0, 2);
+    tcase_add_loop_test(c, test_dense, 0, 4);
     tcase_add_test(c, test_rough);
     tcase_add_loop_test(c, test_converged, 0, 2);
     tcase_add_loop_test(c, test_cancel, 0, 2);

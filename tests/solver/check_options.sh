@@ -73,6 +73,7 @@ for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
+says 2 "--basis takes constant or linear, not quadratic" solve "$scene" --basis quadratic
 says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --closure x
 says 2 "--clusters takes sah, embree, octree, kd or halves, not x" solve "$scene" --clusters x
 says 2 "--only takes sah, embree" study clustering "$scene" --only x
@@ -103,7 +104,7 @@ says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 # An abbreviation is good as long as it is clear, with --name=value as well; one that is not names what it could be.
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol 7
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol=7
-says 2 "--s could be --set, --size, --statistics" solve "$scene" --s 7
+says 2 "--s could be --set, --solver, --size, --statistics" solve "$scene" --s 7
 says 2 "--t could be --tolerance, --two-sided, --threads" solve "$scene" --t=7
 # Options may stand before and behind the scene, whatever POSIX says of others.
 count=$((count + 1))

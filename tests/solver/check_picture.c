@@ -47,7 +47,7 @@ struct stage {
     struct hierarchy h; /* of the engine, for quadtrees as uneven as they come */
     struct solution solution;
     struct vertex_values values;
-    double *b;
+    double *b, *gradient; /* gradient: NULL or 3 per element */
 };
 
 static struct stage *stage_new(uint32_t bands)
@@ -96,8 +96,9 @@ static void stage_split(struct stage *s, int rounds)
 
 static void stage_solve(struct stage *s)
 {
-    s->solution.tree = (struct RadElements){
-        s->h.elements, s->h.count, s->h.built, s->h.face_element, s->bands, s->b, s->b, NULL};
+    s->solution.tree =
+        (struct RadElements){s->h.elements, s->h.count, s->h.built, s->h.face_element, s->bands,
+                             s->b,          s->b,       NULL,       s->gradient};
     ck_assert_int_eq(vertex_values_build(&s->values, &s->solution), 0);
 }
 
@@ -106,6 +107,7 @@ static void stage_free(struct stage *s)
     vertex_values_free(&s->values);
     hierarchy_free(&s->h);
     free(s->b);
+    free(s->gradient);
     free(s);
 }
 
@@ -200,6 +202,38 @@ START_TEST(test_across_an_edge)
     ck_assert_double_eq_tol(value, 1, 1e-6);
     vertex_values_at(&s->values, &s->solution, 1, wall, &value);
     ck_assert_double_eq_tol(value, 9, 1e-6);
+    stage_free(s);
+}
+END_TEST
+
+/* Leaves of one linear function show it exactly, hanging vertices, triangles and all; with
+ * gradients of their own, vertices take the mean of what the leaves have there, and nothing is
+ * below 0. */
+START_TEST(test_linear_leaves)
+{
+    const double g[3] = {3, -2, 0.5}, square[3] = {0.5, 0.5, 0};
+    struct stage *s = stage_new(1);
+    stage_face(s, 0, 4, SQUARE);
+    stage_face(s, 0, 4, SKEW);
+    stage_face(s, 0, 3, TRIANGLE);
+    stage_build(s);
+    stage_split(s, 4);
+    s->gradient = calloc(3 * ELEMENTS_MAX, sizeof *s->gradient);
+    for (uint32_t i = 0; i < s->h.count; i++) {
+        s->b[i] = 100 + dot3(g, s->h.elements[i].centre);
+        memcpy(&s->gradient[3 * (size_t)i], g, sizeof g);
+    }
+    stage_solve(s);
+    for (uint32_t i = 0; i < s->values.count; i++)
+        ck_assert_double_eq_tol(s->values.value[i], 100 + dot3(g, s->values.vertices[i].position),
+                                1e-9);
+    vertex_values_free(&s->values);
+    for (uint32_t i = 0; i < s->h.count; i++)
+        s->b[i] -= 1000;
+    stage_solve(s);
+    double value;
+    vertex_values_at(&s->values, &s->solution, 0, square, &value);
+    ck_assert_double_eq(value, 0);
     stage_free(s);
 }
 END_TEST
@@ -756,6 +790,7 @@ int main(void)
     tcase_add_test(t, test_across_faces);
     tcase_add_test(t, test_across_an_edge);
     tcase_add_test(t, test_shape_functions);
+    tcase_add_test(t, test_linear_leaves);
     tcase_add_test(t, test_view_parse);
     tcase_add_test(t, test_frame_straight_down);
     tcase_add_test(t, test_not_mirrored);

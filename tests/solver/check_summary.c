@@ -72,6 +72,31 @@ START_TEST(test_iteration_ends)
 }
 END_TEST
 
+/* Which solver, over which projection, and to what. */
+START_TEST(test_solver)
+{
+    char text[4096];
+    report = (struct RadReport){.solver = RAD_SOLVER_SOUTHWELL,
+                                .projection = RAD_PROJECTION_COLLOCATION,
+                                .solved = {2e-4, 5e-4, 5e-3}};
+    json_t *json = summarise(text, sizeof text), *solver = json_object_get(json, "solver");
+    ck_assert_ptr_nonnull(
+        strstr(text, "solver    southwell, collocation: iteration left at most "
+                     "2.0e-04 of B, 5.0e-04 allowed beside the elements' own 5.0e-03\n"));
+    ck_assert_str_eq(json_string_value(json_object_get(solver, "method")), "southwell");
+    ck_assert_str_eq(json_string_value(json_object_get(solver, "projection")), "collocation");
+    ck_assert(json_is_false(json_object_get(solver, "tolerance_given")));
+    ck_assert_double_eq(json_real_value(json_object_get(solver, "bound")), 2e-4);
+    ck_assert_double_eq(json_real_value(json_object_get(solver, "tolerance")), 5e-4);
+    ck_assert_double_eq(json_real_value(json_object_get(solver, "variation")), 5e-3);
+    json_decref(json);
+    report.solved.bound = (double)INFINITY; /* where rows allow of none */
+    json = summarise(text, sizeof text);
+    ck_assert(json_is_null(json_object_get(json_object_get(json, "solver"), "bound")));
+    json_decref(json);
+}
+END_TEST
+
 START_TEST(test_converged)
 {
     char text[4096];
@@ -91,6 +116,7 @@ int main(void)
     tcase_add_test(c, test_links_change);
     tcase_add_test(c, test_iteration_ends);
     tcase_add_test(c, test_converged);
+    tcase_add_test(c, test_solver);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -1,0 +1,238 @@
+/* linear_coupling.c - see linear_coupling.h.
+ * SPDX-License-Identifier: MIT */
+#include "engine/linear_coupling.h"
+
+#include <math.h>
+#include <string.h>
+#include "kernel/constants.h"
+#include "kernel/lambert.h"
+#include "kernel/surface.h"
+
+enum { POINTS = 9 };
+
+/* The nodes of a rule over a cell, weights in m2, and what the element's basis is there. */
+struct nodes {
+    int count;
+    double at[POINTS][3], weight[POINTS], phi[POINTS][3];
+};
+
+/* The integral so far: sum[a][b] (m2). */
+struct integral {
+    struct linear_side r, s;
+    double least; /* m: cells of no larger a radius are not quartered */
+    double sum[3][3];
+};
+
+static void add_node(struct nodes *n, const struct linear_side *side, const double x[3],
+                     double weight)
+{
+    memcpy(n->at[n->count], x, sizeof n->at[0]);
+    n->weight[n->count] = weight;
+    n->phi[n->count][0] = 1;
+    linear_basis_at(side->basis, side->element->centre, x, &n->phi[n->count][1]);
+    n->count++;
+}
+
+/* Gauss's rule of (order + 1)^2 points in the bilinear map of a quad. */
+static void place_in_quad(struct nodes *n, const struct linear_side *side, const struct element *e,
+                          int order)
+{
+    static const double node[2][3] = {{0.21132486540518711775, 0.78867513459481288225, 0},
+                                      {0.11270166537925831148, 0.5, 0.88729833462074168852}};
+    static const double weight[2][3] = {{0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    for (int i = 0; i < order + 1; i++)
+        for (int j = 0; j < order + 1; j++) {
+            double s = node[order - 1][i], t = node[order - 1][j], p[3], ds[3], dt[3], c[3];
+            for (int k = 0; k < 3; k++) {
+                double low = v[0][k] + s * (v[1][k] - v[0][k]),
+                       high = v[3][k] + s * (v[2][k] - v[3][k]);
+                p[k] = low + t * (high - low);
+                dt[k] = high - low;
+                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+            }
+            cross3(c, ds, dt);
+            add_node(n, side, p, weight[order - 1][i] * weight[order - 1][j] * dot3(c, e->normal));
+        }
+}
+
+/* Three points, exact to degree 2, or six, to degree 4 [Strang and Fix 1973; Dunavant 1985]. */
+static void place_in_triangle(struct nodes *n, const struct linear_side *side,
+                              const struct element *e, int order)
+{
+    static const double corner[2][2] = {{2 / 3.0, 0},
+                                        {0.81684757298045851308, 0.10810301816807022736}};
+    static const double weight[2][2] = {{1 / 3.0, 0},
+                                        {0.10995174365532186764, 0.22338158967801146570}};
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    for (int group = 0; group < order; group++)
+        for (int i = 0; i < 3; i++) {
+            double own = corner[order - 1][group], other = 0.5 * (1 - own), p[3];
+            for (int k = 0; k < 3; k++)
+                p[k] = own * v[i][k] + other * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
+            add_node(n, side, p, weight[order - 1][group] * e->area);
+        }
+}
+
+static void place(struct nodes *n, const struct linear_side *side, const struct element *e,
+                  int order)
+{
+    n->count = 0;
+    if (e->vertices == 4)
+        place_in_quad(n, side, e, order);
+    else
+        place_in_triangle(n, side, e, order);
+}
+
+/* Cells that are apart: all points with all points. */
+static void add_apart(struct integral *c, const struct element *r, const struct element *s,
+                      int order)
+{
+    struct nodes at, from;
+    place(&at, &c->r, r, order);
+    place(&from, &c->s, s, order);
+    for (int i = 0; i < at.count; i++) {
+        double reached[3] = {0, 0, 0};
+        for (int j = 0; j < from.count; j++) {
+            double k =
+                from.weight[j] * lambert_points(at.at[i], r->normal, from.at[j], s->normal, 0);
+            for (int b = 0; b < 3; b++)
+                reached[b] += k * from.phi[j][b];
+        }
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++)
+                c->sum[a][b] += at.weight[i] * at.phi[i][a] * reached[b];
+    }
+}
+
+/* int over `to` of phi_a(x) F(x, from). */
+static void exact_from_points(const struct linear_side *side, const struct element *to,
+                              const struct element *from, double marginal[3])
+{
+    struct nodes n;
+    place(&n, side, to, 1);
+    for (int i = 0; i < n.count; i++) {
+        double f =
+            lambert_sum(n.at[i], to->normal, (const double(*)[3])from->vertex, from->vertices);
+        for (int a = 0; a < 3 && f > 0; a++)
+            marginal[a] += n.weight[i] * n.phi[i][a] * f;
+    }
+}
+
+/* Cells that touch: the marginals from exact factors, else their product. */
+static void add_touching(struct integral *c, const struct element *r, const struct element *s)
+{
+    double of_r[3] = {0, 0, 0}, of_s[3] = {0, 0, 0};
+    exact_from_points(&c->r, r, s, of_r);
+    exact_from_points(&c->s, s, r, of_s);
+    if (!(of_r[0] > 0 && of_s[0] > 0))
+        return;
+    double whole = 0.5 * (of_r[0] + of_s[0]);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            c->sum[a][b] += whole * (of_r[a] / of_r[0]) * (of_s[b] / of_s[0]);
+}
+
+static void add_cells(struct integral *c, const struct element *r, const struct element *s)
+{
+    double away[3], sizes = r->radius + s->radius;
+    sub3(away, s->centre, r->centre);
+    double distance = length3(away);
+    if (distance > LINEAR_NEAR * sizes) {
+        add_apart(c, r, s, distance > LINEAR_FAR * sizes ? 1 : 2);
+        return;
+    }
+    const struct element *larger = r->radius > s->radius ? r : s;
+    if (!(larger->radius > c->least)) {
+        add_touching(c, r, s);
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        struct element quarter;
+        surface_quarter(larger, i, &quarter);
+        add_cells(c, larger == r ? &quarter : r, larger == r ? s : &quarter);
+    }
+}
+
+/* The part of e in front of the other's plane, as one or two cells. Returns how many. */
+static int cut_at_plane(const struct element *e, const struct element *other,
+                        struct element cell[2])
+{
+    struct polygon p;
+    polygon_clip(&p, (const double(*)[3])e->vertex, e->vertices, other->centre, other->normal);
+    int cells = p.n == 0 ? 0 : p.n == 5 ? 2 : 1;
+    for (int i = 0; i < cells; i++) {
+        memset(&cell[i], 0, sizeof cell[i]);
+        cell[i].vertices = (uint8_t)(i == 1 || p.n == 3 ? 3 : 4);
+        for (int j = 0; j < cell[i].vertices; j++)
+            memcpy(cell[i].vertex[j], p.v[i == 0 || j == 0 ? j : j + 2], sizeof p.v[0]);
+        surface_measure(&cell[i]);
+        memcpy(cell[i].normal, e->normal, sizeof e->normal);
+    }
+    return cells;
+}
+
+void linear_coupling_integrate(double c[3][3], struct linear_side r, struct linear_side s)
+{
+    struct integral sum = {.r = r, .s = s};
+    struct element of_r[2], of_s[2];
+    double smaller = fmin(r.element->radius, s.element->radius);
+    int cells_of_r = cut_at_plane(r.element, s.element, of_r),
+        cells_of_s = cut_at_plane(s.element, r.element, of_s);
+    sum.least = LINEAR_CELL * smaller;
+    for (int i = 0; i < cells_of_r; i++)
+        for (int j = 0; j < cells_of_s; j++)
+            add_cells(&sum, &of_r[i], &of_s[j]);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            c[a][b] = r.element->area > 0 ? sum.sum[a][b] / r.element->area : 0;
+}
+
+/* The factor in [0, 1] that makes F + b1 phi_1 + b2 phi_2 nonnegative over the element. */
+static double keep_positive(const struct linear_side *side, const double b[2], double form_factor)
+{
+    double least, most;
+    linear_basis_range(side->basis, side->element, b, &least, &most);
+    return form_factor + least < 0 ? form_factor / -least : 1;
+}
+
+void linear_coupling_scale(double c[3][3], double form_factor)
+{
+    double scale = c[0][0] > 0 && form_factor > 0 ? form_factor / c[0][0] : 0;
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            c[a][b] *= scale;
+    c[0][0] = form_factor;
+}
+
+void linear_coupling_limit(double c[3][3], struct linear_side r, struct linear_side s)
+{
+    double form_factor = c[0][0];
+    if (!(form_factor > 0))
+        return;
+    double at_r = keep_positive(&r, (const double[2]){c[1][0], c[2][0]}, form_factor),
+           at_s = keep_positive(&s, &c[0][1], form_factor), joint = 1, beside[2][2];
+    for (int a = 1; a < 3; a++) {
+        c[a][0] *= at_r;
+        c[0][a] *= at_s;
+    }
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            beside[a][b] = c[a + 1][b + 1] - c[a + 1][0] * c[0][b + 1] / form_factor;
+    for (int i = 0; i < r.element->vertices; i++)
+        for (int j = 0; j < s.element->vertices; j++) {
+            double x[2], y[2], here = 0;
+            linear_basis_at(r.basis, r.element->centre, r.element->vertex[i], x);
+            linear_basis_at(s.basis, s.element->centre, s.element->vertex[j], y);
+            double product = fmax(0, form_factor + c[1][0] * x[0] + c[2][0] * x[1])
+                             * fmax(0, form_factor + c[0][1] * y[0] + c[0][2] * y[1]) / form_factor;
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++)
+                    here += x[a] * beside[a][b] * y[b];
+            if (product + joint * here < 0)
+                joint = product / -here;
+        }
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            c[a + 1][b + 1] = c[a + 1][0] * c[0][b + 1] / form_factor + joint * beside[a][b];
+}
