@@ -350,7 +350,8 @@ static int64_t refine_for_error(struct solve *s)
 /* Solve once more over the final links for functions linear over the elements. Returns 0 or -1. */
 static int solve_linear(struct solve *s, const char **cause)
 {
-    struct transport x = light(s, s->problem.options.tolerance);
+    double tolerance = s->problem.options.tolerance;
+    struct transport x = light(s, tolerance > 0 ? tolerance : SOLVE_TOLERANCE);
     x.watch = watch_light;
     x.watch_context = s;
     if (linear_solution_solve(&s->linear, &s->operator, & x, &s->report.rows) < 0)
@@ -358,7 +359,7 @@ static int solve_linear(struct solve *s, const char **cause)
                     cause);
     s->report.converged &= x.converged;
     s->report.seconds.iterate += s->linear.seconds;
-    sum_power(&s->report, &s->operator, s->state.irradiance);
+    solve_sum_power(s);
     return 0;
 }
 
