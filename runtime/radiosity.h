@@ -464,7 +464,7 @@ struct RadErrorReport {
     /* the L1 error per polygon that these particles, by chance, have themselves: what is left of it
      * in what is mended with them */
     struct RadMeasure noise;
-    double reflected;           /* light reflected, as counted, all bands (W) */
+    double reflected; /* light reflected, as counted, all bands (W) */
     /* of polygons that reflect a hundredth of all light or more, the one that is most surely wrong,
      * and by which share of what it reflects; RadSceneReport.polygons: none is, surely */
     uint32_t worst;
@@ -625,7 +625,8 @@ RAD_API void radReleaseReference(RadReference reference);
 /* Trace on by PARTICLES or PATHS until there are `count` in all, or a few more: particles come in
  * sixteen sets, and a polygon that reflects has 64 paths at least. Nothing where there are as many.
  * The same bits for any number of threads, and, in the same calls, whether it was saved and loaded
- * between them or not. Returns 0, or -1. */
+ * between them or not. Progress tells as `waiting` the thousandths of the call that are left.
+ * Returns 0, or -1. */
 RAD_API int radTraceReference(RadReference reference, enum RadMethod method, uint64_t count);
 
 /* Area means of B over each polygon, both sides of two-sided ones, in one band, and one standard

@@ -104,16 +104,10 @@ struct known {
     double mean[REFERENCE_METHODS], variance[REFERENCE_METHODS];
 };
 
-/* W that one particle of all replicates stands for. */
-static double power_of_one(const struct tally *t)
-{
-    return tally_unit(t) * (PARTICLE_ONE / REPLICATES);
-}
-
 static struct known weigh(const struct reference *r, const struct means *m, size_t i, uint32_t band)
 {
     struct known k = {{0, 0, 0}, {0, 0, 0}};
-    double area = m->area[i], one = power_of_one(&r->tally);
+    double area = m->area[i], one = tally_power_of_one(&r->tally);
     if (!(area > 0))
         return k;
     int both = m->scattered[i] > 0 && r->tally.particles > 0;
@@ -208,7 +202,7 @@ int reference_summary(const struct reference *r, struct reference_summary *s)
             /* bands of one path go together: their deviations add up, at the most */
             deviation[i] += reflects * sqrt(k.variance[REFERENCE_PATHS]);
             /* where both are sure of their own noise */
-            if (chance > 0 && m.found[i] >= REFERENCE_FEW * power_of_one(&r->tally)
+            if (chance > 0 && m.found[i] >= REFERENCE_FEW * tally_power_of_one(&r->tally)
                 && m.found[i] * m.found[i] >= REFERENCE_SURE * m.scattered[i]) {
                 s->chi_square += off * off / chance;
                 s->compared++;

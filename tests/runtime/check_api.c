@@ -410,6 +410,69 @@ START_TEST(test_exchange)
 }
 END_TEST
 
+/* ---- references */
+
+/* The cube whose ceiling emits: its continuous solution, rho = 1/2. */
+START_TEST(test_reference)
+{
+    static const double wanted[3] = {1.1043616, 0.1712161, 0.1811056}; /* lamp, across, beside */
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadReference x = radNewReference(scene);
+    radReleaseScene(scene);
+    ck_assert_int_eq(radTraceReference(x, RAD_METHOD_PARTICLES, 1 << 17), 0);
+    ck_assert_int_eq(radTraceReference(x, RAD_METHOD_PATHS, 1 << 16), 0);
+    ck_assert_int_eq(radTraceReference(x, RAD_METHOD_PATHS, 1000), 0); /* there are as many */
+    double b[6], se[6], again[6];
+    for (int way = 0; way < RAD_METHODS; way++) {
+        ck_assert_int_eq(radGetReferenceValues(x, (enum RadMethod)way, 0, b, se), 0);
+        int lamp = b[1] > b[0];
+        for (int i = 0; i < 6; i++) {
+            double want = wanted[i == lamp ? 0 : i < 2 ? 1 : 2];
+            ck_assert_double_eq_tol(b[i], want, 5 * se[i]);
+            ck_assert_double_lt(se[i], 0.02 * want);
+        }
+    }
+    struct RadReferenceReport r;
+    ck_assert_int_eq(radGetReferenceReport(x, &r), 0);
+    ck_assert_uint_eq(r.traced[RAD_METHOD_PARTICLES], 1 << 17);
+    ck_assert_uint_eq(r.traced[RAD_METHOD_PATHS], 1 << 16);
+    ck_assert_uint_gt(r.rays[0], 1 << 17);
+    ck_assert_double_eq_tol(r.emitted, 1, 1e-12);
+    ck_assert_double_eq_tol(r.reflected, 1, 0.01);
+    ck_assert(r.noise[2] > 0 && r.noise[2] < r.noise[0] && r.noise[2] < r.noise[1]);
+    ck_assert_double_lt(fabs(r.difference), 4 * r.deviation);
+    /* saved and loaded */
+    size_t size = radSaveReference(x, NULL, 0);
+    unsigned char *bytes = malloc(size);
+    ck_assert_uint_eq(radSaveReference(x, bytes, size), size);
+    RadReference y = radNewReference(scene);
+    ck_assert_int_eq(radLoadReference(y, bytes, size), 0);
+    ck_assert_int_eq(radGetReferenceValues(y, RAD_METHOD_BOTH, 0, again, NULL), 0);
+    ck_assert(memcmp(b, again, sizeof b) == 0);
+    ck_assert_int_eq(radLoadReference(y, bytes, size - 1), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "damaged");
+    ck_assert_int_eq(radLoadReference(y, NULL, 0), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no bytes");
+    free(bytes);
+    /* what it does not take */
+    ck_assert_int_eq(radTraceReference(y, RAD_METHOD_BOTH, 1), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "RAD_METHOD_PATHS");
+    ck_assert_int_eq(radTraceReference(y, RAD_METHOD_PARTICLES, UINT64_MAX), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "told apart");
+    ck_assert_int_eq(radGetReferenceValues(y, RAD_METHOD_PATHS, 1, b, se), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no band 1");
+    ck_assert_int_eq(radGetReferenceValues(y, RAD_METHODS, 0, b, se), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "enum RadMethod");
+    radRetainReference(y);
+    radReleaseReference(y);
+    ck_assert_int_eq(radGetReferenceReport(y, &r), 0);
+    radReleaseReference(y);
+    radReleaseReference(x);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* ---- oracles */
 
 START_TEST(test_oracles)
@@ -629,6 +692,15 @@ START_TEST(test_no_handle)
     struct RadExchangeReport exchange;
     radGetExchangeReport(NULL, &exchange);
     ck_assert_uint_eq(exchange.links, 0);
+    struct RadReferenceReport reference;
+    ck_assert_ptr_null(radNewReference(NULL));
+    radRetainReference(NULL);
+    radReleaseReference(NULL);
+    ck_assert_int_eq(radTraceReference(NULL, RAD_METHOD_PATHS, 1), -1);
+    ck_assert_int_eq(radGetReferenceValues(NULL, RAD_METHOD_PATHS, 0, row, row), -1);
+    ck_assert_int_eq(radGetReferenceReport(NULL, &reference), -1);
+    ck_assert_uint_eq(radSaveReference(NULL, NULL, 0), 0);
+    ck_assert_int_eq(radLoadReference(NULL, row, sizeof row), -1);
     ck_assert_ptr_null(radGetClusteringDoc("nobody"));
     ck_assert_ptr_null(radGetClusteringDoc(NULL));
     for (const char *const *name = radGetClusteringNames(); *name; name++)
@@ -956,6 +1028,16 @@ START_TEST(test_cancel)
         ck_assert_int_eq(patience.calls, 1);
         expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
     }
+    for (int way = RAD_METHOD_PARTICLES; way <= RAD_METHOD_PATHS; way++) {
+        RadReference reference = radNewReference(scene);
+        patience = (struct patience){0, 1, way == RAD_METHOD_PATHS ? "paths" : "particles"};
+        ck_assert_int_eq(radTraceReference(reference, (enum RadMethod)way, 1 << 22), -1);
+        ck_assert_int_eq(patience.calls, 1);
+        expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
+        ck_assert_int_eq(radTraceReference(reference, (enum RadMethod)way, 1), -1);
+        expect_error(device, RAD_ERROR_INVALID_OPERATION, "release it");
+        radReleaseReference(reference);
+    }
     radReleaseOracle(oracle);
     radReleaseScene(scene);
     radReleaseDevice(device);
@@ -1072,6 +1154,7 @@ int main(void)
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_exchange);
+    tcase_add_test(t, test_reference);
     tcase_add_test(t, test_oracles);
     tcase_add_test(t, test_registered);
     tcase_add_test(t, test_statistics);
