@@ -366,6 +366,13 @@ struct RadReport {
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
 
+/* ---- how far from the truth */
+
+/* A share of the reflected light (0.021: 2.1 %), and its 95 % interval. */
+struct RadMeasure {
+    double value, low, high;
+};
+
 /* ---- exchange areas */
 
 struct RadExchangeOptions {
