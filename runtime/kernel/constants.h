@@ -317,6 +317,18 @@
 /* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
  * change of a convergent one may rise in norms that are not its own, by a few times */
 #define LINEAR_GROWS 10.0
+/* particles. A part of the tree that so many have met is mended by what they measured there, a
+ * quarter of its H uncertain: many directions end in many parts. Chosen */
+#define POINT_ERROR_MET 16.0
+
+/* times the rays of a point of the first stage, at the most, for one of the second: beyond, the
+ * noise that the first has measured is too uncertain to save points by; chosen */
+#define SURFACE_ERROR_RAYS 6.0
+/* landings of particles. So many make one cell of where light lands; chosen: half of it uncertain
+ */
+#define ERROR_PLACES_CELL 4
+/* rays. Fewer would make no interval: 20 points in the first stage and as many in the second */
+#define SURFACE_ERROR_LEAST 4000.0
 
 /* ---- exchange areas (engine) */
 

@@ -14,22 +14,40 @@
 
 enum { SIDE = 4 };
 
-double contact_fraction(const struct rays *rays, const struct element *e)
+/* The rays from any point of e. */
+static void look_around(const struct element *e, double direction[CONTACT_RAYS][3])
 {
     const struct hemisphere above = hemisphere_over(e->normal);
-    double direction[CONTACT_RAYS][3];
-    int covered = 0;
     for (int m = 0; m < CONTACT_RAYS; m++)
         hemisphere_direction(direction[m], &above, m, CONTACT_RAYS, 0);
+}
+
+static int is_inside(const struct rays *rays, const double p[3], double direction[CONTACT_RAYS][3])
+{
+    int inside = 0;
+    for (int m = 0; m < CONTACT_RAYS && inside + CONTACT_RAYS - m >= CONTACT_BACKS; m++)
+        inside += rays_first(rays, p, direction[m], NULL, NULL) == RAY_MEETS_BACK;
+    return inside >= CONTACT_BACKS;
+}
+
+int contact_covers(const struct rays *rays, const struct element *e, const double p[3])
+{
+    double direction[CONTACT_RAYS][3];
+    look_around(e, direction);
+    return is_inside(rays, p, direction);
+}
+
+double contact_fraction(const struct rays *rays, const struct element *e)
+{
+    double direction[CONTACT_RAYS][3];
+    int covered = 0;
+    look_around(e, direction);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        int inside = 0;
         double p[3];
         surface_point(p, e, (i / SIDE + 0.5) / SIDE, (i % SIDE + 0.5) / SIDE);
         for (int k = 0; k < 3; k++)
             p[k] += rays_host(rays)->ray_offset * e->normal[k];
-        for (int m = 0; m < CONTACT_RAYS && inside + CONTACT_RAYS - m >= CONTACT_BACKS; m++)
-            inside += rays_first(rays, p, direction[m], NULL, NULL) == RAY_MEETS_BACK;
-        covered += inside >= CONTACT_BACKS;
+        covered += is_inside(rays, p, direction);
     }
     return covered / (double)(SIDE * SIDE);
 }

@@ -8,4 +8,8 @@
 /* Share of e's area in [0, 1], in steps of 1/16. Thread-safe. */
 double contact_fraction(const struct rays *rays, const struct element *e);
 
+/* Does a solid stand on the point p (m) of e, ray_offset in front of it? By CONTACT_RAYS rays or
+ * fewer. Thread-safe. */
+int contact_covers(const struct rays *rays, const struct element *e, const double p[3]);
+
 #endif
