@@ -324,10 +324,10 @@ struct RadElements {
     uint32_t bands;
     const double *radiosity, *irradiance; /* [element * bands + band]; clusters hold means */
     const double *uncovered; /* [count]: share of the element that no solid stands on */
-    /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL: [(element * bands +
-     * band) * 3]. B at point x of a surface is radiosity + gradient . (x - centre), W/m2, and not
-     * below 0 where its mean is not; radiosity stays the mean over the element. 0 of clusters and
-     * where a solid covers a part. */
+    /* Of RAD_BASIS_LINEAR, once radSolve or the last radStep is done, else NULL:
+     * [(element * bands + band) * 3]. B at point x of a surface is radiosity + gradient . (x -
+     * centre), W/m2, and not below 0 where its mean is not; radiosity stays the mean over the
+     * element. 0 of clusters and where a solid covers a part. */
     const double *gradient;
 };
 struct RadLinks {
