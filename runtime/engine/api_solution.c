@@ -301,9 +301,9 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
         return;
     const struct solve *s = &solution->solve;
     *elements = (struct RadElements){
-        s->hierarchy.elements, s->started, s->hierarchy.built, s->hierarchy.face_element,
-        s->problem.bands, s->state.radiosity, s->state.irradiance, s->operator.uncovered,
-        s->linear.gradient };
+        s->hierarchy.elements, s->started,         s->hierarchy.built,  s->hierarchy.face_element,
+        s->problem.bands,      s->state.radiosity, s->state.irradiance, s->operator.uncovered,
+        s->linear.gradient};
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)
