@@ -28,7 +28,7 @@ struct solve_options {
     /* whose picture counts, for oracles that read importance; NULL: all places alike */
     const struct camera *camera;
     int linear; /* 1: once links are final, solve for functions linear over each element */
-    int unit; /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    int unit;   /* ignore the materials: every face has B = 1 and stays so (view factors) */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress */
