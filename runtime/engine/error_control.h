@@ -19,8 +19,8 @@ struct error_control {
  * has no such parameter. */
 double error_control_target(const struct refiner *refiner, const struct host *host);
 
-/* What the oracle promises for the powers of all faces together, in each band (W), by the parameters
- * of that role; 0: nothing. The promise is no more than its parameters': it has to be measured. */
+/* What the oracle promises for the powers of all faces together, in each band (W), by the
+ * parameters of that role; 0: nothing. Links alone do not keep it: it has to be measured. */
 double power_tolerance(const struct refiner *refiner, const struct host *host);
 
 /* Before the first refinement: the error tolerance of each face's links. */

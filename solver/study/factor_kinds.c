@@ -14,7 +14,7 @@
 #include "util/clock.h"
 #include "util/device.h"
 
-#define ENOUGH_SECONDS 2e-3                 /* the clock's step is below a thousandth of it */
+#define ENOUGH_SECONDS 2e-3                /* the clock's step is below a thousandth of it */
 enum { REPEATS = 10000, FINE_LINKS = 30 }; /* the latter of each bin */
 
 struct work {
