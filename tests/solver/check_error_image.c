@@ -80,7 +80,7 @@ static struct row *row_new(uint32_t bands, const double *shares, uint32_t lamp)
     for (uint32_t i = 0; i < FACES; i++)
         hold_face(r, i, bands, 2, shares[i]);
     r->solution.tree = (struct RadElements){
-        r->h.elements, r->h.count, r->h.built, r->h.face_element, bands, r->b, r->b, NULL};
+        r->h.elements, r->h.count, r->h.built, r->h.face_element, bands, r->b, r->b, NULL, NULL};
     ck_assert_int_eq(vertex_values_build(&r->values, &r->solution), 0);
     char text[64];
     /* at distance 4 the picture is 3 m high; its middle is at z = 0 */
