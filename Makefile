@@ -223,5 +223,3 @@ factor-rays: $(BUILD)/bin/factor_rays
 $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
-$(BUILD)/tests/runtime/try: $(BUILD)/tests/runtime/try.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
