@@ -247,6 +247,34 @@ START_TEST(test_mended)
 }
 END_TEST
 
+/* What is far off is mended to a third, and what is exact stays nearer than particles alone are. */
+START_TEST(test_mends)
+{
+    struct chance chance = {5};
+    struct scene scene;
+    struct solve s;
+    struct tally of;
+    double noise, *truth = known_open(&scene, KNOWN_FURNISHED, &chance);
+    open_known(&s, &scene);
+    struct tracer t = tracer_over(&s, 1);
+    traced(&of, &t, MEND_STREAM, 30000);
+    double *solved = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *solved);
+    spoil(&s, truth, solved, 0, &chance);
+    ck_assert_int_eq(face_noise(&s.problem, &s.hierarchy, solved, &of, &noise), 0);
+    ck_assert_int_eq(mend_irradiance(&s.operator, & of, solved), 0);
+    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 0.7 * noise);
+    spoil(&s, truth, solved, 20 * noise, &chance);
+    ck_assert_int_eq(mend_irradiance(&s.operator, & of, solved), 0);
+    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 20.0 / 3 * noise);
+    free(solved);
+    free(truth);
+    tally_close(&of);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 static void furnished_solve(struct solve *s, struct scene *scene, int threads, double size)
 {
     furnished(scene, 1);
@@ -410,6 +438,7 @@ int main(void)
     tcase_set_timeout(tests, thorough() ? 3000 : 60);
     tcase_add_test(tests, test_coverage);
     tcase_add_test(tests, test_mended);
+    tcase_add_test(tests, test_mends);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_streams);
     tcase_add_test(tests, test_cancel);
