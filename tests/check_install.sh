@@ -259,7 +259,7 @@ done
 page=$prefix/share/man/man1/radiosity.1
 for command in solve compare viewfactors reference error "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
     # shellcheck disable=SC2086
-    radiosity $command --help=all | sed -n 's/^  \(-[-a-zA-Z]* [^ ][^ ]*\) .*/\1/p; s/^  \(-[-a-zA-Z]*\)  .*/\1/p' >options
+    radiosity $command --help=all | sed -n 's/^  \(-[-a-zA-Z]* [^ ][^ ]*\) .*/\1/p; s/^  \(-[-a-zA-Z]*\(\[=[a-z]*\]\)*\)  .*/\1/p' >options
     awk -v command="radiosity $command" '/^\.S[sh] / { on = $0 == ".Ss " command || $0 == ".Ss " command " scene" }
         on && /^\.It Fl / { sub(/^\.It Fl /, "-"); gsub(/\\-/, "-"); sub(/ Ar /, " "); print }' "$page" >described
     check "$command --help has options" sh -c "[ \$(wc -l <options) -gt 2 ]"

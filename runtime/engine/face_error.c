@@ -2,23 +2,30 @@
  *
  * The error of one polygon and band is e = R~ - R, reflected power by the solution less the truth;
  * known is e^ = R~ - R^, R^ counted: e with a noise whose deviation is s. Two estimates of s^2 are
- * averaged: how the replicates differ, which sees all but is known to 15 degrees of freedom only,
- * and chance, by the number of particles, times how the replicates of polygons with as many
- * particles differ from chance in the mean.
+ * averaged: how the replicates differ, which sees all but is known to 15 degrees of freedom only
+ * and to fewer where few particles land; and chance, by the number of particles, times how the
+ * replicates of polygons with as many particles differ from chance in the mean.
  *
  * Power. The sum of e^ over that of R^, with Student's interval of the replicates.
  *
  * L1. The sum of |e^| is above that of |e|, for noise adds where it should cancel. So the question
  * is turned round: which errors would, with the noise that is known, be expected to show this sum?
  * A normal e with a deviation of s has E|e| = m erf(m / (s sqrt 2)) + s sqrt(2 / pi) exp(-m^2 / 2
- * s^2), the folded normal. In each class of polygons with about as many particles the true errors
- * are taken as c |e^|, 0 <= c <= 1, and c is what makes the expected sum the observed one. (Where
- * errors are normal in a class that is exact: c^2 is the share of the true variance.) The interval
- * is that of a test: all sums of errors, c^2 raised or lowered alike, that would not make the
- * observed sum a surprise at 95 %. Where nothing but noise is seen, the upper end is no lower than
- * for a sum one standard deviation below what noise alone makes: a power-constrained limit. [folded
- * normal: Leone, Nelson and Nottingham 1961; interval by inversion of a test: Neyman 1937; its
- * limit: Cowan et al. 2011; the rest: derived here, coverage: tests/runtime/check_measured_error.c]
+ * s^2), the folded normal. Let x = |e^| / s. From FACE_ERROR_CERTAIN on, an error is as it is seen.
+ * The rest, in classes of polygons with about as many particles, are taken as c s x^a: c is what
+ * makes the expected sum of |e^| the observed one, a what does the same for squares. (a = 0: all
+ * errors are alike; 1, as good as: they are normal; more: few polygons have them all.)
+ *
+ * The interval. Among the uncertain: all sums of errors, m^2 raised or lowered alike, that would
+ * not make the observed sum a surprise at 95 %, a sum of few being skewed (Cornish and Fisher).
+ * With it goes what squares leave open of a, and the noise of certain ones: the surprise is shared
+ * between them as is worst. What replicates show the noises of polygons to have in common widens
+ * or narrows all of it. Where nothing but noise is seen, the upper end is no lower than for a sum
+ * one standard deviation below what noise alone makes: a power-constrained limit.
+ *
+ * [folded normal: Leone, Nelson and Nottingham 1961; interval by inversion of a test: Neyman 1937;
+ * skewed sums: Cornish and Fisher 1938; the limit: Cowan et al. 2011; the rest: derived here,
+ * coverage: tests/runtime/check_measured_error.c]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -26,16 +33,19 @@
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 
-enum { CLASSES = 24, BINS = 160, HALVINGS = 50 };
+enum { CLASSES = 24, BINS = 24, HALVINGS = 24, TRIES = 10, SPLITS = 4 };
 
-/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom, and of the normal. */
+/* of m^2, raised: none that is not certain is left; m is never ten times FACE_ERROR_CERTAIN */
+#define LOWEST (-100 * FACE_ERROR_CERTAIN * FACE_ERROR_CERTAIN)
+#define NORMAL_QUANTILE 1.959963984540054 /* 97.5 % */
+/* 97.5 % of Student's t with REPLICATES - 1 degrees of freedom. */
 #define T_QUANTILE 2.131449545559323
-#define NORMAL_QUANTILE 1.959963984540054
 _Static_assert(REPLICATES == 16, "T_QUANTILE is that of 15 degrees of freedom");
 
 /* Polygons and bands alike in number of particles and in x = |e^| / s: sums of s, s^2 and s x. */
 struct bin {
     double s, square, x;
+    double count, error; /* error: m of each, true errors over s, as far as can be told */
 };
 
 struct counted {
@@ -49,7 +59,8 @@ struct counted {
     double reflected;     /* sum of R^ (W) */
     unsigned char *class; /* [values] */
     struct bin bin[CLASSES][BINS];
-    double share[CLASSES]; /* c */
+    double sure, sure_square;     /* of those whose x is beyond all bins: sums of |e^| and s^2 */
+    double shape_low, shape_high; /* what shapes may take off and add (W) */
 };
 
 static double folded(double m, double s)
@@ -58,37 +69,77 @@ static double folded(double m, double s)
     return m * erf(x) + s * sqrt(2 / LAMBERT_PI) * exp(-x * x);
 }
 
-/* If errors in a class were c |e^|: the expected sum of |e^|, its variance, and their sum. */
+/* The third central moment of |e|, e normal about x with a deviation of 1. */
+static double skew(double x)
+{
+    double first = folded(x, 1), third = (x * x * x + 3 * x) * erf(x / sqrt(2))
+                                         + (x * x + 2) * sqrt(2 / LAMBERT_PI) * exp(-x * x / 2);
+    return fmax(0, third - 3 * first * (1 + x * x) + 2 * first * first * first);
+}
+
+/* The expected sum of |e^|, its moments, and the sum of errors. */
 struct expected {
-    double sum, variance, errors;
+    double sum, variance, skew, errors; /* skew: the third central moment */
 };
 
-static struct expected expect(const struct bin bins[BINS], double c)
+/* With every m^2 raised by so much; certain ones are as they are. */
+static struct expected expect_all(const struct counted *c, double raise)
 {
-    struct expected all = {0, 0, 0};
-    for (int i = 0; i < BINS; i++) {
-        const struct bin *b = &bins[i];
-        if (!(b->s > 0))
-            continue;
-        double x = c * b->x / b->s, e = folded(x, 1);
-        all.sum += b->s * e;
-        all.variance += b->square * fmax(0, 1 + x * x - e * e);
-        all.errors += b->s * x;
-    }
+    struct expected all = {0, 0, 0, 0};
+    for (int k = 0; k < CLASSES; k++)
+        for (int i = 0; i < BINS; i++) {
+            const struct bin *b = &c->bin[k][i];
+            if (!(b->s > 0))
+                continue;
+            double x = sqrt(fmax(0, b->error * b->error + raise)), e = folded(x, 1);
+            all.sum += b->s * e;
+            all.variance += b->square * fmax(0, 1 + x * x - e * e);
+            all.skew += b->square * (b->square / b->s) * skew(x);
+            all.errors += b->s * x;
+        }
     return all;
 }
 
-/* The same of all classes, with every c^2 raised by so much. */
-static struct expected expect_all(const struct counted *c, double raise)
+/* Errors m = c x^shape in a class, c such that the expected sum is what is seen. Returns the sum of
+ * s^2 m^2; *errors: that of s m. */
+static double fit(struct bin bins[BINS], double shape, double *errors)
 {
-    struct expected all = {0, 0, 0};
-    for (int i = 0; i < CLASSES; i++) {
-        struct expected one = expect(c->bin[i], sqrt(fmax(0, c->share[i] * c->share[i] + raise)));
-        all.sum += one.sum;
-        all.variance += one.variance;
-        all.errors += one.errors;
+    double low = 0, high = 2 * FACE_ERROR_CERTAIN, seen = 0, base[BINS], square = 0;
+    for (int i = 0; i < BINS; i++) {
+        seen += bins[i].x;
+        base[i] = bins[i].s > 0 ? pow(bins[i].x / bins[i].s, shape) : 0;
     }
-    return all;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (low + high), sum = 0;
+        for (int j = 0; j < BINS; j++)
+            sum += bins[j].s > 0 ? bins[j].s * folded(middle * base[j], 1) : 0;
+        if (sum > seen)
+            high = middle;
+        else
+            low = middle;
+    }
+    *errors = 0;
+    for (int i = 0; i < BINS; i++) {
+        bins[i].error = low * base[i];
+        *errors += bins[i].s * bins[i].error;
+        square += bins[i].square * bins[i].error * bins[i].error;
+    }
+    return square;
+}
+
+/* The shape that makes the sum of squares what is asked for. */
+static double shape_of(struct bin bins[BINS], double square, double *errors)
+{
+    double low = 0, high = FACE_ERROR_SHAPE;
+    for (int i = 0; i < TRIES; i++) {
+        double middle = 0.5 * (low + high);
+        if (fit(bins, middle, errors) > square)
+            high = middle;
+        else
+            low = middle;
+    }
+    fit(bins, low, errors);
+    return low;
 }
 
 static void sum_polygons(struct counted *c, const struct problem *p, const struct hierarchy *h,
@@ -149,8 +200,13 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
         double by_chance = 0, particles = 0;
         if (rho[i] > 0) {
             particles = fmax(c->mean[i], c->solved[i]) / (rho[i] * one);
-            by_chance = rho[i] * rho[i]
-                        * tally_chance(tally, c->mean[i] / rho[i], (uint32_t)(i % c->bands));
+            uint32_t band = (uint32_t)(i % c->bands);
+            double reach =
+                FACE_ERROR_DRAWN * rho[i] * sqrt(tally_chance(tally, c->mean[i] / rho[i], band));
+            /* the count alone would call low counts sure: the truth is between, so far */
+            double drawn = fmin(c->mean[i] + reach, fmax(c->mean[i] - reach, c->solved[i]));
+            by_chance =
+                rho[i] * rho[i] * tally_chance(tally, 0.5 * (c->mean[i] + drawn) / rho[i], band);
         }
         int class = particles > 1 ? (int)(0.5 * log2(particles)) : 0;
         c->class[i] = (unsigned char)(class < CLASSES ? class : CLASSES - 1);
@@ -161,41 +217,59 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
     for (size_t i = 0; i < c->values; i++) {
         int class = c->class[i];
         double scaled = chance[class] > 0 ? c->deviation[i] * seen[class] / chance[class] : 0;
-        c->deviation[i] = sqrt(0.5 * (variance_seen(c, i) + scaled));
+        double square = c->mean[i] * c->mean[i]; /* over the number of particles: variance */
+        double own = square > 0 ? 0.5 / (1 + FACE_ERROR_FEW * scaled / square) : 0;
+        c->deviation[i] = sqrt(own * variance_seen(c, i) + (1 - own) * scaled);
     }
 }
 
-/* Put values into bins and find c of each class. */
-static void find_shares(struct counted *c)
+/* Put values into bins and find their errors. */
+static void find_errors(struct counted *c)
 {
+    double seen[CLASSES] = {0};
     for (size_t i = 0; i < c->values; i++) {
         double s = c->deviation[i], off = fabs(c->solved[i] - c->mean[i]);
         if (!(s > 0))
             continue;
-        double place = 16 * log2(1 + off / s); /* from 16 on, x = 2^10 and more, all are certain */
-        struct bin *b = &c->bin[c->class[i]][place < BINS ? (int)place : BINS - 1];
+        if (off >= FACE_ERROR_CERTAIN * s) {
+            c->sure += off;
+            c->sure_square += s * s;
+            continue;
+        }
+        struct bin *b = &c->bin[c->class[i]][(int)(off / s * (BINS / FACE_ERROR_CERTAIN))];
         b->s += s;
         b->square += s * s;
         b->x += off;
+        b->count++;
+        seen[c->class[i]] += off * off - s * s;
     }
     for (int k = 0; k < CLASSES; k++) {
-        double low = 0, high = 1, sum = 0;
-        for (int i = 0; i < BINS; i++)
-            sum += c->bin[k][i].x;
-        for (int i = 0; i < HALVINGS; i++) {
-            double middle = 0.5 * (low + high);
-            if (expect(c->bin[k], middle).sum > sum)
-                high = middle;
-            else
-                low = middle;
+        int filled = 0;
+        double spread = 0, at = 0, less = 0, more = 0;
+        for (int i = 0; i < BINS; i++) {
+            const struct bin *b = &c->bin[k][i];
+            double x = b->s > 0 ? b->x / b->s : 0;
+            filled += b->count > 0;
+            if (b->count > 0)
+                spread += b->square * b->square / b->count
+                          * (2 + 1 / exp2(2 * k) + 4 * fmax(0, x * x - 1));
         }
-        c->share[k] = low;
+        if (filled == 0)
+            continue;
+        if (filled == 1) { /* has no shape */
+            fit(c->bin[k], 1, &at);
+            continue;
+        }
+        shape_of(c->bin[k], seen[k] + NORMAL_QUANTILE * sqrt(spread), &less);
+        shape_of(c->bin[k], seen[k] - NORMAL_QUANTILE * sqrt(spread), &more);
+        shape_of(c->bin[k], seen[k], &at);
+        c->shape_low += (at - less) * (at - less);
+        c->shape_high += (more - at) * (more - at);
     }
 }
 
-/* The variance of sum g R^ over all values (W2), by the replicates, and what it would be if values
- * were independent. g: c->weight. */
-static double variance_of_sum(const struct counted *c, double *independent)
+/* The variance of sum g R^ over all values (W2), by the replicates. g: c->weight. */
+static double variance_of_sum(const struct counted *c)
 {
     double sum[REPLICATES] = {0}, mean = 0, differ = 0;
     for (int r = 0; r < REPLICATES; r++) {
@@ -205,66 +279,92 @@ static double variance_of_sum(const struct counted *c, double *independent)
     }
     for (int r = 0; r < REPLICATES; r++)
         differ += (sum[r] - mean) * (sum[r] - mean);
-    *independent = 0;
-    for (size_t i = 0; i < c->values; i++)
-        *independent += c->weight[i] * c->weight[i] * c->deviation[i] * c->deviation[i];
     return differ / (REPLICATES * (REPLICATES - 1.0));
 }
 
-/* How far the expected sum is from the observed one, in standard deviations; `common`: what noise
- * that values share adds to the variance. */
+/* How far the expected sum is from the observed one, in standard deviations that the skewness of
+ * sums of few has been taken from; `common`: by what the noise that values share multiplies the
+ * variance. */
 static double surprise(const struct counted *c, double raise, double observed, double common)
 {
     struct expected e = expect_all(c, raise);
-    double least = 0.25 * e.variance; /* the replicates know `common` roughly */
-    return (e.sum - observed) / sqrt(fmax(e.variance + common, least));
+    if (!(e.variance > 0))
+        return 0;
+    double skewed = e.skew / pow(e.variance, 1.5) * (T_QUANTILE * T_QUANTILE - 1) / 6;
+    return (e.sum - observed) / sqrt(e.variance * common) + skewed;
+}
+
+/* How far all m^2, raised or lowered alike, may take the sum of errors (W) until what is observed
+ * would be a surprise of so many standard deviations. */
+static double reach(const struct counted *c, int sign, double surprised, double observed,
+                    double common)
+{
+    double near = 0, far = sign < 0 ? LOWEST : 1;
+    struct expected now = expect_all(c, 0);
+    if (!(now.variance > 0))
+        return 0;
+    while (sign > 0 && far < 1e12 && surprise(c, far, observed, common) < surprised)
+        far *= 4;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (near + far);
+        if (sign * surprise(c, middle, observed, common) < surprised)
+            near = middle;
+        else
+            far = middle;
+    }
+    return sign * (expect_all(c, near).errors - now.errors);
+}
+
+/* The most that errors may be above or below what they are thought to be (W): 95 % are shared, as
+ * is worst, between what is seen through noise, and the certain ones with the shape of the rest. */
+static double farthest(const struct counted *c, int sign, double observed, double common)
+{
+    double shape = sign < 0 ? c->shape_low : c->shape_high, most = 0;
+    double sure = sqrt(T_QUANTILE * T_QUANTILE * c->sure_square * common + shape);
+    for (int i = 0; i <= SPLITS; i++) {
+        double angle = LAMBERT_PI / 2 * i / SPLITS;
+        double all = reach(c, sign, T_QUANTILE * cos(angle), observed, common) + sure * sin(angle);
+        most = fmax(most, all);
+    }
+    return most;
 }
 
 static struct RadMeasure measure_l1(struct counted *c)
 {
-    double observed = 0, value = expect_all(c, 0).errors / c->reflected, independent;
+    struct expected now = expect_all(c, 0);
+    double observed = 0, value = now.errors + c->sure, all = c->reflected, independent = 0;
     for (int k = 0; k < CLASSES; k++)
         for (int i = 0; i < BINS; i++)
             observed += c->bin[k][i].x;
-    if (!(observed > 0))
-        return (struct RadMeasure){0, 0, 0};
     for (size_t i = 0; i < c->values; i++) { /* d |e^| / d R^, and that of the reflected light */
         double off = c->solved[i] - c->mean[i];
-        double x =
-            c->deviation[i] > 0 ? c->share[c->class[i]] * off / (c->deviation[i] * sqrt(2)) : 0;
-        c->weight[i] = -erf(x) - value;
-    }
-    double common = variance_of_sum(c, &independent) - independent;
-    /* A sum that is small by luck must not make the interval that of a better measurement. */
-    struct expected none = expect_all(c, -1);
-    double lucky = none.sum - sqrt(fmax(none.variance + common, 0.25 * none.variance));
-    double low = -1, high = 1, raise[2], judged[2] = {observed, fmax(observed, lucky)};
-    while (surprise(c, high, judged[1], common) < T_QUANTILE && high < 1e12)
-        high *= 4;
-    for (int side = 0; side < 2; side++) {
-        double from = side == 0 ? low : 0, to = side == 0 ? 0 : high;
-        for (int i = 0; i < HALVINGS; i++) {
-            double middle = 0.5 * (from + to);
-            if (surprise(c, middle, judged[side], common) < (side == 0 ? -T_QUANTILE : T_QUANTILE))
-                from = middle;
-            else
-                to = middle;
+        double s = c->deviation[i], x = s > 0 ? off / s : 0;
+        if (fabs(x) < FACE_ERROR_CERTAIN && s > 0) {
+            double m = c->bin[c->class[i]][(int)(fabs(x) * (BINS / FACE_ERROR_CERTAIN))].error;
+            x = x < 0 ? -m : m;
         }
-        raise[side] = side == 0 ? from : to;
+        double slope = erf(x / sqrt(2));
+        c->weight[i] = -slope - value / all;
+        independent += slope * slope * s * s;
     }
-    return (struct RadMeasure){value, expect_all(c, raise[0]).errors / c->reflected,
-                               expect_all(c, raise[1]).errors / c->reflected};
+    double seen = variance_of_sum(c), chance = now.variance + c->sure_square;
+    double common = chance > 0 ? fmax(0.25, 1 + (seen - independent) / chance) : 1;
+    /* A sum that is small by luck must not make the interval that of a better measurement. */
+    struct expected none = expect_all(c, LOWEST);
+    double lucky = none.sum - sqrt(none.variance * common);
+    double low = farthest(c, -1, observed, common),
+           high = farthest(c, 1, fmax(observed, lucky), common);
+    return (struct RadMeasure){value / all, fmax(0, value - low) / all, (value + high) / all};
 }
 
 static struct RadMeasure measure_power(struct counted *c)
 {
-    double solved = 0, independent;
+    double solved = 0;
     for (size_t i = 0; i < c->values; i++) {
         solved += c->solved[i];
         c->weight[i] = 1;
     }
-    double deviation =
-        sqrt(variance_of_sum(c, &independent)) * solved / (c->reflected * c->reflected);
+    double deviation = sqrt(variance_of_sum(c)) * solved / (c->reflected * c->reflected);
     double value = solved / c->reflected - 1;
     return (struct RadMeasure){value, value - T_QUANTILE * deviation,
                                value + T_QUANTILE * deviation};
@@ -365,7 +465,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     for (uint32_t i = 0; i < h->face_count; i++)
         areas[h->faces[i].input] += h->elements[h->face_element[i]].area;
     f->reflected = c->reflected;
-    find_shares(c);
+    find_errors(c);
     if (f->reflected > 0) {
         f->noise = expected_noise(c);
         f->power = measure_power(c);

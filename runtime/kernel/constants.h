@@ -254,6 +254,17 @@
 /* standard errors. A large face is surely wrong beyond this: 97.5 % of Student's t with 15 degrees
  * of freedom for the worst of a hundred */
 #define FACE_ERROR_SURE 4.44
+/* standard errors. An error so far out is what it is seen as: noise neither hides it nor makes it
+ * in a thousand polygons */
+#define FACE_ERROR_CERTAIN 5.0
+/* power of |e^| / s. The most uneven that errors below noise are thought to be: cubes, whose
+ * largest tenth has nine tenths of the sum when |e^| is normal; chosen */
+#define FACE_ERROR_SHAPE 3.0
+/* particles. Where a polygon is met by so many, what its replicates say of its noise has half the
+ * weight that it has where many land: their own variance is then twice as uncertain */
+#define FACE_ERROR_FEW 16.0
+/* standard errors. How far a solution may draw the mean that chance is computed from: 95 % */
+#define FACE_ERROR_DRAWN 2.0
 /* of an element's own squares against those that its class expects: 1 is James and Stein's rule for
  * each alone, 0 one factor for all of a class. Of 0, 1/4, 1/2 and 1 the best for leaves on four
  * scenes of very different kind at 30,000 and 300,000 particles, between 0 and 1/2 by little */

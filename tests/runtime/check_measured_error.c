@@ -1,0 +1,448 @@
+/* Does the measured error cover the truth, and do mended solutions stay right? Truths are closed
+ * forms (make_known.h), solutions are the truth spoilt by chance, or links of several oracles.
+ *
+ * Coverage is counted per regime: how large the true error is beside the noise of the measurement,
+ * in how many faces it sits, how many there are and how few particles.
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include "runtime/make_known.h"
+#include "runtime/make_solve.h"
+#include "engine/measured_error.h"
+#include "engine/mend.h"
+#include "suite.h"
+
+struct cover {
+    int trials, l1_below, l1_above, power_missed;
+};
+
+static struct tracer tracer_over(const struct solve *s, int threads)
+{
+    struct tracer t = {.hierarchy = &s->hierarchy,
+                       .rays = s->problem.rays,
+                       .exitance = s->problem.exitance,
+                       .reflectance = s->problem.reflectance,
+                       .bands = s->problem.bands,
+                       .threads = threads};
+    ck_assert_int_eq(tracer_open(&t), 0);
+    return t;
+}
+
+/* particles: of all replicates together. */
+static void traced(struct tally *y, const struct tracer *t, uint64_t stream, int particles)
+{
+    ck_assert_int_eq(tally_open(y, t, stream, 1), 0);
+    ck_assert_int_eq(tally_trace(y, t, (uint64_t)particles / REPLICATES, NULL), 0);
+}
+
+struct errors {
+    double l1, power;
+};
+
+/* True errors of faces, as shares of the reflected light. */
+static struct errors true_errors(const struct solve *s, const double *truth, const double *solved)
+{
+    uint32_t bands = s->problem.bands, values = s->problem.scene->input_count * bands;
+    double *off = calloc(values, sizeof *off), all = 0;
+    struct errors e = {0, 0};
+    for (uint32_t f = 0; f < s->hierarchy.face_count; f++)
+        for (uint32_t k = 0; k < bands; k++) {
+            uint32_t at = s->hierarchy.face_element[f];
+            double a = s->problem.reflectance[f * bands + k] * s->hierarchy.elements[at].area;
+            off[s->hierarchy.faces[f].input * bands + k] +=
+                a * (solved[at * bands + k] - truth[f * bands + k]);
+            all += a * truth[f * bands + k];
+        }
+    for (uint32_t i = 0; i < values; i++) {
+        e.l1 += fabs(off[i]) / all;
+        e.power += off[i] / all;
+    }
+    free(off);
+    return e;
+}
+
+static void judge(const struct solve *s, const double *truth, const double *solved,
+                  const struct tally *y, struct cover *c)
+{
+    const double rounding = 1e-9;
+    struct errors e = true_errors(s, truth, solved);
+    struct face_error m;
+    ck_assert_int_eq(face_error_open(&m, &s->problem, &s->hierarchy, solved, y), 0);
+    ck_assert(m.l1.low >= 0 && m.l1.low <= m.l1.value && m.l1.value <= m.l1.high);
+    c->trials++;
+    c->l1_below += e.l1 < m.l1.low - rounding;
+    c->l1_above += e.l1 > m.l1.high + rounding;
+    c->power_missed += e.power < m.power.low - rounding || e.power > m.power.high + rounding;
+    face_error_close(&m);
+}
+
+static void add(struct cover *sum, const struct cover *c)
+{
+    sum->trials += c->trials;
+    sum->l1_below += c->l1_below;
+    sum->l1_above += c->l1_above;
+    sum->power_missed += c->power_missed;
+}
+
+static void say(const char *name, const struct cover *c)
+{
+    double n = c->trials / 100.0;
+    if (thorough() && c->trials)
+        printf("%-28s %5d trials: l1 %5.1f %% (truth below %4.1f, above %4.1f), power %5.1f %%\n",
+               name, c->trials, 100 - (c->l1_below + c->l1_above) / n, c->l1_below / n,
+               c->l1_above / n, 100 - c->power_missed / n);
+}
+
+/* Misses are at most 8 %, but for three standard deviations of so many trials. */
+static void check_misses(const char *name, int misses, int trials)
+{
+    double most = 0.08 + 3 * sqrt(0.05 * 0.95 / trials);
+    ck_assert_msg(misses <= most * trials, "%s: %d of %d missed", name, misses, trials);
+}
+
+/* Truth times 1 + d, the sum of |error| about `target` of the reflected light. d: all by chance,
+ * one face alone, all alike, or a third of them. */
+static void spoil(const struct solve *s, const double *truth, double *solved, double target,
+                  struct chance *c)
+{
+    uint32_t bands = s->problem.bands, faces = s->hierarchy.face_count;
+    int pattern = (int)(4 * chance_even(c));
+    uint32_t one = (uint32_t)(faces * chance_even(c));
+    double sign = chance_even(c) < 0.5 ? -1 : 1, l1 = 0, all = 0;
+    double *d = calloc(faces, sizeof *d);
+    for (uint32_t f = 0; f < faces; f++) {
+        double normal = chance_normal(c), third = chance_even(c) < 1 / 3.0 ? normal : 0;
+        d[f] = pattern == 0   ? normal
+               : pattern == 1 ? (f == one) * sign
+               : pattern == 2 ? sign
+                              : third;
+        for (uint32_t k = 0; k < bands; k++) {
+            double reflected = s->problem.reflectance[f * bands + k] * truth[f * bands + k]
+                               * s->hierarchy.elements[s->hierarchy.face_element[f]].area;
+            all += reflected;
+            l1 += reflected * fabs(d[f]);
+        }
+    }
+    for (uint32_t f = 0; f < faces; f++)
+        for (uint32_t k = 0; k < bands; k++)
+            solved[s->hierarchy.face_element[f] * bands + k] =
+                truth[f * bands + k] * fmax(0, 1 + (l1 > 0 ? d[f] * target * all / l1 : 0));
+    free(d);
+}
+
+static void open_known(struct solve *s, struct scene *scene)
+{
+    struct solve_options o = quick(1);
+    const char *cause;
+    ck_assert_int_eq(solve_open(s, scene, &o, &cause), 0);
+}
+
+START_TEST(test_coverage)
+{
+    static const double beside[] = {0, 0.2, 1, 4, 20}; /* true error over noise */
+    static const int particles[] = {1000, 15000};
+    static struct cover cover[2][2][5];
+    int problems = thorough() ? 216 : 18, streams = thorough() ? 6 : 2;
+    for (int i = 0; i < problems; i++) {
+        enum known kind = (enum known)(i % KNOWN_KINDS);
+        int many = kind == KNOWN_TILED || kind == KNOWN_SPHERE;
+        struct chance chance = {hash64(1000003 + (uint64_t)i)};
+        struct scene scene;
+        struct solve s;
+        double *truth = known_open(&scene, kind, &chance);
+        open_known(&s, &scene);
+        struct tracer t = tracer_over(&s, 1);
+        double *solved = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *solved);
+        for (int n = many; n < 2; n++) /* a particle per face tells nothing */
+            for (int r = 0; r < streams; r++) {
+                struct tally y;
+                double noise;
+                traced(&y, &t, (uint64_t)(streams * i + r + 1), particles[n]);
+                spoil(&s, truth, solved, 0, &chance);
+                face_noise(&s.problem, &s.hierarchy, solved, &y, &noise);
+                for (int q = 0; q < 5; q++) {
+                    double target = noise * beside[q] * exp(chance_between(&chance, -0.5, 0.5));
+                    spoil(&s, truth, solved, fmin(1, target), &chance);
+                    judge(&s, truth, solved, &y, &cover[many][n][q]);
+                }
+                tally_close(&y);
+            }
+        free(solved);
+        free(truth);
+        tracer_close(&t);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    struct cover all = {0};
+    for (int many = 0; many < 2; many++)
+        for (int n = 0; n < 2; n++)
+            for (int q = 0; q < 5; q++) {
+                const struct cover *c = &cover[many][n][q];
+                char name[64];
+                snprintf(name, sizeof name, "%s faces, %d, error %g", many ? "many" : "few",
+                         particles[n], beside[q]);
+                say(name, c);
+                add(&all, c);
+                if (c->trials)
+                    check_misses(name, c->l1_below + c->l1_above, c->trials);
+            }
+    say("all", &all);
+    /* trials of one tally, and of one problem, are not independent: as few as there are tallies */
+    int misses = all.l1_below + all.l1_above, tallies = all.trials / 5;
+    double off = 3 * sqrt(0.05 * 0.95 / tallies);
+    ck_assert_int_le(misses, (int)((0.08 + (thorough() ? 0 : off)) * all.trials));
+    ck_assert_int_ge(misses, (int)((0.02 - (thorough() ? 0 : off)) * all.trials));
+    check_misses("power", all.power_missed / 5, tallies);
+}
+END_TEST
+
+static char *coarse[] = {"min_share=0.004", NULL};
+
+static void solve_known(struct solve *s, const struct scene *scene, const char *oracle)
+{
+    solve_with(s, scene, oracle, RELEASE_FLAT, coarse, quick(1));
+}
+
+/* Links of several oracles over known answers: their error is covered, and so is what is left once
+ * they are mended; which is no more than the links' own, or what mending's noise explains. */
+START_TEST(test_mended)
+{
+    static const char *const oracles[] = {"bf_guarded", "relative", "ff", "gap", "clusters"};
+    struct cover links = {0}, left = {0};
+    int problems = thorough() ? 90 : 14;
+    double before = 0, after = 0, allowed = 0;
+    for (int i = 0; i < problems; i++) {
+        enum known kind = (enum known)(i % KNOWN_TILED);
+        struct chance chance = {hash64(7000003 + (uint64_t)i)};
+        struct scene scene;
+        struct solve s;
+        double *truth = known_open(&scene, kind, &chance);
+        solve_known(&s, &scene, oracles[i % 5]);
+        struct tracer t = tracer_over(&s, 1);
+        struct tally of, against;
+        double noise;
+        traced(&of, &t, MEND_STREAM, thorough() ? 300000 : 30000);
+        traced(&against, &t, (uint64_t)i + 1, 15000);
+        judge(&s, truth, s.state.irradiance, &against, &links);
+        before += true_errors(&s, truth, s.state.irradiance).l1;
+        ck_assert_int_eq(face_noise(&s.problem, &s.hierarchy, s.state.irradiance, &of, &noise), 0);
+        allowed += noise;
+        ck_assert_int_eq(mend_irradiance(&s.operator, & of, s.state.irradiance), 0);
+        after += true_errors(&s, truth, s.state.irradiance).l1;
+        judge(&s, truth, s.state.irradiance, &against, &left);
+        tally_close(&of);
+        tally_close(&against);
+        free(truth);
+        tracer_close(&t);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    say("links", &links);
+    say("mended", &left);
+    if (thorough())
+        printf("error of faces: links %.5f, mended %.5f, noise of particles %.5f\n",
+               before / problems, after / problems, allowed / problems);
+    check_misses("links", links.l1_below + links.l1_above, links.trials);
+    check_misses("mended", left.l1_below + left.l1_above, left.trials);
+    ck_assert_double_le(after, fmin(before + 0.5 * allowed, fmax(before, allowed)));
+}
+END_TEST
+
+/* What is far off is mended to a third, and what is exact stays nearer than particles alone are. */
+START_TEST(test_mends)
+{
+    struct chance chance = {5};
+    struct scene scene;
+    struct solve s;
+    struct tally of;
+    double noise, *truth = known_open(&scene, KNOWN_FURNISHED, &chance);
+    open_known(&s, &scene);
+    struct tracer t = tracer_over(&s, 1);
+    traced(&of, &t, MEND_STREAM, 30000);
+    double *solved = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *solved);
+    spoil(&s, truth, solved, 0, &chance);
+    ck_assert_int_eq(face_noise(&s.problem, &s.hierarchy, solved, &of, &noise), 0);
+    ck_assert_int_eq(mend_irradiance(&s.operator, & of, solved), 0);
+    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 0.7 * noise);
+    spoil(&s, truth, solved, 20 * noise, &chance);
+    ck_assert_int_eq(mend_irradiance(&s.operator, & of, solved), 0);
+    ck_assert_double_lt(true_errors(&s, truth, solved).l1, 20.0 / 3 * noise);
+    free(solved);
+    free(truth);
+    tally_close(&of);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+static void furnished_solve(struct solve *s, struct scene *scene, int threads, double size)
+{
+    furnished(scene, 1);
+    made_scale(scene, size);
+    struct solve_options o = quick(threads);
+    solve_with(s, scene, "bf_guarded", RELEASE_FLAT, coarse, o);
+}
+
+/* Mended and measured: the same bits for any number of threads, and for any power of two of size.
+ */
+START_TEST(test_same_bits)
+{
+    static const struct {
+        int threads;
+        double size;
+    } ways[] = {{1, 1}, {2, 1}, {5, 1}, {1, 0x1p20}, {2, 0x1p-20}};
+    struct measured_error first = {0}, alone;
+    double *mended = NULL;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        struct scene scene;
+        struct solve s;
+        struct measured_error m;
+        const char *cause;
+        furnished_solve(&s, &scene, ways[i].threads, ways[i].size);
+        size_t values = s.hierarchy.count;
+        ck_assert_int_eq(measure_and_mend(&s, 0.01, 40000, &alone, &cause), 0);
+        ck_assert_int_eq(measure_error(&s, 20000, 3, &m, &cause), 0);
+        if (i == 0) {
+            first = m;
+            mended = malloc(values * sizeof *mended);
+            memcpy(mended, s.mended.radiosity, values * sizeof *mended);
+        } else {
+            ck_assert_int_eq(memcmp(mended, s.mended.radiosity, values * sizeof *mended), 0);
+            ck_assert(memcmp(&m.faces.l1, &first.faces.l1, sizeof m.faces.l1) == 0);
+            ck_assert(memcmp(&m.faces.power, &first.faces.power, sizeof m.faces.power) == 0);
+            ck_assert_uint_eq(m.rays, first.rays);
+            measured_error_free(&m);
+        }
+        measured_error_free(&alone);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    measured_error_free(&first);
+    free(mended);
+}
+END_TEST
+
+/* Noises of two streams have nothing to do with each other. */
+START_TEST(test_streams)
+{
+    enum { STREAMS = 40 };
+    struct scene scene;
+    struct solve s;
+    double noise[STREAMS][12], mean[12] = {0}, same = 0, neighbours = 0;
+    furnished(&scene, 1);
+    open_known(&s, &scene);
+    struct tracer t = tracer_over(&s, 1);
+    for (int i = 0; i < STREAMS; i++) {
+        struct tally y;
+        traced(&y, &t, (uint64_t)i, 1600);
+        for (uint32_t f = 0; f < 12; f++) {
+            noise[i][f] = 0;
+            for (int r = 0; r < REPLICATES; r++)
+                noise[i][f] += tally_face(&y, r, f, 0) / REPLICATES;
+            mean[f] += noise[i][f] / STREAMS;
+        }
+        tally_close(&y);
+    }
+    for (int i = 0; i < STREAMS; i++)
+        for (int f = 0; f < 12; f++) {
+            double scale = mean[f] > 0 ? 1 / mean[f] : 0;
+            same += pow((noise[i][f] - mean[f]) * scale, 2);
+            neighbours +=
+                (noise[i][f] - mean[f]) * (noise[(i + 1) % STREAMS][f] - mean[f]) * scale * scale;
+        }
+    ck_assert_double_gt(same, 0);
+    ck_assert_double_lt(fabs(neighbours), 3 / sqrt(STREAMS) * same);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+static int stop_particles(void *context, const struct solve *s, const char *phase)
+{
+    (void)s;
+    *(int *)context += strcmp(phase, "particles") == 0;
+    return strcmp(phase, "particles") == 0;
+}
+
+START_TEST(test_cancel)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error m;
+    const char *cause = NULL;
+    int told = 0;
+    furnished_solve(&s, &scene, 2, 1);
+    s.problem.options.progress = stop_particles;
+    s.problem.options.context = &told;
+    ck_assert_int_eq(measure_error(&s, 1000000, 1, &m, &cause), -1);
+    ck_assert_str_eq(cause, "cancelled");
+    ck_assert_int_gt(told, 0);
+    ck_assert_ptr_null(m.element);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* No light, nothing that reflects, nothing that is met, one face, a face with two sides. */
+static void bare_scene(struct scene *scene, int which)
+{
+    static const double rho[] = {0.5, 0, 0.5, 0.5, 0.5}, light[] = {0, 1, 1, 1, 1};
+    made_open(scene);
+    made_material(scene, rho[which], light[which]);
+    if (which < 2) {
+        const uint32_t one[6] = {0};
+        made_room(scene, one, 1, 1, 1);
+    } else if (which == 2) { /* back to back */
+        made_quad(scene, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0);
+        made_quad(scene, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0);
+    } else {
+        made_quad(scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+        if (which == 4) {
+            made_quad(scene, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0);
+            scene->faces[1].input = 0;
+            scene->faces[1].back = 1;
+            scene->input_count = 1;
+        }
+    }
+}
+
+START_TEST(test_bare)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone, m;
+    const char *cause;
+    bare_scene(&scene, _i);
+    solve_known(&s, &scene, "bf_guarded");
+    ck_assert_int_eq(measure_and_mend(&s, 0.01, 20000, &alone, &cause), 0);
+    ck_assert_int_eq(measure_error(&s, 10000, 1, &m, &cause), 0);
+    ck_assert(m.faces.l1.value == 0 && m.faces.l1.low == 0 && m.faces.l1.high == 0);
+    ck_assert(m.faces.power.value == 0 && m.faces.reflected == 0);
+    ck_assert_uint_eq(m.faces.worst, scene.input_count);
+    for (uint32_t e = 0; e < s.hierarchy.count; e++) {
+        ck_assert_double_eq(m.element[e], 0);
+        ck_assert_double_eq(s.mended.radiosity[e], s.state.radiosity[e]);
+    }
+    measured_error_free(&alone);
+    measured_error_free(&m);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("measured error");
+    TCase *tests = tcase_create("");
+    tcase_set_timeout(tests, thorough() ? 3000 : 60);
+    tcase_add_test(tests, test_coverage);
+    tcase_add_test(tests, test_mended);
+    tcase_add_test(tests, test_mends);
+    tcase_add_test(tests, test_same_bits);
+    tcase_add_test(tests, test_streams);
+    tcase_add_test(tests, test_cancel);
+    tcase_add_loop_test(tests, test_bare, 0, 5);
+    suite_add_tcase(suite, tests);
+    return suite_failures(suite) > 0;
+}
