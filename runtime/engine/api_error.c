@@ -10,10 +10,20 @@ static uint64_t share_of_rays(RadSolution solution, double share, uint64_t least
     return rays > (double)least ? (uint64_t)rays : least;
 }
 
+/* So few rays say little, however cheap the solution was: of a scene, or of each polygon. */
+static uint64_t least_rays(RadSolution solution, int surfaces)
+{
+    uint64_t scene = surfaces ? RAD_MEASURE_SURFACES : RAD_MEASURE_LEAST;
+    uint64_t polygons = (uint64_t)RAD_MEASURE_POLYGON * solution->solve.problem.scene->input_count;
+    return scene > polygons ? scene : polygons;
+}
+
 static struct RadErrorReport report_of(const struct measured_error *m)
 {
     return (struct RadErrorReport){.power = m->faces.power,
                                    .l1_faces = m->faces.l1,
+                                   .l2 = m->l2,
+                                   .p999 = m->p999,
                                    .noise = m->faces.noise,
                                    .reflected = m->faces.reflected,
                                    .worst = m->faces.worst,
@@ -49,10 +59,12 @@ int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadMeasureOptions.stream is %u; it takes 0 to 2^31", (unsigned)o->stream);
     uint64_t rays =
-        o->rays ? o->rays : share_of_rays(solution, RAD_MEASURE_SHARE, RAD_MEASURE_LEAST);
+        o->rays ? o->rays
+                : share_of_rays(solution, RAD_MEASURE_SHARE, least_rays(solution, o->surfaces));
     const char *cause;
     measured_error_free(&solution->measured);
-    if (measure_error(&solution->solve, rays, 1 + (uint64_t)o->stream, &solution->measured, &cause)
+    if (measure_error(&solution->solve, rays, 1 + (uint64_t)o->stream, o->surfaces,
+                      &solution->measured, &cause)
         < 0)
         return api_give_up(solution, cause);
     if (report)

@@ -8,6 +8,8 @@
 #include <string.h>
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/surface_error.h"
+#include "engine/tail_error.h"
 #include "engine/transport.h"
 #include "util/clock.h"
 
@@ -97,21 +99,44 @@ static int give_up(const struct solve *s, const char **cause)
     return -1;
 }
 
-int measure_error(struct solve *s, uint64_t rays, uint64_t stream, struct measured_error *m,
-                  const char **cause)
+/* l2 and p999, by about so many rays each. Returns 0, or -1 when cancelled or out of memory. */
+static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t rays, uint64_t stream,
+                            struct measured_error *m)
 {
+    const double *shown = solve_shown(s)->radiosity;
+    struct watched watched = {.solve = s,
+                              .before = m->rays,
+                              .now = (double)rays,
+                              .all = (double)m->rays + 2 * (double)rays};
+    const struct tally_watch watch = {tell, &watched};
+    struct surface_error surface;
+    if (surface_error_measure(s, t, shown, rays, stream, &watch, &surface) < 0)
+        return -1;
+    m->l2 = surface.l2;
+    m->rays += surface.rays;
+    watched.before = m->rays;
+    return tail_error_measure(s, t, shown, rays, stream, &watch, &m->p999, &m->rays);
+}
+
+int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
+                  struct measured_error *m, const char **cause)
+{
+    uint64_t each = surfaces ? rays * 3 / 10 : 0, counted = rays - 2 * each;
     double start = seconds();
     struct tracer t = tracer_of(s);
     struct tally tally = {0};
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
-                         || trace_rays(s, &t, &tally, rays, (double)rays) < 0
+                         || trace_rays(s, &t, &tally, counted, (double)rays) < 0
                          || hold_against(s, &tally, m) < 0
+                         || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
                      : 0;
     tally_close(&tally);
     tracer_close(&t);
     m->seconds = seconds() - start;
+    if (result < 0)
+        measured_error_free(m);
     return result;
 }
 
@@ -149,6 +174,31 @@ static void set_radiosity(const struct light_operator *op, struct state *state,
     }
 }
 
+/* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
+ * emitter's are made no steeper. Returns 0, or -1 when out of memory. */
+static int mend_gradient(struct solve *s)
+{
+    const struct problem *p = &s->problem;
+    size_t values = (size_t)s->hierarchy.count * p->bands;
+    if (!s->linear.gradient)
+        return 0;
+    s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
+    if (!s->mended_gradient)
+        return -1;
+    for (size_t i = 0; i < values; i++) {
+        const struct element *e = &s->hierarchy.elements[i / p->bands];
+        if (!e->vertices)
+            continue;
+        double exitance = p->exitance[(size_t)e->face * p->bands + i % p->bands];
+        double linked = s->state.radiosity[i] - exitance;
+        double ratio = linked > 0 ? (s->mended.radiosity[i] - exitance) / linked : 0;
+        for (size_t c = 0; c < 3; c++)
+            s->mended_gradient[3 * i + c] =
+                s->linear.gradient[3 * i + c] * (exitance > 0 ? fmin(ratio, 1) : ratio);
+    }
+    return 0;
+}
+
 static int mend(struct solve *s, const struct tally *tally)
 {
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
@@ -160,7 +210,8 @@ static int mend(struct solve *s, const struct tally *tally)
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_irradiance(&s->operator, tally, m->irradiance) == 0) {
             set_radiosity(&s->operator, m, s->state.radiosity);
-            return 0;
+            if (mend_gradient(s) == 0)
+                return 0;
         }
     }
     solve_forget_mended(s);

@@ -10,16 +10,18 @@
 /* What a measurement found of the solution that is shown. */
 struct measured_error {
     struct face_error faces;
+    struct RadMeasure l2, p999; /* of surfaces, where they were asked for; else all zero */
     double *element; /* [elements * bands]: B less the truth, as far as it stands out (W/m2) */
     uint64_t rays, particles;
     double seconds;
 };
 
-/* Measure what solve_shown says by about so many rays, with random numbers of a stream that the
+/* Measure what solve_shown says by about so many rays, over the surfaces, too, where that is asked
+ * for (three fifths of the rays go there), with random numbers of a stream that the
  * solution has not been mended with (any but MEND_STREAM). Returns 0, or -1 with *cause set. */
 enum { MEND_STREAM = 0 };
-int measure_error(struct solve *s, uint64_t rays, uint64_t stream, struct measured_error *m,
-                  const char **cause);
+int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
+                  struct measured_error *m, const char **cause);
 void measured_error_free(struct measured_error *m);
 
 /* Mend the radiosities of the links, which a mended solution then shows: particles are traced until

@@ -431,6 +431,8 @@ void solve_forget_mended(struct solve *s)
 {
     free(s->mended.radiosity);
     free(s->mended.irradiance);
+    free(s->mended_gradient);
+    s->mended_gradient = NULL;
     s->mended = (struct state){0};
 }
 

@@ -53,7 +53,8 @@ struct solve {
     struct refinement refinement; /* links and the queue of pairs */
     struct light_operator operator;
     struct state state;
-    struct state mended; /* of state, by particles (measured_error.h); NULLs: it is not */
+    struct state mended;     /* of state, by particles (measured_error.h); NULLs: it is not */
+    double *mended_gradient; /* of linear.gradient, to go with it; NULL: none */
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;

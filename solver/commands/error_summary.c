@@ -17,7 +17,11 @@ int measured_take(struct measured *m, const struct options *o, RadDevice device,
         m->mended = 1;
     }
     if (!o->no_errors) {
-        struct RadMeasureOptions how = {0};
+        struct RadReport report;
+        radGetReport(solution, &report);
+        const struct RadMeasureOptions how = {.surfaces = o->errors != ERRORS_UNSAID
+                                                          || RAD_MEASURE_SHARE * (double)report.rays
+                                                                 > RAD_MEASURE_SURFACES};
         if (radMeasureError(solution, &how, &m->error) < 0)
             return report_device(device, o->scene);
         m->measured = 1;
@@ -104,6 +108,12 @@ void measured_print(const struct measured *m, uint32_t polygons)
                100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright");
     else
         printf("; no large face is surely wrong\n");
+    if (!(e->l2.high > 0))
+        return;
+    fputs("surfaces  root mean square off by ", stdout);
+    print_share(stdout, &e->l2);
+    printf("; 99.9 %% of the area is off by less than %.2g %% (%.2g to %.2g) of the mean\n",
+           100 * e->p999.value, 100 * e->p999.low, 100 * e->p999.high);
 }
 
 static json_t *measure_json(const struct RadMeasure *m)
@@ -111,10 +121,17 @@ static json_t *measure_json(const struct RadMeasure *m)
     return json_pack("{s:f, s:f, s:f}", "value", m->value, "low", m->low, "high", m->high);
 }
 
+/* Of what was measured only where it was asked for. */
+static json_t *surface_json(const struct RadMeasure *m)
+{
+    return m->high > 0 ? measure_json(m) : json_null();
+}
+
 static json_t *report_json(const struct RadErrorReport *r)
 {
-    return json_pack("{s:o, s:o, s:I, s:I, s:f, s:f}", "power", measure_json(&r->power), "l1_faces",
-                     measure_json(&r->l1_faces), "rays", (json_int_t)r->rays, "particles",
+    return json_pack("{s:o, s:o, s:o, s:o, s:I, s:I, s:f, s:f}", "power", measure_json(&r->power),
+                     "l1_faces", measure_json(&r->l1_faces), "l2", surface_json(&r->l2), "p999",
+                     surface_json(&r->p999), "rays", (json_int_t)r->rays, "particles",
                      (json_int_t)r->particles, "reflected", r->reflected, "seconds", r->seconds);
 }
 

@@ -301,7 +301,7 @@ START_TEST(test_same_bits)
         furnished_solve(&s, &scene, ways[i].threads, ways[i].size);
         size_t values = s.hierarchy.count;
         ck_assert_int_eq(measure_and_mend(&s, 0.01, 40000, &alone, &cause), 0);
-        ck_assert_int_eq(measure_error(&s, 20000, 3, &m, &cause), 0);
+        ck_assert_int_eq(measure_error(&s, 20000, 3, 0, &m, &cause), 0);
         if (i == 0) {
             first = m;
             mended = malloc(values * sizeof *mended);
@@ -375,7 +375,7 @@ START_TEST(test_cancel)
     furnished_solve(&s, &scene, 2, 1);
     s.problem.options.progress = stop_particles;
     s.problem.options.context = &told;
-    ck_assert_int_eq(measure_error(&s, 1000000, 1, &m, &cause), -1);
+    ck_assert_int_eq(measure_error(&s, 1000000, 1, 0, &m, &cause), -1);
     ck_assert_str_eq(cause, "cancelled");
     ck_assert_int_gt(told, 0);
     ck_assert_ptr_null(m.element);
@@ -416,7 +416,7 @@ START_TEST(test_bare)
     bare_scene(&scene, _i);
     solve_known(&s, &scene, "bf_guarded");
     ck_assert_int_eq(measure_and_mend(&s, 0.01, 20000, &alone, &cause), 0);
-    ck_assert_int_eq(measure_error(&s, 10000, 1, &m, &cause), 0);
+    ck_assert_int_eq(measure_error(&s, 10000, 1, 0, &m, &cause), 0);
     ck_assert(m.faces.l1.value == 0 && m.faces.l1.low == 0 && m.faces.l1.high == 0);
     ck_assert(m.faces.power.value == 0 && m.faces.reflected == 0);
     ck_assert_uint_eq(m.faces.worst, scene.input_count);

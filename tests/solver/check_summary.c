@@ -23,7 +23,6 @@ static json_t *summarise(char *text, size_t size)
     ck_assert_ptr_nonnull(device);
     RadOracle oracle = radNewOracle(device, "bf", RAD_RELEASE_FLAT);
     ck_assert_ptr_nonnull(oracle);
-    const struct measured measured = {0};
     const struct power_promise promise = {0};
     const struct summary summary = {.options = &options,
                                     .scene = &scene,

@@ -1,0 +1,19 @@
+/* tail_error.h - the error that all but a thousandth of the area is below.
+ * SPDX-License-Identifier: MIT */
+#ifndef TAIL_ERROR_H
+#define TAIL_ERROR_H
+
+#include "engine/solve.h"
+#include "particles/particles.h"
+
+/* The sum over bands of |B~ - B| that 99.9 % of the uncovered, reflecting area is below, over the
+ * area mean of B~ - E, the light reflected; B~ = radiosity[element * bands + band] (W/m2), constant
+ * on leaves. By about so many rays, which are added to *rays; below TAIL_LEAST candidates are
+ * chosen by chance. Another stream, another answer; threads do not show. All zero where nothing
+ * shines or reflects. watch: NULL, or asked. Returns 0, or -1 when out of memory or stopped. */
+enum { TAIL_LEAST = 100000 };
+int tail_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
+                       uint64_t budget, uint64_t stream, const struct tally_watch *watch,
+                       struct RadMeasure *tail, uint64_t *rays);
+
+#endif
