@@ -8,6 +8,7 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
+# make mend-table  build/bin/mend_table, which shows what particles add to the links of a scene
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make bench    what the releases cost, in instructions
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
@@ -216,3 +217,9 @@ factor-rays: $(BUILD)/bin/factor_rays
 $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+# A row of a table: what mending by particles is worth on a scene.
+.PHONY: mend-table
+mend-table: $(BUILD)/bin/mend_table
+$(BUILD)/bin/mend_table: $(BUILD)/tests/runtime/mend_table.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)

@@ -959,7 +959,8 @@ REFINER_OUTLINE double refiner_hemicube_factor(const struct refiner_element *r, 
         if (nearest > 0) /* else all of s is behind this face */
             sum += refiner_hemicube_sum(&f, (const double(*)[3])plane, q.n, pixels);
     }
-    return refiner_polygon_factor_hidden(r, s, sum * r->area) ? 0 : sum;
+    /* pixels are taken at their middles: all of them together make 1.00003 */
+    return refiner_polygon_factor_hidden(r, s, sum * r->area) ? 0 : fmin(sum, 1);
 }
 
 /* sampler.h - evenly spread points of the part of a surface that another surface's plane leaves in

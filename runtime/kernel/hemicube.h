@@ -106,7 +106,8 @@ OUTLINE double hemicube_factor(const struct element *r, const struct element *s,
         if (nearest > 0) /* else all of s is behind this face */
             sum += hemicube_sum(&f, (const double(*)[3])plane, q.n, pixels);
     }
-    return polygon_factor_hidden(r, s, sum * r->area) ? 0 : sum;
+    /* pixels are taken at their middles: all of them together make 1.00003 */
+    return polygon_factor_hidden(r, s, sum * r->area) ? 0 : fmin(sum, 1);
 }
 
 #endif

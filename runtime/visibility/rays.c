@@ -12,6 +12,7 @@
 #include <string.h>
 #include <time.h>
 #include <omp.h>
+#include "visibility/back_faces.h"
 #include "visibility/candidates.h"
 #include "util/embree.h"
 #include "kernel/constants.h"
@@ -32,9 +33,9 @@ struct rays {
     const struct hierarchy *hierarchy; /* borrowed */
     RTCDevice device;
     RTCScene scene;
-    double origin[3], scale;  /* Embree's coordinates: (x - origin) * scale */
-    unsigned char *two_sided; /* by Embree's primitive: its back is no inside */
-    uint32_t *face;           /* by Embree's primitive: its front */
+    double origin[3], scale; /* Embree's coordinates: (x - origin) * scale */
+    uint32_t *face;          /* by Embree's primitive: its front */
+    uint32_t *behind;        /* by face: what is met from behind (back_faces.h) */
     int threads;
     struct tally *tallies; /* [threads] */
 };
@@ -175,9 +176,10 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
     unsigned *indices;
     indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
                                       4 * sizeof *indices, solid);
-    rays->two_sided = calloc(solid, 1);
     rays->face = malloc(solid * sizeof *rays->face);
-    if (!vertices || !indices || !rays->two_sided || !rays->face) {
+    rays->behind = malloc(h->face_count * sizeof *rays->behind);
+    if (!vertices || !indices || !rays->face || !rays->behind
+        || back_faces_find(h, rays->behind) < 0) {
         rtcReleaseGeometry(geometry);
         return NULL;
     }
@@ -193,9 +195,7 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
                     (float)((v[k] - rays->origin[k]) * rays->scale);
             indices[4 * (size_t)n + j] = 4 * n + j;
         }
-        rays->face[n] = i;
-        rays->two_sided[n] = i + 1 < h->face_count && f[1].back && f[1].input == f->input;
-        n++;
+        rays->face[n++] = i;
     }
     rtcCommitGeometry(geometry);
     return geometry;
@@ -293,7 +293,8 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
         if (normal)
             normal[k] = (behind ? -side[k] : side[k]) / size;
     }
-    return behind && !rays->two_sided[query.hit.primID] ? RAY_MEETS_BACK : RAY_MEETS_FRONT;
+    return behind && rays->behind[rays->face[query.hit.primID]] == BLACK_BACK ? RAY_MEETS_BACK
+                                                                              : RAY_MEETS_FRONT;
 }
 
 int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],
@@ -301,11 +302,13 @@ int64_t rays_meet(const struct rays *rays, const double from[3], const double di
 {
     _Alignas(16) struct RTCRayHit query;
     int behind;
-    if (!first_hit(rays, from, direction, &query, &behind)
-        || (behind && !rays->two_sided[query.hit.primID]))
+    if (!first_hit(rays, from, direction, &query, &behind))
         return RAY_MEETS_NO_FRONT;
+    uint32_t face = rays->face[query.hit.primID];
+    if (behind)
+        face = rays->behind[face];
     *distance = (double)query.ray.tfar;
-    return (int64_t)rays->face[query.hit.primID] + behind;
+    return face == BLACK_BACK ? RAY_MEETS_NO_FRONT : (int64_t)face;
 }
 
 int rays_blocked(const struct rays *rays, const double from[3], const double direction[3])
@@ -346,8 +349,8 @@ void rays_close(struct rays *rays)
         rtcReleaseScene(rays->scene);
     if (rays->device)
         rtcReleaseDevice(rays->device);
-    free(rays->two_sided);
     free(rays->face);
+    free(rays->behind);
     free(rays->tallies);
     free(rays);
 }

@@ -160,7 +160,7 @@ START_TEST(test_declared)
         refiner_close(dag);
     }
     ck_assert_int_ge(reading, 2);
-    ck_assert_int_eq(roles, 4);
+    ck_assert_int_ge(roles, 20); /* thresholds and smallest parts besides */
 }
 END_TEST
 

@@ -307,9 +307,12 @@ START_TEST(test_clusters)
 }
 END_TEST
 
+/* kinds of form factor from the disc on: 1 / d^2 has no bound */
+enum { LEVELS = FORM_FACTOR_CONTOUR - FORM_FACTOR_DISC + 1 };
+
 /* Everything the tools of a pair can say, as bits. */
 struct said {
-    double f[4], sampled[2], bounded[2], at_r[2], at_s[2], distance[2], gradient[3];
+    double f[LEVELS], sampled[2], bounded[2], at_r[2], at_s[2], distance[2], gradient[3];
     int answer[8];
 };
 
@@ -321,7 +324,7 @@ static void say(const struct two *t, double flat, double unit, struct said *said
     struct discussion d;
     for (int level = FORM_FACTOR_DISC; level <= FORM_FACTOR_CONTOUR; level++) {
         d = two_discussion(t);
-        said->f[level - 1] = term_form_factor(&d, (enum form_factor_level)level);
+        said->f[level - FORM_FACTOR_DISC] = term_form_factor(&d, (enum form_factor_level)level);
     }
     d.host = &host;
     memcpy(said->sampled, term_form_factor_range(&d, FORM_FACTOR_RANGE_SAMPLED),
@@ -351,7 +354,7 @@ static const double *numbers(const struct said *said)
     return said->f;
 }
 
-enum { NUMBERS = 17 };
+enum { NUMBERS = 13 + LEVELS };
 
 /* The unit of length, any power of two from 2^-20 to 2^40, changes no bit. */
 START_TEST(test_scale)
@@ -416,8 +419,9 @@ START_TEST(test_degenerate)
             for (int k = 0; k < NUMBERS; k++)
                 ck_assert_msg(isfinite(numbers(&said)[k]), "%d and %d: number %d is %g", i, j, k,
                               numbers(&said)[k]);
-            for (int k = 0; k < 4; k++)
-                ck_assert(said.f[k] >= 0 && said.f[k] <= 1);
+            for (int k = 0; k < LEVELS; k++)
+                ck_assert_msg(said.f[k] >= 0 && said.f[k] <= 1, "%d and %d: kind %d is %g", i, j, k,
+                              said.f[k]);
             ck_assert(said.bounded[0] <= said.sampled[0] && said.sampled[1] <= said.bounded[1]);
             if (j > i) {
                 struct discussion d = two_discussion(&t), e = d;

@@ -72,7 +72,8 @@ static double difference(const char *path, const char *reference)
  * faces against the reference. */
 START_TEST(test_table)
 {
-    ck_assert_int_eq(run("solve " SCENE " --oracle bf_guarded --set relative=0.05 -q --faces %s%s",
+    ck_assert_int_eq(run("solve " SCENE
+                         " --no-correct --oracle bf_guarded --set relative=0.05 -q --faces %s%s",
                          in_folder("reference.csv"), ""),
                      0);
     ck_assert_int_eq(run("study clustering " SCENE " " HOW " --reference %s -o %s",
@@ -100,7 +101,8 @@ START_TEST(test_table)
         ck_assert_str_eq(name, clustering_names[i]);
         snprintf(more, sizeof more, "--json %s --faces %s", in_folder("one.json"),
                  in_folder("one.csv"));
-        ck_assert_int_eq(run("solve " SCENE " " HOW " --clusters %s %s", name, more), 0);
+        ck_assert_int_eq(run("solve " SCENE " --no-correct " HOW " --clusters %s %s", name, more),
+                         0);
         json_t *json = json_load_file(in_folder("one.json"), 0, NULL);
         ck_assert_ptr_nonnull(json);
         ck_assert_uint_eq(
@@ -161,8 +163,9 @@ END_TEST
 START_TEST(test_sample)
 {
     char line[512], name[8];
-    ck_assert_int_eq(
-        run("solve " SCENE " " HOW " --clusters kd --faces %s%s", in_folder("whole.csv"), ""), 0);
+    ck_assert_int_eq(run("solve " SCENE " --no-correct " HOW " --clusters kd --faces %s%s",
+                         in_folder("whole.csv"), ""),
+                     0);
     FILE *in = fopen(in_folder("whole.csv"), "r");
     FILE *out = fopen(in_folder("sample.csv"), "w");
     ck_assert(in && out && fgets(line, sizeof line, in));
