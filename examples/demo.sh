@@ -22,12 +22,13 @@ cmp -s "$out/$oracle.c" "$build/gen/oracles/$oracle.c" || { echo "demo: radiosit
 solve() { # NAME VIEW SIZE
     scene=examples/scenes/$1.obj
     "$build/bin/radiosity" solve "$scene" --oracle $oracle -q -o "$out/$1.ply" --faces "$out/$1.csv" \
-        --json "$out/$1.json" --image "$out/$1.png" --view "$2" --size "$3"
+        --json "$out/$1.json" --image "$out/$1.png" --image-error "$out/$1-error.png" --view "$2" --size "$3"
     "$build/bin/radiosity" solve "$scene" --oracle $oracle -q --mesh --image "$out/$1-mesh.png" --view "$2" --size "$3"
     echo "   $scene:"
     echo "     solution      $out/$1.ply  (the pieces, coloured; for any mesh viewer)"
     echo "     picture       $out/$1.png"
     echo "     mesh picture  $out/$1-mesh.png"
+    echo "     error         $out/$1-error.png  (where it is too bright or too dark, as measured)"
     echo "     faces         $out/$1.csv  (mean light of each face)"
     echo "     counts        $out/$1.json"
 }
@@ -35,8 +36,9 @@ echo "2. Solve two scenes"
 solve room 0.4,0.3,1.9:2.4,3.4,0.7 1024x768
 solve cornell 0.278,0.273,-0.8:0.278,0.273,1:39 768x768
 
-number() { # SCENE KEY: the number behind "KEY" in the scene's JSON; "rays" is a parameter too, so the last counts
-    value=$(sed -n "s/^ *\"$2\": \([-+.0-9eE]*\),*$/\1/p" "$out/$1.json" | tail -n 1)
+number() { # SCENE KEY: the number behind "KEY" in the scene's JSON, the first that stands least deep
+    value=$(sed -n "s/^\( *\)\"$2\": \([-+.0-9eE]*\),*$/\1|\2/p" "$out/$1.json" | LC_ALL=C sort -s -t '|' -k 1,1 | head -n 1)
+    value=${value#*|}
     [ -n "$value" ] || { echo "demo: no \"$2\" in $out/$1.json" >&2; exit 1; }
     echo "$value"
 }
@@ -44,11 +46,13 @@ say() { # SCENE: three lines of the summary
     awk -v name="$1" -v faces="$(number "$1" faces)" -v leaves="$(number "$1" leaves)" -v links="$(number "$1" links)" \
         -v pairs="$(number "$1" pairs)" -v rays="$(number "$1" rays)" -v emitted="$(number "$1" power_emitted)" \
         -v absorbed="$(number "$1" power_absorbed)" -v lost="$(number "$1" power_imbalance)" \
+        -v off="$(sed -n '/"l1_faces"/,/}/s/^ *"high": \([^,]*\).*/\1/p' "$out/$1.json" | head -n 1)" \
         -v threads="$(number "$1" threads)" -v refine="$(number "$1" refine)" -v iterate="$(number "$1" iterate)" 'BEGIN {
         printf "   %s: %d faces became %d pieces; %d decisions left %d links instead of %.0f million pairs.\n",
             name, faces, leaves, pairs, links, leaves * leaves / 1e6
-        printf "   %s: the emitters send %.4g W, the surfaces absorb %.4g W; the %.1f %% between them are error.\n",
+        printf "   %s: the emitters send %.4g W, the surfaces absorb %.4g W; %.1f %% of it is lost or gained.\n",
             name, emitted, absorbed, 100 * (lost < 0 ? -lost : lost)
+        printf "   %s: measured by particles, the light of its faces is off by at most %.2g %%.\n", name, 100 * off
         printf "   %s: solved in %.1f s on %d thread%s, with %.1f million shadow rays.\n",
             name, refine + iterate, threads, threads == 1 ? "" : "s", rays / 1e6
     }'

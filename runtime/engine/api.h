@@ -63,6 +63,7 @@ struct RadSolutionObject {
     RadOracle oracle;
     struct camera camera;
     struct solve solve;
+    uint64_t mending_rays;          /* of the last radCorrect */
     struct measured_error measured; /* .element NULL: nothing has been, or not what is shown */
     int done;                       /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */

@@ -3,10 +3,10 @@
 #include <string.h>
 #include "engine/api.h"
 
-/* A share of the rays that links have cast, but no fewer than `least`. */
-static uint64_t share_of_rays(RadSolution solution, double share, uint64_t least)
+/* A share of the rays that links have cast, and `more` besides, but no fewer than `least`. */
+static uint64_t share_of_rays(RadSolution solution, double share, double more, uint64_t least)
 {
-    double rays = share * (double)rays_count(solution->solve.problem.rays).rays;
+    double rays = share * (double)rays_count(solution->solve.problem.rays).rays + more;
     return rays > (double)least ? (uint64_t)rays : least;
 }
 
@@ -58,9 +58,10 @@ int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,
     if (o->stream > 1u << 31)
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadMeasureOptions.stream is %u; it takes 0 to 2^31", (unsigned)o->stream);
-    uint64_t rays =
-        o->rays ? o->rays
-                : share_of_rays(solution, RAD_MEASURE_SHARE, least_rays(solution, o->surfaces));
+    uint64_t rays = o->rays ? o->rays
+                            : share_of_rays(solution, RAD_MEASURE_SHARE,
+                                            RAD_MEASURE_MENDED * (double)solution->mending_rays,
+                                            least_rays(solution, o->surfaces));
     const char *cause;
     measured_error_free(&solution->measured);
     if (measure_error(&solution->solve, rays, 1 + (uint64_t)o->stream, o->surfaces,
@@ -112,12 +113,13 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                         o->noise);
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
     uint64_t rays =
-        o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_SHARE, RAD_CORRECT_LEAST);
+        o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_SHARE, 0, RAD_CORRECT_LEAST);
     struct measured_error links;
     const char *cause;
     measured_error_free(&solution->measured);
     if (measure_and_mend(&solution->solve, noise, rays, &links, &cause) < 0)
         return api_give_up(solution, cause);
+    solution->mending_rays = links.rays;
     if (alone)
         *alone = report_of(&links);
     measured_error_free(&links);
