@@ -8,7 +8,7 @@
  *     q = q~ + k (q^ - q~),   k = max(0, 1 - sum s^2 / sum m^2),   m = q^ - q~,
  * one k for the children of one element, s the standard errors of m: what particles see is believed
  * as far as it stands out of their noise. Both are shares, so none is below 0, and power is neither
- * made nor lost on the way down. The root takes k of what it lacks.
+ * made nor lost on the way down. The root takes k of what it lacks, a class of its own.
  *
  * sum m^2 of two or four children is a noisy thing itself. So elements are put in classes, clusters
  * or surfaces by how many particles they met: within a class noise is alike, and what is seen of it
@@ -160,7 +160,8 @@ static void mend_root(struct mending *m, uint32_t k)
                    - m->received[place(m, 0, k)];
         noise += d * d / (REPLICATES * (REPLICATES - 1.0));
     }
-    double belief = off * off > noise ? 1 - noise / (off * off) : 0;
+    const struct sight own = {off * off, noise, 1};
+    double belief = believed(&own, &own);
     m->irradiance[place(m, 0, k)] =
         (m->linked[place(m, 0, k)] + belief * off) / h->elements[0].area;
 }
