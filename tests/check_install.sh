@@ -274,7 +274,7 @@ for option in $(sed -n -e 's/\\-/-/g' -e 's/.*Fl \(--*[a-z-]*\).*/-\1/p' "$top/s
 done
 # README tells of them in words of its own: of no option that there is not.
 sed -n 's/^| \(`-[^|]*`\) |.*/\1/p; s/^| \(`-.*`\) | .*/\1/p' "$top/README.md" | grep -o '`--*[a-z-]*' | tr -d '`' | sort -u >told
-sed 's/ .*//' all | sort -u >known
+sed 's/[[ ].*//' all | sort -u >known
 check "README has a table of options" sh -c "[ \$(wc -l <told) -gt 15 ]"
 check "README's options are radiosity's" sh -c "! comm -23 told known | grep ."
 

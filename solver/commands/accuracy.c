@@ -100,10 +100,13 @@ static int mend_and_measure(struct work *w, uint64_t rays)
     return 0;
 }
 
-/* What ends the work before the error is reached; NULL: nothing. */
+/* What ends the work before the error is reached; NULL: nothing. A step that would take too long,
+ * by the time that rays have taken so far, is not begun. */
 static const char *limit(const struct work *w, double next_rays)
 {
-    if (w->o->limit_seconds > 0 && seconds() - w->start > w->o->limit_seconds)
+    double spent = seconds() - w->start;
+    if (w->o->limit_seconds > 0
+        && spent * (1 + next_rays / fmax(1, (double)w->a->rays)) > w->o->limit_seconds)
         return "time (--limit-seconds)";
     return (double)w->a->rays + next_rays > ACCURACY_RAYS ? "the guard on rays" : NULL;
 }

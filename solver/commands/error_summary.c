@@ -112,8 +112,11 @@ void measured_print(const struct measured *m, uint32_t polygons)
         return;
     fputs("surfaces  root mean square off by ", stdout);
     print_share(stdout, &e->l2);
-    printf("; 99.9 %% of the area is off by less than %.2g %% (%.2g to %.2g) of the mean\n",
-           100 * e->p999.value, 100 * e->p999.low, 100 * e->p999.high);
+    if (e->p999.low > 0)
+        printf("; 99.9 %% of the area by less than %.2g %% (%.2g to %.2g) of the mean\n",
+               100 * e->p999.value, 100 * e->p999.low, 100 * e->p999.high);
+    else
+        printf("; too few rays to say how far single spots are\n");
 }
 
 static json_t *measure_json(const struct RadMeasure *m)

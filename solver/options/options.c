@@ -29,7 +29,7 @@ static void print_lines(int studies)
             continue;
         char left[32];
         snprintf(left, sizeof left, "%s %s", c->name, c->argument);
-        printf("  %-23s %s\n", left, c->help);
+        printf("  %-24s %s\n", left, c->help);
     }
 }
 
@@ -52,7 +52,8 @@ static int print_help(void)
            "  --version               the version\n"
            "\n"
            "Messages go to standard error. Exit status: 0 done; 1 the scene, an oracle or a\n"
-           "file is at fault, and nothing half-written is left; 2 wrong usage.\n");
+           "file is at fault, and nothing half-written is left; 2 wrong usage; 3 --accuracy\n"
+           "was not kept.\n");
     return 0;
 }
 
