@@ -110,9 +110,9 @@ START_TEST(test_rays_unbiased)
         else if (i == 2)
             two_parallel(&t, 1, 1, 7);
         else
-            do
-                two_random(&t, 0, 0, 1, &state);
-            while (polygon_factor(t.a, t.b, 1) < 0.05);
+            for (two_random(&t, 0, 0, 1, &state); polygon_factor(t.a, t.b, 1) < 0.05;
+                 two_random(&t, 0, 0, 1, &state))
+                two_close(&t);
         const double f = polygon_factor(t.a, t.b, 1);
         double sum = 0, squares = 0;
         struct element r = *t.a, s = *t.b;
