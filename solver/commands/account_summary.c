@@ -55,7 +55,8 @@ static int largest(const struct RadErrorNorms *norms)
 void account_print(const struct RadAccountReport *r)
 {
     int most = largest(r->estimate);
-    printf("account   how far B may be off, by cause: W, as a share of the reflected light; root "
+    printf("account   how far B by links alone may be off, by cause: W, as a share of the "
+           "reflected light; root "
            "mean square, W/m2 m; worst point, W/m2\n"
            "          %-14s  likely                              at the most\n",
            "");

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include "commands/account_summary.h"
 #include "commands/error_summary.h"
+#include "util/clock.h"
 #include "util/device.h"
 #include "util/report.h"
 
@@ -32,8 +33,10 @@ int measured_take(struct measured *m, const struct options *o, RadDevice device,
 int measured_account(struct measured *m, const struct options *o, RadDevice device,
                      RadSolution solution)
 {
+    double start = seconds();
     if (radAccountErrors(solution, &o->account, &m->account) < 0)
         return report_device(device, o->scene);
+    m->account_seconds = seconds() - start;
     m->accounted = 1;
     return 0;
 }
@@ -80,7 +83,8 @@ void measured_warn(const struct measured *m, const char *where)
 
 double measured_seconds(const struct measured *m)
 {
-    return (m->mended ? m->alone.seconds : 0) + (m->measured ? m->error.seconds : 0);
+    return (m->mended ? m->alone.seconds : 0) + (m->measured ? m->error.seconds : 0)
+           + (m->accounted ? m->account_seconds : 0);
 }
 
 void measured_print(const struct measured *m, uint32_t polygons)

@@ -13,6 +13,7 @@ struct measured {
     struct RadErrorReport error; /* of what is shown, by others */
     int accounted;
     struct RadAccountReport account; /* of what the links alone say, by cause */
+    double account_seconds;
 };
 
 /* Mend and measure as the options say. Returns 0, or -1 after a message. */
