@@ -204,7 +204,7 @@ static int apply(const struct bounding *g)
 
 /* Sweep with the weights as they are until it changes little beside what is there to be found, in
  * the mean. */
-static void settle(const struct bounding *g, double enough)
+static void bracket_until(const struct bounding *g, double enough)
 {
     const struct light_bounds *b = g->b;
     double most = INFINITY;
@@ -287,7 +287,7 @@ int light_bounds_solve(const struct light_bounds *b)
         beyond = overshoot(&g, &moved) / (1 - b->rho_most);
         if (beyond <= BOUND_ENOUGH * moved || n == POLICIES - 1)
             break;
-        settle(&g, 0.25 * BOUND_ENOUGH * (1 - b->rho_most) * moved);
+        bracket_until(&g, 0.25 * BOUND_ENOUGH * (1 - b->rho_most) * moved);
     }
     finish(&g, beyond);
     free(g.next);

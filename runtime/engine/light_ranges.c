@@ -136,7 +136,7 @@ static int find_between(const struct walk *w, const struct element *e, const str
     return list.covered ? 0 : list.count == 0 ? 1 : -1;
 }
 
-static void take(struct walk *w, uint32_t e, struct holder from);
+static void range_below(struct walk *w, uint32_t e, struct holder from);
 
 static void take_children(struct walk *w, uint32_t e, struct holder from)
 {
@@ -145,7 +145,7 @@ static void take_children(struct walk *w, uint32_t e, struct holder from)
     if (opens && !open_group(w, x))
         return;
     for (int c = 0; c < x->children; c++)
-        take(w, x->child + (uint32_t)c, from);
+        range_below(w, x->child + (uint32_t)c, from);
     if (opens)
         w->group = 0;
 }
@@ -186,7 +186,7 @@ static double cluster_share(const struct element *leaf, const struct element *cl
 }
 
 /* Shares of e, which `from` holds. */
-static void take(struct walk *w, uint32_t e, struct holder from)
+static void range_below(struct walk *w, uint32_t e, struct holder from)
 {
     const struct element *x = &w->elements[e];
     if (w->linked[e]) {
@@ -215,7 +215,7 @@ static void find_row(struct walk *w, uint32_t leaf)
     w->leaf = &w->elements[leaf];
     w->share_count = w->group_count = 0;
     w->group = 0;
-    take(w, 0, (struct holder){0, NULL});
+    range_below(w, 0, (struct holder){0, NULL});
     row->share_count = (uint32_t)w->share_count;
     row->group_count = (uint32_t)w->group_count;
     row->shares = malloc((w->share_count + 1) * sizeof *row->shares);

@@ -65,7 +65,7 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
 }
 
 /* What the tally, which nothing of the shown solution comes from, says of it. */
-static int hold_against(struct solve *s, const struct tally *tally, struct measured_error *m)
+static int measure_against(struct solve *s, const struct tally *tally, struct measured_error *m)
 {
     const struct state *shown = solve_shown(s);
     const struct problem *p = &s->problem;
@@ -128,7 +128,7 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
                          || trace_rays(s, &t, &tally, counted, (double)rays) < 0
-                         || hold_against(s, &tally, m) < 0
+                         || measure_against(s, &tally, m) < 0
                          || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
                      : 0;
@@ -236,7 +236,7 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measur
         failed = trace_rays(s, &t, &tally, goal, fmin(all, (double)most)) < 0
                  || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, &tally, &left) < 0;
     }
-    failed = failed || hold_against(s, &tally, alone) < 0 || mend(s, &tally) < 0;
+    failed = failed || measure_against(s, &tally, alone) < 0 || mend(s, &tally) < 0;
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

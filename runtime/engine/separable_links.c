@@ -213,8 +213,8 @@ void separable_links_send(const struct separable_links *c, int bands, const doub
 }
 
 /* What face i of `faces` takes of the link's J. */
-static float take(const struct separable_links *c, const struct separable_faces *faces, size_t i,
-                  const struct separable_link *b)
+static float taken_by(const struct separable_links *c, const struct separable_faces *faces,
+                      size_t i, const struct separable_link *b)
 {
     return c->centres ? separable_kernel_at_centre(faces, i, &b->s)
                       : separable_kernel(faces, i, &b->s);
@@ -235,7 +235,7 @@ void separable_links_gather(const struct separable_links *c, int bands, uint32_t
         struct separable_side side;
         side_open(c, &side, e);
         for (size_t b = c->first[e]; b < c->first[e + 1]; b++) {
-            double value = (double)take(c, &side.faces, 0, &c->links[b]);
+            double value = (double)taken_by(c, &side.faces, 0, &c->links[b]);
             for (size_t k = 0; k < count; k++)
                 h[k] += (double)c->arrives[b * count + k] * value;
         }
@@ -266,10 +266,10 @@ double separable_links_takes(const struct separable_links *c, size_t b, uint32_t
 {
     const struct element *x = &c->hierarchy->elements[e];
     if (x->depth == 0)
-        return (double)take(c, &c->faces, c->place[x->face], &c->links[b]);
+        return (double)taken_by(c, &c->faces, c->place[x->face], &c->links[b]);
     struct separable_side side;
     side_open(c, &side, e);
-    return (double)take(c, &side.faces, 0, &c->links[b]);
+    return (double)taken_by(c, &side.faces, 0, &c->links[b]);
 }
 
 double separable_links_at(const struct separable_links *c, const struct separable_link *b,

@@ -22,7 +22,7 @@
 #define RAYS_MOST (1u << 26)
 #define RAYS_SHARE 4.0
 
-static void look(struct power_promise *p, const struct measured *m)
+static void judge_promise(struct power_promise *p, const struct measured *m)
 {
     const double reflected = m->error.reflected;
     p->value = m->error.l1_faces.value * reflected;
@@ -41,7 +41,7 @@ int power_promise_hold(struct power_promise *p, struct measured *m, const struct
         .tolerance = report.power_tolerance, .value = -1, .bands = report.bands};
     if (!(p->tolerance > 0) || !m->measured)
         return 0;
-    look(p, m);
+    judge_promise(p, m);
     if (p->high <= p->tolerance)
         return 0;
     const double most = fmax(RAYS_MOST, RAYS_SHARE * (double)report.rays);
@@ -58,7 +58,7 @@ int power_promise_hold(struct power_promise *p, struct measured *m, const struct
     }
     if (radMeasureError(solution, &other, &m->error) < 0)
         return report_device(device, o->scene);
-    look(p, m);
+    judge_promise(p, m);
     return 0;
 }
 

@@ -132,7 +132,7 @@ static const char *time_text(double s, char text[32])
     return text;
 }
 
-static int show(void *context, const struct RadProgress *at)
+static int show_progress(void *context, const struct RadProgress *at)
 {
     struct run *r = context;
     char gone[32], left[32];
@@ -389,7 +389,7 @@ int command_reference(const struct options *o, const struct open_scene *scene)
     snprintf(r.state, length, "%s.state", o->out);
     int status = 1;
     progress_start(&r.progress, o->quiet);
-    radSetDeviceProgressFunction(scene->device, show, &r);
+    radSetDeviceProgressFunction(scene->device, show_progress, &r);
     watch_signals(on_signal);
     if (atomic_check(r.state) == 0) {
         r.reference = radNewReference(scene->scene);
