@@ -208,8 +208,8 @@ static void tell(const char *kind, struct results *r)
     }
     printf("\n");
     ck_assert_int_eq(r->below, 0);
-    /* an estimate is good to a factor of three, in the median */
-    for (int k = 0; k < NORMS; k++) {
+    /* an estimate is good to a factor of three, in the median: of one or two there is none */
+    for (int k = 0; k < NORMS && r->count >= 5; k++) {
         ck_assert_double_gt(r->near[k][r->count / 2], 1 / 3.0);
         ck_assert_double_lt(r->near[k][r->count / 2], 3);
     }
