@@ -7,7 +7,6 @@
  * together. All against REFERENCE rays of particles of other random numbers, whose own noise on
  * leaves is printed last: it is part of every error of leaves.
  * SPDX-License-Identifier: MIT */
-#include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,10 +60,11 @@ static struct errors errors_of(const struct solve *s, const double *got, const d
 static struct tally traced(const struct tracer *t, uint64_t stream, double rays)
 {
     struct tally tally;
-    ck_assert_int_eq(tally_open(&tally, t, stream, 1), 0);
-    ck_assert_int_eq(tally_trace(&tally, t, 64, NULL), 0);
+    if (tally_open(&tally, t, stream, 1) < 0)
+        exit(1);
+    tally_trace(&tally, t, 64, NULL);
     double more = tally.rays > 0 ? 64 * rays / (double)tally.rays - 64 : 0;
-    ck_assert_int_eq(tally_trace(&tally, t, more > 1 ? (uint64_t)more : 1, NULL), 0);
+    tally_trace(&tally, t, more > 1 ? (uint64_t)more : 1, NULL);
     return tally;
 }
 
@@ -100,19 +100,24 @@ int main(int count, char **arguments)
     struct scene scene;
     if (scene_read(&scene, arguments[1], &how) < 0)
         return 1;
-    char *none[] = {NULL};
     struct solve s;
     struct solve_options options = quick(2);
     options.tolerance = 1e-4;
-    solve_with(&s, &scene, count > 4 ? arguments[4] : "clusters", RELEASE_FLAT,
-               count > 5 ? arguments + 5 : none, options);
+    struct refiner *oracle = oracles_open(count > 4 ? arguments[4] : "clusters", RELEASE_FLAT);
+    const char *cause = "no such oracle or parameter";
+    if (!oracle || oracles_set(oracle, arguments + 5, count > 5 ? count - 5 : 0) < 0
+        || solve_open(&s, &scene, &options, &cause) < 0 || solve_run(&s, oracle, &cause) < 0) {
+        fprintf(stderr, "mend_table: %s\n", cause);
+        return 1;
+    }
     struct tracer t = {.hierarchy = &s.hierarchy,
                        .rays = s.problem.rays,
                        .exitance = s.problem.exitance,
                        .reflectance = s.problem.reflectance,
                        .bands = s.problem.bands,
                        .threads = 2};
-    ck_assert_int_eq(tracer_open(&t), 0);
+    if (tracer_open(&t) < 0)
+        return 1;
     double reference = atof(arguments[2]), rays = atof(arguments[3]),
            linked = (double)rays_count(s.problem.rays).rays;
     struct tally true_tally = traced(&t, 1000, reference), tally = traced(&t, 0, rays);
@@ -120,7 +125,8 @@ int main(int count, char **arguments)
     size_t values = (size_t)s.hierarchy.count * s.problem.bands;
     double *mended = malloc(values * sizeof *mended);
     memcpy(mended, s.state.irradiance, values * sizeof *mended);
-    ck_assert_int_eq(mend_irradiance(&s.operator, & tally, mended), 0);
+    if (mend_irradiance(&s.operator, & tally, mended) < 0)
+        return 1;
     struct errors links = by_links(&s, s.state.irradiance, truth),
                   both = by_links(&s, mended, truth), same = by_particles(&s, &t, 1, rays, truth),
                   all = by_particles(&s, &t, 2, rays + linked, truth),
