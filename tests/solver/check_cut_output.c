@@ -6,7 +6,6 @@
  * side, dark on the other, black under the box.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <dirent.h>
 #include <math.h>
 #include <png.h>
 #include <stdio.h>
@@ -25,16 +24,8 @@
 #include "output/faces_csv.h"
 #include "output/image.h"
 #include "output/leaf_mesh.h"
+#include "folder.h"
 #include "suite.h"
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char path[512];
-    snprintf(path, sizeof path, "%.60s/%.200s", folder, name);
-    return path;
-}
 
 static const char materials[] =
     "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl wall_2s\nKd 0.2 0.2 0.2\nnewmtl box\nKd 0.3 0.3 0.3\n";
@@ -329,25 +320,11 @@ START_TEST(test_table)
 }
 END_TEST
 
-static void remove_folder(void)
-{
-    DIR *d = opendir(folder);
-    struct dirent *e;
-    while (d && (e = readdir(d)))
-        if (e->d_name[0] != '.')
-            unlink(in_folder(e->d_name));
-    if (d)
-        closedir(d);
-    rmdir(folder);
-}
-
 int main(void)
 {
-    const char *temporary = getenv("TMPDIR");
     Suite *suite = suite_create("what is written of cut faces");
     TCase *c = tcase_create("output");
-    snprintf(folder, sizeof folder, "%.40s/check_cut.XXXXXX", temporary ? temporary : "/tmp");
-    if (!mkdtemp(folder))
+    if (folder_make("cut") < 0)
         return EXIT_FAILURE;
     tcase_set_timeout(c, 60);
     tcase_add_test(c, test_walls_part);
@@ -357,6 +334,6 @@ int main(void)
     tcase_add_test(c, test_table);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    remove_folder();
+    folder_remove();
     return failed != 0;
 }

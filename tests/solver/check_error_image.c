@@ -4,7 +4,6 @@
  * pixel is known.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <dirent.h>
 #include <math.h>
 #include <omp.h>
 #include <png.h>
@@ -17,18 +16,8 @@
 #include "output/bitmap_text.h"
 #include "output/error_image.h"
 #include "output/image.h"
+#include "folder.h"
 #include "suite.h"
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char path[16][512];
-    static int turn;
-    turn = (turn + 1) % 16;
-    snprintf(path[turn], sizeof path[turn], "%.60s/%.200s", folder, name);
-    return path[turn];
-}
 
 /* ---- a row of squares, 1 m wide, that the eye looks at ---- */
 
@@ -455,22 +444,9 @@ START_TEST(test_broken)
 }
 END_TEST
 
-static void remove_folder(void)
-{
-    DIR *d = opendir(folder);
-    for (struct dirent *e; d && (e = readdir(d));)
-        if (e->d_name[0] != '.')
-            unlink(in_folder(e->d_name));
-    if (d)
-        closedir(d);
-    rmdir(folder);
-}
-
 int main(void)
 {
-    const char *temporary = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%.40s/check_error.XXXXXX", temporary ? temporary : "/tmp");
-    if (!mkdtemp(folder))
+    if (folder_make("error") < 0)
         return EXIT_FAILURE;
     Suite *suite = suite_create("error image");
     TCase *t = tcase_create("error image");
@@ -487,6 +463,6 @@ int main(void)
     tcase_add_test(t, test_broken);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
-    remove_folder();
+    folder_remove();
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

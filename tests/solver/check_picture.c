@@ -4,7 +4,6 @@
  * that say where a face stands. Files are written to a folder of their own, removed at the end.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
-#include <dirent.h>
 #include <math.h>
 #include <png.h>
 #include <stdio.h>
@@ -23,18 +22,8 @@
 #include "output/image.h"
 #include "output/leaf_mesh.h"
 #include "output/raster.h"
+#include "folder.h"
 #include "suite.h"
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char path[16][512];
-    static int turn;
-    turn = (turn + 1) % 16;
-    snprintf(path[turn], sizeof path[turn], "%.60s/%.200s", folder, name);
-    return path[turn];
-}
 
 /* ---- a solution made by hand ---- */
 
@@ -766,22 +755,9 @@ START_TEST(test_ply_bytes)
 }
 END_TEST
 
-static void remove_folder(void)
-{
-    DIR *d = opendir(folder);
-    for (struct dirent *e; d && (e = readdir(d));)
-        if (e->d_name[0] != '.')
-            unlink(in_folder(e->d_name));
-    if (d)
-        closedir(d);
-    rmdir(folder);
-}
-
 int main(void)
 {
-    const char *temporary = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%.40s/check_picture.XXXXXX", temporary ? temporary : "/tmp");
-    if (!mkdtemp(folder))
+    if (folder_make("picture") < 0)
         return EXIT_FAILURE;
     Suite *suite = suite_create("picture");
     TCase *t = tcase_create("picture");
@@ -805,6 +781,6 @@ int main(void)
     tcase_add_test(t, test_ply_bytes);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
-    remove_folder();
+    folder_remove();
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

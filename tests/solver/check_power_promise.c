@@ -9,22 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <jansson.h>
+#include "folder.h"
 #include "suite.h"
 
 /* The ceiling emits 1 W/m2, rho = .5: its B, the floor's and a wall's, to 1e-7
  * (power adds up to 2 W). */
 static const double known[6] = {1.1043616, 0.1712161, 0.1811056, 0.1811056, 0.1811056, 0.1811056};
-
-static char folder[] = "/tmp/watts-XXXXXX";
-
-static char *in_folder(const char *name)
-{
-    static char path[4][256];
-    static int turn;
-    turn = (turn + 1) % 4;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
-}
 
 static void write_cube(void)
 {
@@ -140,7 +130,7 @@ END_TEST
 
 int main(void)
 {
-    if (!mkdtemp(folder))
+    if (folder_make("watts") < 0)
         return 1;
     Suite *suite = suite_create("power promise");
     TCase *c = tcase_create("power promise");
@@ -150,7 +140,6 @@ int main(void)
     tcase_add_test(c, test_others);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

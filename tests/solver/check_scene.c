@@ -18,6 +18,7 @@
 #include "hierarchy/polygon.h"
 #include "load_scene.h"
 #include "scene/read_scene.h"
+#include "folder.h"
 #include "suite.h"
 
 static const char SCENES[] = "examples/scenes/";
@@ -25,17 +26,7 @@ static const char MTL[] =
     "newmtl a\nKd 0.5 0.5 0.5\nnewmtl b_2s\nKd 0.25 0.5 0.75\nKe 3 2 1\nnewmtl black\nKd 0 0 0\n";
 static const char SQUARE[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-static char folder[64];
 static char last_error[2048];
-
-static const char *in_folder(const char *name)
-{
-    static char path[64][512]; /* long enough a memory for any one test */
-    static int turn;
-    turn = (turn + 1) % 64;
-    snprintf(path[turn], sizeof path[turn], "%.60s/%.200s", folder, name);
-    return path[turn];
-}
 
 static const char *write_text(const char *name, const char *text)
 {
@@ -779,22 +770,9 @@ START_TEST(test_faces_csv)
 }
 END_TEST
 
-static void remove_folder(void)
-{
-    DIR *d = opendir(folder);
-    for (struct dirent *e; d && (e = readdir(d));)
-        if (e->d_name[0] != '.')
-            unlink(in_folder(e->d_name));
-    if (d)
-        closedir(d);
-    rmdir(folder);
-}
-
 int main(void)
 {
-    const char *temporary = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%.40s/check_scene.XXXXXX", temporary ? temporary : "/tmp");
-    if (!mkdtemp(folder))
+    if (folder_make("scene") < 0)
         return EXIT_FAILURE;
     Suite *suite = suite_create("scene");
     TCase *t = tcase_create("scene");
@@ -820,6 +798,6 @@ int main(void)
     tcase_add_test(t, test_faces_csv);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
-    remove_folder();
+    folder_remove();
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -10,12 +10,11 @@
 #include <unistd.h>
 #include <jansson.h>
 #include "hierarchy/bvh.h"
+#include "folder.h"
 #include "suite.h"
 
 #define SCENE "examples/scenes/furnace_4.obj"
 #define HOW "--oracle clusters --set from_faces=1 --set relative=0.2 -q"
-
-static char folder[] = "/tmp/clustering-XXXXXX";
 
 /* The exit status; what went to standard error is in folder/log. */
 static int run(const char *format, const char *a, const char *b)
@@ -27,15 +26,6 @@ static int run(const char *format, const char *a, const char *b)
              rest, folder);
     int status = system(command);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-static char *in_folder(const char *name)
-{
-    static char path[4][256];
-    static int turn;
-    turn = (turn + 1) % 4;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
 }
 
 static void write_file(const char *name, const char *text)
@@ -241,7 +231,7 @@ int main(void)
 {
     Suite *suite = suite_create("study clustering");
     TCase *c = tcase_create("study clustering");
-    if (!mkdtemp(folder))
+    if (folder_make("clustering") < 0)
         return 1;
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_table);
@@ -251,7 +241,6 @@ int main(void)
     tcase_add_test(c, test_usage);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    char command[64];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }

@@ -9,11 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include "discussion.h"
+#include "folder.h"
 #include "suite.h"
 
 #define CORNELL "examples/scenes/cornell.obj"
-
-static char folder[] = "/tmp/factors-XXXXXX";
 
 /* The exit status; what went to standard output is in folder/out, to standard error in folder/log.
  */
@@ -26,15 +25,6 @@ static int run(const char *format, const char *a, const char *b)
              program ? program : "build/bin/radiosity", rest, folder, folder);
     int status = system(command);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-static char *in_folder(const char *name)
-{
-    static char path[4][256];
-    static int turn;
-    turn = (turn + 1) % 4;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
 }
 
 static int holds(const char *name, const char *text)
@@ -220,7 +210,7 @@ END_TEST
 
 int main(void)
 {
-    if (!mkdtemp(folder))
+    if (folder_make("factors") < 0)
         return 1;
     Suite *suite = suite_create("study form-factors");
     TCase *c = tcase_create("study form-factors");
@@ -231,7 +221,6 @@ int main(void)
     tcase_add_test(c, test_oracle);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command) != 0 || failed != 0;
+    folder_remove();
+    return failed != 0;
 }
