@@ -11,7 +11,7 @@ _Static_assert((int)RAD_METHOD_PARTICLES == (int)REFERENCE_PARTICLES
                    && (int)RAD_METHODS == (int)REFERENCE_METHODS,
                "enum RadMethod is enum reference_method");
 
-/* Each replicate numbers its particles with 32 bits (particles/sobol.h). */
+/* Each replicate numbers its particles with 32 bits (particles/sobol_sequence.h). */
 static const uint64_t PARTICLES_MOST = (uint64_t)UINT32_MAX * REPLICATES;
 
 struct RadReferenceObject {
@@ -85,7 +85,7 @@ int radTraceReference(RadReference r, enum RadMethod method, uint64_t count)
     if (not_dead(r) < 0)
         return -1;
     struct reference *x = &r->reference;
-    const struct tally_watch tell = {watch, r};
+    const struct watch tell = {watch, r};
     int failed = 0;
     if (method == RAD_METHOD_PARTICLES) {
         if (count > PARTICLES_MOST)

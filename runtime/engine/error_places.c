@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/error_places.h"
+#include "particles/running_sums.h"
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"
 #include "kernel/surface_point.h"
@@ -152,14 +153,7 @@ struct place error_places_draw(const struct error_places *x, enum error_place de
         out.leaf = leaf_at(elements, t->hierarchy->face_element[out.face], out.p, weight);
         return out;
     }
-    uint32_t low = 0, high = x->detail.count - 1;
-    while (low < high) { /* the first whose sum is above v */
-        uint32_t middle = low + (high - low) / 2;
-        if (x->detail.until[middle] > v)
-            high = middle;
-        else
-            low = middle + 1;
-    }
+    uint32_t low = running_sums_find(x->detail.until, x->detail.count, v);
     const struct element *e = &elements[x->detail.leaf[low]];
     double before = low ? x->detail.until[low - 1] : 0,
            s = fmin(fmax((v - before) / (x->detail.until[low] - before), 0), 1 - 0x1p-53);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/solve_tracer.h"
 #include "engine/surface_error.h"
 #include "engine/tail_error.h"
 #include "engine/transport.h"
@@ -17,16 +18,6 @@
 enum { FIRST = 64 };
 
 static const char memory[] = "out of memory for counting particles; fewer elements need less";
-
-static struct tracer tracer_of(const struct solve *s)
-{
-    return (struct tracer){.hierarchy = &s->hierarchy,
-                           .rays = s->problem.rays,
-                           .exitance = s->problem.exitance,
-                           .reflectance = s->problem.reflectance,
-                           .bands = s->problem.bands,
-                           .threads = s->problem.options.threads};
-}
 
 /* Rays cast before, now, and in the end, about. */
 struct watched {
@@ -52,7 +43,7 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
                       double all)
 {
     struct watched watched = {.solve = s, .all = all};
-    const struct tally_watch watch = {tell, &watched};
+    const struct watch watch = {tell, &watched};
     if (tally->particles == 0 && tally_trace(tally, t, FIRST, &watch) < 0)
         return -1;
     if (tally->rays == 0 || tally->rays >= rays)
@@ -64,23 +55,27 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
     return tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch);
 }
 
-/* What the tally, which nothing of the shown solution comes from, says of it. */
-static int measure_against(struct solve *s, const struct tally *tally, struct measured_error *m)
+/* What the tally, which nothing of the shown solution comes from, says of its polygons, */
+static int measure_faces(struct solve *s, const struct tally *tally, struct measured_error *m)
+{
+    m->rays = tally->rays;
+    m->particles = tally->particles * REPLICATES;
+    return face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance,
+                           tally);
+}
+
+/* and of its elements. Both return 0, or -1 when out of memory. */
+static int measure_elements(struct solve *s, const struct tally *tally, struct measured_error *m)
 {
     const struct state *shown = solve_shown(s);
     const struct problem *p = &s->problem;
     size_t values = (size_t)s->hierarchy.count * p->bands;
-    m->rays = tally->rays;
-    m->particles = tally->particles * REPLICATES;
     m->element = malloc(values * sizeof *m->element);
     if (!m->element)
         return -1;
     memcpy(m->element, shown->irradiance, values * sizeof *m->element);
-    if (mend_irradiance(&s->operator, tally, m->element) < 0
-        || face_error_open(&m->faces, p, &s->hierarchy, shown->irradiance, tally) < 0) {
-        measured_error_free(m);
+    if (mend_irradiance(&s->operator, tally, m->element) < 0)
         return -1;
-    }
     for (uint32_t e = 0; e < s->hierarchy.count; e++)
         for (uint32_t k = 0; k < p->bands; k++) {
             const struct element *at = &s->hierarchy.elements[e];
@@ -108,7 +103,7 @@ static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t ra
                               .before = m->rays,
                               .now = (double)rays,
                               .all = (double)m->rays + 2 * (double)rays};
-    const struct tally_watch watch = {tell, &watched};
+    const struct watch watch = {tell, &watched};
     struct surface_error surface;
     if (surface_error_measure(s, t, shown, rays, stream, &watch, &surface) < 0)
         return -1;
@@ -123,12 +118,12 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
 {
     uint64_t each = surfaces ? rays * 3 / 10 : 0, counted = rays - 2 * each;
     double start = seconds();
-    struct tracer t = tracer_of(s);
+    struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
                          || trace_rays(s, &t, &tally, counted, (double)rays) < 0
-                         || measure_against(s, &tally, m) < 0
+                         || measure_faces(s, &tally, m) < 0 || measure_elements(s, &tally, m) < 0
                          || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
                      : 0;
@@ -222,7 +217,7 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measur
                      const char **cause)
 {
     double start = seconds();
-    struct tracer t = tracer_of(s);
+    struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
@@ -236,7 +231,7 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measur
         failed = trace_rays(s, &t, &tally, goal, fmin(all, (double)most)) < 0
                  || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, &tally, &left) < 0;
     }
-    failed = failed || measure_against(s, &tally, alone) < 0 || mend(s, &tally) < 0;
+    failed = failed || measure_faces(s, &tally, alone) < 0 || mend(s, &tally) < 0;
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

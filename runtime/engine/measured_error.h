@@ -11,7 +11,9 @@
 struct measured_error {
     struct face_error faces;
     struct RadMeasure l2, p999; /* of surfaces, where they were asked for; else all zero */
-    double *element; /* [elements * bands]: B less the truth, as far as it stands out (W/m2) */
+    /* [elements * bands]: B less the truth, as far as it stands out (W/m2); by measure_error alone
+     */
+    double *element;
     uint64_t rays, particles;
     double seconds;
 };

@@ -11,7 +11,7 @@
 enum { FEELER = 8 };
 
 static int trace_tally(struct tally *tally, const struct tracer *t, uint64_t budget,
-                       const struct tally_watch *watch)
+                       const struct watch *watch)
 {
     if (tally_trace(tally, t, FEELER, NULL) < 0)
         return -1;
@@ -103,7 +103,7 @@ static double variance_of(const struct tally *tally, const struct tracer *t)
 }
 
 struct half_watch {
-    const struct tally_watch *watch;
+    const struct watch *watch;
     int half;
 };
 
@@ -115,7 +115,7 @@ static int tell_half(void *context, double share)
 
 int point_error_open(struct point_error *x, const struct solve *s, const struct tracer *t,
                      const double *radiosity, uint64_t budget, uint64_t stream,
-                     const struct tally_watch *watch, uint64_t *rays)
+                     const struct watch *watch, uint64_t *rays)
 {
     size_t count = t->hierarchy->count, values = count * t->bands;
     *x = (struct point_error){.solve = s, .tracer = t, .radiosity = radiosity};
@@ -125,7 +125,7 @@ int point_error_open(struct point_error *x, const struct solve *s, const struct 
     for (int half = 0; half < HALVES && !failed; half++) {
         struct tally tally = {0};
         struct half_watch part = {watch, half};
-        struct tally_watch told = {tell_half, &part};
+        struct watch told = {tell_half, &part};
         x->reflected[half] = malloc(values * sizeof *x->reflected[half]);
         failed = !x->reflected[half]
                  || tally_open(&tally, t, stream * HALVES + (uint64_t)half, 1) < 0

@@ -45,7 +45,7 @@ struct point_error {
  * of memory or stopped by `watch` (may be NULL). */
 int point_error_open(struct point_error *x, const struct solve *s, const struct tracer *t,
                      const double *radiosity, uint64_t budget, uint64_t stream,
-                     const struct tally_watch *watch, uint64_t *rays);
+                     const struct watch *watch, uint64_t *rays);
 void point_error_close(struct point_error *x);
 
 /* The error at a place by so many directions and points of emitters in each half; adds to *rays.

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/reference.h"
+#include "engine/solve_tracer.h"
 #include "kernel/constants.h"
 
 /* Random numbers that nothing else takes: a reference must not share its noise with what it
@@ -25,12 +26,7 @@ int reference_open(struct reference *r, const struct scene *scene, int threads, 
     *r = (struct reference){0};
     if (solve_open(&r->solve, scene, &options, cause) < 0)
         return -1;
-    r->tracer = (struct tracer){.hierarchy = &r->solve.hierarchy,
-                                .rays = r->solve.problem.rays,
-                                .exitance = r->solve.problem.exitance,
-                                .reflectance = r->solve.problem.reflectance,
-                                .bands = r->solve.problem.bands,
-                                .threads = threads};
+    r->tracer = solve_tracer(&r->solve);
     if (tracer_open(&r->tracer) == 0 && tally_open(&r->tally, &r->tracer, PARTICLE_STREAM, 0) == 0
         && face_paths_open(&r->paths, &r->tracer, PATH_STREAM) == 0)
         return 0;

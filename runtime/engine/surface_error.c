@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <omp.h>
 #include "engine/point_error.h"
 #include "engine/surface_error.h"
 #include "kernel/constants.h"
@@ -47,7 +46,7 @@ struct measurement {
     struct point_error error;
     struct error_places places;
     uint64_t stream, rays;
-    const struct tally_watch *watch;
+    const struct watch *watch;
     double done, next; /* shares of the work */
 };
 
@@ -111,29 +110,19 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
     if (!stage->point)
         return -1;
     uint64_t rays = 0;
-    uint32_t done = 0;
-    int stopped = 0;
+    const struct watch part = {tell_part, m};
+    struct watched_loop loop = {.watch = m->watch ? &part : NULL, .all = stage->count};
 #pragma omp parallel for schedule(dynamic, 16) num_threads(m->tracer->threads) reduction(+ : rays)
     for (uint32_t i = 0; i < stage->count; i++) {
-        int quit;
-        uint32_t so_far;
-#pragma omp atomic read
-        quit = stopped;
-        if (quit)
+        if (watched_loop_stopped(&loop))
             continue;
         measure_point(m, stage, i, stream, &rays);
-#pragma omp atomic capture
-        so_far = ++done;
-        /* only the thread that called in may be told */
-        if (m->watch && omp_get_thread_num() == 0 && tell_part(m, (double)so_far / stage->count)) {
-#pragma omp atomic write
-            stopped = 1;
-        }
+        watched_loop_tell(&loop);
     }
     m->rays += rays;
-    for (uint32_t i = 0; i < stage->count && !stopped; i++)
+    for (uint32_t i = 0; i < stage->count && !loop.stopped; i++)
         stage->area += stage->point[i].part;
-    return stopped ? -1 : 0;
+    return loop.stopped ? -1 : 0;
 }
 
 static double product(const struct measurement *m, const struct point *p)
@@ -256,7 +245,7 @@ static struct RadMeasure mean_square(const struct measurement *m, const struct s
 static int measure_all(struct measurement *m, const struct solve *s, const double *radiosity,
                        double rays, struct stage stage[2], struct surface_error *out)
 {
-    struct tally_watch watch = {tell_part, m};
+    struct watch watch = {tell_part, m};
     begin(m, SHARE_PARTICLES);
     if (point_error_open(&m->error, s, m->tracer, radiosity, (uint64_t)(SHARE_PARTICLES * rays),
                          stream_of(m, 0), m->watch ? &watch : NULL, &m->rays)
@@ -285,7 +274,7 @@ static int measure_all(struct measurement *m, const struct solve *s, const doubl
 }
 
 int surface_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                          uint64_t rays, uint64_t stream, const struct tally_watch *watch,
+                          uint64_t rays, uint64_t stream, const struct watch *watch,
                           struct surface_error *out)
 {
     struct measurement m = {.tracer = t, .watch = watch, .stream = stream};

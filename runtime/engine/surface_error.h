@@ -20,7 +20,7 @@ struct surface_error {
  * number of threads does not show. Scenes where nothing shines or nothing reflects: all zero.
  * watch: NULL, or asked. Returns 0, or -1 when out of memory or stopped by `watch`. */
 int surface_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                          uint64_t rays, uint64_t stream, const struct tally_watch *watch,
+                          uint64_t rays, uint64_t stream, const struct watch *watch,
                           struct surface_error *out);
 
 #endif

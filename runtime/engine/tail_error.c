@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <omp.h>
 #include "engine/tail_error.h"
 #include "kernel/leaf_at.h"
 #include "particles/area_line.h"
@@ -74,26 +73,19 @@ static uint64_t measure_point(const struct tail *x, struct point *point, uint64_
 
 /* Measure points of a stage. Returns the rays cast, or UINT64_MAX when stopped. */
 static uint64_t measure_points(const struct tail *x, struct point *points, uint32_t count,
-                               uint64_t stage, uint32_t paths, const struct tally_watch *watch)
+                               uint64_t stage, uint32_t paths, const struct watch *watch)
 {
     uint64_t rays = 0;
-    int stopped = 0;
+    struct watched_loop loop = {.watch = watch, .all = count};
 #pragma omp parallel for schedule(dynamic, 16) num_threads(x->tracer->threads) reduction(+ : rays)
     for (uint32_t i = 0; i < count; i++) {
-        int quit;
-#pragma omp atomic read
-        quit = stopped;
-        if (quit || points[i].leaf == UINT32_MAX)
+        if (watched_loop_stopped(&loop))
             continue;
-        rays += measure_point(x, &points[i], stage, paths);
-        /* only the thread that called in may be told */
-        if (watch && omp_get_thread_num() == 0
-            && watch->tell(watch->context, (double)i / (double)count)) {
-#pragma omp atomic write
-            stopped = 1;
-        }
+        if (points[i].leaf != UINT32_MAX)
+            rays += measure_point(x, &points[i], stage, paths);
+        watched_loop_tell(&loop);
     }
-    return stopped ? UINT64_MAX : rays;
+    return loop.stopped ? UINT64_MAX : rays;
 }
 
 /* Lay points over the area. Returns the mean of the light that the solution reflects there, all
@@ -137,7 +129,7 @@ static uint32_t paths_for(double rays, double each)
 }
 
 int tail_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                       uint64_t budget, uint64_t stream, const struct tally_watch *watch,
+                       uint64_t budget, uint64_t stream, const struct watch *watch,
                        struct RadMeasure *tail, uint64_t *rays)
 {
     const struct tail x = {s, t, radiosity, stream};

@@ -13,7 +13,7 @@
  * shines or reflects. watch: NULL, or asked. Returns 0, or -1 when out of memory or stopped. */
 enum { TAIL_LEAST = 100000 };
 int tail_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                       uint64_t budget, uint64_t stream, const struct tally_watch *watch,
+                       uint64_t budget, uint64_t stream, const struct watch *watch,
                        struct RadMeasure *tail, uint64_t *rays);
 
 #endif

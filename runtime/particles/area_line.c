@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "particles/area_line.h"
+#include "particles/running_sums.h"
 
 int area_line_open(struct area_line *line, const struct tracer *t)
 {
@@ -59,14 +60,7 @@ uint32_t area_line_point(const struct area_line *line, const struct tracer *t, d
                          double p[3])
 {
     double at = u * line->area;
-    uint32_t low = 0, high = line->count - 1;
-    while (low < high) { /* the first whose sum is above `at` */
-        uint32_t middle = low + (high - low) / 2;
-        if (line->until[middle] > at)
-            high = middle;
-        else
-            low = middle + 1;
-    }
+    uint32_t low = running_sums_find(line->until, line->count, at);
     double before = low ? line->until[low - 1] : 0,
            within = (at - before) / (line->until[low] - before);
     uint64_t code = (uint64_t)(fmin(fmax(within, 0), 1 - 0x1p-52) * 0x1p52);

@@ -74,7 +74,7 @@ static void add(struct face_paths *p, const struct block *b)
 
 /* Trace the blocks, then add them in their order. Returns 0, or -1 when stopped. */
 static int flush(struct face_paths *p, const struct tracer *t, struct block *blocks, int count,
-                 const struct tally_watch *watch, double share)
+                 const struct watch *watch, double share)
 {
 #pragma omp parallel for schedule(dynamic, 16) num_threads(t->threads)
     for (int i = 0; i < count; i++)
@@ -85,7 +85,7 @@ static int flush(struct face_paths *p, const struct tracer *t, struct block *blo
 }
 
 int face_paths_trace(struct face_paths *p, const struct tracer *t, uint64_t paths,
-                     const struct tally_watch *watch)
+                     const struct watch *watch)
 {
     uint64_t wanted = 0, done = 0;
     if (paths <= p->paths)

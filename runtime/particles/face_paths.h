@@ -33,7 +33,7 @@ void face_paths_close(struct face_paths *p);
 /* Trace on until `paths` have been asked for in all. watch: NULL, or asked. Returns 0, or -1 when
  * stopped or out of memory: then the sums are of no use. */
 int face_paths_trace(struct face_paths *p, const struct tracer *t, uint64_t paths,
-                     const struct tally_watch *watch);
+                     const struct watch *watch);
 
 /* How many the face has got. */
 static inline uint64_t face_paths_count(const struct face_paths *p, uint32_t face, uint64_t paths)

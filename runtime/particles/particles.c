@@ -1,10 +1,9 @@
 /* particles.c - see particles.h.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
-#include <omp.h>
 #include "kernel/leaf_at.h"
 #include "particles/particles.h"
-#include "particles/sobol.h"
+#include "particles/sobol_sequence.h"
 
 enum { BATCH = 1024 };
 
@@ -36,7 +35,7 @@ void tally_close(struct tally *tally)
 
 /* A run of particles of one replicate, and its sums that are no place's. */
 struct batch {
-    const struct sobol *sobol;
+    const struct sobol_sequence *sobol;
     uint32_t shift[SOBOL_DIMENSIONS];
     int replicate;
     uint64_t rays;
@@ -71,7 +70,7 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
 {
     struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
     double u[SOBOL_DIMENSIONS], share[3] = {0, 0, 0}, whole = 0, p[3], at[3];
-    sobol_point(batch->sobol, (uint32_t)index, batch->shift, u);
+    sobol_sequence_point(batch->sobol, (uint32_t)index, batch->shift, u);
     uint32_t face = lights_choose(&t->lights, u[0]);
     const double *exitance = &t->exitance[(size_t)face * t->bands];
     for (uint32_t k = 0; k < t->bands; k++)
@@ -104,27 +103,24 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
 }
 
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
-                const struct tally_watch *watch)
+                const struct watch *watch)
 {
     uint64_t from = tally->particles, to = from + particles,
-             all = (particles + BATCH - 1) / BATCH * REPLICATES, rays = 0, done = 0;
+             all = (particles + BATCH - 1) / BATCH * REPLICATES, rays = 0;
     int64_t first[3] = {0, 0, 0}, second[3] = {0, 0, 0};
-    int stopped = 0;
     tally->particles = to;
     if (!(tally->power > 0))
         return 0;
-    struct sobol sobol;
-    sobol_open(&sobol);
+    struct sobol_sequence sobol;
+    sobol_sequence_open(&sobol);
+    struct watched_loop loop = {.watch = watch, .all = all};
 #pragma omp parallel for schedule(dynamic, 1) num_threads(t->threads)                              \
     reduction(+ : rays, first[ : 3], second[ : 3])
     for (uint64_t b = 0; b < all; b++) {
         struct batch batch = {.sobol = &sobol, .replicate = (int)(b % REPLICATES)};
         uint64_t low = from + b / REPLICATES * BATCH, high = low + BATCH < to ? low + BATCH : to,
-                 set = tally->stream * REPLICATES + (uint64_t)batch.replicate, share;
-        int quit;
-#pragma omp atomic read
-        quit = stopped;
-        if (quit)
+                 set = tally->stream * REPLICATES + (uint64_t)batch.replicate;
+        if (watched_loop_stopped(&loop))
             continue;
         for (int d = 0; d < SOBOL_DIMENSIONS; d++)
             batch.shift[d] = (uint32_t)(hash64(set * SOBOL_DIMENSIONS + (uint64_t)d + 1) >> 32);
@@ -135,17 +131,10 @@ int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
             first[k] += batch.first[k];
             second[k] += batch.second[k];
         }
-#pragma omp atomic capture
-        share = ++done;
-        /* only the thread that called in may be told */
-        if (watch && omp_get_thread_num() == 0
-            && watch->tell(watch->context, (double)share / (double)all)) {
-#pragma omp atomic write
-            stopped = 1;
-        }
+        watched_loop_tell(&loop);
     }
     tally->rays += rays;
     for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
         tally->square[k] = first[k] > 0 ? (double)second[k] / (double)first[k] : 0;
-    return stopped ? -1 : 0;
+    return loop.stopped ? -1 : 0;
 }

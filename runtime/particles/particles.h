@@ -17,6 +17,7 @@
 #define PARTICLES_H
 
 #include "particles/tracer.h"
+#include "particles/watch.h"
 
 enum { REPLICATES = 16 };
 
@@ -39,17 +40,11 @@ struct tally {
 int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves);
 void tally_close(struct tally *tally);
 
-/* Called now and then, with the share that is done; nonzero stops. */
-struct tally_watch {
-    int (*tell)(void *context, double share);
-    void *context;
-};
-
 /* Trace so many particles more in each replicate. Without emitters nothing is traced and all is
  * exactly 0. watch: NULL, or asked. Returns 0, or -1 when it was stopped: then the tally is of no
  * use. */
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
-                const struct tally_watch *watch);
+                const struct watch *watch);
 
 /* W that one count of a replicate's stands for; of `element`, a REPLICATES-th of it. */
 static inline double tally_unit(const struct tally *tally)

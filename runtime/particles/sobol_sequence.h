@@ -1,22 +1,24 @@
-/* sobol.h - a Sobol' sequence of five dimensions, with a random shift of its digits.
+/* sobol_sequence.h - a Sobol' sequence of five dimensions, with a random shift of its digits.
  *
  * Points 2^m k .. 2^m (k + 1) - 1 of it spread evenly over the unit cube for every m; with the
- * shift each point alone is spread evenly by chance, so a mean over them has no bias. [Sobol' 1967;
+ * shift each point alone is spread evenly by chance, so a mean over them has no bias. Of points in
+ * any order and number: kernel/sobol.h goes through the first 4096 of the same points, in four
+ * dimensions, one after the other (tests/runtime/check_paths.c). [Sobol' 1967;
  * direction numbers: Joe and Kuo 2008, new-joe-kuo-6.21201; the shift: Matousek 1998]
  * SPDX-License-Identifier: MIT */
-#ifndef SOBOL_H
-#define SOBOL_H
+#ifndef SOBOL_SEQUENCE_H
+#define SOBOL_SEQUENCE_H
 
 #include <stdint.h>
 
 enum { SOBOL_DIMENSIONS = 5 };
 
 /* Direction numbers: what bit b of the index adds to the digits of dimension d. */
-struct sobol {
+struct sobol_sequence {
     uint32_t direction[SOBOL_DIMENSIONS][32];
 };
 
-static inline void sobol_open(struct sobol *sobol)
+static inline void sobol_sequence_open(struct sobol_sequence *sobol)
 {
     /* s: degree of the polynomial, a: its inner coefficients, m: the first direction numbers; of
      * dimensions 2 to 5. The first is the index with its digits turned round. */
@@ -35,9 +37,9 @@ static inline void sobol_open(struct sobol *sobol)
     }
 }
 
-static inline void sobol_point(const struct sobol *sobol, uint32_t index,
-                               const uint32_t shift[SOBOL_DIMENSIONS],
-                               double point[SOBOL_DIMENSIONS])
+static inline void sobol_sequence_point(const struct sobol_sequence *sobol, uint32_t index,
+                                        const uint32_t shift[SOBOL_DIMENSIONS],
+                                        double point[SOBOL_DIMENSIONS])
 {
     for (int d = 0; d < SOBOL_DIMENSIONS; d++) {
         uint32_t x = shift[d];

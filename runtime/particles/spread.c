@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
+#include "particles/running_sums.h"
 #include "particles/spread.h"
 
 int spread_around(struct spread *s, const double *place, const double *weight, uint32_t count,
@@ -49,15 +50,7 @@ void spread_close(struct spread *s)
 /* The cell of which `from` .. the next holds x. */
 static uint32_t find_cell(const double *from, uint32_t count, double x)
 {
-    uint32_t low = 0, high = count - 1;
-    while (low < high) {
-        uint32_t middle = low + (high - low + 1) / 2;
-        if (from[middle] <= x)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
+    return running_sums_find(from + 1, count, x);
 }
 
 double spread_place(const struct spread *s, double v)

@@ -4,6 +4,7 @@
 #include "kernel/hemisphere.h"
 #include "kernel/lambert.h"
 #include "kernel/surface_point.h"
+#include "particles/running_sums.h"
 #include "particles/tracer.h"
 
 int tracer_open(struct tracer *t)
@@ -51,16 +52,7 @@ void tracer_close(struct tracer *t)
 
 uint32_t lights_choose(const struct lights *l, double u)
 {
-    double pick = u * l->power;
-    uint32_t low = 0, high = l->count - 1;
-    while (low < high) { /* the first whose sum is above `pick` */
-        uint32_t middle = low + (high - low) / 2;
-        if (l->until[middle] > pick)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return l->face[low];
+    return l->face[running_sums_find(l->until, l->count, u * l->power)];
 }
 
 static void move_off(const struct tracer *t, const struct element *e, double p[3])

@@ -201,10 +201,10 @@ int accuracy_solve(struct accuracy *a, struct solved *s, struct measured *m,
 
 void accuracy_print(const struct accuracy *a, const struct options *o)
 {
-    printf("accuracy  %.3g %% (%s) %s%s%s: thresholds times %.3g, %d solve%s, %d measurement%s, "
+    printf("accuracy  %.3g %% (%s) %s%s: thresholds times %.3g, %d solve%s, %d measurement%s, "
            "%.3g rays, %.2f s\n",
            100 * o->accuracy, norm_words[o->norm], a->reached ? "kept" : "NOT kept, stopped by ",
-           a->reached ? "" : a->why, "", a->scale, a->solves, a->solves == 1 ? "" : "s",
+           a->reached ? "" : a->why, a->scale, a->solves, a->solves == 1 ? "" : "s",
            a->measurements, a->measurements == 1 ? "" : "s", (double)a->rays, a->seconds);
 }
 

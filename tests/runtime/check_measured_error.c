@@ -9,6 +9,7 @@
 #include "runtime/make_solve.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/solve_tracer.h"
 #include "suite.h"
 
 struct cover {
@@ -17,12 +18,8 @@ struct cover {
 
 static struct tracer tracer_over(const struct solve *s, int threads)
 {
-    struct tracer t = {.hierarchy = &s->hierarchy,
-                       .rays = s->problem.rays,
-                       .exitance = s->problem.exitance,
-                       .reflectance = s->problem.reflectance,
-                       .bands = s->problem.bands,
-                       .threads = threads};
+    struct tracer t = solve_tracer(s);
+    t.threads = threads;
     ck_assert_int_eq(tracer_open(&t), 0);
     return t;
 }

@@ -7,6 +7,9 @@
 #include "particles/particles.h"
 #include "particles/paths.h"
 #include "scene/read_scene.h"
+#include "kernel/sobol.h"
+#include "particles/sobol_sequence.h"
+#include "engine/solve_tracer.h"
 #include "suite.h"
 
 /* A solve that has only been opened, and a tracer through its scene. */
@@ -21,13 +24,7 @@ static void traced_open(struct traced *x, int threads)
     const char *cause;
     struct solve_options options = quick(threads);
     ck_assert_int_eq(solve_open(&x->solve, &x->scene, &options, &cause), 0);
-    const struct problem *p = &x->solve.problem;
-    x->tracer = (struct tracer){.hierarchy = &x->solve.hierarchy,
-                                .rays = p->rays,
-                                .exitance = p->exitance,
-                                .reflectance = p->reflectance,
-                                .bands = p->bands,
-                                .threads = threads};
+    x->tracer = solve_tracer(&x->solve);
     ck_assert_int_eq(tracer_open(&x->tracer), 0);
 }
 
@@ -301,10 +298,32 @@ START_TEST(test_particles)
 }
 END_TEST
 
+/* Two ways through the same points: by any index, and one after the other in the order of Gray
+ * codes, where one digit changes from point to point. */
+START_TEST(test_sobol)
+{
+    struct sobol_sequence sequence;
+    struct sobol net;
+    uint32_t shift[SOBOL_DIMENSIONS] = {0};
+    sobol_sequence_open(&sequence);
+    sobol_start(&net, 0x1234567890abcdef);
+    for (int k = 0; k < 4; k++)
+        shift[k] = net.digit[k];
+    for (int i = 0; i < SOBOL_MOST; i++) {
+        double point[SOBOL_DIMENSIONS];
+        sobol_go(&net, i);
+        sobol_sequence_point(&sequence, (uint32_t)(i ^ i >> 1), shift, point);
+        for (int k = 0; k < 4; k++)
+            ck_assert(point[k] == sobol_at(&net, k));
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("paths");
     TCase *paths = tcase_create("paths");
+    tcase_add_test(paths, test_sobol);
     tcase_add_test(paths, test_corner);
     tcase_add_test(paths, test_squares);
     tcase_add_test(paths, test_plates);

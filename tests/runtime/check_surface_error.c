@@ -9,6 +9,7 @@
 #include <string.h>
 #include "make_solve.h"
 #include "engine/surface_error.h"
+#include "engine/solve_tracer.h"
 #include "suite.h"
 
 struct measured {
@@ -23,12 +24,7 @@ static void open_measured(struct measured *x, const char *oracle, int threads)
     char *settings[] = {NULL};
     solve_with(&x->solve, &x->scene, oracle, RELEASE_FLAT, settings, quick(threads));
     const struct problem *p = &x->solve.problem;
-    x->tracer = (struct tracer){.hierarchy = &x->solve.hierarchy,
-                                .rays = p->rays,
-                                .exitance = p->exitance,
-                                .reflectance = p->reflectance,
-                                .bands = p->bands,
-                                .threads = threads};
+    x->tracer = solve_tracer(&x->solve);
     ck_assert_int_eq(tracer_open(&x->tracer), 0);
     size_t size = (size_t)x->solve.hierarchy.count * p->bands * sizeof *x->radiosity;
     x->radiosity = malloc(size);
@@ -174,7 +170,7 @@ START_TEST(test_edges)
     double last = 0;
     furnace(&x, 0.1);
     ck_assert_int_eq(surface_error_measure(&x.solve, &x.tracer, x.radiosity, 20000, 1,
-                                           &(struct tally_watch){stop, &last}, &e),
+                                           &(struct watch){stop, &last}, &e),
                      -1);
     ck_assert_double_gt(last, 0.6);
     close_measured(&x);

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/mend.h"
+#include "engine/solve_tracer.h"
 #include "runtime/make_solve.h"
 #include "scene/read_scene.h"
 
@@ -110,12 +111,7 @@ int main(int count, char **arguments)
         fprintf(stderr, "mend_table: %s\n", cause);
         return 1;
     }
-    struct tracer t = {.hierarchy = &s.hierarchy,
-                       .rays = s.problem.rays,
-                       .exitance = s.problem.exitance,
-                       .reflectance = s.problem.reflectance,
-                       .bands = s.problem.bands,
-                       .threads = 2};
+    struct tracer t = solve_tracer(&s);
     if (tracer_open(&t) < 0)
         return 1;
     double reference = atof(arguments[2]), rays = atof(arguments[3]),
