@@ -23,7 +23,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 5
+#define RUNTIME_ABI 6
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 
@@ -56,6 +56,9 @@ struct element {
     uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
     /* largest less smallest B below the element, W/m2. Constant during a round */
     double spread;
+    /* half the area mean of |B - its mean| below the element, W/m2: the most that light to a place
+     * which sees only a part of the element may differ by. Constant during a round */
+    double deviation;
     double reflectance; /* rho, largest band; cluster: area mean */
     /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
     double importance;

@@ -57,6 +57,38 @@ static double measure_spread(struct oracle_inputs *in, const struct light_operat
     return widest;
 }
 
+/* Half the area mean of |B - its mean| below element i, largest band, from above: of a part it is
+ * at most the part's own and what the part's mean is off. Fills its part of deviation[]. */
+static double measure_deviation(struct oracle_inputs *in, const struct light_operator *op,
+                                const double *radiosity, uint32_t i)
+{
+    const struct element *e = &op->hierarchy->elements[i];
+    uint32_t b = op->problem->bands;
+    double widest = 0;
+    for (uint32_t k = 0; k < b; k++) {
+        size_t at = (size_t)i * b + k;
+        double sum = 0;
+        for (uint32_t c = e->child; c < e->child + e->children; c++) {
+            size_t below = (size_t)c * b + k;
+            sum += op->uncovered[c] * op->hierarchy->elements[c].area
+                   * (in->deviation[below] + 0.5 * fabs(radiosity[below] - radiosity[at]));
+        }
+        in->deviation[at] = sum / e->area;
+        widest = fmax(widest, in->deviation[at]);
+    }
+    return widest;
+}
+
+/* What the oracles see of a value that is `now`: it follows when they differ. Returns 1 when it
+ * grew by more than `unknown`. */
+static int follow(double *seen, double now, double unknown)
+{
+    int grew = now > (1 + HYSTERESIS) * *seen + unknown;
+    if (grew || now < (1 - HYSTERESIS) * *seen)
+        *seen = now;
+    return grew;
+}
+
 void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
                           const double *radiosity, struct hierarchy *h)
 {
@@ -66,13 +98,10 @@ void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator 
         double brightest = 0;
         for (uint32_t k = 0; k < b; k++)
             brightest = fmax(brightest, radiosity[(size_t)i * b + k]);
-        in->changed[i] = brightest > (1 + HYSTERESIS) * e->radiosity;
-        if (in->changed[i] || brightest < (1 - HYSTERESIS) * e->radiosity)
-            e->radiosity = brightest;
-        double spread = measure_spread(in, op, radiosity, i);
-        int spread_grew = spread > (1 + HYSTERESIS) * e->spread + in->known * brightest;
-        in->changed[i] |= (unsigned char)spread_grew;
-        if (spread_grew || spread < (1 - HYSTERESIS) * e->spread)
-            e->spread = spread;
+        double unknown = in->known * brightest;
+        int grew = follow(&e->radiosity, brightest, 0);
+        grew |= follow(&e->spread, measure_spread(in, op, radiosity, i), unknown);
+        grew |= follow(&e->deviation, measure_deviation(in, op, radiosity, i), unknown);
+        in->changed[i] = (unsigned char)grew;
     }
 }

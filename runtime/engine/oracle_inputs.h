@@ -8,6 +8,7 @@
 struct oracle_inputs {
     /* [element * bands + band]: smallest and largest radiosity of the uncovered leaves below */
     double *least, *most;
+    double *deviation; /* the same: half the mean of |B - its mean| below */
     /* [element]: what the oracles see of it has grown since the links were discussed */
     unsigned char *changed;
     double known; /* relative: what iteration may have left of the radiosities they see */

@@ -44,7 +44,7 @@ static int make_room(struct solve *s)
     struct light_operator *op = &s->operator;
     uint32_t count = s->hierarchy.count, b = s->problem.bands;
     double **const by_band[] = {&state->radiosity, &state->irradiance, &s->inputs.least,
-                                &s->inputs.most};
+                                &s->inputs.most, &s->inputs.deviation};
     double **const single[] = {&op->uncovered, &op->row_scale, &op->row_above, &op->row_share,
                                &op->row};
     for (size_t i = 0; i < sizeof by_band / sizeof *by_band; i++)
@@ -446,10 +446,11 @@ void solve_close(struct solve *s)
     importance_free(&s->importance);
     error_control_free(&s->error);
     linear_solution_free(&s->linear);
-    double *const lists[] = {s->state.radiosity,    s->state.irradiance,    s->inputs.least,
-                             s->inputs.most,        s->operator.uncovered,  s->operator.row_scale,
-                             s->operator.row_above, s->operator.row_share,  s->operator.row,
-                             s->problem.exitance,   s->problem.reflectance, s->problem.whitest};
+    double *const lists[] = {s->state.radiosity,    s->state.irradiance,   s->inputs.least,
+                             s->inputs.most,        s->inputs.deviation,   s->operator.uncovered,
+                             s->operator.row_scale, s->operator.row_above, s->operator.row_share,
+                             s->operator.row,       s->problem.exitance,   s->problem.reflectance,
+                             s->problem.whitest};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]);
     free(s->inputs.changed);

@@ -109,6 +109,7 @@
 #define CLUSTER_TRIES 8
 /* sums of radii. Nearer clusters are not points: there (d - a)^-2 exceeds (d + a)^-2 by 25 times;
  * chosen */
+#define SEPARABLE_ERROR 0.1
 #define CLUSTER_GAP_APART 1.5
 /* of the distance of the centres. A blocker is no nearer to the source, so that its umbra is
  * finite; chosen */

@@ -18,6 +18,9 @@
 TOOL enum shaft_answer tool_shaft(struct discussion *d)
 {
     struct blockers own;
+    if (d->terms.visibility_level == VISIBILITY_EXACT
+        && (d->terms.visibility <= 0 || d->terms.visibility >= 1))
+        return d->terms.visibility > 0 ? SHAFT_VISIBLE : SHAFT_INVISIBLE;
     const struct blockers *list = blockers_list(d, &own);
     if (list->count > BLOCKERS_MAX)
         return SHAFT_TOO_COMPLEX;

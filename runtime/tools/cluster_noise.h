@@ -1,0 +1,26 @@
+/* cluster_noise.h - question: may the rays' noise falsify the irradiance that a link of groups
+ * brings, A_s B_s sigma_V / (pi d^2), by more than the larger of `absolute` (W/m2) and `relative`
+ * times the scene's mean irradiance? As transfer_noise.h asks it of surfaces.
+ * SPDX-License-Identifier: MIT */
+#ifndef TOOL_CLUSTER_NOISE_H
+#define TOOL_CLUSTER_NOISE_H
+
+#include "discussion.h"
+#include "terms/axis.h"
+#include "terms/visibility_error.h"
+
+TOOL enum cluster_noise_answer tool_cluster_noise(struct discussion *d, double absolute,
+                                                  double relative)
+{
+    const double *axis = term_axis(d);
+    double limit = relative * d->host->irradiance;
+    if (absolute > limit)
+        limit = absolute;
+    return 0.31830988618379067154 * d->emitter->area * d->emitter->radiosity
+                       * term_visibility_error(d)
+                   > limit * dot3(axis, axis)
+               ? CLUSTER_NOISE_LARGE
+               : CLUSTER_NOISE_SMALL;
+}
+
+#endif
