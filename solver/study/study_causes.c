@@ -1,0 +1,189 @@
+/* study_causes.c - `radiosity study causes`: which light do the links bring wrongly, and why?
+ *
+ * Each scene is solved by links alone and its links held against rays (radFindCauses). The table
+ * has a row for each cause: what links bring of such light and what rays find of it, by how much
+ * the cause makes the light too much or too little in all, and in L1 over polygons and bands; its
+ * share is of the sum of L1 of all causes. All causes add up to `together`, in power; in L1 they
+ * may cancel there. These are errors of one reflection; the last line tells what particles measure
+ * of the solution, in which each is reflected on.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "output/json_file.h"
+#include "study/study.h"
+#include "util/device.h"
+#include "util/open_oracle.h"
+#include "util/progress.h"
+#include "util/report.h"
+#include "util/solved.h"
+
+/* Rows of the table: a way of light before the causes that are its own. */
+static const struct {
+    const char *name, *key;
+    int way;   /* or -1 */
+    int cause; /* or -1 */
+} rows[] = {
+    {"no link: lost", "lost", RAD_WAY_NONE, RAD_CAUSE_LOST},
+    {"links seen whole", "open", RAD_WAY_OPEN, -1},
+    {"  bright spots", "open_bright", -1, RAD_CAUSE_OPEN_BRIGHT},
+    {"  form factors", "open_kernel", -1, RAD_CAUSE_OPEN_KERNEL},
+    {"  visibility", "open_visibility", -1, RAD_CAUSE_OPEN_VISIBILITY},
+    {"links in half shadow", "half", RAD_WAY_HALF, -1},
+    {"  bright spots", "half_bright", -1, RAD_CAUSE_HALF_BRIGHT},
+    {"  form factors", "half_kernel", -1, RAD_CAUSE_HALF_KERNEL},
+    {"  visibility", "half_visibility", -1, RAD_CAUSE_HALF_VISIBILITY},
+    {"links of groups", "groups", RAD_WAY_GROUPS, -1},
+    {"  bright spots", "groups_bright", -1, RAD_CAUSE_GROUPS_BRIGHT},
+    {"  factors, visibility", "groups_rest", -1, RAD_CAUSE_GROUPS_REST},
+    {"row sums, cap", "row_cap", -1, RAD_CAUSE_ROW_CAP},
+    {"contact", "contact", -1, RAD_CAUSE_CONTACT},
+    {"iteration", "solver", -1, RAD_CAUSE_SOLVER},
+};
+enum { ROW_COUNT = sizeof rows / sizeof *rows };
+
+struct found {
+    struct RadCausesReport causes;
+    struct RadErrorReport error; /* of the solution, by particles */
+    struct RadReport solve;
+};
+
+static double sum_l1(const struct RadCausesReport *r)
+{
+    double sum = 0;
+    for (int i = 0; i < RAD_CAUSES; i++)
+        sum += r->cause[i].l1.value;
+    return sum;
+}
+
+/* ---- the table */
+
+static double half_width(const struct RadMeasure *m)
+{
+    return 50 * (m->high - m->low);
+}
+
+/* all: sum of L1; 0: no share is told. */
+static void print_cause(const struct RadCause *c, double all)
+{
+    printf("  %+7.3f +- %5.3f  %7.3f +- %5.3f", 100 * c->power.value, half_width(&c->power),
+           100 * c->l1.value, half_width(&c->l1));
+    if (all > 0)
+        printf("  %4.0f %%", 100 * c->l1.value / all);
+}
+
+static void print_found(const char *scene, const struct options *o, const struct found *f)
+{
+    const struct RadCausesReport *r = &f->causes;
+    printf("%s, oracle %s: %llu links, %.3g rays; %.3g W reflected, held against %.3g rays\n",
+           scene, o->oracle, (unsigned long long)f->solve.links, (double)f->solve.rays,
+           r->reflected, (double)r->rays);
+    if (!(r->reflected > 0)) {
+        printf("no light is reflected\n\n");
+        return;
+    }
+    printf("%% of the reflected light  links    rays  too much or little    L1 of polygons   "
+           "share\n"
+           "                          bring    find      in all, 95 %%\n");
+    double all = sum_l1(r);
+    for (int i = 0; i < ROW_COUNT; i++) {
+        printf("%-22s", rows[i].name);
+        if (rows[i].way >= 0)
+            printf("  %7.3f %7.3f", 100 * r->way[rows[i].way].links,
+                   100 * r->way[rows[i].way].rays);
+        else
+            printf("  %15s", "");
+        if (rows[i].cause >= 0)
+            print_cause(&r->cause[rows[i].cause], all);
+        putchar('\n');
+    }
+    printf("%-39s", "together");
+    print_cause(&r->together, 0);
+    printf("\n%-39s  %+7.3f +- %5.3f  %7.3f +- %5.3f\n\n", "the solution's error, by particles",
+           100 * f->error.power.value, half_width(&f->error.power), 100 * f->error.l1_faces.value,
+           half_width(&f->error.l1_faces));
+}
+
+/* ---- JSON */
+
+static json_t *measure_json(const struct RadMeasure *m)
+{
+    return json_pack("{s:f, s:f, s:f}", "value", m->value, "low", m->low, "high", m->high);
+}
+
+static json_t *cause_json(const struct RadCause *c)
+{
+    return json_pack("{s:o, s:o}", "power", measure_json(&c->power), "l1", measure_json(&c->l1));
+}
+
+static json_t *found_json(const char *scene, const struct options *o, const struct found *f)
+{
+    const struct RadCausesReport *r = &f->causes;
+    json_t *causes = json_object(), *ways = json_object();
+    for (int i = 0; i < ROW_COUNT; i++) {
+        if (rows[i].way >= 0)
+            json_object_set_new(ways, rows[i].key,
+                                json_pack("{s:f, s:f}", "links", r->way[rows[i].way].links, "rays",
+                                          r->way[rows[i].way].rays));
+        if (rows[i].cause >= 0)
+            json_object_set_new(causes, rows[i].key, cause_json(&r->cause[rows[i].cause]));
+    }
+    return json_pack("{s:s, s:s, s:I, s:I, s:f, s:I, s:o, s:o, s:o, s:o, s:o, s:f}", "scene", scene,
+                     "oracle", o->oracle, "links", (json_int_t)f->solve.links, "link_rays",
+                     (json_int_t)f->solve.rays, "reflected", r->reflected, "rays",
+                     (json_int_t)r->rays, "ways", ways, "causes", causes, "together",
+                     cause_json(&r->together), "solution_power", measure_json(&f->error.power),
+                     "solution_l1", measure_json(&f->error.l1_faces), "seconds", r->seconds);
+}
+
+/* ---- one scene */
+
+static int find(const struct options *o, const char *path, struct found *f)
+{
+    const struct scene_options how = {o->two_sided, o->quiet};
+    const struct RadSolveOptions solve = solve_options(o);
+    const struct RadCausesOptions rays = {.rays = (uint64_t)o->cause_rays};
+    const struct RadMeasureOptions particles = {.rays = (uint64_t)o->cause_rays};
+    struct open_scene scene;
+    struct solved s;
+    if (open_scene(&scene, path, &how, o->threads) < 0)
+        return -1;
+    struct progress progress;
+    progress_start(&progress, o->quiet);
+    radSetDeviceProgressFunction(scene.device, progress_show, &progress);
+    RadOracle oracle =
+        open_oracle(scene.device, o->oracle, o->release, o->settings, o->setting_count);
+    int status = -1;
+    if (oracle && solved_open(&s, scene.device, path, scene.scene, oracle, &solve) == 0) {
+        f->solve = s.report;
+        status = radFindCauses(s.solution, &rays, &f->causes) < 0
+                         || radMeasureError(s.solution, &particles, &f->error) < 0
+                     ? report_device(scene.device, path)
+                     : 0;
+        solved_close(&s);
+    }
+    progress_end(&progress);
+    radReleaseOracle(oracle);
+    close_scene(&scene);
+    return status;
+}
+
+int study_causes(const struct options *o, const struct open_scene *none)
+{
+    json_t *table = o->json ? json_array() : NULL;
+    (void)none;
+    for (int i = 0; i < o->scene_count; i++) {
+        struct found f;
+        if (find(o, o->scenes[i], &f) < 0) {
+            json_decref(table);
+            return 1;
+        }
+        if (!o->quiet) {
+            print_found(o->scenes[i], o, &f);
+            fflush(stdout);
+        }
+        if (o->json)
+            json_array_append_new(table, found_json(o->scenes[i], o, &f));
+    }
+    return o->json && json_file_write(o->json, table) < 0;
+}
