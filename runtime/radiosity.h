@@ -556,10 +556,12 @@ struct RadCause {
     /* sum over polygons and bands of the modulus, as far as it stands out of the rays' noise; no
      * less than |power| */
     struct RadMeasure l1;
+    /* what that comes to in the power of the solution, after all reflections */
+    struct RadMeasure after;
 };
 
-/* Errors are those of one reflection: what the links make of their own radiosities, less what is
- * right for these. In the solution each is reflected on, by up to 1 / (1 - rho). */
+/* power and l1 are of one reflection: what the links make of their own radiosities, less what is
+ * right for these. */
 struct RadCausesReport {
     struct RadCause cause[RAD_CAUSES];
     /* measured by itself, without asking for links: B - E - rho B(where a ray ends). It is the sum

@@ -38,7 +38,9 @@ void cause_sums_join(struct cause_sums *to, const struct cause_sums *from)
         for (int r = 0; r < REPLICATES; r++) {
             to->power[c][r] += from->power[c][r];
             to->l1[c][r] += from->l1[c][r];
+            to->after[c][r] += from->after[c][r];
         }
+    to->traced += from->traced;
     for (int w = 0; w < RAD_WAYS; w++) {
         to->links[w] += from->links[w];
         to->rays[w] += from->rays[w];
@@ -60,7 +62,8 @@ static struct RadMeasure measure(const double value[REPLICATES], double whole)
 
 static struct RadCause cause(const struct cause_sums *sums, int c, double whole)
 {
-    struct RadCause found = {measure(sums->power[c], whole), measure(sums->l1[c], whole)};
+    struct RadCause found = {measure(sums->power[c], whole), measure(sums->l1[c], whole),
+                             measure(sums->after[c], whole)};
     found.l1.value = fmax(found.l1.value, fabs(found.power.value));
     found.l1.low = fmax(found.l1.low, 0);
     found.l1.high = fmax(found.l1.high, found.l1.value);
@@ -73,6 +76,7 @@ void cause_sums_report(const struct cause_sums *sums, double whole, struct RadCa
         return;
     for (int c = 0; c < RAD_CAUSES; c++)
         report->cause[c] = cause(sums, c, whole);
+    report->rays = sums->traced;
     report->together = cause(sums, CAUSE_ALL, whole);
     for (int w = 0; w < RAD_WAYS; w++) {
         report->way[w].links = sums->links[w] / whole / REPLICATES;

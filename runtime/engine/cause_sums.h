@@ -17,6 +17,8 @@ struct cause_polygon {
 /* Of many polygons, all bands. */
 struct cause_sums {
     double power[CAUSE_SUMS][REPLICATES], l1[CAUSE_SUMS][REPLICATES];
+    double after[CAUSE_SUMS][REPLICATES];   /* power after all reflections */
+    uint64_t traced;                        /* rays */
     double links[RAD_WAYS], rays[RAD_WAYS]; /* brought by links of this way; found by rays */
 };
 

@@ -26,8 +26,13 @@
  * shifted at random; place on the leaf and direction follow a Sobol' sequence along it. Sums are
  * made by polygon, and by chunks of polygons in their order: no thread shows.
  *
- * Fails: a polygon of few rays hides its difference in noise (cause_sums.c). What light of one
- * cause makes after more reflections is not followed.
+ * What a difference at x comes to in the power of the whole solution, after all reflections, is
+ * 1 + E[rho (1 + E[rho (...)])] times as much, along a path from x: the adjoint, which is the same
+ * equation since the kernel is symmetric. One path from each point, independent of what its other
+ * rays find, estimates it without bias, of the true surfaces and not of the links.
+ *
+ * Fails: a polygon of few rays hides its difference in noise (cause_sums.c). What is wrong within a
+ * polygon and cancels over it is not told.
  * [derived here; residuals by rays: Lischinski, Tampieri and Greenberg 1993 hold links against
  * finer ones]
  * SPDX-License-Identifier: MIT */
@@ -38,6 +43,7 @@
 #include "engine/error_causes.h"
 #include "engine/push_pull.h"
 #include "engine/solve_tracer.h"
+#include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/leaf_at.h"
 #include "kernel/polygon_factor.h"
@@ -45,7 +51,7 @@
 #include "particles/sobol_sequence.h"
 #include "visibility/contact_fraction.h"
 
-enum { CHUNKS = 1024, RAYS_OF_POINT = 2 };
+enum { CHUNKS = 1024, RAYS_OF_POINT = 2 /* besides the path */ };
 
 struct causes {
     struct solve *solve;
@@ -62,7 +68,8 @@ struct causes {
         double start; /* of the first point, in spacings */
         uint32_t digits[SOBOL_DIMENSIONS];
     } shift[REPLICATES];
-    uint64_t rays, done; /* for the watch */
+    uint64_t stream;
+    uint64_t points, done; /* all replicates; for the watch */
     int stopped;
 };
 
@@ -165,14 +172,16 @@ static void add_links(const struct causes *c, uint32_t e, struct brought *b)
 /* What all rays of a leaf have in common, and where what they find goes. */
 struct receiver {
     uint32_t leaf, face;
-    double uncovered, shown[3], reflectance[3]; /* shown: B - E */
-    double sum[RAD_CAUSES][3];                  /* by cause, what no ray is asked for (W/m2) */
-    double *to[RAD_CAUSES + 1][3];              /* sums of this replicate */
+    double uncovered, shown[3], reflectance[3];    /* shown: B - E */
+    double sum[RAD_CAUSES][3];                     /* what no ray is asked for (W/m2) */
+    double grows[3];                               /* of this point: see follow_light */
+    double *to[CAUSE_SUMS][3], *after[CAUSE_SUMS]; /* sums of this replicate */
 };
 
 static void add(const struct receiver *at, int cause, uint32_t band, double difference)
 {
     *at->to[cause][band] += difference;
+    *at->after[cause] += at->grows[band] * difference;
 }
 
 static double turn(double u)
@@ -249,8 +258,35 @@ static void look_for_light(struct walk *w, const struct receiver *at, const doub
         add_arrival(w, at, face, y, share);
 }
 
-/* The rays of one point, u in [0, 1)^5: one by the cosine, one to the emitters. */
-static void trace(struct walk *w, const struct receiver *at, const double u[SOBOL_DIMENSIONS])
+/* Set at->grows: by a path from p, what light reflected there comes to after all reflections.
+ * Returns its rays. */
+static uint64_t follow_light(const struct tracer *t, struct receiver *at, const double p[3],
+                             struct dice *dice)
+{
+    double through[3] = {1, 1, 1}, x[3] = {p[0], p[1], p[2]};
+    uint32_t face = at->face;
+    for (uint64_t rays = 1;; rays++) {
+        double u = dice_throw(dice), v = dice_throw(dice), strongest = 0, left = 0;
+        int64_t met = tracer_step(t, face, x, u, v, NULL);
+        if (met < 0)
+            return rays;
+        face = (uint32_t)met;
+        for (uint32_t k = 0; k < t->bands; k++) {
+            strongest = fmax(strongest, through[k]);
+            through[k] *= t->reflectance[(size_t)face * t->bands + k];
+            left = fmax(left, through[k]);
+            at->grows[k] += through[k];
+        }
+        if (!(dice_throw(dice) * strongest < left))
+            return rays;
+        for (uint32_t k = 0; k < t->bands; k++)
+            through[k] *= strongest / left;
+    }
+}
+
+/* The rays of one point, u in [0, 1)^5: one by the cosine, one to the emitters, and a path. */
+static void trace(struct walk *w, struct receiver *at, const double u[SOBOL_DIMENSIONS],
+                  struct dice *dice)
 {
     const struct causes *c = w->causes;
     const struct tracer *t = &c->tracer;
@@ -262,6 +298,9 @@ static void trace(struct walk *w, const struct receiver *at, const double u[SOBO
     int64_t met = tracer_step(t, at->face, p, u[2], u[3], y);
     int covered = (met < 0 || at->uncovered < 1) && contact_covers(t->rays, leaf, from);
     double bare = covered ? 0 : 1;
+    for (uint32_t k = 0; k < t->bands; k++)
+        at->grows[k] = 1;
+    w->sums->traced += RAYS_OF_POINT + (covered ? 0 : follow_light(t, at, from, dice));
     for (uint32_t k = 0; k < t->bands; k++) {
         add(at, CAUSE_ALL, k, bare * at->shown[k]);
         add(at, RAD_CAUSE_CONTACT, k,
@@ -331,17 +370,25 @@ static void trace_leaf(struct walk *w, uint32_t leaf, const struct brought *b, d
     uint64_t rays = 0;
     for (int r = 0; r < REPLICATES; r++) {
         uint64_t first = points_before(c, r, from), end = points_before(c, r, to);
+        double grown[3] = {0, 0, 0};
         for (int cause = 0; cause < CAUSE_SUMS; cause++)
-            for (int k = 0; k < 3; k++)
+            for (int k = 0; k < 3; k++) {
                 at.to[cause][k] = &w->polygon.sum[cause][k][r];
+                at.after[cause] = &w->sums->after[cause][r];
+            }
         for (uint64_t i = first; i < end; i++) {
             double u[SOBOL_DIMENSIONS];
             sobol_sequence_point(&c->sobol, (uint32_t)i, c->shift[r].digits, u);
-            trace(w, &at, u);
+            struct dice dice = dice_of(c->stream, (uint64_t)r << 32 | i);
+            trace(w, &at, u, &dice);
+            for (uint32_t k = 0; k < c->tracer.bands; k++)
+                grown[k] += at.grows[k];
         }
         for (int cause = 0; cause < RAD_CAUSES; cause++)
-            for (uint32_t k = 0; k < c->tracer.bands; k++)
-                add(&at, cause, k, (double)(end - first) * at.sum[cause][k]);
+            for (uint32_t k = 0; k < c->tracer.bands; k++) {
+                *at.to[cause][k] += (double)(end - first) * at.sum[cause][k];
+                *at.after[cause] += grown[k] * at.sum[cause][k];
+            }
         rays += end - first;
     }
     for (uint32_t k = 0; k < c->tracer.bands && at.uncovered > 0; k++)
@@ -383,12 +430,13 @@ static void walk_surface(struct walk *w, uint32_t e, struct brought above, doubl
 /* Nonzero: stop. By the thread that called in, the work is told of. */
 static int watch(struct causes *c, double area)
 {
-    uint64_t done, rays = (uint64_t)(REPLICATES * RAYS_OF_POINT * area / c->spacing);
+    uint64_t done, points = (uint64_t)(REPLICATES * area / c->spacing);
     int stopped;
 #pragma omp atomic capture
-    done = c->done += rays;
+    done = c->done += points;
     if (omp_get_thread_num() == 0) {
-        const struct counting counting = {done, fmin((double)done / (double)c->rays, 1)};
+        const struct counting counting = {RAYS_OF_POINT * done,
+                                          fmin((double)done / (double)c->points, 1)};
         c->solve->counting = &counting;
         if (solve_tell(c->solve, "causes")) {
 #pragma omp atomic write
@@ -482,7 +530,7 @@ static int gather_all(struct causes *c)
 }
 
 /* The line, its chunks, and where points stand on it. Returns 0 or -1. */
-static int lay_out(struct causes *c, uint64_t stream)
+static int lay_out(struct causes *c, uint64_t rays)
 {
     const struct hierarchy *h = c->op->hierarchy;
     const struct problem *p = &c->solve->problem;
@@ -493,6 +541,7 @@ static int lay_out(struct causes *c, uint64_t stream)
         return -1;
     c->until[0] = 0;
     c->chunks = 0;
+    double white = 0;
     uint64_t chunk = UINT64_MAX;
     for (uint32_t i = 0; i < faces; i++) {
         uint32_t input = h->faces[i].input;
@@ -500,14 +549,19 @@ static int lay_out(struct causes *c, uint64_t stream)
         if (at != chunk)
             c->chunk_face[c->chunks++] = i;
         chunk = at;
-        c->until[i + 1] =
-            c->until[i] + (p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0);
+        double area = p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
+        white += area * p->whitest[i];
+        c->until[i + 1] = c->until[i] + area;
     }
     c->chunk_face[c->chunks] = faces;
-    c->spacing = c->until[faces] * REPLICATES * RAYS_OF_POINT / (double)c->rays;
+    /* a path has 1 / (1 - rho) rays, about */
+    double whole = c->until[faces],
+           each = RAYS_OF_POINT + whole / fmax(whole - white, 0.01 * whole);
+    c->points = (uint64_t)fmax((double)rays / each, REPLICATES);
+    c->spacing = whole * REPLICATES / (double)c->points;
     sobol_sequence_open(&c->sobol);
     for (int r = 0; r < REPLICATES; r++) {
-        struct dice dice = dice_of(stream, (uint64_t)r);
+        struct dice dice = dice_of(c->stream, UINT64_MAX - (uint64_t)r);
         c->shift[r].start = dice_throw(&dice);
         for (int d = 0; d < SOBOL_DIMENSIONS; d++)
             c->shift[r].digits[d] = (uint32_t)(dice_throw(&dice) * 0x1p32);
@@ -568,13 +622,12 @@ static int walk_all(struct causes *c, struct cause_sums *sums)
 int error_causes_find(struct solve *s, uint64_t rays, uint64_t stream,
                       struct RadCausesReport *report)
 {
-    struct causes c = {.solve = s, .op = &s->operator, .tracer = solve_tracer(s), .rays = rays};
+    struct causes c = {.solve = s, .op = &s->operator, .tracer = solve_tracer(s), .stream = stream};
     struct cause_sums sums = {0};
     *report = (struct RadCausesReport){.reflected = reflected(&c)};
     int failed = tracer_open(&c.tracer) < 0 || renew_operator(s) < 0 || gather_all(&c) < 0
-                 || lay_out(&c, stream) < 0 || (c.spacing > 0 && walk_all(&c, &sums) < 0);
+                 || lay_out(&c, rays) < 0 || (c.spacing > 0 && walk_all(&c, &sums) < 0);
     if (!failed && c.spacing > 0) {
-        report->rays = rays;
         cause_sums_report(&sums, report->reflected / c.spacing, report);
     }
     tracer_close(&c.tracer);

@@ -1,11 +1,12 @@
 /* study_causes.c - `radiosity study causes`: which light do the links bring wrongly, and why?
  *
  * Each scene is solved by links alone and its links held against rays (radFindCauses). The table
- * has a row for each cause: what links bring of such light and what rays find of it, by how much
- * the cause makes the light too much or too little in all, and in L1 over polygons and bands; its
- * share is of the sum of L1 of all causes. All causes add up to `together`, in power; in L1 they
- * may cancel there. These are errors of one reflection; the last line tells what particles measure
- * of the solution, in which each is reflected on.
+ * has a row for each cause: what links bring of such light and what rays find of it; by how much
+ * the cause makes the light of one reflection too much or too little, in all, and in L1 over
+ * polygons and bands; its share of the sum of that over all causes; and what the power comes to
+ * after all reflections. All causes add up to `together`, in power; in L1 they may cancel there.
+ * Below stands what particles, which know of no links, measure of the solution; the last column
+ * should agree with that, as far as the links reflect rightly.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -63,45 +64,56 @@ static double half_width(const struct RadMeasure *m)
     return 50 * (m->high - m->low);
 }
 
+static void print_measure(const struct RadMeasure *m, int is_signed)
+{
+    printf(is_signed ? " %+7.3f +- %5.3f" : " %7.3f +- %5.3f", 100 * m->value, half_width(m));
+}
+
 /* all: sum of L1; 0: no share is told. */
 static void print_cause(const struct RadCause *c, double all)
 {
-    printf("  %+7.3f +- %5.3f  %7.3f +- %5.3f", 100 * c->power.value, half_width(&c->power),
-           100 * c->l1.value, half_width(&c->l1));
+    print_measure(&c->power, 1);
+    print_measure(&c->l1, 0);
     if (all > 0)
-        printf("  %4.0f %%", 100 * c->l1.value / all);
+        printf(" %3.0f %%", 100 * c->l1.value / all);
+    else
+        printf(" %5s", "");
+    print_measure(&c->after, 1);
+    putchar('\n');
 }
 
 static void print_found(const char *scene, const struct options *o, const struct found *f)
 {
     const struct RadCausesReport *r = &f->causes;
-    printf("%s, oracle %s: %llu links, %.3g rays; %.3g W reflected, held against %.3g rays\n",
-           scene, o->oracle, (unsigned long long)f->solve.links, (double)f->solve.rays,
-           r->reflected, (double)r->rays);
+    printf("%s, oracle %s: %llu links by %.3g rays, held against %.3g rays\n", scene, o->oracle,
+           (unsigned long long)f->solve.links, (double)f->solve.rays, (double)r->rays);
     if (!(r->reflected > 0)) {
         printf("no light is reflected\n\n");
         return;
     }
-    printf("%% of the reflected light  links    rays  too much or little    L1 of polygons   "
-           "share\n"
-           "                          bring    find      in all, 95 %%\n");
+    printf(
+        "%% of reflected light     links   rays    of one reflection, +: too much     after all\n"
+        "                         bring   find    all together   by polygon share   reflections\n");
     double all = sum_l1(r);
     for (int i = 0; i < ROW_COUNT; i++) {
         printf("%-22s", rows[i].name);
         if (rows[i].way >= 0)
-            printf("  %7.3f %7.3f", 100 * r->way[rows[i].way].links,
-                   100 * r->way[rows[i].way].rays);
+            printf(" %7.3f %7.3f", 100 * r->way[rows[i].way].links, 100 * r->way[rows[i].way].rays);
         else
-            printf("  %15s", "");
+            printf(" %15s", "");
         if (rows[i].cause >= 0)
             print_cause(&r->cause[rows[i].cause], all);
-        putchar('\n');
+        else
+            putchar('\n');
     }
-    printf("%-39s", "together");
+    printf("%-38s", "together");
     print_cause(&r->together, 0);
-    printf("\n%-39s  %+7.3f +- %5.3f  %7.3f +- %5.3f\n\n", "the solution's error, by particles",
-           100 * f->error.power.value, half_width(&f->error.power), 100 * f->error.l1_faces.value,
-           half_width(&f->error.l1_faces));
+    printf("%-54s", "the solution, measured by particles");
+    print_measure(&f->error.l1_faces, 0);
+    printf(" %5s", "");
+    print_measure(&f->error.power, 1);
+    printf("\nwithin polygons, the cap moves %.2f %% of the exchange\n\n",
+           100 * f->solve.rows.moved);
 }
 
 /* ---- JSON */
@@ -113,7 +125,8 @@ static json_t *measure_json(const struct RadMeasure *m)
 
 static json_t *cause_json(const struct RadCause *c)
 {
-    return json_pack("{s:o, s:o}", "power", measure_json(&c->power), "l1", measure_json(&c->l1));
+    return json_pack("{s:o, s:o, s:o}", "power", measure_json(&c->power), "l1",
+                     measure_json(&c->l1), "after", measure_json(&c->after));
 }
 
 static json_t *found_json(const char *scene, const struct options *o, const struct found *f)
@@ -128,12 +141,13 @@ static json_t *found_json(const char *scene, const struct options *o, const stru
         if (rows[i].cause >= 0)
             json_object_set_new(causes, rows[i].key, cause_json(&r->cause[rows[i].cause]));
     }
-    return json_pack("{s:s, s:s, s:I, s:I, s:f, s:I, s:o, s:o, s:o, s:o, s:o, s:f}", "scene", scene,
-                     "oracle", o->oracle, "links", (json_int_t)f->solve.links, "link_rays",
+    return json_pack("{s:s, s:s, s:I, s:I, s:f, s:I, s:o, s:o, s:o, s:o, s:o, s:f, s:f}", "scene",
+                     scene, "oracle", o->oracle, "links", (json_int_t)f->solve.links, "link_rays",
                      (json_int_t)f->solve.rays, "reflected", r->reflected, "rays",
                      (json_int_t)r->rays, "ways", ways, "causes", causes, "together",
                      cause_json(&r->together), "solution_power", measure_json(&f->error.power),
-                     "solution_l1", measure_json(&f->error.l1_faces), "seconds", r->seconds);
+                     "solution_l1", measure_json(&f->error.l1_faces), "cap_moves",
+                     f->solve.rows.moved, "seconds", r->seconds);
 }
 
 /* ---- one scene */
