@@ -529,18 +529,23 @@ enum RadCauseKind {
     RAD_CAUSE_LOST, /* light that no link stands for */
     /* RAD_WAY_OPEN. bright: visibility goes with radiosity, so that the mean over the emitter is
      * not what is seen of it; kernel: the link's form factor, which is not exact; visibility: that
-     * of the link, which is not what rays find */
+     * of the link, which is not what rays find; spread: the mean over the receiver, as the light
+     * reaches parts of it from which it goes on better or worse: bright, the other way round. Over
+     * a polygon it cancels, after more reflections it does not */
     RAD_CAUSE_OPEN_BRIGHT,
     RAD_CAUSE_OPEN_KERNEL,
     RAD_CAUSE_OPEN_VISIBILITY,
+    RAD_CAUSE_OPEN_SPREAD,
     RAD_CAUSE_HALF_BRIGHT, /* RAD_WAY_HALF, the same */
     RAD_CAUSE_HALF_KERNEL,
     RAD_CAUSE_HALF_VISIBILITY,
+    RAD_CAUSE_HALF_SPREAD,
     RAD_CAUSE_GROUPS_BRIGHT, /* RAD_WAY_GROUPS: the same, the mean over the whole group */
     RAD_CAUSE_GROUPS_REST,   /* the separable form factor and the one visibility of all pairs */
-    RAD_CAUSE_ROW_CAP,       /* what was done about row sums, cap or closure */
-    RAD_CAUSE_CONTACT,       /* how much of a leaf solids are taken to cover */
-    RAD_CAUSE_SOLVER,        /* where iteration stopped */
+    RAD_CAUSE_GROUPS_SPREAD,
+    RAD_CAUSE_ROW_CAP, /* what was done about row sums, cap or closure */
+    RAD_CAUSE_CONTACT, /* how much of a leaf solids are taken to cover */
+    RAD_CAUSE_SOLVER,  /* where iteration stopped */
     RAD_CAUSES
 };
 
@@ -556,8 +561,9 @@ struct RadCause {
     /* sum over polygons and bands of the modulus, as far as it stands out of the rays' noise; no
      * less than |power| */
     struct RadMeasure l1;
-    /* what that comes to in the power of the solution, after all reflections */
-    struct RadMeasure after;
+    /* what that comes to in the power of the solution, after all reflections; and the sum of the
+     * modulus of what each polygon's error comes to */
+    struct RadMeasure after, after_l1;
 };
 
 /* power and l1 are of one reflection: what the links make of their own radiosities, less what is

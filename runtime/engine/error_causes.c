@@ -367,14 +367,14 @@ static void trace_leaf(struct walk *w, uint32_t leaf, const struct brought *b, d
     const struct causes *c = w->causes;
     struct receiver at;
     set_receiver(c, &at, leaf, b);
-    uint64_t rays = 0;
+    uint64_t points = 0;
     for (int r = 0; r < REPLICATES; r++) {
         uint64_t first = points_before(c, r, from), end = points_before(c, r, to);
-        double grown[3] = {0, 0, 0};
+        double growth[3] = {0, 0, 0};
         for (int cause = 0; cause < CAUSE_SUMS; cause++)
             for (int k = 0; k < 3; k++) {
                 at.to[cause][k] = &w->polygon.sum[cause][k][r];
-                at.after[cause] = &w->sums->after[cause][r];
+                at.after[cause] = &w->polygon.after[cause][r];
             }
         for (uint64_t i = first; i < end; i++) {
             double u[SOBOL_DIMENSIONS];
@@ -382,18 +382,21 @@ static void trace_leaf(struct walk *w, uint32_t leaf, const struct brought *b, d
             struct dice dice = dice_of(c->stream, (uint64_t)r << 32 | i);
             trace(w, &at, u, &dice);
             for (uint32_t k = 0; k < c->tracer.bands; k++)
-                grown[k] += at.grows[k];
+                growth[k] += at.grows[k];
         }
         for (int cause = 0; cause < RAD_CAUSES; cause++)
             for (uint32_t k = 0; k < c->tracer.bands; k++) {
                 *at.to[cause][k] += (double)(end - first) * at.sum[cause][k];
-                *at.after[cause] += grown[k] * at.sum[cause][k];
+                *at.after[cause] += growth[k] * at.sum[cause][k];
             }
-        rays += end - first;
+        for (uint32_t k = 0; k < c->tracer.bands; k++)
+            w->polygon.growth[k] += growth[k];
+        points += end - first;
     }
+    w->polygon.points += points;
     for (uint32_t k = 0; k < c->tracer.bands && at.uncovered > 0; k++)
         for (int way = RAD_WAY_OPEN; way < RAD_WAYS; way++)
-            w->sums->links[way] += (double)rays * at.reflectance[k] * b->way[way][k];
+            w->sums->links[way] += (double)points * at.reflectance[k] * b->way[way][k];
 }
 
 static int has_points(const struct causes *c, double from, double to)
@@ -460,10 +463,8 @@ static void walk_chunk(struct walk *w, uint32_t chunk)
             move_to(w, h->elements[e].parent);
             walk_surface(w, e, nothing, c->until[i], c->until[i + 1]);
         }
-        if (i + 1 == h->face_count || h->faces[i + 1].input != h->faces[i].input) {
+        if (i + 1 == h->face_count || h->faces[i + 1].input != h->faces[i].input)
             cause_sums_add(w->sums, &w->polygon, c->tracer.bands);
-            memset(&w->polygon, 0, sizeof w->polygon);
-        }
         if (watch(c, c->until[i + 1] - c->until[i]))
             return;
     }

@@ -30,13 +30,16 @@ static const struct {
     {"  bright spots", "open_bright", -1, RAD_CAUSE_OPEN_BRIGHT},
     {"  form factors", "open_kernel", -1, RAD_CAUSE_OPEN_KERNEL},
     {"  visibility", "open_visibility", -1, RAD_CAUSE_OPEN_VISIBILITY},
+    {"  spread over receiver", "open_spread", -1, RAD_CAUSE_OPEN_SPREAD},
     {"links in half shadow", "half", RAD_WAY_HALF, -1},
     {"  bright spots", "half_bright", -1, RAD_CAUSE_HALF_BRIGHT},
     {"  form factors", "half_kernel", -1, RAD_CAUSE_HALF_KERNEL},
     {"  visibility", "half_visibility", -1, RAD_CAUSE_HALF_VISIBILITY},
+    {"  spread over receiver", "half_spread", -1, RAD_CAUSE_HALF_SPREAD},
     {"links of groups", "groups", RAD_WAY_GROUPS, -1},
     {"  bright spots", "groups_bright", -1, RAD_CAUSE_GROUPS_BRIGHT},
     {"  factors, visibility", "groups_rest", -1, RAD_CAUSE_GROUPS_REST},
+    {"  spread over receiver", "groups_spread", -1, RAD_CAUSE_GROUPS_SPREAD},
     {"row sums, cap", "row_cap", -1, RAD_CAUSE_ROW_CAP},
     {"contact", "contact", -1, RAD_CAUSE_CONTACT},
     {"iteration", "solver", -1, RAD_CAUSE_SOLVER},
@@ -45,7 +48,7 @@ enum { ROW_COUNT = sizeof rows / sizeof *rows };
 
 struct found {
     struct RadCausesReport causes;
-    struct RadErrorReport error; /* of the solution, by particles */
+    struct RadMeasure power, l1; /* of the solution, by particles, as shares of the same light */
     struct RadReport solve;
 };
 
@@ -109,9 +112,9 @@ static void print_found(const char *scene, const struct options *o, const struct
     printf("%-38s", "together");
     print_cause(&r->together, 0);
     printf("%-54s", "the solution, measured by particles");
-    print_measure(&f->error.l1_faces, 0);
+    print_measure(&f->l1, 0);
     printf(" %5s", "");
-    print_measure(&f->error.power, 1);
+    print_measure(&f->power, 1);
     printf("\nwithin polygons, the cap moves %.2f %% of the exchange\n\n",
            100 * f->solve.rows.moved);
 }
@@ -145,12 +148,20 @@ static json_t *found_json(const char *scene, const struct options *o, const stru
                      scene, "oracle", o->oracle, "links", (json_int_t)f->solve.links, "link_rays",
                      (json_int_t)f->solve.rays, "reflected", r->reflected, "rays",
                      (json_int_t)r->rays, "ways", ways, "causes", causes, "together",
-                     cause_json(&r->together), "solution_power", measure_json(&f->error.power),
-                     "solution_l1", measure_json(&f->error.l1_faces), "cap_moves",
-                     f->solve.rows.moved, "seconds", r->seconds);
+                     cause_json(&r->together), "solution_power", measure_json(&f->power),
+                     "solution_l1", measure_json(&f->l1), "cap_moves", f->solve.rows.moved,
+                     "seconds", r->seconds);
 }
 
 /* ---- one scene */
+
+/* A share of what particles count, as one of what the links reflect. */
+static struct RadMeasure share_of(const struct RadMeasure *m, double counted,
+                                  const struct RadCausesReport *links)
+{
+    double part = links->reflected > 0 ? counted / links->reflected : 0;
+    return (struct RadMeasure){part * m->value, part * m->low, part * m->high};
+}
 
 static int find(const struct options *o, const char *path, struct found *f)
 {
@@ -160,6 +171,7 @@ static int find(const struct options *o, const char *path, struct found *f)
     const struct RadMeasureOptions particles = {.rays = (uint64_t)o->cause_rays};
     struct open_scene scene;
     struct solved s;
+    struct RadErrorReport error;
     if (open_scene(&scene, path, &how, o->threads) < 0)
         return -1;
     struct progress progress;
@@ -171,9 +183,13 @@ static int find(const struct options *o, const char *path, struct found *f)
     if (oracle && solved_open(&s, scene.device, path, scene.scene, oracle, &solve) == 0) {
         f->solve = s.report;
         status = radFindCauses(s.solution, &rays, &f->causes) < 0
-                         || radMeasureError(s.solution, &particles, &f->error) < 0
+                         || radMeasureError(s.solution, &particles, &error) < 0
                      ? report_device(scene.device, path)
                      : 0;
+        if (status == 0) {
+            f->power = share_of(&error.power, error.reflected, &f->causes);
+            f->l1 = share_of(&error.l1_faces, error.reflected, &f->causes);
+        }
         solved_close(&s);
     }
     progress_end(&progress);
