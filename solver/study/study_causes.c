@@ -2,11 +2,12 @@
  *
  * Each scene is solved by links alone and its links held against rays (radFindCauses). The table
  * has a row for each cause: what links bring of such light and what rays find of it; by how much
- * the cause makes the light of one reflection too much or too little, in all, and in L1 over
- * polygons and bands; its share of the sum of that over all causes; and what the power comes to
- * after all reflections. All causes add up to `together`, in power; in L1 they may cancel there.
- * Below stands what particles, which know of no links, measure of the solution; the last column
- * should agree with that, as far as the links reflect rightly.
+ * the cause makes the light of one reflection too much or too little, in all, and as the sum of the
+ * modulus over polygons; the same after all reflections, each polygon's part by what it makes of
+ * all light; and its share of the sum of that over causes. All causes add up to `together` in all;
+ * polygon by polygon they may cancel there. Below stands what particles, which know of no links,
+ * measure of the solution: in all the same, but by polygon the error where it ends, not where it
+ * begins.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -22,8 +23,7 @@
 /* Rows of the table: a way of light before the causes that are its own. */
 static const struct {
     const char *name, *key;
-    int way;   /* or -1 */
-    int cause; /* or -1 */
+    int way, cause; /* or -1 */
 } rows[] = {
     {"no link: lost", "lost", RAD_WAY_NONE, RAD_CAUSE_LOST},
     {"links seen whole", "open", RAD_WAY_OPEN, -1},
@@ -52,36 +52,44 @@ struct found {
     struct RadReport solve;
 };
 
-static double sum_l1(const struct RadCausesReport *r)
+/* Of the modulus of what is wrong after all reflections. */
+static double share_of_cause(const struct RadCausesReport *r, enum RadCauseKind kind)
 {
     double sum = 0;
     for (int i = 0; i < RAD_CAUSES; i++)
-        sum += r->cause[i].l1.value;
-    return sum;
+        sum += r->cause[i].after_l1.value;
+    return sum > 0 ? r->cause[kind].after_l1.value / sum : 0;
 }
 
 /* ---- the table */
 
-static double half_width(const struct RadMeasure *m)
+/* "+1.234 +- 0.056 (1.3)": in all, and by polygons. */
+static void print_sums(const struct RadMeasure *all, const struct RadMeasure *polygons)
 {
-    return 50 * (m->high - m->low);
+    printf("  %+7.3f +- %5.3f %7.3f", 100 * all->value, 50 * (all->high - all->low),
+           100 * polygons->value);
 }
 
-static void print_measure(const struct RadMeasure *m, int is_signed)
+/* Is there such light, or such an error? */
+static int has_row(const struct RadCausesReport *r, int row)
 {
-    printf(is_signed ? " %+7.3f +- %5.3f" : " %7.3f +- %5.3f", 100 * m->value, half_width(m));
+    const int way = rows[row].way, cause = rows[row].cause;
+    return (way >= 0 && (r->way[way].links > 0 || r->way[way].rays > 0))
+           || (cause >= 0 && r->cause[cause].after_l1.value > 0);
 }
 
-/* all: sum of L1; 0: no share is told. */
-static void print_cause(const struct RadCause *c, double all)
+static void print_row(const struct RadCausesReport *r, int row)
 {
-    print_measure(&c->power, 1);
-    print_measure(&c->l1, 0);
-    if (all > 0)
-        printf(" %3.0f %%", 100 * c->l1.value / all);
-    else
-        printf(" %5s", "");
-    print_measure(&c->after, 1);
+    printf("%-22s", rows[row].name);
+    if (rows[row].way >= 0)
+        printf(" %7.3f %7.3f", 100 * r->way[rows[row].way].links, 100 * r->way[rows[row].way].rays);
+    if (rows[row].cause >= 0) {
+        const struct RadCause *c = &r->cause[rows[row].cause];
+        printf("%*s", rows[row].way < 0 ? 16 : 0, "");
+        print_sums(&c->power, &c->l1);
+        print_sums(&c->after, &c->after_l1);
+        printf(" %4.0f %%", 100 * share_of_cause(r, (enum RadCauseKind)rows[row].cause));
+    }
     putchar('\n');
 }
 
@@ -94,27 +102,18 @@ static void print_found(const char *scene, const struct options *o, const struct
         printf("no light is reflected\n\n");
         return;
     }
-    printf(
-        "%% of reflected light     links   rays    of one reflection, +: too much     after all\n"
-        "                         bring   find    all together   by polygon share   reflections\n");
-    double all = sum_l1(r);
-    for (int i = 0; i < ROW_COUNT; i++) {
-        printf("%-22s", rows[i].name);
-        if (rows[i].way >= 0)
-            printf(" %7.3f %7.3f", 100 * r->way[rows[i].way].links, 100 * r->way[rows[i].way].rays);
-        else
-            printf(" %15s", "");
-        if (rows[i].cause >= 0)
-            print_cause(&r->cause[rows[i].cause], all);
-        else
-            putchar('\n');
-    }
+    printf("%% of the light that is   links    rays  of one reflection          after all "
+           "reflections\n"
+           "reflected; +: too much  bring    find  all together    by polygon  all together    by "
+           "polygon share\n");
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (has_row(r, i))
+            print_row(r, i);
     printf("%-38s", "together");
-    print_cause(&r->together, 0);
-    printf("%-54s", "the solution, measured by particles");
-    print_measure(&f->l1, 0);
-    printf(" %5s", "");
-    print_measure(&f->power, 1);
+    print_sums(&r->together.power, &r->together.l1);
+    print_sums(&r->together.after, &r->together.after_l1);
+    printf("\n%-64s", "the solution's error, measured by particles");
+    print_sums(&f->power, &f->l1);
     printf("\nwithin polygons, the cap moves %.2f %% of the exchange\n\n",
            100 * f->solve.rows.moved);
 }
@@ -128,8 +127,9 @@ static json_t *measure_json(const struct RadMeasure *m)
 
 static json_t *cause_json(const struct RadCause *c)
 {
-    return json_pack("{s:o, s:o, s:o}", "power", measure_json(&c->power), "l1",
-                     measure_json(&c->l1), "after", measure_json(&c->after));
+    return json_pack("{s:o, s:o, s:o, s:o}", "power", measure_json(&c->power), "l1",
+                     measure_json(&c->l1), "after", measure_json(&c->after), "after_l1",
+                     measure_json(&c->after_l1));
 }
 
 static json_t *found_json(const char *scene, const struct options *o, const struct found *f)
@@ -144,34 +144,44 @@ static json_t *found_json(const char *scene, const struct options *o, const stru
         if (rows[i].cause >= 0)
             json_object_set_new(causes, rows[i].key, cause_json(&r->cause[rows[i].cause]));
     }
-    return json_pack("{s:s, s:s, s:I, s:I, s:f, s:I, s:o, s:o, s:o, s:o, s:o, s:f, s:f}", "scene",
+    return json_pack("{s:s, s:s, s:I, s:I, s:I, s:f, s:o, s:o, s:o, s:o, s:o, s:f, s:f}", "scene",
                      scene, "oracle", o->oracle, "links", (json_int_t)f->solve.links, "link_rays",
-                     (json_int_t)f->solve.rays, "reflected", r->reflected, "rays",
-                     (json_int_t)r->rays, "ways", ways, "causes", causes, "together",
-                     cause_json(&r->together), "solution_power", measure_json(&f->power),
-                     "solution_l1", measure_json(&f->l1), "cap_moves", f->solve.rows.moved,
+                     (json_int_t)f->solve.rays, "rays", (json_int_t)r->rays, "reflected",
+                     r->reflected, "ways", ways, "causes", causes, "together",
+                     cause_json(&r->together), "measured_power", measure_json(&f->power),
+                     "measured_l1", measure_json(&f->l1), "cap_moves", f->solve.rows.moved,
                      "seconds", r->seconds);
 }
 
 /* ---- one scene */
 
 /* A share of what particles count, as one of what the links reflect. */
-static struct RadMeasure share_of(const struct RadMeasure *m, double counted,
-                                  const struct RadCausesReport *links)
+static struct RadMeasure share_of(const struct RadMeasure *m, double counted, double links)
 {
-    double part = links->reflected > 0 ? counted / links->reflected : 0;
+    double part = links > 0 ? counted / links : 0;
     return (struct RadMeasure){part * m->value, part * m->low, part * m->high};
+}
+
+static int measure(const struct options *o, RadSolution solution, struct found *f)
+{
+    const struct RadCausesOptions rays = {.rays = (uint64_t)o->cause_rays};
+    const struct RadMeasureOptions particles = {.rays = (uint64_t)o->cause_rays};
+    struct RadErrorReport error;
+    radGetReport(solution, &f->solve);
+    if (radFindCauses(solution, &rays, &f->causes) < 0
+        || radMeasureError(solution, &particles, &error) < 0)
+        return -1;
+    f->power = share_of(&error.power, error.reflected, f->causes.reflected);
+    f->l1 = share_of(&error.l1_faces, error.reflected, f->causes.reflected);
+    return 0;
 }
 
 static int find(const struct options *o, const char *path, struct found *f)
 {
     const struct scene_options how = {o->two_sided, o->quiet};
     const struct RadSolveOptions solve = solve_options(o);
-    const struct RadCausesOptions rays = {.rays = (uint64_t)o->cause_rays};
-    const struct RadMeasureOptions particles = {.rays = (uint64_t)o->cause_rays};
     struct open_scene scene;
     struct solved s;
-    struct RadErrorReport error;
     if (open_scene(&scene, path, &how, o->threads) < 0)
         return -1;
     struct progress progress;
@@ -181,15 +191,10 @@ static int find(const struct options *o, const char *path, struct found *f)
         open_oracle(scene.device, o->oracle, o->release, o->settings, o->setting_count);
     int status = -1;
     if (oracle && solved_open(&s, scene.device, path, scene.scene, oracle, &solve) == 0) {
-        f->solve = s.report;
-        status = radFindCauses(s.solution, &rays, &f->causes) < 0
-                         || radMeasureError(s.solution, &particles, &error) < 0
-                     ? report_device(scene.device, path)
-                     : 0;
-        if (status == 0) {
-            f->power = share_of(&error.power, error.reflected, &f->causes);
-            f->l1 = share_of(&error.l1_faces, error.reflected, &f->causes);
-        }
+        status = measure(o, s.solution, f);
+        progress_end(&progress);
+        if (status < 0)
+            report_device(scene.device, path);
         solved_close(&s);
     }
     progress_end(&progress);
