@@ -513,6 +513,82 @@ struct RadCorrectOptions {
  * -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
                        struct RadErrorReport *alone);
+/* ---- which light links bring wrongly, and why */
+
+/* How light came from one leaf to another, or would have had to. */
+enum RadWay {
+    RAD_WAY_NONE,   /* no link covers the two: they were given up as hidden, or as too dark */
+    RAD_WAY_OPEN,   /* by a link between surfaces that was found all visible */
+    RAD_WAY_HALF,   /* by one that was found visible in part */
+    RAD_WAY_GROUPS, /* by one that has a cluster at an end */
+    RAD_WAYS
+};
+
+/* What links bring less what rays find, part by part: for each leaf the parts add up. */
+enum RadCauseKind {
+    RAD_CAUSE_LOST, /* light that no link stands for */
+    /* RAD_WAY_OPEN. bright: visibility goes with radiosity, so that the mean over the emitter is
+     * not what is seen of it; kernel: the link's form factor, which is not exact; visibility: that
+     * of the link, which is not what rays find; spread: the mean over the receiver, as the light
+     * reaches parts of it from which it goes on better or worse: bright, the other way round. Over
+     * a polygon it cancels, after more reflections it does not */
+    RAD_CAUSE_OPEN_BRIGHT,
+    RAD_CAUSE_OPEN_KERNEL,
+    RAD_CAUSE_OPEN_VISIBILITY,
+    RAD_CAUSE_OPEN_SPREAD,
+    RAD_CAUSE_HALF_BRIGHT, /* RAD_WAY_HALF, the same */
+    RAD_CAUSE_HALF_KERNEL,
+    RAD_CAUSE_HALF_VISIBILITY,
+    RAD_CAUSE_HALF_SPREAD,
+    RAD_CAUSE_GROUPS_BRIGHT, /* RAD_WAY_GROUPS: the same, the mean over the whole group */
+    RAD_CAUSE_GROUPS_REST,   /* the separable form factor and the one visibility of all pairs */
+    RAD_CAUSE_GROUPS_SPREAD,
+    RAD_CAUSE_ROW_CAP, /* what was done about row sums, cap or closure */
+    RAD_CAUSE_CONTACT, /* how much of a leaf solids are taken to cover */
+    RAD_CAUSE_SOLVER,  /* where iteration stopped */
+    RAD_CAUSES
+};
+
+struct RadCausesOptions {
+    uint64_t rays;   /* about so many; 0: RAD_CAUSES_RAYS. At most 2^32 */
+    uint32_t stream; /* which random numbers */
+};
+#define RAD_CAUSES_RAYS (1u << 22)
+
+/* Shares of the light that the links' solution reflects. */
+struct RadCause {
+    struct RadMeasure power; /* positive: the links bring too much */
+    /* sum over polygons and bands of the modulus, as far as it stands out of the rays' noise; no
+     * less than |power| */
+    struct RadMeasure l1;
+    /* what that comes to in the power of the solution, after all reflections; and the sum of the
+     * modulus of what each polygon's error comes to */
+    struct RadMeasure after, after_l1;
+};
+
+/* power and l1 are of one reflection: what the links make of their own radiosities, less what is
+ * right for these. */
+struct RadCausesReport {
+    struct RadCause cause[RAD_CAUSES];
+    /* measured by itself, without asking for links: B - E - rho B(where a ray ends). It is the sum
+     * of all causes, in power and for each polygon */
+    struct RadCause together;
+    struct {
+        double links, rays; /* reflected light that these links bring; that rays find to come so */
+    } way[RAD_WAYS];
+    double reflected; /* light that the links' solution reflects, all bands (W) */
+    uint64_t rays;
+    double seconds;
+};
+/* Find out what the links bring wrongly, by rays from points spread over the surfaces that reflect
+ * in directions by the cosine: each meets a radiosity of the links' solution, and the link between
+ * the two leaves tells by which way that should have come. Of the links alone, also when the
+ * solution is mended; of constants (RAD_BASIS_CONSTANT). NULL options: the defaults. The same
+ * figures for any number of threads. Progress is told of, phase "causes". Returns 0, or -1.
+ * [engine/error_causes.c] */
+RAD_API int radFindCauses(RadSolution solution, const struct RadCausesOptions *options,
+                          struct RadCausesReport *report);
+
 /* ---- the account of error, by cause */
 
 /* [Arvo, Torrance and Smits 1994] What may be wrong with B, as a function over the surfaces. */

@@ -26,6 +26,7 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_CLUSTERING] = study_clustering,
     [COMMAND_FORM_FACTORS] = study_form_factors,
     [COMMAND_ARVO] = study_arvo,
+    [COMMAND_CAUSES] = study_causes,
     [COMMAND_ORACLES] = command_oracles,
 };
 
@@ -45,6 +46,12 @@ static int check_outputs(const struct options *o)
     int count = options_outputs(o, paths);
     for (int i = 0; i < count; i++) {
         int standard = strcmp(paths[i], "-") == 0;
+        for (int j = 1; !standard && j < o->scene_count; j++)
+            if (same_file(paths[i], o->scenes[j])) {
+                report_error(paths[i], 0,
+                             "this is a scene, which would be lost; give another name");
+                return 2;
+            }
         if (!standard && o->scene && same_file(paths[i], o->scene)) {
             report_error(paths[i], 0, "this is the %s, which would be lost; give another name",
                          o->command == COMMAND_ERROR ? "table" : "scene");
@@ -71,7 +78,7 @@ static int check_outputs(const struct options *o)
 static int run(const struct options *o)
 {
     const struct scene_options how = {o->two_sided, o->quiet};
-    if (!o->scene || o->command == COMMAND_ERROR)
+    if (!o->scene || o->scenes || o->command == COMMAND_ERROR)
         return commands[o->command](o, NULL);
     struct open_scene scene;
     if (open_scene(&scene, o->scene, &how, o->threads) < 0)

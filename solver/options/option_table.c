@@ -316,6 +316,12 @@ const struct command_row command_rows[COMMANDS] = {
          "constants can do (the lower curve), twice that, Galerkin's projection (means),\n"
          "collocation (centres). Exact to nine digits. [Arvo, Torrance, Smits, figure 4]\n",
          "radiosity study arvo --csv arvo.csv --chart arvo.svg"},
+    [COMMAND_CAUSES] =
+        {"study causes", "SCENE...", "which light links bring wrongly, and why",
+         "Solve scenes by links alone, then hold what the links bring against rays that\n"
+         "meet the same radiosities: how far off, in all and per polygon, and by which\n"
+         "cause: pairs given up, bright spots, form factors, visibility, row sums.\n",
+         "radiosity study causes room.obj cornell.obj --set relative=0.1"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -334,7 +340,8 @@ enum {
     CLUSTERING = 1 << COMMAND_CLUSTERING,
     FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
-    MATRICES = SOLVE | COMPARE | CLUSTERING,                 /* they solve for radiosities */
+    CAUSES = 1 << COMMAND_CAUSES,
+    MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
     THREADED = SCENES | REFERENCE | STABILITY | ARVO,
     ALL = THREADED | ERROR
@@ -362,7 +369,7 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
-    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING, "clusters", "the refinement oracle",
+    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES, "clusters", "the refinement oracle",
      TEXT(oracle)},
     /* Few links, of all sizes and distances, none of clusters. */
     {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
@@ -429,6 +436,8 @@ const struct option_row option_rows[] = {
      .read = read_thresholds},
     {"rays", "N,M,...", VISIBILITY, "4,16,64", "rays held against the reference",
      "some of 4,16,64,256,1024, rising, parted by commas", .read = read_rays},
+    {"rays", "N", CAUSES, "4000000", "how many of each scene, about",
+     "a whole number from 16 to 2000000000", WHOLE(cause_rays, 16, 2000000000)},
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
     {"two-sided", NULL, SCENES | REFERENCE, NULL, "faces have two sides, not only those *_2s",
@@ -459,7 +468,7 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR, NULL,
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };

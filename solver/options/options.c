@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "options/option_table.h"
+#include "util/array.h"
 #include "util/report.h"
 
 /* what getopt_long returns: a letter, or one of these */
@@ -260,6 +261,15 @@ static int set_scene(struct options *o, const char *path)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
                      *path ? path : "an empty name");
     int tables = o->command == COMMAND_ERROR;
+    if (*path && strstr(c->argument, "...")) {
+        if (array_reserve(&o->scenes, (size_t)o->scene_count + 1, &o->scene_capacity,
+                          sizeof *o->scenes)
+            < 0)
+            return wrong(c->name, "out of memory for so many scenes");
+        o->scenes[o->scene_count++] = path;
+        o->scene = o->scenes[0];
+        return -1;
+    }
     if (!*path)
         return wrong(c->name, tables ? "a table's name is empty" : "the scene's name is empty");
     if (o->scene && (!tables || o->reference))
@@ -380,5 +390,7 @@ int options_outputs(const struct options *o, const char *paths[OUTPUTS_MAX])
 void options_free(struct options *o)
 {
     free(o->settings);
+    free(o->scenes);
     o->settings = NULL;
+    o->scenes = NULL;
 }

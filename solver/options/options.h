@@ -18,6 +18,7 @@ enum command {
     COMMAND_CLUSTERING,
     COMMAND_FORM_FACTORS,
     COMMAND_ARVO,
+    COMMAND_CAUSES,
     COMMAND_ORACLES,
     COMMANDS
 };
@@ -40,7 +41,10 @@ enum { STUDY_LIST = 32, OUTPUTS_MAX = 8 };
  * wanted. */
 struct options {
     enum command command;
-    const char *scene; /* of error: the table of faces to judge */
+    const char *scene;   /* of error: the table of faces to judge; of many: the first */
+    const char **scenes; /* [scene_count] of commands that take many, owned; else NULL */
+    int scene_count;
+    size_t scene_capacity;
 
     /* How to solve. */
     const char *oracle;
@@ -79,10 +83,11 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    double noise; /* reference: the standard error to reach, a share */
-    int keep;     /* reference: its state file stays */
-    int worst;    /* error: how many faces to name */
-    int samples;  /* arvo: across the receiver; 0: exactly */
+    double noise;   /* reference: the standard error to reach, a share */
+    int keep;       /* reference: its state file stays */
+    int worst;      /* error: how many faces to name */
+    int samples;    /* arvo: across the receiver; 0: exactly */
+    int cause_rays; /* causes: about how many */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on
