@@ -188,7 +188,7 @@ enum RadRelease {
 
 /* The built-in oracles' names, NULL-terminated; constant. The default is radGetDefaultOracle(),
  * RAD_DEFAULT_ORACLE when the program was compiled. */
-#define RAD_DEFAULT_ORACLE "clusters"
+#define RAD_DEFAULT_ORACLE "power"
 RAD_API const char *const *radGetOracleNames(void);
 RAD_API const char *radGetDefaultOracle(void);
 

@@ -83,6 +83,9 @@ struct refiner_element {
     uint64_t id;         /* path from the root, hashed: equal in every run, whatever the order */
     /* largest less smallest B below the element, W/m2. Constant during a round */
     double spread;
+    /* half the area mean of |B - its mean| below the element, W/m2: the most that light to a place
+     * which sees only a part of the element may differ by. Constant during a round */
+    double deviation;
     double reflectance; /* rho, largest band; cluster: area mean */
     /* Y, what the view makes of irradiance here, 1 where no view asks. Constant during a round */
     double importance;

@@ -6,7 +6,7 @@
 #include "oracle/refiner.h"
 #include "util/messages.h"
 
-#define DEFAULT_ORACLE "clusters"
+#define DEFAULT_ORACLE "power"
 /* of `compare`: the one nearest to it that has a hand-written release */
 #define DEFAULT_BY_HAND "bf_guarded"
 

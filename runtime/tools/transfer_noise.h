@@ -2,10 +2,10 @@
  * F B sigma_V (W/m2), by more than the larger of `absolute` (W/m2) and `relative` times the scene's
  * mean irradiance?
  *
- * sigma_V as terms/visibility_error.h has it. The cure is rays, not subdivision: asked after 4 rays,
- * after 16 and so on, it is a test in steps that ends as soon as more rays would change nothing that
- * matters. [sequential analysis, Wald 1945; derived here]
- * Fails: it is statistical; of a blocker that no ray meets it fears 1/N.
+ * sigma_V as terms/visibility_error.h has it. The cure is rays, not subdivision: asked after 4
+ * rays, after 16 and so on, it is a test in steps that ends as soon as more rays would change
+ * nothing that matters. [sequential analysis, Wald 1945; derived here] Fails: it is statistical; of
+ * a blocker that no ray meets it fears 1/N.
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_TRANSFER_NOISE_H
 #define TOOL_TRANSFER_NOISE_H

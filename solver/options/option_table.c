@@ -369,7 +369,7 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
-    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES, "clusters", "the refinement oracle",
+    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES, "power", "the refinement oracle",
      TEXT(oracle)},
     /* Few links, of all sizes and distances, none of clusters. */
     {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",

@@ -1,0 +1,88 @@
+/* light_visibility.h - question: how much of the emitter's light arrives, by N rays to its parts in
+ * proportion to the power of each? N as in visibility.h; kept as the term `visibility`.
+ *
+ * What a link ought to bring is F times the mean of V B, not the mean of V times that of B
+ * (terms/unevenness.h). Rays whose ends lie by area tell the mean of V, and miss a small bright
+ * part; rays whose ends lie by A B tell the visible share of the light itself, so that what is left
+ * is noise, which differs in sign from link to link. An end is found by going down the emitter's
+ * parts, each with a chance in proportion to its area times its radiosity. Not the same both ways.
+ * [importance sampling of the emitter; derived here for links]
+ * Fails: within a leaf light is taken as spread evenly; bands count by the largest.
+ * SPDX-License-Identifier: MIT */
+#ifndef TOOL_LIGHT_VISIBILITY_H
+#define TOOL_LIGHT_VISIBILITY_H
+
+#include "discussion.h"
+#include "kernel/surface_point.h"
+#include "terms/visibility.h"
+
+/* The part of e that u in [0, 1) chooses; what is left of u goes back to it. */
+static inline const struct element *light_visibility_part(const struct element *e,
+                                                          const struct element *all, double *u)
+{
+    while (e->children && all) {
+        const struct element *child = &all[e->child];
+        double sum = 0;
+        int c = 0;
+        for (int i = 0; i < e->children; i++)
+            sum += child[i].area * child[i].radiosity;
+        if (!(sum > 0))
+            return e;
+        double at = *u * sum;
+        for (; c < e->children - 1 && at >= child[c].area * child[c].radiosity; c++)
+            at -= child[c].area * child[c].radiosity;
+        double part = child[c].area * child[c].radiosity;
+        *u = at < part ? at / part : 0.5;
+        e = &child[c];
+    }
+    return e;
+}
+
+OUTLINE double light_visibility_rays(const struct element *r, const struct element *s,
+                                     const struct host *host, int count)
+{
+    const struct element *all = host->elements ? *host->elements : NULL;
+    double weight[SEGMENTS_MAX], seen = 0, sum = 0,
+                                 spread = (r->area < s->area ? r->area : s->area) / count;
+    struct sampler p;
+    struct sobol net;
+    struct segment segments[SEGMENTS_MAX];
+    sampler_clip(&p, r, s);
+    if (p.p.n == 0)
+        return 0;
+    sobol_start(&net, hash64(r->id + 2 * hash64(s->id)));
+    for (int first = 0; first < count; first += SEGMENTS_MAX) {
+        int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;
+        for (int i = 0; i < batch; i++) {
+            struct segment *g = &segments[i];
+            sobol_go(&net, first + i);
+            double u = sobol_at(&net, 2);
+            const struct element *part = light_visibility_part(s, all, &u);
+            sampler_point(g->from, &p, sobol_at(&net, 0), sobol_at(&net, 1));
+            surface_point(g->to, part, u, sobol_at(&net, 3));
+            weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
+            for (int k = 0; k < 3; k++) {
+                g->from[k] += host->ray_offset * r->normal[k];
+                g->to[k] += host->ray_offset * s->normal[k];
+            }
+        }
+        uint64_t blocked = host->occluded(host, batch, segments);
+        for (int i = 0; i < batch; i++) {
+            sum += weight[i];
+            if (!(blocked >> i & 1))
+                seen += weight[i];
+        }
+    }
+    return sum > 0 ? seen / sum : 0;
+}
+
+TOOL enum light_visibility_answer tool_light_visibility(struct discussion *d, int rays)
+{
+    enum visibility_level level = visibility_level_of(rays);
+    double v = light_visibility_rays(d->receiver, d->emitter, d->host, visibility_rays_of(level));
+    d->terms.visibility = v;
+    d->terms.visibility_level = (unsigned char)level;
+    return v <= 0 ? LIGHT_VISIBILITY_NONE : v < 1 ? LIGHT_VISIBILITY_PARTIAL : LIGHT_VISIBILITY_ALL;
+}
+
+#endif
