@@ -103,6 +103,15 @@ check "noise of cells" near noise_cells "$(awk 'BEGIN { print 6 * .01 * sqrt(2 /
 check "noise of faces" near noise_faces "$(awk 'BEGIN { print 6 * .01 / 13 * sqrt(2 / 3.14159265) / 6.2 }')" 1e-4
 check "no place without a leaf" near missed 0 1e-9
 check "the reference, by faces" sh -c "'$cell_error' faces '$furnace' ref.csv 1e-3 >by_face && [ \$(wc -l <by_face) = 7 ] && grep -q '^0,1,2.2,' by_face"
+
+# A window's wall is four trapezoids, whose boxes overlap: each leaf keeps to its own place all the same.
+check "room is cut" "$cell_error" cut "$top/examples/scenes/room.obj" room 1e-3
+awk 'BEGIN { print "face,area,B_0,B_1,B_2,se_0,se_1,se_2" } /^f/ { print n++ ",1,1,1,1,0,0,0" }' room.obj >room_ref.csv
+room() { # ORACLE
+    "$radiosity" solve "$top/examples/scenes/room.obj" --oracle "$1" --no-correct --no-errors -q --faces room.csv -o room.ply &&
+        "$cell_error" compare "$top/examples/scenes/room.obj" room_ref.csv room.csv room.ply 1e-3 >errors && near missed 0 1e-9
+}
+check "no place of room is without a leaf" room ff
 refuses() { ! "$cell_error" "$@" 2>err && [ "$(wc -l <err)" = 1 ] && grep -q error: err; }
 check "a reference of other cells is refused" refuses compare "$furnace" ref.csv faces.csv mesh.ply 1e-4
 head -c 3000 mesh.ply >short.ply
