@@ -104,6 +104,20 @@ check "noise of faces" near noise_faces "$(awk 'BEGIN { print 6 * .01 / 13 * sqr
 check "no place without a leaf" near missed 0 1e-9
 check "the reference, by faces" sh -c "'$cell_error' faces '$furnace' ref.csv 1e-3 >by_face && [ \$(wc -l <by_face) = 7 ] && grep -q '^0,1,2.2,' by_face"
 
+# Cells of quads and triangles tile them.
+check "cornell is cut" "$cell_error" cut "$top/examples/scenes/cornell.obj" cornell 1e-3
+area() { # of an OBJ file, by the diagonals of quads and the edges of triangles
+    awk '/^v/ { n++; x[n] = $2; y[n] = $3; z[n] = $4 }
+         /^f/ {
+             for (i = 2; i <= NF; i++) k[i] = $i < 0 ? n + 1 + $i : $i
+             if (NF < 5) k[5] = k[2]
+             a = x[k[4]] - x[k[2]]; b = y[k[4]] - y[k[2]]; c = z[k[4]] - z[k[2]]
+             d = x[k[5]] - x[k[3]]; e = y[k[5]] - y[k[3]]; f = z[k[5]] - z[k[3]]
+             sum += sqrt((b * f - c * e) ^ 2 + (c * d - a * f) ^ 2 + (a * e - b * d) ^ 2) / 2
+         } END { printf "%.6f\n", sum }' "$1"
+}
+check "cornell's cells have its area" [ "$(area "$top/examples/scenes/cornell.obj")" = "$(area cornell.obj)" ]
+
 # A window's wall is four trapezoids, whose boxes overlap: each leaf keeps to its own place all the same.
 check "room is cut" "$cell_error" cut "$top/examples/scenes/room.obj" room 1e-3
 awk 'BEGIN { print "face,area,B_0,B_1,B_2,se_0,se_1,se_2" } /^f/ { print n++ ",1,1,1,1,0,0,0" }' room.obj >room_ref.csv

@@ -44,5 +44,6 @@ awk -v default="$default" "$numbers"'
             if (wins == 1) { one = one (one == "" ? "" : ", ") "`" o "` (" where ")" }
         }
         print ""
-        print "Both cheaper in rays and better than the default (bold) on more than one scene: " (many == "" ? "none" : many) "; on one: " (one == "" ? "none" : one) "."
+        for (i = 1; i <= scenes; i++) { x = v[scene[i], default, "noise_faces"]; if (x > noise) noise = x }
+        print "The noise of these references is " percent(noise) " % or less. Both cheaper in rays and better than the default (bold) on more than one scene: " (many == "" ? "none" : many) "; on one: " (one == "" ? "none" : one) "."
     }' "$tmp/rows"
