@@ -8,7 +8,6 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
-# make mend-table  build/bin/mend_table, which shows what particles add to the links of a scene
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
 # make bench    what the releases cost, in instructions
@@ -218,12 +217,6 @@ factor-rays: $(BUILD)/bin/factor_rays
 $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
-
-# A row of a table: what mending by particles is worth on a scene.
-.PHONY: mend-table
-mend-table: $(BUILD)/bin/mend_table
-$(BUILD)/bin/mend_table: $(BUILD)/tests/runtime/mend_table.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 # How far solutions are from the truth, on cells and on faces, and the tables that tell of it (tests/tables/make.sh).
 $(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c)) $(SOLVER) $(ARCHIVE)
