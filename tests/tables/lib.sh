@@ -24,6 +24,14 @@ scene() {
     WITHOUT='' scenes | grep "/$1.obj\$" || true
 }
 
+# The name of a scene in rows: those of a folder third-party, which are not shipped, have @ behind it.
+row_name() { # FILE
+    case $1 in
+    */third-party/*) echo "$(basename "$1" .obj)@" ;;
+    *) basename "$1" .obj ;;
+    esac
+}
+
 # A command and those lines of what it prints that tell of errors, as a block of code.
 solve_lines() { # SCENE OPTION...
     echo "    \$ build/bin/radiosity solve $*"
@@ -36,5 +44,6 @@ numbers='
 function count(x) { return x == "" ? "-" : x >= 999500 ? sprintf("%.3g M", x / 1e6) : x >= 999.5 ? sprintf("%.3g k", x / 1e3) : sprintf("%d", x) }
 function percent(x) { return x == "" ? "-" : sprintf(x < .00995 && x > -.00995 ? "%.2f" : "%.1f", 100 * x) }
 function signed(x) { return x == "" ? "-" : sprintf("%+.2f", 100 * x) }
+function called(name) { return sub(/@$/, "", name) ? "`" name "` (third-party)" : "`" name "`" }
 function time(x) { return x == "" ? "-" : sprintf(x < 9.95 ? "%.1f" : "%.0f", x) }
 '

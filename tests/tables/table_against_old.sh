@@ -9,7 +9,7 @@ fi
 [ -x "$OLD" ] || { say "error: $OLD is no command that can be run; OLD takes the path of a radiosity" && exit 1; }
 export LINKS=no
 for file in $(scenes); do
-    name=$(basename "$file" .obj)
+    name=$(row_name "$file")
     say "$name"
     sh "$tables/judge.sh" "$OLD" "$file" | sed "s/^/$name old_/" >>"$tmp/rows"
     sh "$tables/judge.sh" "$radiosity" "$file" | sed "s/^/$name new_/" >>"$tmp/rows"
@@ -22,7 +22,7 @@ awk "$numbers"'
         print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
         for (i = 1; i <= n; i++) {
             s = order[i]
-            printf "| `%s` | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", s,
+            printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", called(s),
                 count(v[s, "old_rays_links"]), count(v[s, "new_rays_links"]), share(s, "rays_links"), count(v[s, "old_rays"]),
                 count(v[s, "new_rays"]), share(s, "rays"), time(v[s, "old_seconds"]), time(v[s, "new_seconds"]), share(s, "seconds"),
                 percent(v[s, "old_l1_faces"]), percent(v[s, "new_l1_faces"]), percent(v[s, "old_worst"]), percent(v[s, "new_worst"]),
