@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 if [ -z "${OLD:-}" ]; then
     say "there is no older command to compare with: make tables TABLES=against_old OLD=path/of/radiosity"
-    exit 3
+    exit 77
 fi
 [ -x "$OLD" ] || { say "error: $OLD is no command that can be run; OLD takes the path of a radiosity" && exit 1; }
 export LINKS=no
