@@ -24,6 +24,14 @@ scene() {
     WITHOUT='' scenes | grep "/$1.obj\$" || true
 }
 
+# What judge.sh says, behind the words LABEL, to $tmp/rows. (Not through a pipe: that would hide that it failed.)
+judge() { # LABEL RADIOSITY SCENE OPTION...
+    label=$1
+    shift
+    sh "$tables/judge.sh" "$@" >"$tmp/judged"
+    sed "s/^/$label /" "$tmp/judged" >>"$tmp/rows"
+}
+
 # The name of a scene in rows: those of a folder third-party, which are not shipped, have @ behind it.
 row_name() { # FILE
     case $1 in
@@ -36,7 +44,8 @@ row_name() { # FILE
 solve_lines() { # SCENE OPTION...
     echo "    \$ build/bin/radiosity solve $*"
     "$radiosity" solve "$@" >"$tmp/out" 2>&1
-    grep -E '^(mended|error|accuracy) ' "$tmp/out" | sed 's/^/    /'
+    grep -E '^(mended|error|accuracy) ' "$tmp/out" >"$tmp/lines"
+    sed 's/^/    /' "$tmp/lines"
 }
 
 # Functions of the awk programs that print rows: 1234567 is "1.2 M"; .0123 is "1.2".

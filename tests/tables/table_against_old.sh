@@ -11,11 +11,11 @@ export LINKS=no
 for file in $(scenes); do
     name=$(row_name "$file")
     say "$name"
-    sh "$tables/judge.sh" "$OLD" "$file" | sed "s/^/$name old_/" >>"$tmp/rows"
-    sh "$tables/judge.sh" "$radiosity" "$file" | sed "s/^/$name new_/" >>"$tmp/rows"
+    judge "$name old" "$OLD" "$file"
+    judge "$name new" "$radiosity" "$file"
 done
 awk "$numbers"'
-    { if (!($1 in known)) order[++n] = $1; known[$1] = 1; v[$1, $2] = $3 }
+    { if (!($1 in known)) order[++n] = $1; known[$1] = 1; v[$1, $2 "_" $3] = $4 }
     function share(s, what) { return v[s, "old_" what] > 0 ? sprintf("%.2f", v[s, "new_" what] / v[s, "old_" what]) : "-" }
     END {
         print "| scene | rays of links: old | new | share | all rays: old | new | share | s: old | new | share | faces: old | new | worst large face: old | new | cells: old | new | particles alone: as many rays as new |"

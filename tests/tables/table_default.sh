@@ -5,7 +5,7 @@
 for file in $(scenes); do
     name=$(row_name "$file")
     say "$name"
-    sh "$tables/judge.sh" "$radiosity" "$file" | sed "s/^/$name /" >>"$tmp/rows"
+    judge "$name" "$radiosity" "$file"
 done
 awk "$numbers"'
     { if (!($1 in known)) order[++n] = $1; known[$1] = 1; v[$1, $2] = $3 }
