@@ -50,12 +50,12 @@ printf 'before \\1 & $x\n%s\n\n| 1 & \\1 |\n\n%s\nbetween\n%s\nold\n%s\nafter\n'
 check "what stands between its markers changed, and nothing else" diff wanted a.md
 check "a file without tables stays" diff b.old b.md
 cp a.md a.old
-for fault in 'exit 1' 'echo half; exit 1' 'echo half; kill -9 $$' ':' 'echo half; nosuchcommand || exit'; do
+for fault in 'exit 1' 'exit 3' 'echo half; exit 1' 'echo half; kill -9 $$' ':' 'echo half; nosuchcommand || exit'; do
     echo "$fault" >makers/table_two.sh
     check "a generator that does '$fault' fails" says 1 "a.md is as it was" two
     check "a generator that does '$fault' leaves the file" diff a.old a.md
 done
-echo 'echo half; exit 3' >makers/table_two.sh
+echo 'echo half; exit 77' >makers/table_two.sh
 check "a generator that lacks something is no failure" says 0 "left as it was" two
 check "and leaves the file" diff a.old a.md
 check "a second run makes the same" says 0 "table one" one

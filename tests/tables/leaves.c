@@ -16,6 +16,8 @@
 /* Of the mesh's largest extent: farther off a leaf's plane or border a point is not on it.
  * Positions are floats, and quads of scenes are bent by up to 5e-5 of their size. */
 static const double NEAR = 1e-4;
+/* Sine of a turn that rounding to floats makes where an edge goes on. */
+static const double STRAIGHT = 0.02;
 enum { VOXELS = 96, CORNERS_MAX = 4096 };
 
 /* ---- the file: binary little endian, as is this machine (checked) */
@@ -178,6 +180,44 @@ static double extent(const struct leaves *m)
     return m->size * VOXELS;
 }
 
+/* A leaf is a convex triangle or quad, with other corners in the middle of its edges only. Older
+ * commands have written some that are not, by corners of others: those say nothing. */
+static int is_leaf_shaped(const struct leaves *m, uint32_t i, const double normal[3])
+{
+    int turns = 0;
+    for (uint32_t j = m->start[i], begin = j, count = m->start[i + 1] - j; j < begin + count; j++) {
+        double a[3], b[3], c[3];
+        const double *p = position(m, begin + (j + 1 - begin) % count);
+        sub3(a, p, position(m, j));
+        sub3(b, position(m, begin + (j + 2 - begin) % count), p);
+        cross3(c, a, b);
+        double sine = dot3(c, normal) / fmax(length3(a) * length3(b), 1e-300);
+        if (sine < -STRAIGHT)
+            return 0;
+        turns += sine > STRAIGHT;
+    }
+    return turns <= 4;
+}
+
+/* The unit normal of polygon i; 0 where it is no leaf. */
+static void make_normal(struct leaves *m, uint32_t i)
+{
+    double n[3] = {0, 0, 0};
+    for (uint32_t j = m->start[i] + 2; j < m->start[i + 1]; j++) {
+        double a[3], b[3], c[3];
+        sub3(a, position(m, j - 1), position(m, m->start[i]));
+        sub3(b, position(m, j), position(m, m->start[i]));
+        cross3(c, a, b);
+        for (int k = 0; k < 3; k++)
+            n[k] += c[k];
+    }
+    double l = length3(n);
+    for (int k = 0; k < 3; k++)
+        m->normal[i][k] = l > 0 ? n[k] / l : 0;
+    if (!is_leaf_shaped(m, i, m->normal[i]))
+        memset(m->normal[i], 0, sizeof m->normal[i]);
+}
+
 static int make_grid(struct leaves *m, const char *path)
 {
     double high[3];
@@ -197,21 +237,8 @@ static int make_grid(struct leaves *m, const char *path)
     m->first = calloc(voxels + 2, sizeof *m->first);
     if (!m->normal || !m->first)
         return report_error(path, 0, "out of memory for the mesh");
-    for (uint32_t i = 0; i < m->polygons; i++) {
-        double *n = m->normal[i];
-        n[0] = n[1] = n[2] = 0;
-        for (uint32_t j = m->start[i] + 2; j < m->start[i + 1]; j++) {
-            double a[3], b[3], c[3];
-            sub3(a, position(m, j - 1), position(m, m->start[i]));
-            sub3(b, position(m, j), position(m, m->start[i]));
-            cross3(c, a, b);
-            for (int k = 0; k < 3; k++)
-                n[k] += c[k];
-        }
-        double l = length3(n);
-        for (int k = 0; k < 3; k++)
-            n[k] = l > 0 ? n[k] / l : 0;
-    }
+    for (uint32_t i = 0; i < m->polygons; i++)
+        make_normal(m, i);
     /* first[i + 2] counts, is summed up, and ends as the end of voxel i, where i + 1 begins */
     double near = NEAR * extent(m);
     spread(m, near, m->first + 2, NULL);

@@ -7,7 +7,7 @@
 #     <!-- table NAME: end -->
 #
 # and table_NAME.sh beside this file prints it: whatever is measured, sentences with figures included, and nothing else is
-# touched. A generator that fails, or prints nothing, leaves the file as it was; so does one that exits with 3, which says
+# touched. A generator that fails, or prints nothing, leaves the file as it was; so does one that exits with 77, which says
 # what it lacks. Files are replaced whole, by a rename. Exit status: 1 when a generator failed.
 #
 # SCENES: folders of scenes, those that are there; WITHOUT: scenes to leave out; OLD: an older radiosity to compare with.
@@ -63,7 +63,7 @@ for name; do
     start=$(date +%s)
     sh "$makers/table_$name.sh" >"$tmp/table"
     status=$?
-    if [ $status = 3 ]; then
+    if [ $status = 77 ]; then
         echo "table $name: left as it was" >&2
         continue
     fi

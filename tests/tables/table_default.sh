@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 for file in $(scenes); do
-    name=$(basename "$file" .obj)
+    name=$(row_name "$file")
     say "$name"
-    sh "$tables/judge.sh" "$radiosity" "$file" | sed "s/^/$name /" >>"$tmp/rows"
+    judge "$name" "$radiosity" "$file"
 done
 awk "$numbers"'
     { if (!($1 in known)) order[++n] = $1; known[$1] = 1; v[$1, $2] = $3 }
@@ -16,7 +16,7 @@ awk "$numbers"'
         print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
         for (i = 1; i <= n; i++) {
             s = order[i]
-            printf "| `%s` | %d | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", s, v[s, "faces"], count(v[s, "links"]),
+            printf "| %s | %d | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", called(s), v[s, "faces"], count(v[s, "links"]),
                 count(v[s, "rays_links"]), count(v[s, "rays_mending"]), count(v[s, "rays_errors"]), time(v[s, "seconds"]),
                 percent(v[s, "links_l1_faces"]), percent(v[s, "l1_faces"]), signed(v[s, "power"]), \
                 percent(v[s, "worst"]) (v[s, "worst"] < 2 * v[s, "worst_noise"] ? " (noise " percent(v[s, "worst_noise"]) ")" : ""),

@@ -11,7 +11,7 @@ for name in room maze_16 gridroom_1000 td; do
     say "$name"
     : >"$tmp/rows"
     for oracle in clusters bf_guarded; do
-        sh "$tables/judge.sh" "$radiosity" "$file" --oracle $oracle --no-correct --no-errors | sed "s/^/$oracle /" >>"$tmp/rows"
+        judge $oracle "$radiosity" "$file" --oracle $oracle --no-correct --no-errors
     done
     awk -v name="$name" "$numbers"'
         { v[$1, $2] = $3 }

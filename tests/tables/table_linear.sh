@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 export LINKS=no
 for basis in constant linear; do
-    sh "$tables/judge.sh" "$radiosity" examples/scenes/cornell.obj --basis $basis --no-correct --no-errors | sed "s/^/$basis /" >>"$tmp/rows"
+    judge $basis "$radiosity" examples/scenes/cornell.obj --basis $basis --no-correct --no-errors
 done
 awk "$numbers"'
     { v[$1, $2] = $3 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # table_oracles.sh - every oracle that ships, links alone, on five scenes: links, rays and error, and how many of them are
-# both cheaper and better than the default. PATIENCE: seconds a solve may take (100).
+# both cheaper and better than the default. PATIENCE: seconds a solve may take (60).
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 export LINKS=no
@@ -11,10 +11,10 @@ for name in cornell room maze_8 panels td; do
     echo "scene $name" >>"$tmp/rows"
     # viewfactors is for matrices: every face has radiosity 1
     for oracle in $("$radiosity" oracles | sed -n '/^[a-z]/{s/^\([a-z_]*\).*/\1/p;}' | grep -v -x viewfactors); do
-        timeout "${PATIENCE:-100}" sh "$tables/judge.sh" "$radiosity" "$file" --oracle "$oracle" --no-correct --no-errors >"$tmp/one" || {
+        timeout "${PATIENCE:-60}" sh "$tables/judge.sh" "$radiosity" "$file" --oracle "$oracle" --no-correct --no-errors >"$tmp/one" || {
             status=$?
             [ $status = 124 ] || exit $status
-            say "$name: $oracle takes more than ${PATIENCE:-100} s"
+            say "$name: $oracle takes more than ${PATIENCE:-60} s"
             : >"$tmp/one"
         }
         sed "s/^/value $name $oracle /" "$tmp/one" >>"$tmp/rows"

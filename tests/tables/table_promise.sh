@@ -10,5 +10,6 @@ printf 'newmtl lit\nKd .5 .5 .5\nKe 1 1 1\nnewmtl grey\nKd .5 .5 .5\nKe 0 0 0\n'
 } >"$tmp/cube.obj"
 echo "    \$ build/bin/radiosity solve cube.obj --oracle thermal --set tolerance_watts=0.005 --set share=0"
 "$radiosity" solve "$tmp/cube.obj" --oracle thermal --set tolerance_watts=0.005 --set share=0 >"$tmp/out"
-grep '^promise ' "$tmp/out" | sed 's/^/    /'
+grep '^promise ' "$tmp/out" >"$tmp/line"
+sed 's/^/    /' "$tmp/line"
 printf '\n(A unit cube that reflects half, with one face that emits 1 W/m2.)\n'
