@@ -52,6 +52,8 @@ solve_lines() { # SCENE OPTION...
 numbers='
 function count(x) { return x == "" ? "-" : x >= 999500 ? sprintf("%.3g M", x / 1e6) : x >= 999.5 ? sprintf("%.3g k", x / 1e3) : sprintf("%d", x) }
 function percent(x) { return x == "" ? "-" : sprintf(x < .00995 && x > -.00995 ? "%.2f" : "%.1f", 100 * x) }
+# Of a scene without a face above a hundredth of its area there is no worst.
+function worst(x, face, faces) { return face == faces ? "-" : percent(x) }
 function signed(x) { return x == "" ? "-" : sprintf("%+.2f", 100 * x) }
 function called(name) { return sub(/@$/, "", name) ? "`" name "` (third-party)" : "`" name "`" }
 function time(x) { return x == "" ? "-" : sprintf(x < 9.95 ? "%.1f" : "%.0f", x) }

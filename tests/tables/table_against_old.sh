@@ -25,7 +25,8 @@ awk "$numbers"'
             printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", called(s),
                 count(v[s, "old_rays_links"]), count(v[s, "new_rays_links"]), share(s, "rays_links"), count(v[s, "old_rays"]),
                 count(v[s, "new_rays"]), share(s, "rays"), time(v[s, "old_seconds"]), time(v[s, "new_seconds"]), share(s, "seconds"),
-                percent(v[s, "old_l1_faces"]), percent(v[s, "new_l1_faces"]), percent(v[s, "old_worst"]), percent(v[s, "new_worst"]),
+                percent(v[s, "old_l1_faces"]), percent(v[s, "new_l1_faces"]), worst(v[s, "old_worst"], v[s, "old_worst_face"], v[s, "new_faces"]),
+                worst(v[s, "new_worst"], v[s, "new_worst_face"], v[s, "new_faces"]),
                 percent(v[s, "old_l1_cells"]), percent(v[s, "new_l1_cells"]), percent(v[s, "new_particles_cells"])
         }
     }' "$tmp/rows"

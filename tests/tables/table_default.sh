@@ -19,7 +19,7 @@ awk "$numbers"'
             printf "| %s | %d | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", called(s), v[s, "faces"], count(v[s, "links"]),
                 count(v[s, "rays_links"]), count(v[s, "rays_mending"]), count(v[s, "rays_errors"]), time(v[s, "seconds"]),
                 percent(v[s, "links_l1_faces"]), percent(v[s, "l1_faces"]), signed(v[s, "power"]), \
-                percent(v[s, "worst"]) (v[s, "worst"] < 2 * v[s, "worst_noise"] ? " (noise " percent(v[s, "worst_noise"]) ")" : ""),
+                worst(v[s, "worst"], v[s, "worst_face"], v[s, "faces"]) (v[s, "worst"] < 2 * v[s, "worst_noise"] ? " (noise " percent(v[s, "worst_noise"]) ")" : ""),
                 percent(v[s, "l1_cells"]), percent(v[s, "particles_cells"])
         }
         printf "\nErrors in %% of the reflected light, against traced references whose own noise is a part of them: %s to %s %% of faces, %s to %s %% of cells.\n",
