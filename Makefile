@@ -8,8 +8,8 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
-# make mend-table  build/bin/mend_table, which shows what particles add to the links of a scene
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
+# make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
 # make bench    what the releases cost, in instructions
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # make install-dagc  the part of it that is dagc's
@@ -156,7 +156,7 @@ $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
-CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error
 check: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
@@ -218,8 +218,10 @@ $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
-# A row of a table: what mending by particles is worth on a scene.
-.PHONY: mend-table
-mend-table: $(BUILD)/bin/mend_table
-$(BUILD)/bin/mend_table: $(BUILD)/tests/runtime/mend_table.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
+# How far solutions are from the truth, on cells and on faces, and the tables that tell of it (tests/tables/make.sh).
+$(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c)) $(SOLVER) $(ARCHIVE)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+.PHONY: tables
+tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays
+	@sh tests/tables/make.sh $(BUILD) $(TABLES)
