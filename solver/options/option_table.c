@@ -159,6 +159,7 @@ static int read_basis(struct options *o, const struct option_row *row, const cha
 {
     int n = word_number(row, value);
     o->basis = (enum RadBasis)n;
+    o->basis_given = 1;
     return n < 0 ? -1 : 0;
 }
 
@@ -418,7 +419,7 @@ const struct option_row option_rows[] = {
     {"exitance-error", "X", SOLVE, NULL, "each E may be off by X of itself, as 5%",
      "a number from 0, below 1, or percent", .read = read_share, IN(account.exitance_error),
      .rare = 1},
-    {"basis", "constant|linear", SOLVE, NULL, "elements of one value, or with slopes (constant)",
+    {"basis", "constant|linear", SOLVE, NULL, "elements of one value, or with slopes (linear)",
      WORD(read_basis, bases), .rare = 1},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},

@@ -56,6 +56,7 @@ struct options {
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     enum RadBasis basis;
+    int basis_given;
     double tolerance;
     enum RadSolver solver;
     enum RadProjection projection;
