@@ -22,14 +22,13 @@ BUILD    = build
 OPT      = -O2 -g
 WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 # No contraction of a*b+c: all releases of an oracle must agree to the bit.
-CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fopenmp $(SANITIZE)
+CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off $(PARALLEL) $(SANITIZE)
+PARALLEL = -fopenmp
 CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE) -fopenmp
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # What the library is linked with, and what the command needs besides.
-# clang's OpenMP stands in a folder of clang's own, where other compilers that link the archive do not look.
-OPENMP   := $(if $(findstring clang,$(shell $(CC) --version)),$(or $(wildcard $(abspath $(shell $(CC) -print-resource-dir)/../..)/libomp.so),-lomp),-lgomp)
-ENGINE_LIBS = $(EMBREE) -llapacke $(OPENMP) -lpthread -ldl -lm
+ENGINE_LIBS = $(EMBREE) -llapacke -lpthread -ldl -lm
 LIBS     = $(EMBREE) -llapacke -lassimp -ljansson -lpng -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
@@ -109,7 +108,7 @@ $(ARCHIVE): $(RUNTIME) $(LIBDAGC)
 	rm -f $@
 	ar rcs $@ $(BUILD)/libradiosity.o
 $(BUILD)/libradiosity.so: $(RUNTIME) $(LIBDAGC) runtime/package/exported.map
-	$(CC) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
+	$(CC) $(SANITIZE) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
 
 $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
@@ -137,6 +136,8 @@ $(WALLS)/made: Makefile
 $(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
 $(SHARED): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += -fvisibility=hidden
+# The library's threads are util/thread_pool.h's; of OpenMP it takes only what says that a loop may be a vector's.
+$(RUNTIME): PARALLEL = -fopenmp-simd
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)

@@ -26,6 +26,7 @@
 #include "engine/linear_links.h"
 #include "engine/row_sums.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 /* What the rows of one face come to. Areas are uncovered ones (m2). */
 struct face_rows {
@@ -38,7 +39,7 @@ struct face_rows {
 
 /* Leave the row of every leaf below e where its scale will stand, and what its ancestors have of
  * it where theirs will. */
-static void sum_links(struct light_operator *op, uint32_t e, double above)
+static void sum_links(const struct light_operator *op, uint32_t e, double above)
 {
     const struct element *x = &op->hierarchy->elements[e];
     const struct refinement *r = op->refinement;
@@ -119,18 +120,23 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
+static void sum_faces(const void *operator, size_t from, size_t to)
+{
+    static const double nothing[3] = {0, 0, 0};
+    const struct light_operator *op = operator;
+    for (size_t i = from; i < to; i++)
+        if (op->linear)
+            linear_links_rows(op->linear, op, op->hierarchy->face_element[i], nothing);
+        else
+            sum_links(op, op->hierarchy->face_element[i], 0);
+}
+
 void row_sums_scale(struct light_operator *op, struct row_report *report)
 {
     const struct problem *p = op->problem;
     const struct hierarchy *h = op->hierarchy;
-    static const double nothing[3] = {0, 0, 0};
     double uncovered = 0;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(p->options.threads)
-    for (uint32_t i = 0; i < h->face_count; i++)
-        if (op->linear)
-            linear_links_rows(op->linear, op, h->face_element[i], nothing);
-        else
-            sum_links(op, h->face_element[i], 0);
+    thread_pool_run(p->options.threads, h->face_count, 16, sum_faces, op);
     *report = (struct row_report){.low = INFINITY};
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];

@@ -35,6 +35,7 @@
 #include "engine/transport.h"
 #include "engine/variation.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 enum { BLOCKS = 16, LINKS_WORTH_THREADS = 1 << 16 };
 
@@ -45,24 +46,43 @@ void transport_average(const struct light_operator *op, struct transport *x)
             element_average(op, x, e);
 }
 
+/* Of one block. */
+struct block {
+    const struct light_operator *op;
+    const struct transport *x;
+    struct change *change;   /* [face of the block] */
+    const uint32_t *element; /* [face of the block] */
+};
+
+static void gather_faces(const void *block, size_t from, size_t to)
+{
+    const struct block *b = block;
+    for (size_t i = from; i < to; i++)
+        face_gather(b->op, b->x, b->element[i]);
+}
+
+static void update_faces(const void *block, size_t from, size_t to)
+{
+    const struct block *b = block;
+    for (size_t i = from; i < to; i++)
+        face_update(b->op, b->x, b->element[i], &b->change[i]);
+}
+
 /* One sweep over all faces. change: [face]. */
 static void sweep(const struct light_operator *op, const struct transport *x, struct change *change)
 {
     const struct solve_options *o = &op->problem->options;
-    const uint32_t *element = op->hierarchy->face_element, faces = op->hierarchy->face_count;
-    int whole = o->solver == RAD_SOLVER_JACOBI || o->solver == RAD_SOLVER_SOUTHWELL;
+    uint32_t faces = op->hierarchy->face_count;
+    int whole = o->solver == RAD_SOLVER_JACOBI || o->solver == RAD_SOLVER_SOUTHWELL,
+        threads = op->refinement->link_count > LINKS_WORTH_THREADS ? o->threads : 1;
     uint32_t blocks = whole ? 1 : faces < BLOCKS ? faces : BLOCKS;
     separable_links_send(&op->separable, (int)x->bands, x->value);
-#pragma omp parallel num_threads(o->threads) if (op->refinement->link_count > LINKS_WORTH_THREADS)
-    for (uint32_t block = 0; block < blocks; block++) {
-        uint32_t from = (uint32_t)((uint64_t)faces * block / blocks),
-                 to = (uint32_t)((uint64_t)faces * (block + 1) / blocks);
-#pragma omp for schedule(dynamic, 8)
-        for (uint32_t i = from; i < to; i++)
-            face_gather(op, x, element[i]);
-#pragma omp for schedule(dynamic, 64)
-        for (uint32_t i = from; i < to; i++)
-            face_update(op, x, element[i], &change[i]);
+    for (uint32_t i = 0; i < blocks; i++) {
+        uint32_t from = (uint32_t)((uint64_t)faces * i / blocks),
+                 to = (uint32_t)((uint64_t)faces * (i + 1) / blocks);
+        const struct block b = {op, x, change + from, op->hierarchy->face_element + from};
+        thread_pool_run(threads, to - from, 8, gather_faces, &b);
+        thread_pool_run(threads, to - from, 64, update_faces, &b);
     }
 }
 
