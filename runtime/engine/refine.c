@@ -21,7 +21,7 @@
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-enum { ROUND = 1 << 17, CHUNK = 64 };
+enum { ROUND = 1 << 17, CHUNK = 64, SORT_SHARES = 8 };
 
 int decision_links(enum decision decision)
 {
@@ -377,28 +377,68 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
     return drain(r) < 0 ? -1 : moved;
 }
 
+/* Links to be sorted by receiver, in shares: a share's links of a receiver stand behind those of
+ * the shares before it. */
+struct sorting {
+    const struct refinement *r;
+    size_t elements, each, shares; /* each: links of a share */
+    struct link *sorted;
+    size_t *at;                     /* [share][element]: links there are, then where they go */
+    uint64_t (*marked)[LINK_MARKS]; /* [share] */
+};
+
+static void count_receivers(const void *sorting, size_t from, size_t to)
+{
+    const struct sorting *s = sorting;
+    size_t share = from / s->each, *count = &s->at[share * s->elements];
+    for (size_t i = from; i < to; i++) {
+        count[s->r->links[i].receiver]++;
+        s->marked[share][s->r->links[i].mark]++;
+    }
+}
+
+static void place_links(const void *sorting, size_t from, size_t to)
+{
+    const struct sorting *s = sorting;
+    size_t *at = &s->at[from / s->each * s->elements];
+    for (size_t i = from; i < to; i++)
+        s->sorted[at[s->r->links[i].receiver]++] = s->r->links[i];
+}
+
 int refinement_sort(struct refinement *r)
 {
-    size_t elements = r->hierarchy->count;
-    size_t *first = calloc(elements + 2, sizeof *first);
-    struct link *sorted = malloc((r->link_count + 1) * sizeof *sorted);
-    if (!first || !sorted) {
+    uint64_t marked[SORT_SHARES][LINK_MARKS] = {{0}};
+    struct sorting s = {.r = r, .elements = r->hierarchy->count, .marked = marked};
+    s.shares = r->threads < SORT_SHARES ? (size_t)r->threads : SORT_SHARES;
+    s.each = r->link_count / s.shares + 1;
+    size_t *first = malloc((s.elements + 1) * sizeof *first), links = 0;
+    s.sorted = malloc((r->link_count + 1) * sizeof *s.sorted);
+    s.at = calloc(s.shares * s.elements, sizeof *s.at);
+    if (!first || !s.sorted || !s.at) {
         free(first);
-        free(sorted);
+        free(s.sorted);
+        free(s.at);
         return -1;
     }
-    memset(r->marked, 0, sizeof r->marked);
-    for (size_t i = 0; i < r->link_count; i++) {
-        first[r->links[i].receiver + 2]++;
-        r->marked[r->links[i].mark]++;
+    thread_pool_run(r->threads, r->link_count, s.each, count_receivers, &s);
+    for (size_t e = 0; e < s.elements; e++) {
+        first[e] = links;
+        for (size_t share = 0; share < s.shares; share++) {
+            size_t count = s.at[share * s.elements + e];
+            s.at[share * s.elements + e] = links;
+            links += count;
+        }
     }
-    for (size_t i = 2; i < elements + 2; i++)
-        first[i] += first[i - 1];
-    for (size_t i = 0; i < r->link_count; i++)
-        sorted[first[r->links[i].receiver + 1]++] = r->links[i];
+    first[s.elements] = links;
+    thread_pool_run(r->threads, r->link_count, s.each, place_links, &s);
+    memset(r->marked, 0, sizeof r->marked);
+    for (size_t share = 0; share < s.shares; share++)
+        for (int m = 0; m < LINK_MARKS; m++)
+            r->marked[m] += marked[share][m];
+    free(s.at);
     free(r->links);
     free(r->first_link);
-    r->links = sorted;
+    r->links = s.sorted;
     r->link_capacity = r->link_count + 1;
     r->first_link = first;
     return 0;

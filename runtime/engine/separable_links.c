@@ -167,6 +167,18 @@ struct separating {
     const struct refinement *r;
 };
 
+/* How many each element receives over, into the place behind its own. */
+static void count_links(const void *separating, size_t begin, size_t end)
+{
+    const struct separable_links *c = ((const struct separating *)separating)->links;
+    const struct refinement *r = ((const struct separating *)separating)->r;
+    for (size_t e = begin; e < end; e++) {
+        c->first[e + 1] = 0;
+        for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
+            c->first[e + 1] += (size_t)is_separable(c->hierarchy, &r->links[i]);
+    }
+}
+
 static void separate_links(const void *separating, size_t begin, size_t end)
 {
     const struct separable_links *c = ((const struct separating *)separating)->links;
@@ -185,36 +197,37 @@ static void separate_links(const void *separating, size_t begin, size_t end)
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
                          const struct refinement *r, int bands, int threads, int centres)
 {
-    size_t n = 0, faces = h->face_count;
+    const struct separating s = {c, r};
+    size_t n, faces = h->face_count;
     memset(c, 0, sizeof *c);
     c->hierarchy = h;
-    for (size_t i = 0; i < r->link_count; i++)
-        n += (size_t)is_separable(h, &r->links[i]);
-    if (n == 0)
-        return 0;
     c->bands = bands;
     c->threads = threads;
     c->centres = centres;
     c->unit = unit_of(h);
     c->elements = h->count;
+    c->first = calloc((size_t)h->count + 1, sizeof *c->first);
+    if (!c->first)
+        return -1;
+    thread_pool_run(threads, h->count, 1024, count_links, &s);
+    for (uint32_t e = 0; e < h->count; e++)
+        c->first[e + 1] += c->first[e];
+    c->count = n = c->first[h->count];
+    if (n == 0) {
+        separable_links_close(c);
+        c->hierarchy = h;
+        return 0;
+    }
     c->links = malloc(n * sizeof *c->links);
-    c->first = malloc(((size_t)h->count + 1) * sizeof *c->first);
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
     c->received = malloc(faces * (size_t)bands * sizeof *c->received);
     c->place = malloc(faces * sizeof *c->place);
     c->faces.centre[0] = malloc((SEPARABLE_ARRAYS + (size_t)bands) * faces * sizeof(float));
-    if (!c->links || !c->first || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
+    if (!c->links || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
         separable_links_close(c);
         return -1;
     }
     separable_faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
-    for (uint32_t e = 0; e < h->count; e++) {
-        c->first[e] = c->count;
-        for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-            c->count += (size_t)is_separable(h, &r->links[i]);
-    }
-    c->first[h->count] = c->count;
-    const struct separating s = {c, r};
     thread_pool_run(threads, faces, 256, place_faces, c);
     thread_pool_run(threads, h->count, 256, separate_links, &s);
     receive_all(&(struct exchanged){c, 1, NULL});

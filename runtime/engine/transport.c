@@ -87,17 +87,14 @@ static void sweep(const struct light_operator *op, const struct transport *x, st
 }
 
 /* Residual and bound after a sweep. */
-static void measure(const struct light_operator *op, struct transport *x,
-                    const struct change *change)
+static void measure(struct transport *x, const struct change *change, uint32_t faces)
 {
-    const struct hierarchy *h = op->hierarchy;
     struct change all = {0};
     double power = 0, left = 0;
-    for (uint32_t i = 0; i < h->face_count; i++) {
-        uint32_t e = h->face_element[i];
+    for (uint32_t i = 0; i < faces; i++) {
         all.moved += change[i].moved;
         for (uint32_t k = 0; k < x->bands; k++) {
-            power += h->elements[e].area * op->uncovered[e] * x->value[(size_t)e * x->bands + k];
+            power += change[i].power[k];
             all.most[k] = fmax(all.most[k], change[i].most[k]);
             all.sum[k] += change[i].sum[k];
         }
@@ -146,7 +143,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         if (shooter)
             southwell_keep(shooter, op, x);
         sweep(op, x, change);
-        measure(op, x, change);
+        measure(x, change, op->hierarchy->face_count);
         x->sweeps++;
         double left = left_of(op, x, rho);
         x->converged = left <= 1;
