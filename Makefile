@@ -11,6 +11,7 @@
 # make mend-table  build/bin/mend_table, which shows what particles add to the links of a scene
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make bench    what the releases cost, in instructions
+# make bench-threads  what two threads bring, and what they cost beside 8 busy loops
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # make install-dagc  the part of it that is dagc's
 # make clean    build/ is removed
@@ -196,6 +197,11 @@ demo: all
 # Instruction counts of the three releases; --repeats medians: radiosity compare SCENE.
 bench: all
 	sh tests/bench_releases.sh $(BUILD)/bin/radiosity
+
+# Seconds alone and beside busy loops; SCENES="..." for other scenes.
+.PHONY: bench-threads
+bench-threads: commands
+	@bash tests/bench_threads.sh $(BUILD)/bin/radiosity $(SCENES)
 
 # The drawings of the oracles, without Graphviz's comments and tooltips.
 .PHONY: drawings
