@@ -20,7 +20,10 @@
  *
  * Threads. Any thread of a program may call, also at the same time for different scenes, oracles
  * and solutions; one handle is used by one thread at a time. Work within a call is shared out to
- * RadDeviceOptions.threads threads (OpenMP); results do not depend on how many.
+ * RadDeviceOptions.threads threads: the caller's, and helpers that all devices share, which sleep
+ * while there is nothing to do, take no signals and end with the last device. The caller does what
+ * no helper has begun, so beside other work threads never cost more than they bring. Results do not
+ * depend on how many there are. A program may fork, and have any OpenMP of its own or none.
  *
  * Units: metres, watts; exitance E, irradiance H and radiosity B in W/m2, per band; reflectance in
  * [0, 1). One band for grey scenes, else three. Sources: Hanrahan, Salzman and Aupperle 1991;
