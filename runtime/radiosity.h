@@ -191,6 +191,9 @@ enum RadRelease {
 #define RAD_DEFAULT_ORACLE "clusters"
 RAD_API const char *const *radGetOracleNames(void);
 RAD_API const char *radGetDefaultOracle(void);
+/* The graph of a built-in oracle, as a .dag file has it, with what it imports behind it: it stands
+ * alone. Constant; NULL: there is none of that name. */
+RAD_API const char *radGetOracleText(const char *name);
 
 /* A built-in oracle, or one that was registered, by name. Returns NULL on error. */
 RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release);

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "options/option_table.h"
+#include "util/array.h"
 #include "util/report.h"
 
 /* what getopt_long returns: a letter, or one of these */
@@ -253,8 +254,29 @@ static const struct option_row *row_of(enum command command, int number)
     return NULL;
 }
 
+/* The arguments of tune: an oracle, then scenes. Returns -1 to go on, or the exit status. */
+static int add_scene(struct options *o, const char *path)
+{
+    if (!*path)
+        return wrong("tune", "%s name is empty", o->oracle ? "a scene's" : "the oracle's");
+    if (!o->oracle) {
+        o->oracle = path;
+        return -1;
+    }
+    for (int i = 0; i < o->scene_count; i++)
+        if (strcmp(o->scenes[i], path) == 0)
+            return wrong("tune", "%s is named twice; left out, it would not be unknown", path);
+    if (array_reserve(&o->scenes, (size_t)o->scene_count + 1, &o->scene_capacity, sizeof *o->scenes)
+        < 0)
+        return wrong("tune", "out of memory for scenes");
+    o->scenes[o->scene_count++] = path;
+    return -1;
+}
+
 static int set_scene(struct options *o, const char *path)
 {
+    if (o->command == COMMAND_TUNE)
+        return add_scene(o, path);
     const struct command_row *c = &command_rows[o->command];
     if (!*c->argument)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
@@ -305,7 +327,10 @@ static int check_together(struct options *o)
     const struct command_row *c = &command_rows[o->command];
     if (o->command == COMMAND_ERROR && !o->reference)
         return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
-    if (*c->argument && !o->scene)
+    if (o->command == COMMAND_TUNE && !o->scene_count)
+        return wrong(c->name, "%s",
+                     o->oracle ? "no scene is given" : "an oracle and scenes are needed");
+    if (*c->argument && !o->scene && !o->scene_count)
         return wrong(c->name, "no scene is given");
     if (o->command == COMMAND_REFERENCE && !o->out)
         return wrong(c->name, "the table's name is missing: -o FILE.csv");
@@ -318,7 +343,7 @@ static int check_together(struct options *o)
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
         return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
                      o->no_errors ? "--no-errors" : "--no-correct");
-    if (o->limit_seconds && !(o->accuracy > 0))
+    if (o->command == COMMAND_SOLVE && o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
     if (o->basis == RAD_BASIS_LINEAR
         && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
@@ -380,5 +405,7 @@ int options_outputs(const struct options *o, const char *paths[OUTPUTS_MAX])
 void options_free(struct options *o)
 {
     free(o->settings);
+    free(o->scenes);
     o->settings = NULL;
+    o->scenes = NULL;
 }
