@@ -294,10 +294,10 @@ const struct command_row command_rows[COMMANDS] = {
     [COMMAND_TUNE] =
         {"tune", "ORACLE SCENE...", "fit an oracle's parameters to scenes",
          "Fit thresholds of an oracle, built in or FILE.dag, to scenes: least becomes the\n"
-         "mean over scenes of the logarithm of cost max(1, error/E)^P. The error is that of\n"
-         "links alone, face by face (L1), against particles traced first. Then each scene\n"
-         "is left out in turn, fitted without, and tried: exit status 3 where it fares more\n"
-         "than 1.5 times as badly as those used. Ctrl-C ends it with the best so far.\n",
+         "mean over scenes of the logarithm of cost max(1, error/E)^P. The error is that\n"
+         "of links alone, face by face (L1), against particles traced first. Then each\n"
+         "scene is left out in turn, fitted without, and tried: exit status 3 where it is\n"
+         "more than 1.5 times as bad as those used. Ctrl-C ends it with the best so far.\n",
          "radiosity tune mine.dag room.obj hall.obj shop.obj -o mine.dag"},
     [COMMAND_STABILITY] =
         {"study stability", "", "where methods fail, and by how much",

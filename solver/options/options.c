@@ -52,9 +52,8 @@ static int print_help(void)
            "  --help                  this, or of a command: its options\n"
            "  --version               the version\n"
            "\n"
-           "Messages go to standard error. Exit status: 0 done; 1 the scene, an oracle or a\n"
-           "file is at fault, and nothing half-written is left; 2 wrong usage; 3 --accuracy\n"
-           "was not kept.\n");
+           "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
+           "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;
 }
 
