@@ -21,7 +21,7 @@
 #include "output/json_file.h"
 #include "util/atomic_file.h"
 #include "util/clock.h"
-#include "util/dag_defaults.h"
+#include "util/graph_defaults.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
 #include "util/report.h"
@@ -83,11 +83,11 @@ static int read_graph(struct work *w)
                             o->oracle, o->oracle);
     }
     radReleaseOracle(there);
-    struct dag_default defaults[PATTERN_NUMBERS];
+    struct graph_default defaults[PATTERN_NUMBERS];
     const char *missing;
     for (int i = 0; i < w->tuner.parameter_count; i++)
-        defaults[i] = (struct dag_default){w->tuner.parameters[i].name, 1};
-    char *trial = dag_with_defaults(w->text, defaults, w->tuner.parameter_count, &missing);
+        defaults[i] = (struct graph_default){w->tuner.parameters[i].name, 1};
+    char *trial = graph_with_defaults(w->text, defaults, w->tuner.parameter_count, &missing);
     free(trial);
     if (trial)
         return 0;
@@ -104,14 +104,14 @@ static int write_graph(const struct work *w)
 {
     const struct options *o = w->options;
     const struct tuner *t = &w->tuner;
-    struct dag_default defaults[PATTERN_NUMBERS];
+    struct graph_default defaults[PATTERN_NUMBERS];
     const char *missing;
     int count = 0;
     for (int i = 0; i < t->parameter_count; i++)
         if (w->outcome.all.found.at[i])
-            defaults[count++] = (struct dag_default){
+            defaults[count++] = (struct graph_default){
                 t->parameters[i].name, tune_value(&t->parameters[i], w->outcome.all.found.at[i])};
-    char *text = dag_with_defaults(w->text, defaults, count, &missing);
+    char *text = graph_with_defaults(w->text, defaults, count, &missing);
     if (!text)
         return report_error(o->out, 0, "out of memory for the graph");
     RadOracle made = radParseOracle(w->device, o->out, text, NULL, RAD_RELEASE_DAG);

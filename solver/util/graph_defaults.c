@@ -1,11 +1,11 @@
-/* dag_defaults.c - see dag_defaults.h.
+/* graph_defaults.c - see graph_defaults.h.
  *
  * The text is read by its words alone, as dagc/read/lex.c does: comments and strings are passed
  * over, line ends and blanks may stand between any two words. `param` begins parameters of oracles
  * only; those of branches stand in parentheses. The text has been compiled before, so what it means
  * is not checked again.
  * SPDX-License-Identifier: MIT */
-#include "util/dag_defaults.h"
+#include "util/graph_defaults.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -77,23 +77,23 @@ static struct word default_of(const char *text, const char *name)
     return (struct word){text, 0};
 }
 
-void dag_number(double value, char text[DAG_NUMBER])
+void graph_number(double value, char text[GRAPH_NUMBER])
 {
-    snprintf(text, DAG_NUMBER, "%g", value);
+    snprintf(text, GRAPH_NUMBER, "%g", value);
 }
 
-char *dag_with_defaults(const char *text, const struct dag_default *defaults, int count,
-                        const char **missing)
+char *graph_with_defaults(const char *text, const struct graph_default *defaults, int count,
+                          const char **missing)
 {
     char *now = malloc(strlen(text) + 1);
     *missing = NULL;
     if (now)
         strcpy(now, text);
     for (int i = 0; now && i < count; i++) {
-        char number[DAG_NUMBER];
-        dag_number(defaults[i].value, number);
+        char number[GRAPH_NUMBER];
+        graph_number(defaults[i].value, number);
         struct word old = default_of(now, defaults[i].name);
-        char *changed = old.length ? malloc(strlen(now) + DAG_NUMBER) : NULL;
+        char *changed = old.length ? malloc(strlen(now) + GRAPH_NUMBER) : NULL;
         if (changed)
             sprintf(changed, "%.*s%s%s", (int)(old.text - now), now, number, old.text + old.length);
         else if (!old.length)
