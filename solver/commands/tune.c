@@ -2,9 +2,8 @@
  * see whether they carry over to scenes that were not used.
  *
  * First to all scenes, which gives the parameters; then, for each scene, to the others alone, from
- * the same start: what that fit is worth on the scene it has not seen, against what it is worth on
- * those it has, tells whether parameters were found or scenes learnt by heart. Both are in units of
- * a scene's price with the parameters fitted to all, so that scenes of different sizes compare.
+ * the same start: what the scene fares with that fit, against what it fares with those that it had
+ * a part in, tells whether parameters were found or scenes learnt by heart.
  * A limit of time is shared out evenly to these fits, so that it cuts all of them short rather than
  * leaving the last ones out. SIGINT ends them all; the best so far is told and written.
  * SPDX-License-Identifier: MIT */
@@ -35,6 +34,8 @@ enum {
 /* The reference's standard error per face, as a share of the error that is worked for: near that it
  * is a fiftieth of a measured error, as root of the sum of squares. */
 static const double REFERENCE_NOISE = 0.2;
+
+static const double FORETELL = 2; /* s, after which each fit is told of */
 
 static volatile sig_atomic_t stop;
 
@@ -83,19 +84,7 @@ static int read_graph(struct work *w)
                             o->oracle, o->oracle);
     }
     radReleaseOracle(there);
-    struct graph_default defaults[PATTERN_NUMBERS];
-    const char *missing;
-    for (int i = 0; i < w->tuner.parameter_count; i++)
-        defaults[i] = (struct graph_default){w->tuner.parameters[i].name, 1};
-    char *trial = graph_with_defaults(w->text, defaults, w->tuner.parameter_count, &missing);
-    free(trial);
-    if (trial)
-        return 0;
-    return missing ? report_error(o->oracle, 0,
-                                  "parameter %s is not declared in this file but in one that it "
-                                  "imports; tune that one",
-                                  missing)
-                   : report_error(o->oracle, 0, "out of memory for its text");
+    return 0;
 }
 
 /* The text with the fitted defaults, which must compile and have them. Returns 0, or -1 after a
@@ -159,39 +148,66 @@ static int open_scenes(struct work *w)
     return 0;
 }
 
-/* What the fit without scene `f->fit.left_out` is worth. Returns 0, 1 when it was stopped before it
- * is known, -1 after a message. */
-static int judge(struct tuner *t, const struct tune_fit *all, struct tune_fold *f)
+/* Solve each scene with the fit that has not seen it, and compare. Returns 0, or -1 after a
+ * message.
+ */
+static int judge(struct tuner *t, struct tune_fold *folds)
 {
-    int used = t->scene_count - 1;
-    for (int s = 0; s < t->scene_count; s++) {
-        struct tune_result mine, theirs;
-        int status = tune_result(t, f->fit.found.at, s, &mine);
-        if (status == 0)
-            status = tune_result(t, all->found.at, s, &theirs);
-        if (status)
-            return status;
-        double change = log(mine.price / theirs.price);
-        if (s == f->fit.left_out) {
-            f->left = exp(change);
-            f->left_error = mine.error;
-        } else {
-            f->used += change / used;
-            f->used_error += mine.error / used;
+    int count = t->scene_count;
+    for (int s = 0; s < count; s++) {
+        struct tune_fold *f = &folds[s];
+        snprintf(t->doing, sizeof t->doing, "%.*s, which was left out", t->scenes[s].name_length,
+                 t->scenes[s].name);
+        for (int other = 0; other < count; other++) {
+            struct tune_result r;
+            int status = tune_result(t, folds[other].fit.found.at, s, &r);
+            if (status)
+                return status < 0 ? -1 : 0;
+            if (other == s) {
+                f->left = r;
+            } else {
+                f->used_price += log(r.price) / (count - 1);
+                f->used_error += r.error / (count - 1);
+            }
         }
+        f->used_price = exp(f->used_price);
+        f->ratio = f->left.price / f->used_price;
+        f->known = 1;
     }
-    f->used = exp(f->used);
-    f->ratio = f->left / f->used;
-    f->known = 1;
     return 0;
 }
 
-/* Where a fit's share of the time ends. */
-static double deadline(const struct work *w, int fits)
+/* Is standard output what --json goes to? */
+static int to_output(const struct work *w)
 {
-    int all = w->tuner.scene_count > 1 ? w->tuner.scene_count + 1 : 1;
-    return w->options->limit_seconds ? w->start + (double)w->options->limit_seconds * fits / all
-                                     : 0;
+    return w->options->json && strcmp(w->options->json, "-") == 0;
+}
+
+/* To all scenes, and without each. */
+static int fits(const struct tuner *t)
+{
+    return t->scene_count > 1 ? t->scene_count + 1 : 1;
+}
+
+/* Where the share of the time ends that is for so many of the fits. */
+static double deadline(const struct work *w, int count)
+{
+    return w->options->limit_seconds
+               ? w->start + (double)w->options->limit_seconds * count / fits(&w->tuner)
+               : 0;
+}
+
+/* Said of each fit where they take long, also to a log. */
+static void tell(struct work *w, const struct tune_fit *f)
+{
+    struct tuner *t = &w->tuner;
+    if (w->options->quiet || to_output(w) || seconds() - w->start < FORETELL)
+        return;
+    progress_end(&t->progress);
+    printf("fit %d of %d: %d places, best %.3g of the price of the defaults, %.0f s so far\n",
+           f->left_out + 2, fits(t), f->found.evaluations, exp(f->found.value),
+           seconds() - w->start);
+    fflush(stdout);
 }
 
 /* All fits. Returns 0, STOPPED, or -1 after a message. */
@@ -205,6 +221,7 @@ static int fit_all(struct work *w)
     t->deadline = deadline(w, 1);
     if (tune_fit(t, -1, &out->all) < 0)
         return -1;
+    tell(w, &out->all);
     if (!isfinite(out->all.found.value))
         return report_error(out->oracle, 0, "nothing was solved within the ranges given");
     if (t->scene_count < 2)
@@ -214,16 +231,15 @@ static int fit_all(struct work *w)
         return report_error("tune", 0, "out of memory for folds");
     out->fold_count = t->scene_count;
     for (int s = 0; s < t->scene_count && !stop; s++) {
-        struct tune_fold *f = &out->folds[s];
         t->deadline = deadline(w, s + 2);
-        if (tune_fit(t, s, &f->fit) < 0)
+        if (tune_fit(t, s, &out->folds[s].fit) < 0)
             return -1;
-        snprintf(t->doing, sizeof t->doing, "%.*s, which was left out", t->scenes[s].name_length,
-                 t->scenes[s].name);
-        t->deadline = 0;
-        if (!stop && judge(t, &out->all, f) < 0)
-            return -1;
+        tell(w, &out->folds[s].fit);
     }
+    t->deadline = 0;
+    if (!stop && judge(t, out->folds) < 0)
+        return -1;
+    tune_best(t, &out->all);
     return 0;
 }
 
@@ -233,7 +249,7 @@ static int finish(struct work *w)
     const struct options *o = w->options;
     w->outcome.seconds = seconds() - w->start;
     progress_end(&w->tuner.progress);
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    if (!o->quiet && !to_output(w))
         tune_print(&w->outcome);
     if (o->out && write_graph(w) < 0)
         return 1;

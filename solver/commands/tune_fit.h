@@ -81,6 +81,10 @@ int tune_defaults(struct tuner *t);
  * it holds the best so far. Returns 0, or -1 after a message. */
 int tune_fit(struct tuner *t, int left_out, struct tune_fit *fit);
 
+/* Where a fit without one scene has found what is better for all than `all`, a fit to all, make it
+ * that. */
+void tune_best(const struct tuner *t, struct tune_fit *all);
+
 /* A scene with the parameters of a place, solved to its end where it was not yet. Returns 0, 1 when
  * it was stopped, -1 after a message. */
 int tune_result(struct tuner *t, const int *at, int scene, struct tune_result *result);

@@ -77,16 +77,16 @@ static void print_folds(const struct tune_outcome *o)
         printf("\nnot cross-validated: that takes two scenes or more\n");
         return;
     }
-    printf("\nfitted without one scene; prices: times those of the fit to all\n"
-           "  %-16s %17s %17s %8s\n  %-16s %8s %8s %8s %8s\n",
-           "left out", "scenes used", "scene left out", "ratio", "", "price", "error, %", "price",
-           "error, %");
+    printf("\neach scene where it was used to fit, and where it was left out\n"
+           "  %-16s %8s %8s %12s %12s %8s\n  %-16s %8s %8s %12s %12s %8s\n",
+           "", "error, %", "", "price", "", "ratio", "scene", "used", "left out", "used",
+           "left out", "");
     for (int i = 0; i < o->fold_count; i++) {
         const struct tune_fold *f = &o->folds[i];
         printf("  %-16.*s", t->scenes[i].name_length, t->scenes[i].name);
         if (f->known)
-            printf(" %8.3f %8.2f %8.3f %8.2f %8.3f\n", f->used, 100 * f->used_error, f->left,
-                   100 * f->left_error, f->ratio);
+            printf(" %8.2f %8.2f %12.4g %12.4g %8.3f\n", 100 * f->used_error, 100 * f->left.error,
+                   f->used_price, f->left.price, f->ratio);
         else
             printf(" stopped before it was known\n");
     }
@@ -94,10 +94,9 @@ static void print_folds(const struct tune_outcome *o)
     if (isnan(worst))
         printf("cross-validation: not finished\n");
     else
-        printf(
-            "cross-validation: %s: what is left out fares at most %.2f times as badly as what is "
-            "used; %g is allowed\n",
-            worst <= TUNE_CARRIES ? "holds" : "FAILS", worst, TUNE_CARRIES);
+        printf("cross-validation: %s: left out, a scene fares at most %.2f times as badly as used; "
+               "%g is allowed\n",
+               worst <= TUNE_CARRIES ? "holds" : "FAILS", worst, TUNE_CARRIES);
 }
 
 void tune_print(const struct tune_outcome *o)
@@ -136,13 +135,12 @@ static json_t *name_json(const struct tune_scene *s)
 
 static json_t *fold_json(const struct tuner *t, const struct tune_fold *f, int scene)
 {
-    json_t *left_out = name_json(&t->scenes[scene]);
+    json_t *name = name_json(&t->scenes[scene]);
     if (!f->known)
-        return json_pack("{s:o, s:n}", "left_out", left_out, "ratio");
-    return json_pack("{s:o, s:o, s:{s:f, s:f}, s:{s:f, s:f}, s:f}", "left_out", left_out,
-                     "parameters", parameters_json(t, f->fit.found.at), "used", "price", f->used,
-                     "error", f->used_error, "left", "price", f->left, "error", f->left_error,
-                     "ratio", f->ratio);
+        return json_pack("{s:o, s:n}", "scene", name, "ratio");
+    return json_pack("{s:o, s:o, s:{s:f, s:f}, s:o, s:f}", "scene", name, "parameters",
+                     parameters_json(t, f->fit.found.at), "used", "error", f->used_error, "price",
+                     f->used_price, "left_out", result_json(f->left), "ratio", f->ratio);
 }
 
 json_t *tune_json(const struct tune_outcome *o)

@@ -6,13 +6,15 @@
 #include <jansson.h>
 #include "commands/tune_fit.h"
 
-/* A fit without one scene, and what its parameters are worth on that scene. What scenes need is
- * told in what they need with the parameters that were fitted to all, a mean over factors. */
+/* A fit without one scene, and what the scene fares with it. Against what it fares where it was
+ * used, which is the other folds, so that scenes need not be alike: each is compared with itself.
+ */
 struct tune_fold {
     struct tune_fit fit;
-    int known; /* 1: all of the following is */
-    double used, left, ratio;
-    double used_error, left_error; /* mean over scenes; shares of the reflected light */
+    int known;                     /* 1: all of the following is */
+    struct tune_result left;       /* the scene with this fit */
+    double used_price, used_error; /* with the others: means, of prices that of their factors */
+    double ratio;                  /* of the prices, left out over used */
 };
 
 struct tune_outcome {
