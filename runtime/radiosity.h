@@ -643,6 +643,13 @@ RAD_API int radTraceReference(RadReference reference, enum RadMethod method, uin
 RAD_API int radGetReferenceValues(RadReference reference, enum RadMethod method, uint32_t band,
                                   double *radiosity, double *deviation);
 
+/* Hold a solution of the same scene, mended or not, against the particles of a reference, as
+ * radMeasureError does against particles of its own: power, l1_faces, noise, reflected, worst and
+ * worst_share; rays are those of the reference. What radGetPolygonErrors tells stays. Many
+ * solutions are best judged by one reference: its noise is the same for all. Returns 0, or -1. */
+RAD_API int radMeasureErrorBy(RadSolution solution, RadReference reference,
+                              struct RadErrorReport *report);
+
 struct RadReferenceReport {
     uint64_t traced[2], rays[2]; /* particles, paths, and the rays for them */
     double emitted, reflected;   /* W, all bands; reflected by both */

@@ -31,10 +31,6 @@ enum {
     CARRIES_NOT = 3
 };
 
-/* The reference's standard error per face, as a share of the error that is worked for: near that it
- * is a fiftieth of a measured error, as root of the sum of squares. */
-static const double REFERENCE_NOISE = 0.2;
-
 static const double FORETELL = 2; /* s, after which each fit is told of */
 
 static volatile sig_atomic_t stop;
@@ -59,8 +55,8 @@ struct work {
     RadDevice device; /* the oracle's */
     struct tuner tuner;
     struct tune_outcome outcome;
-    char *text; /* of the oracle's graph, where it shall be written */
-    double start;
+    char *text;          /* of the oracle's graph, where it shall be written */
+    double start, begin; /* s, of the clock: of the command, of the fits */
 };
 
 /* ---- the graph */
@@ -123,7 +119,7 @@ static int write_graph(const struct work *w)
 
 /* ---- the work */
 
-/* Scenes and their references. Returns 0, STOPPED, or -1 after a message. */
+/* Returns 0, or -1 after a message. */
 static int open_scenes(struct work *w)
 {
     const struct options *o = w->options;
@@ -137,13 +133,6 @@ static int open_scenes(struct work *w)
             return -1;
         t->scene_count++;
         radSetDeviceProgressFunction(t->scenes[i].scene.device, tune_watch, t);
-    }
-    for (int i = 0; i < t->scene_count; i++) {
-        struct tune_scene *s = &t->scenes[i];
-        snprintf(t->doing, sizeof t->doing, "reference of %.*s", s->name_length, s->name);
-        int status = tune_scene_trace(s, REFERENCE_NOISE * t->target);
-        if (status)
-            return status < 0 ? -1 : STOPPED;
     }
     return 0;
 }
@@ -172,7 +161,8 @@ static int judge(struct tuner *t, struct tune_fold *folds)
         }
         f->used_price = exp(f->used_price);
         f->ratio = f->left.price / f->used_price;
-        f->known = 1;
+        /* a fit of which no more than its start was looked at says nothing */
+        f->known = f->fit.found.evaluations > 1 || f->fit.found.end == PATTERN_FOUND;
     }
     return 0;
 }
@@ -189,12 +179,12 @@ static int fits(const struct tuner *t)
     return t->scene_count > 1 ? t->scene_count + 1 : 1;
 }
 
-/* Where the share of the time ends that is for so many of the fits. */
+/* Where the share of the time ends that is for so many of the fits, of what is left when they
+ * begin. */
 static double deadline(const struct work *w, int count)
 {
-    return w->options->limit_seconds
-               ? w->start + (double)w->options->limit_seconds * count / fits(&w->tuner)
-               : 0;
+    double left = w->start + w->options->limit_seconds - w->begin;
+    return w->options->limit_seconds ? w->begin + fmax(0, left) * count / fits(&w->tuner) : 0;
 }
 
 /* Said of each fit where they take long, also to a log. */
@@ -218,6 +208,7 @@ static int fit_all(struct work *w)
     int status = tune_defaults(t);
     if (status)
         return status < 0 ? -1 : STOPPED;
+    w->begin = seconds();
     t->deadline = deadline(w, 1);
     if (tune_fit(t, -1, &out->all) < 0)
         return -1;
@@ -269,9 +260,7 @@ static int run(struct work *w)
         return 1;
     watch_signals();
     progress_start(&t->progress, o->quiet);
-    int status = open_scenes(w);
-    if (status == 0)
-        status = tuner_open(t) < 0 ? -1 : fit_all(w);
+    int status = open_scenes(w) < 0 || tuner_open(t) < 0 ? -1 : fit_all(w);
     progress_end(&t->progress);
     if (status == STOPPED)
         fprintf(stderr, "stopped before anything was fitted\n");

@@ -102,7 +102,7 @@ static int point_at(struct tuner *t, const int *at)
  * it was cancelled, -1 after a message. */
 static int solve(struct tuner *t, const int *at, int scene, double limit, struct tune_result *r)
 {
-    const struct tune_scene *s = &t->scenes[scene];
+    struct tune_scene *s = &t->scenes[scene];
     for (int i = 0; i < t->parameter_count; i++)
         if (radSetOracleParameter(t->oracle, t->parameters[i].name,
                                   tune_value(&t->parameters[i], at[i]))
@@ -117,14 +117,15 @@ static int solve(struct tuner *t, const int *at, int scene, double limit, struct
     if (!solution || radSolve(solution) < 0)
         status = report_unless_cancelled(s->scene.device, s->scene.path);
     t->limit = INFINITY;
+    double error = 0;
+    if (status == 0)
+        status = tune_scene_error(s, solution, t->target, &error);
     if (status == 0) {
         struct RadReport report;
         radGetReport(solution, &report);
-        double error = tune_scene_error(s, solution);
         double cost = fmax(1, cost_of(t, report.rays, report.links, report.pairs));
         *r = (struct tune_result){TUNE_KNOWN, error, cost,
                                   cost * pow(fmax(1, error / t->target), t->power)};
-        status = isnan(error) ? -1 : 0;
     }
     radReleaseSolution(solution);
     return status;

@@ -88,7 +88,7 @@ static void print_folds(const struct tune_outcome *o)
             printf(" %8.2f %8.2f %12.4g %12.4g %8.3f\n", 100 * f->used_error, 100 * f->left.error,
                    f->used_price, f->left.price, f->ratio);
         else
-            printf(" stopped before it was known\n");
+            printf(" not known: its fit was stopped too soon\n");
     }
     double worst = tune_worst(o);
     if (isnan(worst))
@@ -150,12 +150,12 @@ json_t *tune_json(const struct tune_outcome *o)
     json_t *scenes = json_array(), *folds = json_array();
     double worst = tune_worst(o);
     for (int s = 0; s < t->scene_count; s++)
-        json_array_append_new(scenes,
-                              json_pack("{s:o, s:f, s:I, s:o, s:o}", "scene",
-                                        name_json(&t->scenes[s]), "noise", t->scenes[s].noise,
-                                        "particles", (json_int_t)t->scenes[s].particles, "default",
-                                        result_json(known(t, defaults, s)), "fitted",
-                                        result_json(known(t, o->all.found.at, s))));
+        json_array_append_new(scenes, json_pack("{s:o, s:f, s:I, s:o, s:o}", "scene",
+                                                name_json(&t->scenes[s]), "uncertain",
+                                                t->scenes[s].uncertain, "particles",
+                                                (json_int_t)t->scenes[s].particles, "default",
+                                                result_json(known(t, defaults, s)), "fitted",
+                                                result_json(known(t, o->all.found.at, s))));
     for (int i = 0; i < o->fold_count; i++)
         json_array_append_new(folds, fold_json(t, &o->folds[i], i));
     return json_pack("{s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:i, s:f}",
