@@ -29,6 +29,9 @@ centres of one corner | runtime/engine/collocation.c | s/point_factor(to, from)/
 faces take their mean | runtime/engine/separable_links.c | s/return c->centres ? separable_kernel_at_centre(faces, i, &b->s)/return c->centres \&\& 0 ? separable_kernel_at_centre(faces, i, \&b->s)/ | runtime/check_solvers
 backs 8 of 8 | runtime/kernel/constants.h | s/\(CONTACT_BACKS\) *6$/\1 8/ | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
 no plain pivots | runtime/engine/pivots.c | s/round_weight, &first, PASSING_PLAIN)/round_weight, \&first, PASSING)/ | runtime/check_separable_links runtime/check_clusters
+moves not made again | solver/util/pattern_search.c | s/to->at\[i\] - from->at\[i\]/0 * (to->at[i] - from->at[i])/ | solver/check_tune
+left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
+comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
 END
 }
 
