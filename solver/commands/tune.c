@@ -20,8 +20,8 @@
 #include "output/json_file.h"
 #include "util/atomic_file.h"
 #include "util/clock.h"
-#include "util/graph_defaults.h"
 #include "util/device.h"
+#include "util/graph_defaults.h"
 #include "util/open_oracle.h"
 #include "util/report.h"
 #include "util/text_file.h"
@@ -83,8 +83,7 @@ static int read_graph(struct work *w)
     return 0;
 }
 
-/* The text with the fitted defaults, which must compile and have them. Returns 0, or -1 after a
- * message. */
+/* The text with the fitted defaults, which must compile. Returns 0, or -1 after a message. */
 static int write_graph(const struct work *w)
 {
     const struct options *o = w->options;
@@ -100,18 +99,12 @@ static int write_graph(const struct work *w)
     if (!text)
         return report_error(o->out, 0, "out of memory for the graph");
     RadOracle made = radParseOracle(w->device, o->out, text, NULL, RAD_RELEASE_DAG);
-    int failed = !made;
-    for (int i = 0; made && i < count; i++)
-        failed |= radGetOracleParameter(made, defaults[i].name) != defaults[i].value;
     radReleaseOracle(made);
     struct atomic_file file;
-    if (failed)
-        report_device(w->device, o->out);
-    else if (atomic_open(&file, o->out) < 0)
-        failed = 1;
-    else {
+    int failed = !made ? report_device(w->device, o->out) : atomic_open(&file, o->out);
+    if (!failed) {
         fputs(text, file.stream);
-        failed = atomic_commit(&file) < 0;
+        failed = atomic_commit(&file);
     }
     free(text);
     return failed ? -1 : 0;
@@ -137,9 +130,7 @@ static int open_scenes(struct work *w)
     return 0;
 }
 
-/* Solve each scene with the fit that has not seen it, and compare. Returns 0, or -1 after a
- * message.
- */
+/* Solve each scene with the fit that has not seen it. Returns 0, or -1 after a message. */
 static int judge(struct tuner *t, struct tune_fold *folds)
 {
     int count = t->scene_count;
