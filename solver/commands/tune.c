@@ -146,12 +146,14 @@ static int judge(struct tuner *t, struct tune_fold *folds)
             if (other == s) {
                 f->left = r;
             } else {
-                f->used_price += log(r.price) / (count - 1);
+                f->used_cost += log(r.cost) / (count - 1);
+                f->used_needs += log(tune_needs(t, &r)) / (count - 1);
                 f->used_error += r.error / (count - 1);
             }
         }
-        f->used_price = exp(f->used_price);
-        f->ratio = f->left.price / f->used_price;
+        f->used_cost = exp(f->used_cost);
+        f->used_needs = exp(f->used_needs);
+        f->ratio = tune_needs(t, &f->left) / f->used_needs;
         /* a fit of which no more than its start was looked at says nothing */
         f->known = f->fit.found.evaluations > 1 || f->fit.found.end == PATTERN_FOUND;
     }

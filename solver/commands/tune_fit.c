@@ -1,13 +1,13 @@
 /* tune_fit.c - see tune_fit.h.
  *
  * A scene's price is what it cost, as long as its error is below the target: a scene that is easier
- * than others shall not pay for them. Above, it is what links alone would cost at the target's
- * error, about: that falls with the 2.5th to the fourth root of the cost (maze_8 by
- * bf_guarded: 10.3 % for 1.8 million rays, 4.5 % for 14.3 million; cornell: 3.4 % for 63,000 by
- * relative, 2.5 % for 205,000 by ff). At the rate at which particles make up for what links leave,
- * which is the square root, almost no link is worth its rays, for face means need few particles.
- * The fit makes the mean of the logarithms least, which is the same whatever a scene costs by
- * itself.
+ * than others shall not pay for them. Above, the cost is multiplied by a power of error over
+ * target, which has to be steep: the first few rays of links buy most of what they ever buy, so
+ * that by mild powers the best links are none at all. At the square, the rate of particles, cornell
+ * by bf_guarded wants 8,500 rays and 5.4 %, not 7.5 million and 2.2; at the fourth power, the rate
+ * at which links bring errors down themselves (their 2.5th to fourth root), panels still wants 48
+ * %. At the eighth the target is kept where it can be. The fit makes the mean of the logarithms
+ * least, which is the same whatever a scene costs by itself.
  *
  * A place where any scene costs more than GUARD times what it costs at the best place so far is
  * given up, as soon as that is so: what is far too fine would take hours.

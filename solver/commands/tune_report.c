@@ -17,6 +17,12 @@ double tune_worst(const struct tune_outcome *o)
     return worst;
 }
 
+double tune_needs(const struct tuner *t, const struct tune_result *r)
+{
+    double above = fmax(1, r->error / t->target);
+    return r->cost * above * above;
+}
+
 /* What is known of a scene at a place; state TUNE_UNKNOWN where nothing is. */
 static struct tune_result known(const struct tuner *t, const int *at, int scene)
 {
@@ -79,14 +85,14 @@ static void print_folds(const struct tune_outcome *o)
     }
     printf("\neach scene where it was used to fit, and where it was left out\n"
            "  %-16s %8s %8s %12s %12s %8s\n  %-16s %8s %8s %12s %12s %8s\n",
-           "", "error, %", "", "price", "", "ratio", "scene", "used", "left out", "used",
-           "left out", "");
+           "", "error, %", "", cost_words[t->cost], "", "ratio", "scene", "used", "left out",
+           "used", "left out", "");
     for (int i = 0; i < o->fold_count; i++) {
         const struct tune_fold *f = &o->folds[i];
         printf("  %-16.*s", t->scenes[i].name_length, t->scenes[i].name);
         if (f->known)
             printf(" %8.2f %8.2f %12.4g %12.4g %8.3f\n", 100 * f->used_error, 100 * f->left.error,
-                   f->used_price, f->left.price, f->ratio);
+                   f->used_cost, f->left.cost, f->ratio);
         else
             printf(" not known: its fit was stopped too soon\n");
     }
@@ -94,8 +100,9 @@ static void print_folds(const struct tune_outcome *o)
     if (isnan(worst))
         printf("cross-validation: not finished\n");
     else
-        printf("cross-validation: %s: left out, a scene fares at most %.2f times as badly as used; "
-               "%g is allowed\n",
+        printf("cross-validation: %s: left out, a scene needs at most %.2f times as much as used; "
+               "%g is "
+               "allowed\n",
                worst <= TUNE_CARRIES ? "holds" : "FAILS", worst, TUNE_CARRIES);
 }
 
@@ -139,8 +146,8 @@ static json_t *fold_json(const struct tuner *t, const struct tune_fold *f, int s
     if (!f->known)
         return json_pack("{s:o, s:n}", "scene", name, "ratio");
     return json_pack("{s:o, s:o, s:{s:f, s:f}, s:o, s:f}", "scene", name, "parameters",
-                     parameters_json(t, f->fit.found.at), "used", "error", f->used_error, "price",
-                     f->used_price, "left_out", result_json(f->left), "ratio", f->ratio);
+                     parameters_json(t, f->fit.found.at), "used", "error", f->used_error, "cost",
+                     f->used_cost, "left_out", result_json(f->left), "ratio", f->ratio);
 }
 
 json_t *tune_json(const struct tune_outcome *o)

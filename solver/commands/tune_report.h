@@ -8,14 +8,20 @@
 
 /* A fit without one scene, and what the scene fares with it. Against what it fares where it was
  * used, which is the other folds, so that scenes need not be alike: each is compared with itself.
- */
+ * Both error and cost count: what would be cast for the target's error if particles mended what
+ * links leave, at the rate of particles, whose error falls with the root of their rays: cost
+ * max(1, error / target)^2. */
 struct tune_fold {
     struct tune_fit fit;
-    int known;                     /* 1: all of the following is */
-    struct tune_result left;       /* the scene with this fit */
-    double used_price, used_error; /* with the others: means, of prices that of their factors */
-    double ratio;                  /* of the prices, left out over used */
+    int known;                                /* 1: all of the following is */
+    struct tune_result left;                  /* the scene with this fit */
+    double used_cost, used_error, used_needs; /* with the others: means, but for the error that of
+                                               factors; needs: what would be cast */
+    double ratio;                             /* of what would be cast, left out over used */
 };
+
+/* What would be cast for the target's error. */
+double tune_needs(const struct tuner *t, const struct tune_result *r);
 
 struct tune_outcome {
     const char *oracle;

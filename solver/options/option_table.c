@@ -296,9 +296,9 @@ const struct command_row command_rows[COMMANDS] = {
          "Fit thresholds of an oracle, built in or FILE.dag, to scenes: least becomes the\n"
          "mean over scenes of the logarithm of cost max(1, error/E)^P. The error is that\n"
          "of links alone, face by face (L1), against particles traced first. Then each\n"
-         "scene is left out in turn, fitted without, and tried: exit status 3 where it is\n"
-         "more than 1.5 times as bad as with fits that used it. Ctrl-C ends it with the\n"
-         "best so far.\n",
+         "scene is left out in turn, fitted without, and tried: exit status 3 where\n"
+         "cost max(1, error/E)^2, which is what it needs once particles mend it, is more\n"
+         "than 1.5 times that with fits that used it. Ctrl-C ends it with the best so far.\n",
          "radiosity tune mine.dag room.obj hall.obj shop.obj -o mine.dag"},
     [COMMAND_STABILITY] =
         {"study stability", "", "where methods fail, and by how much",
@@ -396,7 +396,7 @@ const struct option_row option_rows[] = {
      .read = read_setting},
     {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",
      "a share such as 2% or 0.02, above 0 and below 1", .read = read_share, IN(noise), .low = 1},
-    {"power", "P", TUNE, "4", "twice the error E is as bad as 2^P times the cost",
+    {"power", "P", TUNE, "8", "twice the error E is as bad as 2^P times the cost",
      "a whole number from 1 to 64", WHOLE(power, 1, 64)},
     {"cost", "rays|links|time", TUNE, "rays", "rays + links, links, or rays + 40 per pair",
      WORD(read_cost, costs)},
