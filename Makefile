@@ -9,6 +9,7 @@
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
 # make mend-table  build/bin/mend_table, which shows what particles add to the links of a scene
+# make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make bench    what the releases cost, in instructions
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
@@ -217,6 +218,13 @@ factor-rays: $(BUILD)/bin/factor_rays
 $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+# A row of a table: how far pictures are from what each pixel gathers.
+.PHONY: picture-table
+picture-table: $(BUILD)/bin/picture_table
+$(BUILD)/bin/picture_table: $(BUILD)/tests/solver/picture_table.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # A row of a table: what mending by particles is worth on a scene.
 .PHONY: mend-table

@@ -341,6 +341,21 @@
 /* rays. Fewer would make no interval: 20 points in the first stage and as many in the second */
 #define SURFACE_ERROR_LEAST 4000.0
 
+/* ---- light gathered at points (particles) */
+
+/* radii of the element that a ray meets. Nearer than that the ray goes on: the element is seen as
+ * large as it is, and so is what it cannot hold. Derived: at one diameter a square fills .18 of what
+ * a point before its middle receives, so that no element counts for more than that */
+#define GATHER_NEAR 2.0
+/* of the mean B of all surfaces. A ray that meets an element that reflects more goes on, as so many
+ * rays as it weighs: light that is so much more in one place than in others varies in it. Chosen;
+ * without it the spot behind the lamps of scenes/panels, which nobody sees, leaks out of elements
+ * that reach beyond the lamp */
+#define GATHER_BRIGHT 4.0
+/* rays. As so many a ray goes on at the most; chosen: what one of them finds then weighs less than a
+ * ray of the first step */
+#define GATHER_AGAIN 64
+
 /* ---- exchange areas (engine) */
 
 /* of a row's sum. The default, and the tolerance that the limits of
@@ -375,6 +390,13 @@
 /* ... up it, where it must be to stand here. chosen: clear of what touches, near enough to be
  * local */
 #define OUTPUT_RISE 3
+/* rays. A sample of a pixel gathers by one of each kind at the least */
+#define GATHERING_LEAST 2
+/* rays by which a corner gathers, half of them towards lamps. */
+#define GATHERING_CORNER 64
+/* of the mean way to the centres of the leaves around it: how far within its surface a corner
+ * gathers. Chosen: clear of what stands at it */
+#define GATHERING_INWARD (1.0 / 64)
 /* where the log-mean of a picture goes. chosen: 0.18 is a film's middle grey, rooms with bright
  * walls want more */
 #define EXPOSURE_MIDDLE 0.34

@@ -384,7 +384,8 @@ START_TEST(test_not_mirrored)
     struct view v;
     ck_assert_int_eq(view_parse(text, &v), 0);
     v.up[2] = 1;
-    ck_assert_int_eq(image_write(in_folder("a.png"), &s->solution, &s->values, &v, 240, 200, 0), 0);
+    ck_assert_int_eq(
+        image_write(in_folder("a.png"), &s->solution, &s->values, &v, 240, 200, 0, NULL), 0);
     struct pixels p = load(in_folder("a.png"));
     ck_assert_int_eq(p.width, 240);
     ck_assert_int_eq(p.height, 200);
@@ -424,7 +425,7 @@ START_TEST(test_mesh_lines)
     struct pixels p[2];
     for (int mesh = 0; mesh < 2; mesh++) {
         ck_assert_int_eq(
-            image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh), 0);
+            image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh, NULL), 0);
         p[mesh] = load(in_folder("m.png"));
     }
     for (int y = 0; y < 101; y++)
@@ -570,14 +571,16 @@ START_TEST(test_bad_sizes)
     stage_face(s, 0, 4, SQUARE);
     stage_build(s);
     stage_solve(s);
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 0, 10, 0), -1);
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0),
-                     -1);
-    ck_assert_int_eq(image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0),
-                     -1);
+    ck_assert_int_eq(
+        image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 0, 10, 0, NULL), -1);
+    ck_assert_int_eq(
+        image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0, NULL), -1);
+    ck_assert_int_eq(
+        image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0, NULL), -1);
     ck_assert_int_ne(access(in_folder("n.png"), F_OK), 0);
     /* All black, and seen from outside: still a picture. */
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 1, 1, 1), 0);
+    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 1, 1, 1, NULL),
+                     0);
     stage_free(s);
 }
 END_TEST
