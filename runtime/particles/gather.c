@@ -242,10 +242,12 @@ void gather_radiosity(const struct gather *g, uint32_t face, const double point[
     for (int d = 0; d < SOBOL_DIMENSIONS; d++)
         shift[d] = (uint32_t)(hash64(of_set.state += HASH_STEP) >> 32);
     move_off(g, tracer_surface(t, face)->normal, p);
+    /* Both kinds go along with each other, so of the numbers before this point so many are taken. */
+    uint32_t before = (uint32_t)((uint64_t)first * (count - lights) / count);
     for (uint32_t i = 0; i < count - lights; i++) {
         /* its first two dimensions are the most even together */
         double u[SOBOL_DIMENSIONS];
-        sobol_sequence_point(&g->sobol, first + i, shift, u);
+        sobol_sequence_point(&g->sobol, before + i, shift, u);
         if (i < lights)
             follow(g, &fan, u, h);
         else

@@ -122,10 +122,11 @@ int gathering_rows(struct gathering *g, const struct raster *r, const struct sol
 
 /* ---- corners */
 
-/* While places are looked for: of a vertex, what its leaves say. */
+/* While corners gather: of a vertex, its leaves together. */
 struct corner {
-    double inward[3]; /* sum of the ways to their centres (m) */
-    uint32_t leaves, face;
+    double least;          /* radius of the smallest of them (m) */
+    uint32_t leaves, next; /* how many, and how many have had their turn */
+    uint32_t rays;         /* of those that are not covered */
     int seen;
 };
 
@@ -135,52 +136,103 @@ static void note_corners(struct corner *corners, const struct vertex_values *v,
     for (uint32_t i = 0; i < s->tree.count; i++) {
         const struct element *e = &s->tree.elements[i];
         for (uint32_t j = 0; is_leaf(e) && j < e->vertices; j++) {
-            uint32_t at = v->corner[4 * (size_t)i + j];
-            struct corner *c = &corners[at];
+            struct corner *c = &corners[v->corner[4 * (size_t)i + j]];
+            c->least = c->least > 0 && c->least < e->radius ? c->least : e->radius;
             c->leaves++;
-            c->face = e->face;
             c->seen |= seen[i];
-            for (int k = 0; k < 3; k++)
-                c->inward[k] += e->centre[k] - v->vertices[at].position[k];
         }
     }
+}
+
+/* Where corner j of a leaf gathers: a part of the way to the centre, as long in all leaves there as
+ * in the smallest. Together they have the directions that every vertex has, so that noise differs
+ * little from one to the next. */
+static struct RadGatherPoint corner_point(const struct element *e, uint32_t j, struct corner *c)
+{
+    uint32_t first = GATHERING_CORNER * c->next / c->leaves,
+             end = GATHERING_CORNER * (c->next + 1) / c->leaves;
+    struct RadGatherPoint point = {.face = e->face, .first = first, .rays = end - first};
+    for (int k = 0; k < 3; k++)
+        point.position[k] =
+            e->vertex[j][k]
+            + GATHERING_INWARD * c->least / e->radius * (e->centre[k] - e->vertex[j][k]);
+    c->next++;
+    return point;
+}
+
+/* Does the point lie under a solid that stands on the leaf? It sees the solid's inside alone, which
+ * is black. */
+static int is_covered(const struct solution *s, uint32_t leaf, const double *light)
+{
+    const struct RadFace *f = &s->surfaces.faces[s->tree.elements[leaf].face];
+    for (uint32_t k = 0; k < s->tree.bands; k++)
+        if (light[k] > s->surfaces.materials[f->material].exitance[k])
+            return 0;
+    return s->tree.uncovered && s->tree.uncovered[leaf] < 1;
+}
+
+/* Points of one part of the work. */
+struct corner_points {
+    struct RadGatherPoint *point;
+    uint32_t *leaf, *vertex;
+    double *light;
+    size_t count;
+};
+
+/* Let them gather. Vertices of which all is covered keep what they have. Returns 0, or 1. */
+static int gather_points(const struct gathering *g, struct vertex_values *v, struct corner *corners,
+                         const struct solution *s, struct corner_points *p)
+{
+    uint32_t bands = v->bands;
+    if (radGather(g->solved, p->point, p->count, p->light) < 0)
+        return 1;
+    for (size_t i = 0; i < p->count; i++) {
+        const double *light = &p->light[i * bands];
+        struct corner *c = &corners[p->vertex[i]];
+        double *value = &v->value[(size_t)p->vertex[i] * bands];
+        if (is_covered(s, p->leaf[i], light))
+            continue;
+        c->rays += p->point[i].rays;
+        for (uint32_t k = 0; k < bands; k++)
+            value[k] = c->rays > p->point[i].rays
+                           ? value[k] + (light[k] - value[k]) * p->point[i].rays / c->rays
+                           : light[k];
+    }
+    p->count = 0;
+    return 0;
 }
 
 int gathering_corners(struct gathering *g, struct vertex_values *values,
                       const struct solution *solution, const uint8_t *seen)
 {
     enum { PART = 8192 };
-    uint32_t bands = values->bands;
     struct corner *corners = calloc((size_t)values->count + 1, sizeof *corners);
-    struct RadGatherPoint *points = calloc(PART, sizeof *points);
-    double *gathered = malloc((size_t)PART * bands * sizeof *gathered);
-    uint32_t *of = malloc(PART * sizeof *of), at = 0;
-    int result = corners && points && gathered && of ? 0 : -1;
+    struct corner_points p = {calloc(PART, sizeof *p.point), malloc(PART * sizeof *p.leaf),
+                              malloc(PART * sizeof *p.vertex),
+                              malloc((size_t)PART * values->bands * sizeof *p.light), 0};
+    int result = corners && p.point && p.leaf && p.vertex && p.light ? 0 : -1;
     if (result == 0)
         note_corners(corners, values, solution, seen);
-    while (at < values->count && result == 0) {
-        size_t count = 0;
-        for (; at < values->count && count < PART; at++) {
-            const struct corner *c = &corners[at];
-            if (!c->seen)
+    for (uint32_t i = 0; i < solution->tree.count && result == 0; i++) {
+        const struct element *e = &solution->tree.elements[i];
+        for (uint32_t j = 0; is_leaf(e) && j < e->vertices; j++) {
+            uint32_t vertex = values->corner[4 * (size_t)i + j];
+            if (!corners[vertex].seen || corners[vertex].leaves > GATHERING_CORNER)
                 continue;
-            of[count] = at;
-            points[count] = (struct RadGatherPoint){.face = c->face, .rays = GATHERING_CORNER};
-            for (int k = 0; k < 3; k++)
-                points[count].position[k] =
-                    values->vertices[at].position[k] + GATHERING_INWARD * c->inward[k] / c->leaves;
-            count++;
+            p.leaf[p.count] = i;
+            p.vertex[p.count] = vertex;
+            p.point[p.count++] = corner_point(e, j, &corners[vertex]);
         }
-        result = radGather(g->solved, points, count, gathered) < 0;
-        for (size_t i = 0; i < count && result == 0; i++)
-            memcpy(&values->value[(size_t)of[i] * bands], &gathered[i * bands],
-                   bands * sizeof *gathered);
+        if (p.count <= PART - 4 && i + 1 < solution->tree.count)
+            continue;
+        result = gather_points(g, values, corners, solution, &p);
         if (g->progress)
-            progress_say(g->progress, "gather  %.0f %% done", 100.0 * at / values->count);
+            progress_say(g->progress, "gather  %.0f %% done", 100.0 * i / solution->tree.count);
     }
     free(corners);
-    free(points);
-    free(gathered);
-    free(of);
+    free(p.point);
+    free(p.leaf);
+    free(p.vertex);
+    free(p.light);
     return result ? fail(g, result) : 0;
 }
