@@ -130,6 +130,17 @@ struct corner {
     int seen;
 };
 
+/* And what hangs on an edge that is seen. */
+static void see_edge(struct corner *corners, const struct vertex_values *v, uint32_t a, uint32_t b,
+                     uint32_t m)
+{
+    if (m == NO_VERTEX)
+        return;
+    corners[m].seen = 1;
+    see_edge(corners, v, a, m, vertex_values_middle(v, a, m));
+    see_edge(corners, v, m, b, vertex_values_middle(v, m, b));
+}
+
 static void note_corners(struct corner *corners, const struct vertex_values *v,
                          const struct solution *s, const uint8_t *seen)
 {
@@ -140,6 +151,10 @@ static void note_corners(struct corner *corners, const struct vertex_values *v,
             c->least = c->least > 0 && c->least < e->radius ? c->least : e->radius;
             c->leaves++;
             c->seen |= seen[i];
+            if (seen[i])
+                see_edge(corners, v, v->corner[4 * (size_t)i + j],
+                         v->corner[4 * (size_t)i + (j + 1u) % e->vertices],
+                         v->middle[4 * (size_t)i + j]);
         }
     }
 }
@@ -147,10 +162,10 @@ static void note_corners(struct corner *corners, const struct vertex_values *v,
 /* Where corner j of a leaf gathers: a part of the way to the centre, as long in all leaves there as
  * in the smallest. Together they have the directions that every vertex has, so that noise differs
  * little from one to the next. */
-static struct RadGatherPoint corner_point(const struct element *e, uint32_t j, struct corner *c)
+static struct RadGatherPoint corner_point(const struct element *e, uint32_t j, struct corner *c,
+                                          uint32_t rays)
 {
-    uint32_t first = GATHERING_CORNER * c->next / c->leaves,
-             end = GATHERING_CORNER * (c->next + 1) / c->leaves;
+    uint32_t first = rays * c->next / c->leaves, end = rays * (c->next + 1) / c->leaves;
     struct RadGatherPoint point = {.face = e->face, .first = first, .rays = end - first};
     for (int k = 0; k < 3; k++)
         point.position[k] =
@@ -202,8 +217,20 @@ static int gather_points(const struct gathering *g, struct vertex_values *v, str
     return 0;
 }
 
+/* How many rays each corner may cast, for a picture of so many pixels: a power of two. */
+static uint32_t rays_of_corners(const struct corner *corners, uint32_t count, double pixels)
+{
+    uint32_t rays = GATHERING_MOST;
+    double all = 0;
+    for (uint32_t i = 0; i < count; i++)
+        all += corners[i].seen;
+    while (rays > GATHERING_FEWEST && all * rays > GATHERING_SHARE * pixels)
+        rays /= 2;
+    return rays;
+}
+
 int gathering_corners(struct gathering *g, struct vertex_values *values,
-                      const struct solution *solution, const uint8_t *seen)
+                      const struct solution *solution, const uint8_t *seen, double pixels)
 {
     enum { PART = 8192 };
     struct corner *corners = calloc((size_t)values->count + 1, sizeof *corners);
@@ -213,15 +240,16 @@ int gathering_corners(struct gathering *g, struct vertex_values *values,
     int result = corners && p.point && p.leaf && p.vertex && p.light ? 0 : -1;
     if (result == 0)
         note_corners(corners, values, solution, seen);
+    uint32_t rays = result == 0 ? rays_of_corners(corners, values->count, pixels) : 0;
     for (uint32_t i = 0; i < solution->tree.count && result == 0; i++) {
         const struct element *e = &solution->tree.elements[i];
         for (uint32_t j = 0; is_leaf(e) && j < e->vertices; j++) {
             uint32_t vertex = values->corner[4 * (size_t)i + j];
-            if (!corners[vertex].seen || corners[vertex].leaves > GATHERING_CORNER)
+            if (!corners[vertex].seen || corners[vertex].leaves > rays)
                 continue;
             p.leaf[p.count] = i;
             p.vertex[p.count] = vertex;
-            p.point[p.count++] = corner_point(e, j, &corners[vertex]);
+            p.point[p.count++] = corner_point(e, j, &corners[vertex], rays);
         }
         if (p.count <= PART - 4 && i + 1 < solution->tree.count)
             continue;

@@ -29,9 +29,9 @@ struct gathering {
 int gathering_rows(struct gathering *g, const struct raster *r, const struct solution *solution,
                    int side, int from, int to, const uint32_t *face, double *light);
 
-/* The light at the corners of the leaves that are marked, seen[element], into values. Returns 0, or
- * -1. */
+/* The light at the corners of the leaves that are marked, seen[element], and at what hangs on their
+ * edges, into values: as exactly as a picture of so many pixels is worth. Returns 0, or -1. */
 int gathering_corners(struct gathering *g, struct vertex_values *values,
-                      const struct solution *solution, const uint8_t *seen);
+                      const struct solution *solution, const uint8_t *seen, double pixels);
 
 #endif

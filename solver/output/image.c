@@ -25,8 +25,9 @@ static int gather_corners(const struct picture *p, struct vertex_values *values,
     uint8_t *seen = calloc(p->solution->tree.count + (size_t)1, sizeof *seen);
     if (!seen)
         return report_error(p->path, 0, "out of memory for the picture");
-    int result =
-        picture_seen(p, seen) < 0 ? -1 : gathering_corners(gathering, values, p->solution, seen);
+    int result = picture_seen(p, seen) < 0 ? -1
+                                           : gathering_corners(gathering, values, p->solution, seen,
+                                                               (double)p->width * p->height);
     free(seen);
     return result;
 }

@@ -5,8 +5,8 @@
  * no other gathering takes any. A row of a table: root mean squares over all pixels that show no
  * lamp, of the error of luminance, cut off where the picture is white, over the root mean square of
  * luminance, and of that of the sRGB value that the exposure makes of it, in 255 steps: of leaves
- * as constants, of means of leaves interpolated, of what corners gather interpolated, and of the
- * truth's own noise.
+ * as constants, of means of leaves interpolated, of what corners gather for 1024 x 768 pixels,
+ * interpolated, and of the truth's own noise.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -111,7 +111,7 @@ static int show(const struct options *o, const struct open_scene *scene, RadSolu
     look(&s, &p, &values, MEANS);
     struct gathering gathering = {o->scene, scene->device, solved, NULL, 0, 0};
     memset(seen, 1, solution.tree.count);
-    if (gathering_corners(&gathering, &values, &solution, seen) < 0
+    if (gathering_corners(&gathering, &values, &solution, seen, 1024 * 768) < 0
         || gather(&s, solved, (uint32_t)o->gather, TRUTH) < 0
         || gather(&s, solved, (uint32_t)o->gather, AGAIN) < 0)
         return -1;
