@@ -3,13 +3,17 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
+#include <png.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "folder.h"
 #include "kernel/surface_point.h"
 #include "load_scene.h"
+#include "output/image.h"
 #include "suite.h"
 
-enum { POINTS = 256, RAYS = 4096, MANY = 1 << 18 };
+enum { POINTS = 256, RAYS = 4096, MANY = 1 << 16 };
 
 struct solved_scene {
     struct loaded loaded; /* of a file; else the next two alone */
@@ -178,8 +182,8 @@ START_TEST(means_of_faces)
     RadReference r = radNewReference(s.scene);
     double truth[32], deviation[32];
     ck_assert_uint_le(s.loaded.report.polygons, 32);
-    ck_assert_int_eq(radTraceReference(r, RAD_METHOD_PARTICLES, 1 << 19), 0);
-    ck_assert_int_eq(radTraceReference(r, RAD_METHOD_PATHS, 1 << 16), 0);
+    ck_assert_int_eq(radTraceReference(r, RAD_METHOD_PARTICLES, 1 << 18), 0);
+    ck_assert_int_eq(radTraceReference(r, RAD_METHOD_PATHS, 1 << 15), 0);
     ck_assert_int_eq(radGetReferenceValues(r, RAD_METHOD_BOTH, 1, truth, deviation), 0);
     int held = 0;
     for (uint32_t f = 0; f < s.loaded.report.faces; f++) {
@@ -217,7 +221,7 @@ START_TEST(bright_spots)
     uint32_t floor = 0;
     while (radGetSceneFaces(s.scene)[floor].input != 2)
         floor++;
-    double many = gather(&s, floor, .9, .4, 0, 1 << 18), spread = 0;
+    double many = gather(&s, floor, .9, .4, 0, 1 << 15), spread = 0;
     enum { SETS = 64 };
     struct RadGatherPoint points[SETS];
     double B[SETS], mean = 0;
@@ -286,6 +290,102 @@ START_TEST(what_is_refused)
 }
 END_TEST
 
+/* ---- pictures */
+
+static void read_image(const char *path, int width, int height, uint8_t *rgb)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    ck_assert_msg(png_image_begin_read_from_file(&image, path), "%s", image.message);
+    image.format = PNG_FORMAT_RGB;
+    ck_assert_int_eq((int)image.width, width);
+    ck_assert_int_eq((int)image.height, height);
+    ck_assert(png_image_finish_read(&image, NULL, rgb, 0, NULL));
+}
+
+/* A picture of a lit room, gathered by 128 rays a pixel into a, by others, at corners, into b. */
+START_TEST(pixels_and_corners)
+{
+    enum { W = 40, H = 30 };
+    static uint8_t a[H][W][3], b[H][W][3];
+    struct solved_scene s;
+    struct vertex_values values;
+    solve_file(&s, "examples/scenes/cornell.obj", "ff");
+    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution);
+    const char *path = in_folder("gather.png");
+    for (int corners = 0; corners < 2; corners++) {
+        struct gathering g = {path, s.device, s.solution, NULL, corners ? 0 : 128, 0};
+        ck_assert_int_eq(vertex_values_build(&values, &solution), 0);
+        ck_assert_int_eq(image_write(path, &solution, &values, NULL, W, H, 0, &g), 0);
+        vertex_values_free(&values);
+        read_image(path, W, H, corners ? b[0][0] : a[0][0]);
+    }
+    double off = 0;
+    for (int i = 0; i < 3 * W * H; i++)
+        off += pow((&a[0][0][0])[i] - (&b[0][0][0])[i], 2) / (3 * W * H);
+    ck_assert_double_lt(sqrt(off), 6); /* steps of 255; other exposures make 20 and more */
+    ck_assert_double_gt(off, 0);
+    close_scene(&s);
+}
+END_TEST
+
+/* Along the edge between wall and ceiling, where leaves of unlike size alternate, the picture goes
+ * up and down no more than the light does. */
+START_TEST(edges_are_no_saws)
+{
+    enum { ALONG = 400 };
+    struct solved_scene s;
+    struct vertex_values values;
+    solve_file(&s, "examples/scenes/room.obj", "clusters");
+    const struct solution solution = solution_of(&s.loaded.surfaces, s.solution);
+    ck_assert_int_eq(vertex_values_build(&values, &solution), 0);
+    uint8_t *seen = malloc(solution.tree.count);
+    memset(seen, 1, solution.tree.count);
+    double ways[2], range[2];
+    for (int gathered = 0; gathered < 2; gathered++) {
+        struct gathering g = {"", s.device, s.solution, NULL, 0, 0};
+        if (gathered)
+            ck_assert_int_eq(gathering_corners(&g, &values, &solution, seen, 1), 0);
+        /* the wall at x = 4, whose top edge is the ceiling's */
+        uint32_t wall = UINT32_MAX;
+        double best = 0;
+        for (uint32_t f = 0; f < s.loaded.report.faces; f++) {
+            const struct element *e = element_of_face(&solution, f);
+            if (e->centre[0] > 3.99 && e->normal[0] < -.99 && e->area > best) {
+                best = e->area;
+                wall = f;
+            }
+        }
+        ck_assert_uint_ne(wall, UINT32_MAX);
+        const struct RadFace *face = &s.loaded.surfaces.faces[wall];
+        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {0, 0, 0}, last = 0;
+        for (uint32_t j = 0; j < face->vertices; j++)
+            for (int k = 0; k < 3; k++) {
+                low[k] = fmin(low[k], face->vertex[j][k]);
+                high[k] = fmax(high[k], face->vertex[j][k]);
+            }
+        double least = INFINITY, most = 0;
+        ways[gathered] = 0;
+        for (int i = 0; i < ALONG; i++) {
+            double p[3] = {high[0], low[1] + (i + .5) / ALONG * (high[1] - low[1]), high[2] - 1e-3};
+            double B[3];
+            vertex_values_at(&values, &solution, wall, p, B);
+            ways[gathered] += i > 0 ? fabs(B[1] - last) : 0;
+            last = B[1];
+            least = fmin(least, last);
+            most = fmax(most, last);
+        }
+        range[gathered] = most - least;
+    }
+    printf("up and down along an edge, in ranges: means %.2f, gathered %.2f\n", ways[0] / range[0],
+           ways[1] / range[1]);
+    /* the light rises to the middle of the wall and falls: twice the range, and little more */
+    ck_assert_double_lt(ways[1], 2.5 * range[1]);
+    free(seen);
+    vertex_values_free(&values);
+    close_scene(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("gather");
@@ -299,5 +399,14 @@ int main(void)
     tcase_add_test(points, same_on_all_threads);
     tcase_add_test(points, what_is_refused);
     suite_add_tcase(suite, points);
-    return suite_failures(suite) != 0;
+    TCase *pictures = tcase_create("pictures");
+    tcase_set_timeout(pictures, 60);
+    tcase_add_test(pictures, pixels_and_corners);
+    tcase_add_test(pictures, edges_are_no_saws);
+    suite_add_tcase(suite, pictures);
+    if (folder_make("gather") < 0)
+        return EXIT_FAILURE;
+    int failed = suite_failures(suite);
+    folder_remove();
+    return failed != 0;
 }
