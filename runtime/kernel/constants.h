@@ -395,6 +395,390 @@
 /* rays of all corners per pixel: a pixel gathers by as many at the least, were it asked to. Chosen */
 #define GATHERING_SHARE 8
 /* rays by which one corner gathers, half of them towards what is bright, at the most and at the
+ * least. Chosen; make picture-table tells what comes of it */
+#define GATHERING_MOST 256
+#define GATHERING_FEWEST 64
+/* corners. So many of a face say what gathering is worth on it: known to a third; chosen */
+#define GATHERING_TELLING 16
+/* of the way from a corner to the centre. F at a corner is taken so far within, for where two
+ * elements touch it has no value at the corner itself. Chosen: a float's rounding is 2^-24 */
+#define CORNER_INSET (1 / 1048576.0)
+/* of the largest distance. What rounding does to a distance: 512 roundings, more than the sums
+ * that lead to it have */
+#define DISTANCE_ROUNDING (1 / 17592186044416.0) /* 2^-44 */
+
+/* of the pair's size. Corners no farther from the plane lie in it, and corners so near are one.
+ * Chosen: 2^13 roundings, of which a direction between such corners would be made */
+#define COSINE_BOUND_FLAT (1 / 1099511627776.0) /* 2^-40 */
+/* relative, of a distance's square. A step that wins less is the last. The bound holds after any */
+#define COSINE_BOUND_ENOUGH 1e-9
+#define COSINE_BOUND_ROUNDING 1e-12 /* of a cosine. Above the rounding of the sums before */
+/* radians. A cluster's cone leaves out so much as rounding: acos(1 - CONE_EQUAL) = 1.4e-7 */
+#define COSINE_BOUND_CONE 2e-7
+
+/* radii of the smaller polygon. Farther off than NEAR a rule of six points is enough, than MIDDLE
+ * of three, than FAR of one: each keeps the relative error near 1e-5
+ * (tests/runtime/check_form_factor.c) */
+#define POLYGON_FACTOR_NEAR 3.0
+#define POLYGON_FACTOR_MIDDLE 8.0
+#define POLYGON_FACTOR_FAR 60.0
+/* the same at the exact level: nearer, contours are integrated; beyond, they would lose digits and
+ * points are better */
+#define POLYGON_FACTOR_EXACT 60.0
+/* F both ways. Less may be rounding's alone, and is 0 when nothing rises above the other's plane */
+#define POLYGON_FACTOR_FAINT 1e-6
+/* of the coordinates. What rounding leaves of a corner's height: 16 roundings */
+#define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
+
+/* of F, by one pair of edges. What levels polygon and contour aim at: a hundredth of the errors
+ * that they promise, for edges are many (tests/runtime/check_closed_forms.c) */
+#define CONTOUR_FACTOR_FAIR 1e-7
+#define CONTOUR_FACTOR_EXACT 1e-11
+/* of a unit length. What rounding leaves of an integral of ln; to aim lower would not end */
+#define CONTOUR_FACTOR_ROUNDING 2e-15
+/* cosine of two edges. At less they count as perpendicular and bring nothing: a rounding */
+#define CONTOUR_FACTOR_PERPENDICULAR 1e-16
+/* square of a sine. Edges at no more are parallel, whose integral is closed: 1000 roundings of a
+ * sine */
+#define CONTOUR_FACTOR_PARALLEL 1e-26
+
+/* pixels of a side of the hemicube's top; even. Cohen and Greenberg 1985 use 50 to 200. At 128
+ * pixels take little from what one point is off by: 9.9 % of the exchange instead of 9.0 % over the
+ * links of the room in examples/scenes (radiosity study form-factors) */
+#define FORM_FACTOR_PIXELS 128
+/* rays of either kind; a power of two. chosen: F is off by 2 % over pairs near and far, by a
+ * twentieth of what one point is (tests/runtime/check_form_factor_levels.c) */
+#define FORM_FACTOR_RAYS_EACH 256
+
+/* of F, and absolute. The bound of F over a receiver is widened so far, for the rounding of sums
+ * over edges */
+#define FORM_FACTOR_RANGE_ROUNDING 1e-12
+#define FORM_FACTOR_RANGE_LEAST 4e-15
+
+/* of host.ray_offset. `grow` of shaft.h: 32 times what the coordinates lose in single precision */
+#define SHAFT_GROW 0.25
+/* of host.ray_offset. A quad bent by more is taken for two triangles: an eighth of SHAFT_GROW */
+#define SHAFT_BENT 0.03125
+/* of host.ray_offset. `margin` of pairs of whole faces, and how much of it the deepest lose */
+#define SHAFT_MARGIN 0.5
+#define SHAFT_MARGIN_FALL 0.25
+/* of host.ray_offset. Heights that differ by less, twice or three times, are rounding. Chosen:
+ * far below `grow`, above the rounding of doubles */
+#define SHAFT_SLACK (1 / 65536.0)
+/* square of a sine. An end turned less to a face lies flat on it: 2^-10, 0.06 degrees; chosen */
+#define SHAFT_PARALLEL (1 / 1048576.0)
+/* square of a sine. A corner nearer to the line of an edge makes no plane with it; chosen: its
+ * normal has nine digits left */
+#define SHAFT_LINE 1e-14
+
+/* of A_r F_rs, per area. Triangles whose two rules differ by less are not halved: a fifth of the
+ * error that the header promises */
+#define VISIBLE_PART_ERROR 2e-7
+/* of the smaller radius. A cell that rises no higher over a plane is not cut by it; chosen */
+#define VISIBLE_PART_NEAR 1e-9
+/* square of a sine. As SHAFT_LINE, but a plane left out only costs halving */
+#define VISIBLE_PART_LINE 1e-20
+/* of A_r F_rs. No more than that hidden, or seen, is none; chosen, below VISIBLE_PART_ERROR */
+#define VISIBLE_PART_NONE 1e-9
+
+/* of a cell's area. Less of it left is nothing, less of it gone is nothing; chosen */
+#define OUTLINE_LEAST (1 / 65536.0)
+/* of the eye's height over the plane. Of a face only what is lower casts a shadow, which would
+ * have no end; chosen */
+#define OUTLINE_BELOW_EYE 1e-6
+
+/* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
+#define SAMPLER_PARALLELOGRAM 1e-12
+/* choices per segment. Then fewer segments than were asked for must do; chosen */
+#define CLUSTER_TRIES 8
+/* sums of radii. Nearer clusters are not points: there (d - a)^-2 exceeds (d + a)^-2 by 25 times;
+ * chosen */
+#define CLUSTER_GAP_APART 1.5
+/* of the distance of the centres. A blocker is no nearer to the source, so that its umbra is
+ * finite; chosen */
+#define FEATURE_SIZE_NEAREST (1 / 1048576.0)
+/* times. Where a shadow's edge crosses, the emitter's spread may count so much more than its mean
+ * says, for both vary together; chosen */
+#define POWER_GAP_ALIGNED 16.0
+/* of F + dF. What visibility may be wrong by when all of a few rays agree; the Stanford radiosity
+ * program in SPLASH-3 */
+#define BFV_ERROR_DOUBT 0.1
+
+/* ---- scenes (hierarchy) */
+
+/* Coordinates are off by at most their relative rounding times the largest of them. */
+/* relative. Rounding of a float: half a unit in its last place [IEEE 754] */
+#define SCENE_SINGLE 0x1p-24
+#define SCENE_DOUBLE 0x1p-53 /* relative. The same of a double */
+/* of a quad's size. Corners no farther from its mean plane make it flat, else it is two
+ * triangles. Chosen */
+#define SCENE_FLAT_QUAD 1e-4
+/* of the scene's extent. Where corners have been floats, they must be no farther either: rays
+ * keep 2^-18 of the extent off surfaces, four times that, so that none meets the quad it leaves */
+#define SCENE_FLAT_ROUNDED 0x1p-20
+/* of its longest diagonal. A polygon no wider than that has no area. Chosen: far above the
+ * rounding of its area */
+#define SCENE_THIN 1e-7
+/* roundings of its largest coordinate. The same: of two corners, each may be off by one */
+#define SCENE_THIN_ROUNDINGS 2
+
+/* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
+ * face that is cut. */
+/* of the size. Nearer than that to a plane is in it, and lengths that differ by less are equal;
+ * what is nearer to a face stands on it (pictures).
+ * Chosen: modellers leave gaps of a tenth of a millimetre in rooms of metres */
+#define CUT_TOUCH 1e-4
+/* roundings of the largest coordinate. The same: both faces may be off, each by two corners */
+#define CUT_TOUCH_ROUNDINGS 4
+/* radians, and of the size. Lines that near to each other are one. As CUT_TOUCH */
+#define CUT_SAME_LINE 1e-4
+#define CUT_SLIVER 1e-4 /* of the size. No cut leaves less than that on a side. As CUT_TOUCH */
+/* of the size. A cut that near to a corner goes through it, so that no edge is shorter. Chosen,
+ * below CUT_SLIVER */
+#define CUT_CORNER 1e-5
+/* sine. Planes at a smaller angle have no line of contact to speak of. Chosen */
+#define CUT_PARALLEL 0.01
+/* of a chord. Contacts that cover less of it do not cut: a wall with a door does, the leg of a
+ * table does not. Chosen */
+#define CUT_COVER 0.5
+
+/* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below
+ * this no shipped graph links clusters, and the tree decides only in which order pairs are
+ * found; chosen */
+#define CLUSTERS_FACES 1000
+/* of a cluster's area: a mean normal no longer than that, times area, points nowhere; rounding
+ * of a sum */
+#define CONE_LEAST 1e-9
+/* of a cosine: normals no farther apart count as equal, so that flat clusters have a cone of
+ * angle 0; what rounding leaves of two unit vectors' product */
+#define CONE_EQUAL 1e-14
+/* between the normals of a coplanar group's faces, least: 0.26 degrees. chosen; heights decide
+ * before it */
+#define GROUP_COSINE 0.99999
+/* of a unit normal: neighbours in the order of one coordinate that are farther apart are not in
+ * one plane; chosen, above the rounding of corners given as floats */
+#define GROUP_NORMAL_GAP 1e-5
+/* of host.flat: the same of heights; half, since a corner may be off either way */
+#define GROUP_HEIGHT_GAP 0.5
+/* of a group's rectangle: so much may its faces' areas be off and still tile it; chosen, above
+ * what GROUP_COSINE and rounding of corners make of areas */
+#define GROUP_GAPS 1e-5
+/* of the scene's size: middles of faces no farther apart are in one row, which is not cut;
+ * chosen */
+#define GROUP_SAME_PLACE 1e-6
+/* faces of a lowest group. Shadows are found group by group: 16 are as good as 8 or 32, by the
+ * seconds of `radiosity viewfactors` on rooms of make_room.h */
+#define LOWEST_GROUP 16
+
+/* ---- visibility */
+
+/* of the scene's size. Rays start so far off their surface: 32 units in the last place of a
+ * float of that size, which Embree's rounding does not cross */
+#define RAY_OFFSET 0x1p-18
+/* of the ray offset: a point this near to a plane lies in it, so that no ray that starts off the
+ * one surface starts behind the other; chosen */
+#define RAY_FLAT 0.5
+#define CONTACT_RAYS 8 /* rays per point. chosen: cosine-spread, enough that two may go astray */
+/* of CONTACT_RAYS that must meet backs for a point to lie inside a solid. chosen: two may meet
+ * fronts of what reaches into the solid; points outside meet backs of closed solids never */
+#define CONTACT_BACKS 6
+/* of the rays from a point: when so many meet backs, it lies inside a solid. As CONTACT_BACKS of
+ * CONTACT_RAYS */
+#define ENVIRONMENT_BACKS 0.75
+/* of the steps of all walks: so many may end and the scene still counts as closed, for rounding
+ * lets a ray through a crack between faces now and then. What can be missed is an opening of
+ * that share of all area; one of 1e-4 is found with a probability of 99.99 %
+ * (visibility/enclosure.c) */
+#define ENCLOSURE_CRACKS 2e-5
+
+/* ---- links and transport (engine) */
+
+/* relative. What an oracle sees of radiosity, spread and importance lags this far behind the
+ * truth, so that passes end; chosen, below the 5 % that the oracles' own thresholds decide by */
+#define HYSTERESIS 0.02
+/* relative L1 error of B that iteration may leave, least, when nobody says: links hold V in steps
+ * of 2^-14, so that their own rounding is half of it. derived from LINK_VISIBLE */
+#define SOLVE_TOLERANCE 1e-4
+/* the same at the most. Constants' errors partly cancel, what iteration leaves is all missing: to
+ * this, 5e-5 to 4e-4 of the reflected light is (cornell, room, panels, furnace, maze_8, each over
+ * its last links) */
+#define SOLVE_TOLERANCE_MOST 1e-3
+/* of what constants on leaves leave (engine/variation.c): so much iteration may leave beside it.
+ * chosen: a tenth is little beside the whole */
+#define SOLVE_SHARE 0.1
+/* relative L1 error of B. Where groups are linked, passes before the last ones solve to this: a
+ * quarter of HYSTERESIS, so that oracles do not notice; must stay below it */
+#define ROUGH_TOLERANCE 0.005
+/* links per changed link. Passes solve to the tolerance once no more links change than one in
+ * this many; chosen: so few cannot bring many others to change */
+#define SETTLED 1000
+/* of 1 - rho: how far the cap may exceed 1 where a face's mean row does. Below 1 the iteration
+ * converges, rho (1 + (1 - rho)) < 1; half of it leaves it a rate. derived in row_sums.c */
+#define ROW_EXCESS 0.5
+/* of the cap. Leaves whose row is below this take nothing of what is capped off others: their
+ * row is small because something stands before them, not by error; chosen */
+#define ROW_SHADOW 0.5
+/* of the largest importance. What oracles see is no less, so that nothing divides by 0; chosen,
+ * far below what a picture of 8 bits shows */
+#define IMPORTANCE_LEAST 1e-4
+/* factor by which an error tolerance falls per pass; Bekaert and Willems 1996 */
+#define ERROR_STEP 1.4
+/* of the error to be held: the most that all links of a leaf may bring together by the oracle's
+ * own measure before the leaf is given up; chosen */
+#define ERROR_ENOUGH 0.25
+/* cosine. A side whose mean normal is turned less than this to the other side is seen on edge:
+ * that normal says nothing of what passes, only the place does; chosen */
+#define PIVOT_RELIABLE 0.3
+
+/* ---- measured error (engine) */
+
+/* of the reflected light. A polygon that reflects so much is a large face to a reader of the
+ * summary; chosen: there can be a hundred of them at most */
+#define FACE_ERROR_LARGE 0.01
+/* standard errors. A large face is surely wrong beyond this: 97.5 % of Student's t with 15 degrees
+ * of freedom for the worst of a hundred */
+#define FACE_ERROR_SURE 4.44
+/* standard errors. An error so far out is what it is seen as: noise neither hides it nor makes it
+ * in a thousand polygons */
+#define FACE_ERROR_CERTAIN 5.0
+/* power of |e^| / s. The most uneven that errors below noise are thought to be: cubes, whose
+ * largest tenth has nine tenths of the sum when |e^| is normal; chosen */
+#define FACE_ERROR_SHAPE 3.0
+/* particles. Where a polygon is met by so many, what its replicates say of its noise has half the
+ * weight that it has where many land: their own variance is then twice as uncertain */
+#define FACE_ERROR_FEW 16.0
+/* standard errors. How far a solution may draw the mean that chance is computed from: 95 % */
+#define FACE_ERROR_DRAWN 2.0
+/* of an element's own squares against those that its class expects: 1 is James and Stein's rule for
+ * each alone, 0 one factor for all of a class. Of 0, 1/4, 1/2 and 1 the best for leaves on four
+ * scenes of very different kind at 30,000 and 300,000 particles, between 0 and 1/2 by little */
+#define MEND_OWN 0.25
+/* standard deviations. How far the squares of a class must be above noise before its links are
+ * mended, 2: one class in forty is by chance */
+#define MEND_EVIDENCE 2.0
+/* the same for one element: what is so far out is believed whatever its class says; 3, as is usual
+ * for outliers */
+#define MEND_OUTLIER 3.0
+/* ---- account of error (engine) */
+
+/* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats
+ * leave cracks of 1e-7 of a length, holes are larger */
+#define WINDING_WHOLE 1e-6
+/* of the way from a leaf's centre to its corners, where its winding number is asked for: chosen, a
+ * leaf belongs to one volume but for such a rim */
+#define WINDING_INSET 0.98
+/* of a scene's mean irradiance. An emitter that may bring no more than that in doubt is not taken
+ * by parts: 0.002 takes half as long again for bounds of 0.55 instead of 0.63 of the reflected
+ * light, 0.01 three quarters for 0.76 (radiosity solve cornell.obj --errors=all) */
+#define RANGE_DETAIL 0.005
+/* of RANGE_DETAIL. Ranges of form factors that differ by less as they come are not narrowed; the
+ * same measurement: 0.1 instead of 1 takes a tenth longer, for bounds narrower by a sixteenth */
+#define RANGE_FINE 0.3
+/* of a range of shares. What lies so far outside is rounding: of a float, twice */
+#define RANGE_ROUNDING 0x1p-22
+/* of the bound. Bounds are iterated until what iteration may still take off them, or must add, is
+ * no more: chosen */
+#define BOUND_ENOUGH 0.01
+/* of a radiosity: what policies are not improved for, since their weights are floats: 16
+ * roundings */
+#define BOUND_WEIGHTS 1e-6
+/* of a radiosity: what rounding may have done to the sums of its bound; as DISTANCE_ROUNDING */
+#define BOUND_ROUNDING 1e-12
+/* relative. What iteration may leave of an estimate: chosen, below the digits that are told */
+#define ACCOUNT_TOLERANCE 1e-3
+/* of F, by the level of a link: what the term's header promises as typical, and as the most */
+#define FORM_FACTOR_POLYGON_TYPICAL 1e-5
+#define FORM_FACTOR_POLYGON_MOST 4e-4
+#define FORM_FACTOR_CONTOUR_MOST 1e-9
+/* ---- linear elements (engine) */
+
+/* of the radius. An element has no slope across where its root-mean-square width is less: rounding
+ * of its corners would decide it. chosen */
+#define LINEAR_THIN 1e-6
+/* sums of radii. Cells farther apart than FAR have 2 x 2 points each, than NEAR 3 x 3, nearer ones
+ * are quartered. So couplings of elements apart are within 2e-3 of F, slope to slope within 4e-3:
+ * tests/runtime/check_linear.c, where FAR below NEAR, 2 x 2 points throughout, fails */
+#define LINEAR_NEAR 1.0
+#define LINEAR_FAR 1.5
+/* of the smaller element's radius: cells of that size that are still near are not quartered. Where
+ * elements touch, couplings of a mean are then within 3e-2 of F and slope to slope within .15; at
+ * half the size 4e-3 and .02 for five times the work, and solutions of a cube and of rooms are no
+ * better (tests/runtime/check_linear.c) */
+#define LINEAR_CELL 0.51
+/* of 1 - rho: how far the row of a nonnegative kernel may exceed 1 at a corner of a leaf; more, and
+ * the slopes of that leaf are made less. Above ROW_EXCESS, by which means may, and at most 1, so
+ * that rho times the row is below 1; derived in linear_transport.c */
+#define LINEAR_ROW_EXCESS 0.75
+/* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
+ * change of a convergent one may rise in norms that are not its own, by a few times */
+#define LINEAR_GROWS 10.0
+/* particles. A part of the tree that so many have met is mended by what they measured there, a
+ * quarter of its H uncertain: many directions end in many parts. Chosen */
+#define POINT_ERROR_MET 16.0
+
+/* times the rays of a point of the first stage, at the most, for one of the second: beyond, the
+ * noise that the first has measured is too uncertain to save points by; chosen */
+#define SURFACE_ERROR_RAYS 6.0
+/* landings of particles. So many make one cell of where light lands; chosen: half of it uncertain
+ */
+#define ERROR_PLACES_CELL 4
+/* rays. Fewer would make no interval: 20 points in the first stage and as many in the second */
+#define SURFACE_ERROR_LEAST 4000.0
+
+/* ---- light gathered at points (particles) */
+
+/* radii of the element that a ray meets. Nearer than that the ray goes on: the element is seen as
+ * large as it is, and so is what it cannot hold. Derived: at one diameter a square fills .18 of
+ * what a point before its middle receives, so that no element counts for more than that */
+#define GATHER_NEAR 2.0
+/* of the mean B of all surfaces. A ray that meets an element that reflects more goes on, as so many
+ * rays as it weighs: light that is so much more in one place than in others varies in it. Chosen;
+ * without it the spot behind the lamps of scenes/panels, which nobody sees, leaks out of elements
+ * that reach beyond the lamp */
+#define GATHER_BRIGHT 4.0
+/* rays. As so many a ray goes on at the most; chosen: what one of them finds then weighs less than
+ * a ray of the first step */
+#define GATHER_AGAIN 64
+
+/* ---- exchange areas (engine) */
+
+/* of a row's sum. The default, and the tolerance that the limits of
+ * examples/oracles/viewfactors.dag are made for: chosen */
+#define EXCHANGE_TOLERANCE 3e-4
+/* sums of two faces' radii. Pairs nearer than that have the contour integral at
+ * EXCHANGE_TOLERANCE; the error of the others falls with the fourth power of distance */
+#define EXCHANGE_NEAR 2.5
+/* the same at any tolerance. chosen: nearer, the series in size over distance need not converge */
+#define EXCHANGE_NEAR_LEAST 1.5
+/* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
+#define EXCHANGE_NEAR_FALL 0.25
+/* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
+#define CLOSURE_ENOUGH 1e-12
+
+/* ---- references (engine) */
+
+/* particles. Where fewer than these are to be expected, how replicates differ does not say how sure
+ * they are: their variance then depends on their mean, and weights by it favour what is dark by
+ * chance, by a share of the standard error that falls with the root of this: 3 % here; chosen */
+#define REFERENCE_FEW 1000
+/* of the mean over its standard error, squared: so many paths at the least have found light, and
+ * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */
+#define REFERENCE_SURE 100
+
+/* ---- pictures and meshes (solver/output) */
+
+/* cosine of one degree: faces turned less are one surface. chosen: flat when shaded */
+#define OUTPUT_SAME_PLANE 0.99985
+#define OUTPUT_SAME_LINE 0.999998 /* cosine of a tenth of a degree: one direction. chosen */
+#define OUTPUT_REACH 4            /* CUT_TOUCHes along a wall and ... */
+/* ... up it, where it must be to stand here. chosen: clear of what touches, near enough to be
+ * local */
+#define OUTPUT_RISE 3
+/* rays. A sample of a pixel gathers by one of each kind at the least */
+#define GATHERING_LEAST 2
+/* rays of all corners per pixel: a pixel gathers by as many at the least, were it asked to. Chosen */
+#define GATHERING_SHARE 8
+/* rays by which one corner gathers, half of them towards what is bright, at the most and at the
  * least. Chosen: 64, 128 and 256 leave 2.6, 1.7 and 1.3 steps of 255 in a picture of room where means
  * of leaves leave 3.2, and 3.0, 2.1 and 1.7 of 8.2 in one of panels (make picture-table) */
 #define GATHERING_MOST 256

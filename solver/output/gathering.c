@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "output/gathering.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -124,10 +125,19 @@ int gathering_rows(struct gathering *g, const struct raster *r, const struct sol
 
 /* While corners gather: of a vertex, its leaves together. */
 struct corner {
-    double least;          /* radius of the smallest of them (m) */
-    uint32_t leaves, next; /* how many, and how many have had their turn */
-    uint32_t rays;         /* of those that are not covered */
+    double least;                /* radius of the smallest of them (m) */
+    double sum[3];               /* of what they have told (W/m2) */
+    double all, square;          /* of that, bands together: sum, and sum of squares */
+    uint32_t face;               /* of one of them */
+    uint32_t leaves, next, told; /* how many; have had their turn; are not covered */
     int seen;
+};
+
+/* What gathering is worth on a face, or everywhere: sums over vertices of the squared step from the
+ * mean of leaves to what was gathered, and of the latter's squared standard error. */
+struct worth {
+    double step, noise;
+    uint32_t vertices;
 };
 
 /* And what hangs on an edge that is seen. */
@@ -150,6 +160,7 @@ static void note_corners(struct corner *corners, const struct vertex_values *v,
             struct corner *c = &corners[v->corner[4 * (size_t)i + j]];
             c->least = c->least > 0 && c->least < e->radius ? c->least : e->radius;
             c->leaves++;
+            c->face = e->face;
             c->seen |= seen[i];
             if (seen[i])
                 see_edge(corners, v, v->corner[4 * (size_t)i + j],
@@ -194,26 +205,75 @@ struct corner_points {
     size_t count;
 };
 
-/* Let them gather. Vertices of which all is covered keep what they have. Returns 0, or 1. */
-static int gather_points(const struct gathering *g, struct vertex_values *v, struct corner *corners,
+/* Let them gather. Returns 0, or 1. */
+static int gather_points(const struct gathering *g, struct corner *corners,
                          const struct solution *s, struct corner_points *p)
 {
-    uint32_t bands = v->bands;
+    uint32_t bands = s->tree.bands;
     if (radGather(g->solved, p->point, p->count, p->light) < 0)
         return 1;
     for (size_t i = 0; i < p->count; i++) {
         const double *light = &p->light[i * bands];
         struct corner *c = &corners[p->vertex[i]];
-        double *value = &v->value[(size_t)p->vertex[i] * bands];
+        double all = 0;
         if (is_covered(s, p->leaf[i], light))
             continue;
-        c->rays += p->point[i].rays;
-        for (uint32_t k = 0; k < bands; k++)
-            value[k] = c->rays > p->point[i].rays
-                           ? value[k] + (light[k] - value[k]) * p->point[i].rays / c->rays
-                           : light[k];
+        c->told++;
+        for (uint32_t k = 0; k < bands; k++) {
+            c->sum[k] += light[k];
+            all += light[k];
+        }
+        c->all += all;
+        c->square += all * all;
     }
     p->count = 0;
+    return 0;
+}
+
+/* ---- how far corners are believed */
+
+static void weigh_corner(struct worth *w, const struct corner *c, const double *mean,
+                         uint32_t bands)
+{
+    double step = c->all / c->told, n = c->told;
+    for (uint32_t k = 0; k < bands; k++)
+        step -= mean[k];
+    w->step += step * step;
+    w->noise += fmax(c->square - c->all * c->all / n, 0) / (n * (n - 1));
+    w->vertices++;
+}
+
+/* How much of the step to take: as far as steps stand out of noise. [James and Stein 1961] */
+static double believed(const struct worth *w)
+{
+    return w->step > w->noise ? 1 - w->noise / w->step : 0;
+}
+
+/* Means of leaves go on towards what was gathered, by what that is worth on their face, or in all
+ * the picture where the face has few corners to tell. Returns 0, or -1 when out of memory. */
+static int take_steps(struct vertex_values *v, const struct solution *s,
+                      const struct corner *corners)
+{
+    uint32_t bands = v->bands;
+    struct worth all = {0, 0, 0},
+                 *faces = calloc((size_t)s->surfaces.face_count + 1, sizeof *faces);
+    if (!faces)
+        return -1;
+    for (uint32_t i = 0; i < v->count; i++)
+        if (corners[i].told > 1) {
+            weigh_corner(&faces[corners[i].face], &corners[i], &v->value[(size_t)i * bands], bands);
+            weigh_corner(&all, &corners[i], &v->value[(size_t)i * bands], bands);
+        }
+    for (uint32_t i = 0; i < v->count; i++) {
+        const struct corner *c = &corners[i];
+        const struct worth *w = &faces[c->face];
+        double share = believed(w->vertices < GATHERING_TELLING ? &all : w);
+        for (uint32_t k = 0; k < bands && c->told > 0; k++) {
+            double *value = &v->value[(size_t)i * bands + k];
+            *value += share * (c->sum[k] / c->told - *value);
+        }
+    }
+    free(faces);
     return 0;
 }
 
@@ -253,10 +313,12 @@ int gathering_corners(struct gathering *g, struct vertex_values *values,
         }
         if (p.count <= PART - 4 && i + 1 < solution->tree.count)
             continue;
-        result = gather_points(g, values, corners, solution, &p);
+        result = gather_points(g, corners, solution, &p);
         if (g->progress)
             progress_say(g->progress, "gather  %.0f %% done", 100.0 * i / solution->tree.count);
     }
+    if (result == 0)
+        result = take_steps(values, solution, corners);
     free(corners);
     free(p.point);
     free(p.leaf);
