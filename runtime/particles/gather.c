@@ -242,7 +242,7 @@ void gather_radiosity(const struct gather *g, uint32_t face, const double point[
     for (int d = 0; d < SOBOL_DIMENSIONS; d++)
         shift[d] = (uint32_t)(hash64(of_set.state += HASH_STEP) >> 32);
     move_off(g, tracer_surface(t, face)->normal, p);
-    /* Both kinds go along with each other, so of the numbers before this point so many are taken. */
+    /* Both kinds share a number, so before this point so many are taken. */
     uint32_t before = (uint32_t)((uint64_t)first * (count - lights) / count);
     for (uint32_t i = 0; i < count - lights; i++) {
         /* its first two dimensions are the most even together */
