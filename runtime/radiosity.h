@@ -594,6 +594,28 @@ struct RadCausesReport {
  * [engine/error_causes.c] */
 RAD_API int radFindCauses(RadSolution solution, const struct RadCausesOptions *options,
                           struct RadCausesReport *report);
+/* ---- light at points */
+
+/* A point of a face, and how many rays gather light there. */
+struct RadGatherPoint {
+    uint32_t face;      /* of radGetSceneFaces */
+    double position[3]; /* m, in the face's plane */
+    /* Points of one set share one sequence of directions, spread evenly over all of them: this one
+     * takes numbers first .. first + rays - 1, below 2^32. Sets of other numbers are independent */
+    uint64_t set;
+    uint32_t first, rays;
+};
+
+/* Gather the light that the solution, mended or not, sends to points: B = E + rho H per band
+ * (W/m2), H from what of the solution each point sees, by `rays` rays from it, half of them towards
+ * emitters that are brighter than the scene is in the mean; rays that end very near go on by two
+ * more. What elements cannot hold, a shadow's edge within one, is resolved; the error of the
+ * solution itself is left, reflected once. Noise falls as rays grow in number; where all is equally
+ * bright there is none. radiosity: [point * bands + band], the caller's. On all threads, and the
+ * same for any number of them; no progress is told: give it points in parts of some thousands.
+ * After radSolve or radStep. Returns 0, or -1. [Reichert 1992; particles/gather.h] */
+RAD_API int radGather(RadSolution solution, const struct RadGatherPoint *points, size_t count,
+                      double *radiosity);
 
 /* ---- the account of error, by cause */
 

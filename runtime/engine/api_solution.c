@@ -224,6 +224,20 @@ int api_not_dead(RadSolution solution)
     return 0;
 }
 
+int api_solved(RadSolution solution, const char *what)
+{
+    if (api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    if (solution->solve.report.passes == 0)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "%s needs a solution: radSolve or radStep comes first", what);
+    if (solution->solve.problem.options.unit)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "%s needs the scene's own light; RadSolveOptions.unit has none", what);
+    return 0;
+}
+
 /* Are there links? */
 static int is_refined(RadSolution solution)
 {

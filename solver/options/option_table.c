@@ -491,6 +491,8 @@ const struct option_row option_rows[] = {
      .read = read_size},
     {"view", "X,Y,Z:X,Y,Z[:FOV]", SOLVE, NULL, "eye, point looked at, degrees of height (70)",
      "X,Y,Z:X,Y,Z[:FOV], two different points and 1 to 170 degrees", .read = read_view},
+    {"gather", "N", SOLVE, NULL, "gather light once more, by N rays per pixel",
+     "a whole number from 0 to 1000000", WHOLE(gather, 0, 1000000)},
     {"image-error", "FILE.png", SOLVE, NULL, "the measured error on the surfaces",
      OUTPUT(image_error)},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},

@@ -76,6 +76,7 @@ struct options {
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int width, height, mesh; /* of the picture */
+    int gather;              /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
     int view_given;
 

@@ -65,6 +65,7 @@ for value in 0 -3 1.5 99999999999 x; do
     says 2 "--repeats takes" compare "$scene" --repeats $value
 done
 for value in x 1x x1 0x1 1x0 20000x1 99999999999999999999x2 1x2x3 1 4294967297x1; do says 2 "--size takes WxH" solve "$scene" --size $value; done
+for value in x -1 1.5 1000001 16x; do says 2 "--gather takes a whole number from 0 to 1000000, not $value" solve "$scene" --image x.png --gather $value; done
 for value in 1 0,0,0 0,0,0:0,0,0 0,0,0:1,1,1: 0,0,0:1,1,1:200 inf,0,0:1,1,1 1e308,0,0:-1e308,0,0 nan,0,0:1,1,1; do
     says 2 "--view takes" solve "$scene" --view $value
 done
@@ -111,6 +112,7 @@ says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
 says 2 "a command comes first, not --image" --image x solve "$scene"
 says 2 "--mesh is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --mesh
+says 2 "--gather is for a picture: add --image FILE.png" solve "$scene" --gather 4
 says 2 "--no-errors and --image-error contradict each other" solve "$scene" --no-errors --image-error x.png
 says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 # An abbreviation is good as long as it is clear, with --name=value as well; one that is not names what it could be.
