@@ -8,7 +8,9 @@
  *
  * Three bands are one here: rho is the largest. The oracles see Y as a share of its largest value
  * (so scene.importance is 1, with a view or without), at least IMPORTANCE_LEAST, and with the
- * hysteresis of radiosity (oracle_inputs.c). At first they see r itself: what the picture does not
+ * hysteresis of radiosity (oracle_inputs.c); host.impact is that largest value, for those who
+ * compare errors in watts. Without a view, for them alone, r is 1 everywhere. At first they see r
+ * itself: what the picture does not
  * hold is linked coarsely, and refined once the first solve has said what it means for the picture.
  * Fails: 64 points may all miss the part of a large leaf that is in the picture; r is then 0 until
  * something splits it.
@@ -73,9 +75,10 @@ static void respond(struct importance *y, const struct light_operator *op)
     uint32_t count = op->hierarchy->count;
 #pragma omp parallel for schedule(dynamic, 64) num_threads(o->threads)
     for (uint32_t i = y->started; i < count; i++)
-        y->response[i] = elements[i].vertices ? share_in_picture(rays_host(op->problem->rays),
-                                                                 o->camera, &elements[i])
-                                              : 0;
+        y->response[i] =
+            !elements[i].vertices ? 0
+            : !o->camera          ? 1
+                         : share_in_picture(rays_host(op->problem->rays), o->camera, &elements[i]);
     for (uint32_t i = y->started; i < count; i++) {
         y->source[i] = elements[i].reflectance * y->response[i];
         y->carried[i] = !elements[i].vertices   ? 0
