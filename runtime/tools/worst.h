@@ -3,11 +3,13 @@
  * The error of the link is what it puts into the wrong place on the receiver, or takes from the
  * wrong place on the emitter, as in power_gap.h:
  *     by_r = rho_r A_r B_s (V dF + F dV),  by_s = rho_r A_r V F e_s / 2,
- * dF = (F_max - F_min)/2 sampled, dV = 2 v (1 - v), e_s the spread of B over the emitter; by_s
- * times 16 unless V is proved to be 1 at all points, for what a blocker hides of an emitter is as
- * a rule what it keeps the light from, and rays that all pass may have missed it. So too v is not
+ * dF = (F_max - F_min)/2 over samples and the mean (which is far above all of them where a lamp
+ * hangs just below a ceiling), dV = 2 v (1 - v), e_s the spread of B over the emitter. by_s counts
+ * 16 times unless V is proved to be 1 at all points, for what a blocker hides of an emitter is as a
+ * rule what it keeps the light from, and rays that all pass may have missed it. So too v is not
  * what N rays said but (hits + 1) / (N + 2), Laplace's rule: a pair that seems hidden, or clear, is
  * wrong by what rays may have missed, and only a shaft makes that 0.
+ *
  * Of a watt that is wrong at the receiver, impact watts are wrong at all surfaces, or in the view:
  * the adjoint solution (engine/importance.c). Error times impact is the derivative of the whole
  * error by the link, so that links compare: given scene.rank, a threshold which the engine sets
@@ -40,7 +42,8 @@ TOOL void worst_parts(struct discussion *d, double by[2])
     }
     double f = term_form_factor(d, FORM_FACTOR_POLYGON);
     const double *range = term_form_factor_range(d, FORM_FACTOR_RANGE_SAMPLED);
-    by[0] = scale * s->radiosity * (0.5 * v * (range[1] - range[0]) + 2 * v * (1 - v) * f);
+    double low = range[0] < f ? range[0] : f, high = range[1] > f ? range[1] : f;
+    by[0] = scale * s->radiosity * (0.5 * v * (high - low) + 2 * v * (1 - v) * f);
     by[1] = scale * s->spread * 0.5 * v * f * (v < 1 ? POWER_GAP_ALIGNED : 1);
 }
 
