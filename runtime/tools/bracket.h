@@ -10,7 +10,8 @@
  * are taken one by one. The rest of U - L at the emitter came over links to it, and is theirs. What
  * is left of it is reflected on: impact. The larger part says who is to be split.
  * `lower` and `gap` are the emitter's, which only a solve can tell: give it emitter.lower and
- * emitter.gap, that the engine asks for (engine/bracket.c).
+ * emitter.gap, that the engine asks for (engine/bracket.c); and where that is more, for gap
+ * emitter.spread, by which the emitter's parts differ in the usual solution.
  * [Lischinski, Smits, Greenberg 1994, lower and upper solutions and the effect of a link on their
  * difference; this form of it: derived here]
  * Fails: half shadow counts in full, however much of V is known by rays; where elements touch F
