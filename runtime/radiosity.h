@@ -410,11 +410,25 @@ struct RadReport {
     /* under closure: 1 no light leaves the scene, 0 some does, -1 not asked */
     int closed;
     uint64_t closed_rays;
-    /* sweeps 0: none was asked for */
+    /* of a view, or, for oracles that compare errors in watts, of all surfaces alike; sweeps 0:
+     * none was asked for */
     struct {
         int sweeps;
         double largest, mean, seen;
     } importance;
+    /* two solutions that enclose the true one, W: sum of area times radiosity over all surfaces and
+     * bands; solves 0: none were asked for. True for oracles that drop no pair which exchanges
+     * light, as `bracket` does not */
+    struct {
+        int solves;
+        double lower, upper;
+    } bracket;
+    /* where links are ranked (asked: 1), W: error times impact of all links together, and of the
+     * worst that can still be split */
+    struct {
+        int asked;
+        double all, worst;
+    } ranking;
     /* of error control (W/m2, m2); target 0: none */
     struct {
         double target, largest, area;

@@ -430,6 +430,8 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .closed_rays = s->problem.closed_rays,
         .importance = {s->importance.sweeps, s->importance.largest, s->importance.mean,
                        s->importance.seen},
+        .bracket = {s->bracket.solves, s->bracket.power[0], s->bracket.power[1]},
+        .ranking = {s->ranking.asked, s->ranking.all, s->ranking.worst},
         .tolerance = {s->error.target, s->error.largest, s->error.area},
         .power_tolerance = power_tolerance(solution->oracle->refiner, rays_host(s->problem.rays)),
         .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,

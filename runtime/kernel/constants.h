@@ -243,6 +243,9 @@
 /* of the error to be held: the most that all links of a leaf may bring together by the oracle's
  * own measure before the leaf is given up; chosen */
 #define ERROR_ENOUGH 0.25
+/* of what is between lower and upper solution. A sweep that brings them no nearer than by this is
+ * the last of a pass; every further one would bring the largest reflectance of it. chosen */
+#define BRACKET_ENOUGH 1e-3
 /* cosine. A side whose mean normal is turned less than this to the other side is seen on edge:
  * that normal says nothing of what passes, only the place does; chosen */
 #define PIVOT_RELIABLE 0.3
