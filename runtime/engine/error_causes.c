@@ -58,11 +58,13 @@ struct causes {
     const struct light_operator *op;
     struct tracer tracer;
     double *gathered;     /* [element * bands + band]: K B of leaves, over whole leaves (W/m2) */
+    double *shines;       /* [face * bands + band]: mean B (W/m2), which rays are sent towards by */
     float *of_one;        /* [separable link]: J of a radiosity of 1 */
-    double *until;        /* [faces + 1]: running sums of areas that reflect (m2) */
+    double *until;        /* [faces + 1]: running sums of lengths of faces that reflect (m2) */
+    double mean;          /* light that they reflect, all bands (W/m2) */
     uint32_t *chunk_face; /* [CHUNKS + 1]: the first face of each chunk */
     uint32_t chunks;
-    double spacing; /* m2 between points of a replicate */
+    double spacing; /* m2 of the line between points of a replicate */
     struct sobol_sequence sobol;
     struct {
         double start; /* of the first point, in spacings */
@@ -167,21 +169,37 @@ static void add_links(const struct causes *c, uint32_t e, struct brought *b)
     separable_links_gather(&op->separable, (int)bands, e, b->way[RAD_WAY_GROUPS]);
 }
 
+/* How long the line is where the surface e lies along it (m2): half of the points are spread by
+ * area, half by the light that is reflected. */
+static double length_of(const struct causes *c, uint32_t e)
+{
+    const struct solve *s = c->solve;
+    const struct element *x = &s->hierarchy.elements[e];
+    uint32_t bands = c->tracer.bands;
+    double light = 0;
+    for (uint32_t k = 0; k < bands; k++)
+        light += s->state.radiosity[(size_t)e * bands + k]
+                 - s->problem.exitance[(size_t)x->face * bands + k];
+    return 0.5 * x->area
+           * (1 + (c->mean > 0 ? s->operator.uncovered[e] * fmax(light, 0) / c->mean : 0));
+}
+
 /* ---- one ray */
 
 /* What all rays of a leaf have in common, and where what they find goes. */
 struct receiver {
     uint32_t leaf, face;
-    double uncovered, shown[3], reflectance[3];    /* shown: B - E */
-    double sum[RAD_CAUSES][3];                     /* what no ray is asked for (W/m2) */
-    double grows[3];                               /* of this point: see follow_light */
+    double weight;                              /* of a point: m2 that it stands for, in spacings */
+    double uncovered, shown[3], reflectance[3]; /* shown: B - E */
+    double sum[RAD_CAUSES][3];                  /* what no ray is asked for (W/m2) */
+    double grows[3];                            /* of this point: see follow_light */
     double *to[CAUSE_SUMS][3], *after[CAUSE_SUMS]; /* sums of this replicate */
 };
 
 static void add(const struct receiver *at, int cause, uint32_t band, double difference)
 {
-    *at->to[cause][band] += difference;
-    *at->after[cause] += at->grows[band] * difference;
+    *at->to[cause][band] += at->weight * difference;
+    *at->after[cause] += at->weight * at->grows[band] * difference;
 }
 
 static double turn(double u)
@@ -224,7 +242,7 @@ static void add_arrival(struct walk *w, const struct receiver *at, uint32_t face
         add(at, causes[way].bright, k, rho * (mean - B[k]));
         if (way != RAD_WAY_NONE)
             add(at, causes[way].visibility, k, -rho * mean);
-        w->sums->rays[way] += rho * B[k];
+        w->sums->rays[way] += at->weight * rho * B[k];
     }
 }
 
@@ -367,6 +385,7 @@ static void trace_leaf(struct walk *w, uint32_t leaf, const struct brought *b, d
     const struct causes *c = w->causes;
     struct receiver at;
     set_receiver(c, &at, leaf, b);
+    at.weight = c->op->hierarchy->elements[leaf].area / (to - from);
     uint64_t points = 0;
     for (int r = 0; r < REPLICATES; r++) {
         uint64_t first = points_before(c, r, from), end = points_before(c, r, to);
@@ -386,17 +405,18 @@ static void trace_leaf(struct walk *w, uint32_t leaf, const struct brought *b, d
         }
         for (int cause = 0; cause < RAD_CAUSES; cause++)
             for (uint32_t k = 0; k < c->tracer.bands; k++) {
-                *at.to[cause][k] += (double)(end - first) * at.sum[cause][k];
-                *at.after[cause] += growth[k] * at.sum[cause][k];
+                *at.to[cause][k] += at.weight * (double)(end - first) * at.sum[cause][k];
+                *at.after[cause] += at.weight * growth[k] * at.sum[cause][k];
             }
         for (uint32_t k = 0; k < c->tracer.bands; k++)
-            w->polygon.growth[k] += growth[k];
+            w->polygon.growth[k] += at.weight * growth[k];
         points += end - first;
     }
     w->polygon.points += points;
+    w->polygon.weight += at.weight * (double)points;
     for (uint32_t k = 0; k < c->tracer.bands && at.uncovered > 0; k++)
         for (int way = RAD_WAY_OPEN; way < RAD_WAYS; way++)
-            w->sums->links[way] += (double)points * at.reflectance[k] * b->way[way][k];
+            w->sums->links[way] += at.weight * (double)points * at.reflectance[k] * b->way[way][k];
 }
 
 static int has_points(const struct causes *c, double from, double to)
@@ -418,10 +438,10 @@ static void walk_surface(struct walk *w, uint32_t e, struct brought above, doubl
     mark_links(w, e, 1);
     double whole = 0, part = 0;
     for (int i = 0; i < x->children; i++)
-        whole += elements[x->child + (uint32_t)i].area;
+        whole += length_of(c, x->child + (uint32_t)i);
     for (int i = 0; i < x->children; i++) {
         double begin = from + (to - from) * part / whole;
-        part += elements[x->child + (uint32_t)i].area;
+        part += length_of(c, x->child + (uint32_t)i);
         double end = i + 1 < x->children ? from + (to - from) * part / whole : to;
         walk_surface(w, x->child + (uint32_t)i, above, begin, end);
     }
@@ -530,44 +550,15 @@ static int gather_all(struct causes *c)
     return 0;
 }
 
-/* The line, its chunks, and where points stand on it. Returns 0 or -1. */
-static int lay_out(struct causes *c, uint64_t rays)
+/* NULL: out of memory. */
+static double *face_radiosity(const struct solve *s)
 {
-    const struct hierarchy *h = c->op->hierarchy;
-    const struct problem *p = &c->solve->problem;
-    uint32_t faces = h->face_count, polygons = h->faces[faces - 1].input + 1;
-    c->until = malloc(((size_t)faces + 1) * sizeof *c->until);
-    c->chunk_face = malloc((CHUNKS + 1) * sizeof *c->chunk_face);
-    if (!c->until || !c->chunk_face)
-        return -1;
-    c->until[0] = 0;
-    c->chunks = 0;
-    double white = 0;
-    uint64_t chunk = UINT64_MAX;
-    for (uint32_t i = 0; i < faces; i++) {
-        uint32_t input = h->faces[i].input;
-        uint64_t at = polygons > CHUNKS ? (uint64_t)input * CHUNKS / polygons : input;
-        if (at != chunk)
-            c->chunk_face[c->chunks++] = i;
-        chunk = at;
-        double area = p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
-        white += area * p->whitest[i];
-        c->until[i + 1] = c->until[i] + area;
-    }
-    c->chunk_face[c->chunks] = faces;
-    /* a path has 1 / (1 - rho) rays, about */
-    double whole = c->until[faces],
-           each = RAYS_OF_POINT + whole / fmax(whole - white, 0.01 * whole);
-    c->points = (uint64_t)fmax((double)rays / each, REPLICATES);
-    c->spacing = whole * REPLICATES / (double)c->points;
-    sobol_sequence_open(&c->sobol);
-    for (int r = 0; r < REPLICATES; r++) {
-        struct dice dice = dice_of(c->stream, UINT64_MAX - (uint64_t)r);
-        c->shift[r].start = dice_throw(&dice);
-        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
-            c->shift[r].digits[d] = (uint32_t)(dice_throw(&dice) * 0x1p32);
-    }
-    return 0;
+    size_t bands = s->problem.bands;
+    double *shines = malloc(((size_t)s->hierarchy.face_count * bands + 1) * sizeof *shines);
+    for (uint32_t i = 0; shines && i < s->hierarchy.face_count; i++)
+        memcpy(&shines[i * bands], &s->state.radiosity[s->hierarchy.face_element[i] * bands],
+               bands * sizeof *shines);
+    return shines;
 }
 
 static double reflected(const struct causes *c)
@@ -583,6 +574,50 @@ static double reflected(const struct causes *c)
                        - s->problem.exitance[(size_t)i * s->problem.bands + k]);
     }
     return sum;
+}
+
+/* The line, its chunks, and where points stand on it. Returns 0 or -1. */
+static int lay_out(struct causes *c, uint64_t rays)
+{
+    const struct hierarchy *h = c->op->hierarchy;
+    const struct problem *p = &c->solve->problem;
+    uint32_t faces = h->face_count, polygons = h->faces[faces - 1].input + 1;
+    c->until = malloc(((size_t)faces + 1) * sizeof *c->until);
+    c->chunk_face = malloc((CHUNKS + 1) * sizeof *c->chunk_face);
+    if (!c->until || !c->chunk_face)
+        return -1;
+    double area = 0;
+    for (uint32_t i = 0; i < faces; i++)
+        area += p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
+    c->mean = area > 0 ? reflected(c) / area : 0;
+    c->until[0] = 0;
+    c->chunks = 0;
+    double white = 0;
+    uint64_t chunk = UINT64_MAX;
+    for (uint32_t i = 0; i < faces; i++) {
+        uint32_t input = h->faces[i].input;
+        uint64_t at = polygons > CHUNKS ? (uint64_t)input * CHUNKS / polygons : input;
+        if (at != chunk)
+            c->chunk_face[c->chunks++] = i;
+        chunk = at;
+        double length = p->whitest[i] > 0 ? length_of(c, h->face_element[i]) : 0;
+        white += length * p->whitest[i];
+        c->until[i + 1] = c->until[i] + length;
+    }
+    c->chunk_face[c->chunks] = faces;
+    /* a path has 1 / (1 - rho) rays, about */
+    double whole = c->until[faces],
+           each = RAYS_OF_POINT + whole / fmax(whole - white, 0.01 * whole);
+    c->points = (uint64_t)fmax((double)rays / each, REPLICATES);
+    c->spacing = whole * REPLICATES / (double)c->points;
+    sobol_sequence_open(&c->sobol);
+    for (int r = 0; r < REPLICATES; r++) {
+        struct dice dice = dice_of(c->stream, UINT64_MAX - (uint64_t)r);
+        c->shift[r].start = dice_throw(&dice);
+        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
+            c->shift[r].digits[d] = (uint32_t)(dice_throw(&dice) * 0x1p32);
+    }
+    return 0;
 }
 
 /* Sums of all chunks into *sums. Returns 0, or -1 when out of memory or stopped. */
@@ -626,13 +661,16 @@ int error_causes_find(struct solve *s, uint64_t rays, uint64_t stream,
     struct causes c = {.solve = s, .op = &s->operator, .tracer = solve_tracer(s), .stream = stream};
     struct cause_sums sums = {0};
     *report = (struct RadCausesReport){.reflected = reflected(&c)};
-    int failed = tracer_open(&c.tracer) < 0 || renew_operator(s) < 0 || gather_all(&c) < 0
-                 || lay_out(&c, rays) < 0 || (c.spacing > 0 && walk_all(&c, &sums) < 0);
+    c.tracer.exitance = c.shines = face_radiosity(s);
+    int failed = !c.shines || tracer_open(&c.tracer) < 0 || renew_operator(s) < 0
+                 || gather_all(&c) < 0 || lay_out(&c, rays) < 0
+                 || (c.spacing > 0 && walk_all(&c, &sums) < 0);
     if (!failed && c.spacing > 0) {
         cause_sums_report(&sums, report->reflected / c.spacing, report);
     }
     tracer_close(&c.tracer);
     free(c.gathered);
+    free(c.shines);
     free(c.of_one);
     free(c.until);
     free(c.chunk_face);
