@@ -5,6 +5,7 @@
  * by the balance heuristic (paths.h).
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <string.h>
 #include "engine/cause_rays.h"
 #include "kernel/lambert.h"
 #include "kernel/leaf_at.h"
@@ -98,6 +99,7 @@ static uint64_t follow_light(const struct tracer *t, struct cause_receiver *at, 
 {
     double through[3] = {1, 1, 1}, x[3] = {p[0], p[1], p[2]};
     uint32_t face = at->face;
+    memcpy(at->growth, through, sizeof through);
     for (uint64_t rays = 1;; rays++) {
         double u = dice_throw(dice), v = dice_throw(dice), strongest = 0, left = 0;
         int64_t met = tracer_step(t, face, x, u, v, NULL);
@@ -136,8 +138,6 @@ uint64_t cause_rays_cast(const struct cause_rays *c, const struct link_cover *co
     int64_t met = tracer_step(t, at->face, p, u[2], u[3], y);
     int covered = (met < 0 || at->uncovered < 1) && contact_covers(t->rays, leaf, from);
     double bare = covered ? 0 : 1;
-    for (uint32_t k = 0; k < t->bands; k++)
-        at->growth[k] = 1;
     rays += covered ? 0 : follow_light(t, at, from, dice);
     for (uint32_t k = 0; k < t->bands; k++) {
         double known = at->uncovered > 0 ? at->uncovered : 0;

@@ -24,7 +24,8 @@ struct cause_receiver {
     double shown[3], reflectance[3];               /* B - E (W/m2), rho */
     double *to[CAUSE_SUMS][3], *after[CAUSE_SUMS]; /* sums of this replicate */
     double *found;                                 /* [RAD_WAYS]: light, as found by rays */
-    /* of the last point: what light reflected there comes to after all reflections, over itself */
+    /* of the last point that no solid covers, if any: what light reflected there comes to after all
+     * reflections, over itself */
     double growth[3];
 };
 

@@ -17,6 +17,7 @@ struct cause_polygon {
     double after[CAUSE_SUMS][REPLICATES], growth[3];
     double weight; /* of all points */
     uint64_t points;
+    double last[3]; /* growth at its last point that no solid covers */
 };
 
 /* Of many polygons, all bands. */

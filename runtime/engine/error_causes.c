@@ -163,12 +163,14 @@ static void cast_leaf(struct walk *w, uint32_t leaf, const struct brought *b, do
     struct cause_receiver at;
     double known[RAD_CAUSES][3], before = w->polygon.weight;
     set_receiver(c, &at, leaf);
+    memcpy(at.growth, w->polygon.last, sizeof at.growth);
     set_known(c, &at, b, known);
     at.weight = c->solve->hierarchy.elements[leaf].area / (to - from);
     at.found = w->sums->rays;
     for (int r = 0; r < REPLICATES; r++)
         cast_replicate(w, &at, known, r, cause_line_before(&c->line, r, from),
                        cause_line_before(&c->line, r, to));
+    memcpy(w->polygon.last, at.growth, sizeof at.growth);
     for (uint32_t k = 0; k < c->rays.tracer.bands && at.uncovered > 0; k++)
         for (int way = 0; way < RAD_WAYS; way++)
             w->sums->links[way] +=
@@ -365,6 +367,8 @@ int error_causes_find(struct solve *s, uint64_t rays, uint64_t stream,
     }
     if (!failed && c.line.spacing > 0) {
         failed = walk_all(&c, &sums) < 0;
+        for (int way = 0; way < RAD_WAYS && !(c.line.reflected > 0); way++)
+            report->reflected += sums.rays[way] * c.line.spacing / REPLICATES;
         cause_sums_report(&sums, report->reflected / c.line.spacing, report);
     }
     cause_line_close(&c.line);
