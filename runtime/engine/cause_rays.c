@@ -35,7 +35,7 @@ static void add_arrival(const struct cause_rays *c, const struct link_cover *cov
                         double share)
 {
     static const struct {
-        enum RadCauseKind bright, visibility;
+        int bright, visibility;
     } causes[RAD_WAYS] = {[RAD_WAY_OPEN] = {RAD_CAUSE_OPEN_BRIGHT, RAD_CAUSE_OPEN_VISIBILITY},
                           [RAD_WAY_HALF] = {RAD_CAUSE_HALF_BRIGHT, RAD_CAUSE_HALF_VISIBILITY},
                           [RAD_WAY_GROUPS] = {RAD_CAUSE_GROUPS_BRIGHT, RAD_CAUSE_GROUPS_REST}};
