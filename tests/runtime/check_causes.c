@@ -11,6 +11,7 @@
 #include <string.h>
 #include "make_solve.h"
 #include "engine/error_causes.h"
+#include "engine/link_cover.h"
 #include "engine/measured_error.h"
 #include "kernel/point_factor.h"
 #include "suite.h"
@@ -305,7 +306,8 @@ static void furnished_room(struct scene *scene, int flakes)
     }
 }
 
-/* Causes add up after all reflections to what particles measure, and threads do not show. */
+/* Causes add up after all reflections to what particles measure, and threads do not show; other
+ * radiosities have other causes. */
 static void check_particles(const char *oracle, char *const *settings, int flakes)
 {
     struct scene scene;
@@ -326,6 +328,14 @@ static void check_particles(const char *oracle, char *const *settings, int flake
     s.problem.options.threads = 1;
     once = causes_of(&s, 2 * MANY);
     ck_assert(memcmp(&once, &r, sizeof r) == 0);
+    /* were the same radiosity everywhere, no spot would be bright */
+    for (uint32_t e = 0; e < s.hierarchy.count; e++)
+        s.state.radiosity[e] = 2;
+    r = causes_of(&s, MANY / 4);
+    check_sums(&r);
+    ck_assert_double_eq_tol(r.cause[RAD_CAUSE_OPEN_BRIGHT].l1.value, 0, 1e-12);
+    ck_assert_double_eq_tol(r.cause[RAD_CAUSE_HALF_BRIGHT].l1.value, 0, 1e-12);
+    ck_assert_double_eq_tol(r.cause[RAD_CAUSE_GROUPS_BRIGHT].l1.value, 0, 1e-6);
     measured_error_free(&m);
     solve_close(&s);
     scene_free(&scene);
@@ -346,6 +356,86 @@ START_TEST(test_groups)
 }
 END_TEST
 
+/* ---- which link covers two leaves */
+
+static int is_above(const struct element *elements, uint32_t a, uint32_t e)
+{
+    while (e != a && e != 0)
+        e = elements[e].parent;
+    return e == a;
+}
+
+/* The link found must be the only one, of those that bring something, whose receiver holds the one
+ * leaf and whose emitter the other. Returns how many links of groups were found. */
+static int check_covers(const struct solve *s, struct link_cover *c, uint32_t leaf)
+{
+    const struct refinement *r = &s->refinement;
+    const struct separable_links *groups = &s->operator.separable;
+    const struct element *elements = s->hierarchy.elements;
+    int found = 0;
+    for (uint32_t e = 0; e < s->hierarchy.count; e++) {
+        if (elements[e].children)
+            continue;
+        struct covering by = link_cover_find(c, e);
+        const struct link *only = NULL;
+        size_t group = 0;
+        for (uint32_t up = leaf;; up = elements[up].parent) {
+            size_t g = groups->count ? groups->first[up] : 0;
+            for (size_t i = r->first_link[up]; i < r->first_link[up + 1]; i++) {
+                const struct link *l = &r->links[i];
+                if (l->visibility > 0 && is_above(elements, l->emitter, e)) {
+                    ck_assert_ptr_null(only);
+                    only = l;
+                    group = g;
+                }
+                g += (size_t)link_is_separable(&s->hierarchy, l);
+            }
+            if (up == 0)
+                break;
+        }
+        ck_assert_int_eq(by.way == RAD_WAY_NONE, only == NULL);
+        if (by.way == RAD_WAY_GROUPS) {
+            ck_assert_uint_eq(by.group, group);
+            ck_assert_uint_eq(groups->links[group].emitter, only->emitter);
+            found++;
+        } else if (only)
+            ck_assert_ptr_eq(by.link, only);
+    }
+    return found;
+}
+
+START_TEST(test_covers)
+{
+    char *settings[] = {"from_faces=1", "relative=1", "dim=10", "shadow=1",
+                        "spread=100",   "dull=0.1",   NULL};
+    struct scene scene;
+    struct solve s;
+    struct link_cover c;
+    int groups = 0;
+    furnished_room(&scene, 256);
+    solve_with(&s, &scene, "clusters", RELEASE_FLAT, settings, quick(2));
+    const struct element *elements = s.hierarchy.elements;
+    ck_assert_int_eq(link_cover_open(&c, &s.operator), 0);
+    for (uint32_t i = 0; i < 16; i++) {
+        /* to a face by way of clusters near and far, and down to its last leaf */
+        uint32_t e = s.hierarchy.face_element[(i * 197) % s.hierarchy.face_count], down = e;
+        link_cover_move(&c, elements[e].parent);
+        link_cover_mark(&c, down, 1);
+        while (elements[down].children) {
+            down = elements[down].child + elements[down].children - 1u;
+            link_cover_mark(&c, down, 1);
+        }
+        groups += check_covers(&s, &c, down);
+        for (; down != elements[e].parent; down = elements[down].parent)
+            link_cover_mark(&c, down, 0);
+    }
+    ck_assert_int_gt(groups, 100);
+    link_cover_close(&c);
+    solve_close(&s);
+    scene_free(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("causes");
@@ -362,6 +452,7 @@ int main(void)
     tcase_add_test(rooms, test_all_lost);
     tcase_add_test(rooms, test_particles);
     tcase_add_test(rooms, test_groups);
+    tcase_add_test(rooms, test_covers);
     tcase_set_timeout(known, 60);
     tcase_set_timeout(rooms, 60);
     suite_add_tcase(suite, rooms);
