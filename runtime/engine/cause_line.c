@@ -3,15 +3,15 @@
 #include <stdlib.h>
 #include "engine/cause_line.h"
 
-/* B - E of a surface, all bands (W/m2). */
+/* What a surface reflects, as tables of faces show it: rho H, all bands (W/m2). */
 static double shown(const struct solve *s, uint32_t e)
 {
     uint32_t bands = s->problem.bands, face = s->hierarchy.elements[e].face;
     double light = 0;
     for (uint32_t k = 0; k < bands; k++)
-        light += s->state.radiosity[(size_t)e * bands + k]
-                 - s->problem.exitance[(size_t)face * bands + k];
-    return s->operator.uncovered[e]> 0 ? s->operator.uncovered[e] * light : 0;
+        light += s->problem.reflectance[(size_t)face * bands + k]
+                 * s->state.irradiance[(size_t)e * bands + k];
+    return light;
 }
 
 double cause_line_length(const struct cause_line *line, uint32_t e)

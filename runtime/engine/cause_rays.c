@@ -82,13 +82,15 @@ static void look_for_light(const struct cause_rays *c, const struct link_cover *
     if (!(chance > 0))
         return;
     const struct element *emitter = tracer_surface(t, face);
-    double q[3], y[3], way[3];
-    tracer_point(t, face, u[1], u[2], q);
+    double y[3], way[3], distance;
+    tracer_point(t, face, u[1], u[2], y);
     for (int d = 0; d < 3; d++)
-        y[d] = q[d] - rays_host(t->rays)->ray_offset * emitter->normal[d];
+        y[d] -= rays_host(t->rays)->ray_offset * emitter->normal[d];
     double share = share_of(from, p, emitter, y, chance);
-    sub3(way, q, p);
-    if (share > 0 && !rays_blocked(t->rays, p, way))
+    sub3(way, y, p);
+    /* not whether something is between: of two faces in one place the other kind of ray meets one
+     */
+    if (share > 0 && rays_meet(t->rays, p, way, &distance) == (int64_t)face)
         add_arrival(c, cover, at, face, y, share);
 }
 
@@ -136,7 +138,7 @@ uint64_t cause_rays_cast(const struct cause_rays *c, const struct link_cover *co
     for (int d = 0; d < 3; d++)
         p[d] = from[d] += rays_host(t->rays)->ray_offset * leaf->normal[d];
     int64_t met = tracer_step(t, at->face, p, u[2], u[3], y);
-    int covered = (met < 0 || at->uncovered < 1) && contact_covers(t->rays, leaf, from);
+    int covered = met < 0 && contact_covers(t->rays, leaf, from);
     double bare = covered ? 0 : 1;
     rays += covered ? 0 : follow_light(t, at, from, dice);
     for (uint32_t k = 0; k < t->bands; k++) {

@@ -131,6 +131,7 @@ static void cast_replicate(struct walk *w, struct cause_receiver *at, double kno
                            int r, uint64_t first, uint64_t end)
 {
     const struct causes *c = w->causes;
+    const double *irradiance = &c->solve->state.irradiance[(size_t)at->leaf * c->rays.tracer.bands];
     double growth[3] = {0, 0, 0}, weight = at->weight * (double)(end - first);
     for (int cause = 0; cause < CAUSE_SUMS; cause++) {
         for (int k = 0; k < 3; k++)
@@ -149,6 +150,12 @@ static void cast_replicate(struct walk *w, struct cause_receiver *at, double kno
             *at->to[cause][k] += weight * known[cause][k];
             *at->after[cause] += growth[k] * known[cause][k];
         }
+        /* what is brought to a leaf that is taken for covered is shown, but not reflected */
+        double idle = at->uncovered > 0 ? 0 : weight * at->reflectance[k] * irradiance[k];
+        *at->to[CAUSE_ALL][k] += idle;
+        *at->to[RAD_CAUSE_CONTACT][k] += idle;
+        *at->after[CAUSE_ALL] += idle;
+        *at->after[RAD_CAUSE_CONTACT] += idle;
         w->polygon.growth[k] += growth[k];
     }
     w->polygon.weight += weight;
