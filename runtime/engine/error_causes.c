@@ -16,6 +16,10 @@
  * lost. What the operator makes of rows, iteration and contact fill up the rest, leaf by leaf: so
  * causes add up to `together` ray for ray, to rounding.
  *
+ * A point whose ray meets no front may lie inside a solid (contact_fraction.h): nothing leaves it.
+ * A leaf that is taken for covered shows the light that links bring, as tables of faces do, and
+ * reflects none; both are contact.
+ *
  * Points are spread along a line that all leaves lie on (cause_line.h); sums are made by polygon,
  * and by chunks of polygons in their order: no thread shows.
  *
@@ -27,8 +31,7 @@
  *
  * Fails: a polygon of few rays hides its difference in noise (cause_sums.c). What is wrong within a
  * polygon and cancels over it is not told.
- * [derived here; residuals by rays: Lischinski, Tampieri and Greenberg 1993 hold links against
- * finer ones]
+ * [derived here; that residuals carried on make the error: Arvo, Torrance and Smits 1994]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
