@@ -5,9 +5,9 @@
  * that the links stand for, K B, it is an estimate without bias,
  *     B(x) - E - rho B(y)
  * being what the solution's equation is short of there: all causes together. The ray is known to
- * come by the link (a, b) that has r in a and s in b: there
- * is one or none (link_cover.h). Let F* be the exact form factor of the pair, h = 1 where the ray
- * came by this link, else 0, and B_b the mean of B over b, which the link sends. Then
+ * come by the link (a, b) that has r in a and s in b: there is one or none (link_cover.h). Let F* be
+ * the exact form factor of the pair, h = 1 where the ray came by this link, else 0, and B_b the
+ * mean of B over b, which the link sends. Then
  *     F V B_b - h B(y)  =  h (B_b - B(y))          bright spot: visibility goes with radiosity
  *                        + (F - F*) V B_b          kernel
  *                        + F* V B_b - h B_b        visibility
