@@ -596,7 +596,8 @@ struct RadCausesReport {
     struct {
         double links, rays; /* reflected light that these links bring; that rays find to come so */
     } way[RAD_WAYS];
-    double reflected; /* light that the links' solution reflects, all bands (W) */
+    /* light that the links' solution reflects, all bands (W); where it is none, that it should */
+    double reflected;
     uint64_t rays;
     double seconds;
 };
