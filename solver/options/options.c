@@ -318,7 +318,7 @@ static int check_together(struct options *o)
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
         return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
                      o->no_errors ? "--no-errors" : "--no-correct");
-    if (o->limit_seconds && !(o->accuracy > 0))
+    if (o->command == COMMAND_SOLVE && o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
     if (o->basis == RAD_BASIS_LINEAR
         && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL

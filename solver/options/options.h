@@ -79,10 +79,12 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    double noise; /* reference: the standard error to reach, a share */
-    int keep;     /* reference: its state file stays */
-    int worst;    /* error: how many faces to name */
-    int samples;  /* arvo: across the receiver; 0: exactly */
+    double within; /* visibility: half of the interval to work for */
+    double wrong;  /* visibility: the share of wrong answers that is good enough */
+    double noise;  /* reference: the standard error to reach, a share */
+    int keep;      /* reference: its state file stays */
+    int worst;     /* error: how many faces to name */
+    int samples;   /* arvo: across the receiver; 0: exactly */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on

@@ -203,6 +203,7 @@ static const struct falling {
      {"relative=0.1", "visible=0.1"},
      {"relative=0.02", "visible=0.02"},
      {1e-3, 2e-4, 3e-4}},
+    {"by_reliability", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
     {"tester", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
 };
 
