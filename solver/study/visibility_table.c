@@ -176,33 +176,57 @@ static int good_until(const struct visibility_table *t, int from, int tool)
     return until;
 }
 
+/* The cheapest tool that is good enough from bin `from` on, and until which; STUDY_TOOLS: none is.
+ */
+static int cheapest(const struct visibility_table *t, int from, int *until)
+{
+    int k = 0;
+    for (; k < STUDY_TOOLS; k = next_tool(t, k)) {
+        *until = k == TOOL_SHAFT ? from : good_until(t, from, k);
+        if (*until > from)
+            return k;
+    }
+    *until = from + 1;
+    return k;
+}
+
+static void print_band(const struct visibility_table *t, int from, int until, int tool)
+{
+    const int said = tool < STUDY_TOOLS ? tool : TOOL_OUTLINE;
+    const double *threshold = t->options->thresholds;
+    const struct verdict v = judge(&t->bins[from], until - from, said);
+    char name[24], low[32] = "0";
+    if (!v.asked)
+        return;
+    if (from)
+        snprintf(low, sizeof low, "%.4g", threshold[from - 1]);
+    printf("  %-8s from %s to %.4g units, %.4g m2: %s%.2f %% of %llu pairs\n",
+           tool < STUDY_TOOLS ? tool_name(t, tool, name) : "none", low, threshold[until - 1],
+           threshold[until - 1] * t->unit, tool < STUDY_TOOLS ? "" : "by outlines ", 100 * v.part,
+           (unsigned long long)v.pairs);
+}
+
 /* The cheapest tool that is good enough, from the smallest areas up, and what that is as settings
- * of oracle by_reliability. */
+ * of oracle by_reliability: how far from the smallest areas on so many rays, or fewer, are. */
 static void print_choice(const struct visibility_table *t)
 {
     static const int known[] = {4, 16, 64};
     double share[3] = {0, 0, 0};
+    int good[3] = {1, 1, 1};
     const struct options *o = t->options;
-    int from = 0;
-    printf("good enough, with at most %.4g %% wrong answers:\n", 100 * o->wrong);
-    for (int k = 0; k < STUDY_TOOLS; k = next_tool(t, k)) {
-        int until = k == TOOL_SHAFT ? from : good_until(t, from, k);
-        if (until > from) {
-            const struct verdict v = judge(&t->bins[from], until - from, k);
-            char name[24];
-            printf("  %-8s %s %.4g units, %.4g m2: %.2f %% of %llu pairs\n", tool_name(t, k, name),
-                   from ? "from there to" : "below", o->thresholds[until - 1],
-                   o->thresholds[until - 1] * t->unit, 100 * v.part, (unsigned long long)v.pairs);
+    printf("the cheapest tool with at most %.4g %% wrong answers:\n", 100 * o->wrong);
+    for (int from = 0, until; from < o->threshold_count; from = until) {
+        int tool = cheapest(t, from, &until), more = until;
+        while (tool == STUDY_TOOLS && until < o->threshold_count
+               && cheapest(t, until, &more) == STUDY_TOOLS)
+            until = more;
+        print_band(t, from, until, tool);
+        for (int i = 0; i < 3; i++) {
+            good[i] &= tool < RAY_TOOLS && o->rays[tool] <= known[i];
+            if (good[i])
+                share[i] = o->thresholds[until - 1] * t->unit / t->area;
         }
-        from = until;
-        for (int i = 0; i < 3; i++)
-            if (k < RAY_TOOLS && o->rays[k] <= known[i] && from > 0)
-                share[i] = o->thresholds[from - 1] * t->unit / t->area;
     }
-    if (from < o->threshold_count)
-        printf("  none     %s %.4g units: 64 rays and outlines are wrong more often, or too few "
-               "pairs tell\n",
-               from ? "above" : "even below", o->thresholds[from ? from - 1 : 0]);
     printf("as settings: --oracle by_reliability --set below_4=%.3g --set below_16=%.3g --set "
            "below_64=%.3g\n",
            share[0], share[1], share[2]);
