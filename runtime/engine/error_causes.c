@@ -5,8 +5,8 @@
  * that the links stand for, K B, it is an estimate without bias,
  *     B(x) - E - rho B(y)
  * being what the solution's equation is short of there: all causes together. The ray is known to
- * come by the link (a, b) that has r in a and s in b: there is one or none (link_cover.h). Let F* be
- * the exact form factor of the pair, h = 1 where the ray came by this link, else 0, and B_b the
+ * come by the link (a, b) that has r in a and s in b: there is one or none (link_cover.h). Let F*
+ * be the exact form factor of the pair, h = 1 where the ray came by this link, else 0, and B_b the
  * mean of B over b, which the link sends. Then
  *     F V B_b - h B(y)  =  h (B_b - B(y))          bright spot: visibility goes with radiosity
  *                        + (F - F*) V B_b          kernel
@@ -34,6 +34,7 @@
  * [derived here; that residuals carried on make the error: Arvo, Torrance and Smits 1994]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/cause_line.h"
@@ -42,16 +43,17 @@
 #include "engine/push_pull.h"
 #include "engine/solve_tracer.h"
 #include "kernel/polygon_factor.h"
+#include "util/thread_pool.h"
 
 struct causes {
     struct solve *solve;
     struct cause_line line;
     struct cause_rays rays;
-    double *gathered; /* [element * bands + band]: K B of leaves, over whole leaves (W/m2) */
-    double *shines;   /* [face * bands + band]: mean B (W/m2) */
-    float *of_one;    /* [separable link]: J of a radiosity of 1 */
-    uint64_t done;    /* points, for the watch */
-    int stopped;
+    double *gathered;      /* [element * bands + band]: K B of leaves, over whole leaves (W/m2) */
+    double *shines;        /* [face * bands + band]: mean B (W/m2) */
+    float *of_one;         /* [separable link]: J of a radiosity of 1 */
+    _Atomic uint64_t done; /* points, for the watch */
+    atomic_int stopped;
 };
 
 /* One thread's way through all receivers. */
@@ -215,23 +217,17 @@ static void walk_surface(struct walk *w, uint32_t e, struct brought above, doubl
 /* Nonzero: stop. By the thread that called in, the work is told of. */
 static int watch(struct causes *c, double length)
 {
-    uint64_t done, points = (uint64_t)(REPLICATES * length / c->line.spacing);
-    int stopped;
-#pragma omp atomic capture
-    done = c->done += points;
-    if (omp_get_thread_num() == 0) {
+    uint64_t points = (uint64_t)(REPLICATES * length / c->line.spacing);
+    uint64_t done = c->done += points;
+    if (thread_pool_number() == 0) {
         const struct counting counting = {CAUSE_RAYS * done,
                                           fmin((double)done / (double)c->line.points, 1)};
         c->solve->counting = &counting;
-        if (solve_tell(c->solve, "causes")) {
-#pragma omp atomic write
+        if (solve_tell(c->solve, "causes"))
             c->stopped = 1;
-        }
         c->solve->counting = NULL;
     }
-#pragma omp atomic read
-    stopped = c->stopped;
-    return stopped;
+    return c->stopped;
 }
 
 static void walk_chunk(struct walk *w, uint32_t chunk)
@@ -253,35 +249,44 @@ static void walk_chunk(struct walk *w, uint32_t chunk)
     }
 }
 
+/* All chunks; each thread has a walk of its own, and each chunk its sums. */
+struct walking {
+    struct walk *walks;      /* [thread] */
+    struct cause_sums *part; /* [chunk] */
+};
+
+static void walk_chunks(const void *walking, size_t from, size_t to)
+{
+    const struct walking *g = walking;
+    struct walk *w = &g->walks[thread_pool_number()];
+    for (size_t i = from; i < to; i++) {
+        w->sums = &g->part[i];
+        walk_chunk(w, (uint32_t)i);
+    }
+}
+
 /* Sums of all chunks into *sums. Returns 0, or -1 when out of memory or stopped. */
 static int walk_all(struct causes *c, struct cause_sums *sums)
 {
     uint32_t chunks = c->line.chunks;
-    struct cause_sums *part = calloc(chunks, sizeof *part);
-    int failed = !part;
-#pragma omp parallel num_threads(c->rays.tracer.threads) if (part)
-    {
-        struct walk *w = part ? calloc(1, sizeof *w) : NULL;
-        int ready = w && link_cover_open(&w->cover, &c->solve->operator) == 0;
-        if (ready)
-            w->causes = c;
-        else {
-#pragma omp atomic write
-            failed = 1;
-        }
-#pragma omp for schedule(dynamic, 1)
-        for (uint32_t i = 0; i < chunks; i++)
-            if (ready) {
-                w->sums = &part[i];
-                walk_chunk(w, i);
-            }
-        if (w)
-            link_cover_close(&w->cover);
-        free(w);
+    int threads = c->rays.tracer.threads, open = 0;
+    const struct walking g = {calloc((size_t)threads, sizeof *g.walks),
+                              calloc((size_t)chunks + 1, sizeof *g.part)};
+    int failed = !g.walks || !g.part;
+    for (; !failed && open < threads; open += !failed) {
+        g.walks[open].causes = c;
+        failed = link_cover_open(&g.walks[open].cover, &c->solve->operator) < 0;
+        if (failed)
+            link_cover_close(&g.walks[open].cover);
     }
+    if (!failed)
+        thread_pool_run(threads, chunks, 1, walk_chunks, &g);
     for (uint32_t i = 0; i < chunks && !failed; i++)
-        cause_sums_join(sums, &part[i]);
-    free(part);
+        cause_sums_join(sums, &g.part[i]);
+    while (open-- > 0)
+        link_cover_close(&g.walks[open].cover);
+    free(g.walks);
+    free(g.part);
     return failed || c->stopped ? -1 : 0;
 }
 
@@ -302,6 +307,26 @@ static int renew_operator(struct solve *s)
         return -1;
     row_sums_scale(op, &rows);
     return 0;
+}
+
+struct sweeping {
+    const struct light_operator *op;
+    const struct transport *x;
+};
+
+static void gather_faces(const void *sweeping, size_t from, size_t to)
+{
+    const struct sweeping *g = sweeping;
+    for (size_t i = from; i < to; i++)
+        face_gather(g->op, g->x, g->op->hierarchy->face_element[i]);
+}
+
+static void update_faces(const void *sweeping, size_t from, size_t to)
+{
+    const struct sweeping *g = sweeping;
+    struct change change;
+    for (size_t i = from; i < to; i++)
+        face_update(g->op, g->x, g->op->hierarchy->face_element[i], &change);
 }
 
 /* K B into c->gathered, by a sweep of Jacobi's over copies; J of a radiosity of 1 before. Returns 0
@@ -331,16 +356,9 @@ static int gather_all(struct causes *c)
                                 .irradiance = c->gathered,
                                 .source = s->problem.exitance,
                                 .reflectance = s->problem.reflectance};
-#pragma omp parallel num_threads(s->problem.options.threads)
-    {
-        struct change change;
-#pragma omp for schedule(dynamic, 8)
-        for (uint32_t i = 0; i < s->hierarchy.face_count; i++)
-            face_gather(op, &x, s->hierarchy.face_element[i]);
-#pragma omp for schedule(dynamic, 64)
-        for (uint32_t i = 0; i < s->hierarchy.face_count; i++)
-            face_update(op, &x, s->hierarchy.face_element[i], &change);
-    }
+    const struct sweeping g = {op, &x};
+    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 8, gather_faces, &g);
+    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 64, update_faces, &g);
     free(value);
     return 0;
 }
