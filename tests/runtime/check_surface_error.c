@@ -16,7 +16,7 @@ struct measured {
     struct scene scene;
     struct solve solve;
     struct tracer tracer;
-    double *radiosity;
+    double *radiosity, *gradient; /* gradient: NULL, until a test makes one */
 };
 
 static void open_measured(struct measured *x, const char *oracle, int threads)
@@ -28,23 +28,31 @@ static void open_measured(struct measured *x, const char *oracle, int threads)
     ck_assert_int_eq(tracer_open(&x->tracer), 0);
     size_t size = (size_t)x->solve.hierarchy.count * p->bands * sizeof *x->radiosity;
     x->radiosity = malloc(size);
+    x->gradient = NULL;
     memcpy(x->radiosity, x->solve.state.radiosity, size);
 }
 
 static void close_measured(struct measured *x)
 {
     free(x->radiosity);
+    free(x->gradient);
     tracer_close(&x->tracer);
     solve_close(&x->solve);
     scene_free(&x->scene);
 }
 
+static struct element_light light_of(const struct measured *x)
+{
+    return (struct element_light){x->solve.hierarchy.elements, x->solve.problem.bands, x->radiosity,
+                                  x->gradient};
+}
+
 static struct surface_error measure(const struct measured *x, double rays, uint64_t stream)
 {
     struct surface_error e;
-    ck_assert_int_eq(surface_error_measure(&x->solve, &x->tracer, x->radiosity, (uint64_t)rays,
-                                           stream, NULL, &e),
-                     0);
+    const struct element_light light = light_of(x);
+    ck_assert_int_eq(
+        surface_error_measure(&x->solve, &x->tracer, &light, (uint64_t)rays, stream, NULL, &e), 0);
     ck_assert(e.l2.low <= e.l2.value && e.l2.value <= e.l2.high && isfinite(e.l2.high));
     return e;
 }
@@ -169,7 +177,8 @@ START_TEST(test_edges)
     struct surface_error e;
     double last = 0;
     furnace(&x, 0.1);
-    ck_assert_int_eq(surface_error_measure(&x.solve, &x.tracer, x.radiosity, 20000, 1,
+    const struct element_light light = light_of(&x);
+    ck_assert_int_eq(surface_error_measure(&x.solve, &x.tracer, &light, 20000, 1,
                                            &(struct watch){stop, &last}, &e),
                      -1);
     ck_assert_double_gt(last, 0.6);
