@@ -231,8 +231,11 @@ static int keep_slopes(struct solve *s, struct slopes *k)
     double *rows[4];
     *k = (struct slopes){s->state, malloc(4 * count * sizeof *k->rows)};
     s->state = (struct state){malloc(values * sizeof(double)), malloc(values * sizeof(double))};
-    if (!k->rows || !s->state.radiosity || !s->state.irradiance)
+    if (!k->rows || !s->state.radiosity || !s->state.irradiance) {
+        free(k->rows);
+        k->rows = NULL;
         return -1;
+    }
     memcpy(s->state.radiosity, k->state.radiosity, values * sizeof(double));
     memcpy(s->state.irradiance, k->state.irradiance, values * sizeof(double));
     rows_of(&s->operator, rows);
@@ -307,7 +310,7 @@ static int make(struct error_account *a)
 int error_account_make(struct error_account *a)
 {
     struct solve *s = a->solve;
-    struct slopes slopes;
+    struct slopes slopes = {{NULL, NULL}, NULL};
     int result = 0, constants = s->linear.gradient != NULL;
     memset(a->report, 0, sizeof *a->report);
     a->report->without_slopes = constants;
