@@ -8,9 +8,10 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
-# make mend-table  build/bin/mend_table, which shows what particles add to the links of a scene
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
+# make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
 # make bench    what the releases cost, in instructions
+# make bench-threads  what two threads bring, and what they cost beside 8 busy loops
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # make install-dagc  the part of it that is dagc's
 # make clean    build/ is removed
@@ -22,14 +23,13 @@ BUILD    = build
 OPT      = -O2 -g
 WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
 # No contraction of a*b+c: all releases of an oracle must agree to the bit.
-CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off -fopenmp $(SANITIZE)
+CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off $(PARALLEL) $(SANITIZE)
+PARALLEL = -fopenmp
 CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE) -fopenmp
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # What the library is linked with, and what the command needs besides.
-# clang's OpenMP stands in a folder of clang's own, where other compilers that link the archive do not look.
-OPENMP   := $(if $(findstring clang,$(shell $(CC) --version)),$(or $(wildcard $(abspath $(shell $(CC) -print-resource-dir)/../..)/libomp.so),-lomp),-lgomp)
-ENGINE_LIBS = $(EMBREE) -llapacke $(OPENMP) -lpthread -ldl -lm
+ENGINE_LIBS = $(EMBREE) -llapacke -lpthread -ldl -lm
 LIBS     = $(EMBREE) -llapacke -lassimp -ljansson -lpng -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
@@ -109,7 +109,7 @@ $(ARCHIVE): $(RUNTIME) $(LIBDAGC)
 	rm -f $@
 	ar rcs $@ $(BUILD)/libradiosity.o
 $(BUILD)/libradiosity.so: $(RUNTIME) $(LIBDAGC) runtime/package/exported.map
-	$(CC) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
+	$(CC) $(SANITIZE) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,runtime/package/exported.map -o $@ $(RUNTIME) $(LIBDAGC) $(ENGINE_LIBS)
 
 $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
@@ -137,6 +137,8 @@ $(WALLS)/made: Makefile
 $(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
 $(SHARED): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += -fvisibility=hidden
+# The library's threads are util/thread_pool.h's; of OpenMP it takes only what says that a loop may be a vector's.
+$(RUNTIME): PARALLEL = -fopenmp-simd
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -156,7 +158,7 @@ $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
-CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error
 check: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
@@ -196,6 +198,11 @@ demo: all
 bench: all
 	sh tests/bench_releases.sh $(BUILD)/bin/radiosity
 
+# Seconds alone and beside busy loops; SCENES="..." for other scenes.
+.PHONY: bench-threads
+bench-threads: commands
+	@bash tests/bench_threads.sh $(BUILD)/bin/radiosity $(SCENES)
+
 # The drawings of the oracles, without Graphviz's comments and tooltips.
 .PHONY: drawings
 drawings: commands
@@ -218,8 +225,10 @@ $(BUILD)/bin/factor_rays: $(BUILD)/tests/runtime/factor_rays.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
-# A row of a table: what mending by particles is worth on a scene.
-.PHONY: mend-table
-mend-table: $(BUILD)/bin/mend_table
-$(BUILD)/bin/mend_table: $(BUILD)/tests/runtime/mend_table.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
+# How far solutions are from the truth, on cells and on faces, and the tables that tell of it (tests/tables/make.sh).
+$(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c)) $(SOLVER) $(ARCHIVE)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+.PHONY: tables
+tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays
+	@sh tests/tables/make.sh $(BUILD) $(TABLES)

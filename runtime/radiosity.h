@@ -20,7 +20,10 @@
  *
  * Threads. Any thread of a program may call, also at the same time for different scenes, oracles
  * and solutions; one handle is used by one thread at a time. Work within a call is shared out to
- * RadDeviceOptions.threads threads (OpenMP); results do not depend on how many.
+ * RadDeviceOptions.threads threads: the caller's, and helpers that all devices share, which sleep
+ * while there is nothing to do, take no signals and end with the last device. The caller does what
+ * no helper has begun, so beside other work threads never cost more than they bring. Results do not
+ * depend on how many there are. A program may fork, and have any OpenMP of its own or none.
  *
  * Units: metres, watts; exitance E, irradiance H and radiosity B in W/m2, per band; reflectance in
  * [0, 1). One band for grey scenes, else three. Sources: Hanrahan, Salzman and Aupperle 1991;
@@ -191,6 +194,9 @@ enum RadRelease {
 #define RAD_DEFAULT_ORACLE "power"
 RAD_API const char *const *radGetOracleNames(void);
 RAD_API const char *radGetDefaultOracle(void);
+/* The graph of a built-in oracle, as a .dag file has it, with what it imports behind it: it stands
+ * alone. Constant; NULL: there is none of that name. */
+RAD_API const char *radGetOracleText(const char *name);
 
 /* A built-in oracle, or one that was registered, by name. Returns NULL on error. */
 RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release);
@@ -715,6 +721,13 @@ RAD_API int radTraceReference(RadReference reference, enum RadMethod method, uin
  * without area. Returns 0, or -1. */
 RAD_API int radGetReferenceValues(RadReference reference, enum RadMethod method, uint32_t band,
                                   double *radiosity, double *deviation);
+
+/* Hold a solution of the same scene, mended or not, against the particles of a reference, as
+ * radMeasureError does against particles of its own: power, l1_faces, noise, reflected, worst and
+ * worst_share; rays are those of the reference. What radGetPolygonErrors tells stays. Many
+ * solutions are best judged by one reference: its noise is the same for all. Returns 0, or -1. */
+RAD_API int radMeasureErrorBy(RadSolution solution, RadReference reference,
+                              struct RadErrorReport *report);
 
 struct RadReferenceReport {
     uint64_t traced[2], rays[2]; /* particles, paths, and the rays for them */

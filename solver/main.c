@@ -21,6 +21,7 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_VIEWFACTORS] = command_viewfactors,
     [COMMAND_REFERENCE] = command_reference,
     [COMMAND_ERROR] = command_error,
+    [COMMAND_TUNE] = command_tune,
     [COMMAND_STABILITY] = study_stability,
     [COMMAND_VISIBILITY] = study_visibility,
     [COMMAND_CLUSTERING] = study_clustering,
@@ -57,6 +58,12 @@ static int check_outputs(const struct options *o)
                          o->command == COMMAND_ERROR ? "table" : "scene");
             return 2;
         }
+        for (int j = 0; !standard && j < o->scene_count; j++)
+            if (same_file(paths[i], o->scenes[j])) {
+                report_error(paths[i], 0,
+                             "this is a scene, which would be lost; give another name");
+                return 2;
+            }
         if (!standard && o->reference && same_file(paths[i], o->reference)) {
             report_error(paths[i], 0,
                          "this is the reference, which would be lost; give another name");

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # check_architecture.sh - the include graph against ARCHITECTURE.md: no circle among files or folders, no arrow back, no
 # folder above a third of the lines, headers that compile alone, files that name themselves and end their first comment
-# with the licence, lines to 100 columns. With THOROUGH headers must compile alone, names of old are gone (they are listed
-# in build/architecture.txt), and clang-format 14 finds nothing to change.
+# with the licence, lines to 100 columns, threads of the pool alone. With THOROUGH headers must compile alone, names of old
+# are gone (they are listed in build/architecture.txt), and clang-format 14 finds nothing to change.
 # SPDX-License-Identifier: MIT
 set -u
 cd "$(dirname "$0")/.." || exit 2
@@ -116,6 +116,10 @@ judge "first comments" "$tmp/first"
 # ---- width and names
 awk 'length($0) > 100 { print FILENAME ":" FNR ": " length($0) " columns" }' $(cat "$tmp/files") >"$tmp/wide"
 judge "lines above 100 columns" "$tmp/wide"
+
+# ---- threads: the library is compiled without OpenMP, which would leave such loops to one thread and say nothing
+grep -nE '^ *#pragma omp (parallel|for|atomic|critical|barrier|single)|omp_[a-z]+_|<omp\.h>' $(grep '^runtime/' "$tmp/files") >"$tmp/openmp"
+judge "OpenMP in the library, where loops are thread_pool_run's" "$tmp/openmp"
 if [ -n "${THOROUGH-}" ]; then
 : >"$tmp/list"
 # shellcheck disable=SC2046

@@ -25,10 +25,18 @@ ambient light twice | runtime/engine/southwell.c | s/ambient\[k\] \/ (area - rho
 nothing is sent afar | runtime/engine/southwell.c | s/s->afar\[(size_t)e \* s->bands + k\] += unshot\[k\]/(void)0/ | runtime/check_solvers
 LU without shares | runtime/engine/dense.c | s/double sum = share \* d->shared\[j\]/double sum = 0 * share/ | runtime/check_solvers
 LU of one band | runtime/engine/dense.c | s/face \* x->bands + k\];/face * x->bands];/ | runtime/check_solvers
-centres of one corner | runtime/engine/collocation.c | s/point_factor(to, from)/0.5 * (r->links[i].form_factor + point_factor(to, from))/ | runtime/check_projection
+centres of one corner | runtime/engine/collocation.c | s/point_factor(r, s)/0.5 * (link->form_factor + point_factor(r, s))/ | runtime/check_projection
 faces take their mean | runtime/engine/separable_links.c | s/return c->centres ? separable_kernel_at_centre(faces, i, &b->s)/return c->centres \&\& 0 ? separable_kernel_at_centre(faces, i, \&b->s)/ | runtime/check_solvers
 backs 8 of 8 | runtime/kernel/constants.h | s/\(CONTACT_BACKS\) *6$/\1 8/ | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure
 no plain pivots | runtime/engine/pivots.c | s/round_weight, &first, PASSING_PLAIN)/round_weight, \&first, PASSING)/ | runtime/check_separable_links runtime/check_clusters
+shares of links back to front | runtime/engine/refine.c | s/(size_t share = 0; share < s.shares; share++) {/(size_t share = s.shares; share-- > 0;) {/ | runtime/check_clusters
+nobody is waited for | runtime/util/thread_pool.c | s/while (l->inside)/while (0 \&\& l->inside)/ | runtime/check_thread_pool
+all helpers are waited for | runtime/util/thread_pool.c | s/while (l->inside)/while (l->inside + (l->joined < l->room))/ | runtime/check_thread_pool
+helpers spin | runtime/util/thread_pool.c | s/pthread_cond_wait(&pool.open, &pool.lock)/pthread_mutex_unlock(\&pool.lock), pthread_mutex_lock(\&pool.lock)/ | runtime/check_thread_pool
+children keep helpers | runtime/util/thread_pool.c | s/pool = nobody;/(void)nobody;/ | runtime/check_thread_pool
+moves not made again | solver/util/pattern_search.c | s/to->at\[i\] - from->at\[i\]/0 * (to->at[i] - from->at[i])/ | solver/check_tune
+left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
+comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
 END
 }
 

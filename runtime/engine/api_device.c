@@ -1,12 +1,12 @@
 /* api_device.c - devices: the first error since it was asked for, messages and progress.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <omp.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
+#include "util/thread_pool.h"
 
 enum { THREADS_MAX = 1024 };
 
@@ -35,6 +35,7 @@ RadDevice radNewDevice(const struct RadDeviceOptions *options)
         return refuse_device(RAD_ERROR_OUT_OF_MEMORY, "out of memory for a device's lock");
     }
     atomic_init(&device->holders, 1);
+    thread_pool_retain();
     device->compiler = options && options->compiler ? strdup(options->compiler) : NULL;
     device->temporary = options && options->temporary ? strdup(options->temporary) : NULL;
     if (options
@@ -45,9 +46,8 @@ RadDevice radNewDevice(const struct RadDeviceOptions *options)
     }
     device->sources.compiler = device->compiler;
     device->sources.temporary = device->temporary;
-    device->threads = threads                             ? threads
-                      : omp_get_num_procs() < THREADS_MAX ? omp_get_num_procs()
-                                                          : THREADS_MAX;
+    int processors = thread_pool_processors();
+    device->threads = threads ? threads : processors < THREADS_MAX ? processors : THREADS_MAX;
     return device;
 }
 
@@ -61,6 +61,7 @@ void radReleaseDevice(RadDevice device)
 {
     if (!device || atomic_fetch_sub(&device->holders, 1) != 1)
         return;
+    thread_pool_release();
     pthread_mutex_destroy(&device->lock);
     oracle_sources_free(&device->sources);
     free(device->compiler);

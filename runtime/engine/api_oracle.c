@@ -18,12 +18,17 @@ const char *radGetDefaultOracle(void)
     return RAD_DEFAULT_ORACLE;
 }
 
+const char *radGetOracleText(const char *name)
+{
+    for (const struct builtin *b = builtins; name && b->name; b++)
+        if (strcmp(b->name, name) == 0)
+            return b->text;
+    return NULL;
+}
+
 static int is_builtin(const char *name)
 {
-    for (const char *const *b = builtin_names; *b; b++)
-        if (strcmp(*b, name) == 0)
-            return 1;
-    return 0;
+    return radGetOracleText(name) != NULL;
 }
 
 static const struct oracle *find_registered(RadDevice device, const char *name)

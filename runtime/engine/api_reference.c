@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
+#include "engine/face_error.h"
 #include "engine/reference.h"
 
 _Static_assert((int)RAD_METHOD_PARTICLES == (int)REFERENCE_PARTICLES
@@ -149,6 +150,35 @@ int radGetReferenceValues(RadReference r, enum RadMethod method, uint32_t band, 
             deviation[input] = p->reflectance[at] * sqrt(variance[input]);
     }
     free(mean);
+    return 0;
+}
+
+int radMeasureErrorBy(RadSolution solution, RadReference r, struct RadErrorReport *report)
+{
+    if (not_dead(r) < 0 || api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    const struct tally *tally = &r->reference.tally;
+    if (solution->scene != r->scene)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "the reference is of another scene than the solution");
+    if (solution->solve.report.passes == 0 || tally->particles == 0)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "radMeasureErrorBy needs a solution and particles: radSolve or radStep, "
+                        "and radTraceReference come first");
+    struct solve *s = &solution->solve;
+    struct face_error f;
+    if (face_error_open(&f, &s->problem, &s->hierarchy, solve_shown(s)->irradiance, tally) < 0)
+        return api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for errors of polygons");
+    *report = (struct RadErrorReport){.power = f.power,
+                                      .l1_faces = f.l1,
+                                      .noise = f.noise,
+                                      .reflected = f.reflected,
+                                      .worst = f.worst,
+                                      .worst_share = f.worst_share,
+                                      .rays = tally->rays,
+                                      .particles = tally->particles * REPLICATES};
+    face_error_close(&f);
     return 0;
 }
 

@@ -17,23 +17,29 @@
 #include <stdlib.h>
 #include "engine/collocation.h"
 #include "kernel/point_factor.h"
+#include "util/thread_pool.h"
+
+static void take_centres(const void *operator, size_t from, size_t to)
+{
+    const struct light_operator *op = operator;
+    const struct element *elements = op->hierarchy->elements;
+    for (size_t i = from; i < to; i++) {
+        const struct link *link = &op->refinement->links[i];
+        const struct element *r = &elements[link->receiver], *s = &elements[link->emitter];
+        op->collocated[i] =
+            r->vertices && s->vertices ? (float)point_factor(r, s) : link->form_factor;
+    }
+}
 
 int collocation_update(struct light_operator *op)
 {
     const struct refinement *r = op->refinement;
-    const struct element *elements = op->hierarchy->elements;
     if (op->problem->options.projection != RAD_PROJECTION_COLLOCATION)
         return 0;
     free(op->collocated);
     op->collocated = malloc((r->link_count + 1) * sizeof *op->collocated);
     if (!op->collocated)
         return -1;
-#pragma omp parallel for schedule(dynamic, 1024) num_threads(op->problem->options.threads)
-    for (size_t i = 0; i < r->link_count; i++) {
-        const struct element *to = &elements[r->links[i].receiver],
-                             *from = &elements[r->links[i].emitter];
-        int surfaces = to->vertices && from->vertices;
-        op->collocated[i] = surfaces ? (float)point_factor(to, from) : r->links[i].form_factor;
-    }
+    thread_pool_run(op->problem->options.threads, r->link_count, 1024, take_centres, op);
     return 0;
 }

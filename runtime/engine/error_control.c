@@ -21,6 +21,7 @@
 #include "engine/error_control.h"
 #include "kernel/constants.h"
 #include "util/array.h"
+#include "util/thread_pool.h"
 
 static double parameter(const struct refiner *r, int role)
 {
@@ -74,16 +75,28 @@ static int counts(const struct light_operator *op, uint32_t e)
     return x->vertices && !x->children && op->uncovered[e] > 0;
 }
 
+struct estimating {
+    const struct error_control *control;
+    const struct light_operator *op;
+    const double *radiosity; /* [element * bands + band] */
+};
+
+static void estimate_leaves(const void *estimating, size_t from, size_t to)
+{
+    const struct estimating *x = estimating;
+    for (uint32_t i = (uint32_t)from; i < to; i++)
+        if (counts(x->op, i))
+            x->control->residual[i] = residual_of_leaf(x->op, x->radiosity, i);
+}
+
 int error_control_estimate(struct error_control *c, const struct light_operator *op,
                            const double *radiosity)
 {
     const struct hierarchy *h = op->hierarchy;
     if (array_reserve(&c->residual, h->count, &c->capacity, sizeof *c->residual) < 0)
         return -1;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(op->problem->options.threads)
-    for (uint32_t i = 0; i < h->count; i++)
-        if (counts(op, i))
-            c->residual[i] = residual_of_leaf(op, radiosity, i);
+    const struct estimating x = {c, op, radiosity};
+    thread_pool_run(op->problem->options.threads, h->count, 16, estimate_leaves, &x);
     c->largest = c->area = 0;
     for (uint32_t i = 0; i < h->count; i++) {
         if (!counts(op, i))

@@ -24,6 +24,7 @@
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "terms/visibility.h"
+#include "util/thread_pool.h"
 
 /* ---- what the cap and the solver left */
 
@@ -87,16 +88,22 @@ static void leave_below(const struct error_account *a, uint32_t e, const double 
     }
 }
 
-void error_local_signed(const struct error_account *a)
+static void account_faces(const void *account, size_t from, size_t to)
 {
     static const double nothing[3] = {0, 0, 0};
-    const struct solve *s = a->solve;
-#pragma omp parallel for schedule(dynamic, 8) num_threads(s->problem.options.threads)
-    for (uint32_t i = 0; i < s->hierarchy.face_count; i++) {
+    const struct error_account *a = account;
+    for (size_t i = from; i < to; i++) {
+        uint32_t e = a->solve->hierarchy.face_element[i];
         double spare[3] = {0, 0, 0};
-        gather_below(a, s->hierarchy.face_element[i], nothing, spare);
-        leave_below(a, s->hierarchy.face_element[i], spare);
+        gather_below(a, e, nothing, spare);
+        leave_below(a, e, spare);
     }
+}
+
+void error_local_signed(const struct error_account *a)
+{
+    const struct solve *s = a->solve;
+    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 8, account_faces, a);
 }
 
 /* ---- form factors and visibilities */
@@ -232,11 +239,42 @@ static void find_discretization(const struct error_account *a, uint32_t leaf, st
 
 /* ---- all leaves */
 
+enum { LEAF_CATEGORIES = 4 };
+
+struct leaf_account {
+    const struct error_account *account;
+    struct norm_sums (*leaf)[LEAF_CATEGORIES]; /* [element] */
+};
+
+static void account_leaves(const void *leaves, size_t from, size_t to)
+{
+    const struct leaf_account *l = leaves;
+    const struct error_account *a = l->account;
+    const struct solve *s = a->solve;
+    const struct problem *p = &s->problem;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        struct norm_sums *leaf = l->leaf[i];
+        struct leaf_errors e;
+        if (!account_counts(a, i))
+            continue;
+        find_discretization(a, i, &leaf[0], &leaf[3]);
+        find_leaf_errors(a, i, &e);
+        for (uint32_t k = 0; k < p->bands; k++) {
+            double uncovered = s->operator.uncovered[i],
+                   area = s->hierarchy.elements[i].area * uncovered,
+                   rho = p->reflectance[(size_t)s->hierarchy.elements[i].face * p->bands + k]
+                         / uncovered;
+            norm_add(&leaf[1], area, rho * sqrt(e.factor[k]));
+            norm_add(&leaf[2], area, rho * sqrt(e.visibility[k]));
+            a->factor[(size_t)i * p->bands + k] = rho * e.most[k];
+        }
+    }
+}
+
 int error_local_make(const struct error_account *a)
 {
     const struct solve *s = a->solve;
     const struct problem *p = &s->problem;
-    enum { LEAF_CATEGORIES = 4 };
     static const enum RadErrorCategory of[LEAF_CATEGORIES] = {
         RAD_CATEGORY_DISCRETIZATION, RAD_CATEGORY_FORM_FACTOR, RAD_CATEGORY_VISIBILITY,
         RAD_CATEGORY_TOGETHER};
@@ -244,23 +282,8 @@ int error_local_make(const struct error_account *a)
            all[LEAF_CATEGORIES] = {{0, 0, 0}};
     if (!leaf)
         return -1;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(p->options.threads)
-    for (uint32_t i = 0; i < s->hierarchy.count; i++) {
-        struct leaf_errors e;
-        if (!account_counts(a, i))
-            continue;
-        find_discretization(a, i, &leaf[i][0], &leaf[i][3]);
-        find_leaf_errors(a, i, &e);
-        for (uint32_t k = 0; k < p->bands; k++) {
-            double uncovered = s->operator.uncovered[i],
-                   area = s->hierarchy.elements[i].area * uncovered,
-                   rho = p->reflectance[(size_t)s->hierarchy.elements[i].face * p->bands + k]
-                         / uncovered;
-            norm_add(&leaf[i][1], area, rho * sqrt(e.factor[k]));
-            norm_add(&leaf[i][2], area, rho * sqrt(e.visibility[k]));
-            a->factor[(size_t)i * p->bands + k] = rho * e.most[k];
-        }
-    }
+    const struct leaf_account leaves = {a, leaf};
+    thread_pool_run(p->options.threads, s->hierarchy.count, 16, account_leaves, &leaves);
     for (uint32_t i = 0; i < s->hierarchy.count; i++)
         for (int c = 0; c < LEAF_CATEGORIES; c++) {
             all[c].first += leaf[i][c].first;

@@ -13,6 +13,7 @@
 #include "engine/exchange.h"
 #include "kernel/constants.h"
 #include "util/clock.h"
+#include "util/thread_pool.h"
 #include "visibility/environment.h"
 
 /* Where a row's light goes that meets no front: shares of its area. */
@@ -109,6 +110,24 @@ static void account(struct exchange *x, const double *share, const struct way_ou
     r->environment_mean /= all > 0 ? all : 1;
 }
 
+/* Rows that may have to be asked where their light goes. */
+struct asking {
+    const struct exchange *exchange;
+    const struct exchange_options *options;
+    const double *share;  /* [input] */
+    struct way_out *ways; /* [input] */
+};
+
+static void ask_rows(const void *asking, size_t from, size_t to)
+{
+    const struct asking *a = asking;
+    for (size_t i = from; i < to; i++)
+        if (a->exchange->areas.area[i] > 0
+            && (a->options->closure != CLOSURE_NONE
+                || !(fabs(1 - a->share[i]) <= a->options->tolerance)))
+            a->ways[i] = ask_row(a->exchange, (uint32_t)i);
+}
+
 /* Row sums, their account, and closure. */
 static int close_rows(struct exchange *x, const struct exchange_options *o)
 {
@@ -122,11 +141,8 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
         exchange_areas_sums(m, NULL, sums);
         for (uint32_t i = 0; i < m->inputs; i++)
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(o->threads)
-        for (uint32_t i = 0; i < m->inputs; i++)
-            if (m->area[i] > 0
-                && (o->closure != CLOSURE_NONE || !(fabs(1 - share[i]) <= o->tolerance)))
-                ways[i] = ask_row(x, i);
+        const struct asking a = {x, o, share, ways};
+        thread_pool_run(o->threads, m->inputs, 16, ask_rows, &a);
         account(x, share, ways, closed);
         status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
     }

@@ -8,6 +8,7 @@
 #include <string.h>
 #include "engine/exchange_areas.h"
 #include "engine/exchange_blocks.h"
+#include "util/thread_pool.h"
 
 /* Blocks are no larger, so that a column's values are in the cache while its neighbours' rows
  * are written. */
@@ -38,31 +39,46 @@ static void add_tiles(struct exchange_areas *m, const struct link *link, const s
         }
 }
 
+/* What blocks are filled from. */
+struct filling {
+    const struct exchange_areas *areas;
+    const struct link **links; /* [block] */
+    const struct exchange_faces *faces;
+    struct exchange_scratch *scratch; /* [thread] */
+    double near;
+};
+
+static void fill_blocks(const void *filling, size_t from, size_t to)
+{
+    const struct filling *f = filling;
+    const struct exchange_areas *m = f->areas;
+    const struct element *elements = m->tree->h.elements;
+    for (size_t i = from; i < to; i++) {
+        const struct exchange_block *b = &m->blocks[i];
+        const struct exchange_pair pair = {m->tree,
+                                           &elements[f->links[i]->receiver],
+                                           &elements[f->links[i]->emitter],
+                                           {b->row, b->row + b->rows},
+                                           {b->column, b->column + b->columns},
+                                           f->near};
+        exchange_block_fill(f->faces, &pair, f->links[i], &f->scratch[thread_pool_number()],
+                            m->values + b->at);
+    }
+}
+
 static int fill(struct exchange_areas *m, const struct link **links, double near, int threads)
 {
-    const struct element *elements = m->tree->h.elements;
     struct exchange_faces faces = {.all = NULL};
-    int failed = 0;
-    if (exchange_faces_open(&faces, m->tree) < 0)
-        return -1;
-#pragma omp parallel num_threads(threads) reduction(| : failed)
-    {
-        struct exchange_scratch scratch = {.shift = {NULL}};
-        failed |= exchange_scratch_open(&scratch, TILE) < 0;
-#pragma omp for schedule(dynamic, 32)
-        for (size_t i = 0; i < m->block_count; i++) {
-            const struct exchange_block *b = &m->blocks[i];
-            const struct exchange_pair pair = {m->tree,
-                                               &elements[links[i]->receiver],
-                                               &elements[links[i]->emitter],
-                                               {b->row, b->row + b->rows},
-                                               {b->column, b->column + b->columns},
-                                               near};
-            if (!failed)
-                exchange_block_fill(&faces, &pair, links[i], &scratch, m->values + b->at);
-        }
-        exchange_scratch_close(&scratch);
-    }
+    struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
+    const struct filling f = {m, links, &faces, scratch, near};
+    int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
+    for (int t = 0; t < threads && !failed; t++)
+        failed = exchange_scratch_open(&scratch[t], TILE) < 0;
+    if (!failed)
+        thread_pool_run(threads, m->block_count, 32, fill_blocks, &f);
+    for (int t = 0; t < threads && scratch; t++)
+        exchange_scratch_close(&scratch[t]);
+    free(scratch);
     exchange_faces_close(&faces);
     return failed ? -1 : 0;
 }

@@ -32,6 +32,7 @@
 #include "engine/face_error.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
+#include "util/thread_pool.h"
 
 enum { CLASSES = 24, BINS = 24, HALVINGS = 24, TRIES = 10, SPLITS = 4 };
 
@@ -142,24 +143,43 @@ static double shape_of(struct bin bins[BINS], double square, double *errors)
     return low;
 }
 
+/* Sums over the faces of a polygon: of each replicate, and behind the last, of what was solved. */
+struct summing {
+    const struct counted *c;
+    const struct problem *p;
+    const struct hierarchy *h;
+    const double *irradiance; /* [element * bands + band] */
+    const struct tally *tally;
+};
+
+static void sum_replicates(const void *summing, size_t from, size_t to)
+{
+    const struct summing *s = summing;
+    const struct hierarchy *h = s->h;
+    uint32_t bands = s->c->bands;
+    for (int r = (int)from; r < (int)to; r++)
+        for (uint32_t f = 0; f < h->face_count; f++)
+            for (uint32_t k = 0; k < bands; k++) {
+                size_t at = (size_t)h->faces[f].input * bands + k, e = h->face_element[f];
+                double rho = s->p->reflectance[(size_t)f * bands + k];
+                if (r < REPLICATES)
+                    s->c->replicate[(size_t)r * s->c->values + at] +=
+                        rho * tally_face(s->tally, r, f, k);
+                else
+                    s->c->solved[at] += rho * h->elements[e].area * s->irradiance[e * bands + k];
+            }
+}
+
 static void sum_polygons(struct counted *c, const struct problem *p, const struct hierarchy *h,
                          const double *irradiance, const struct tally *tally)
 {
-    for (uint32_t f = 0; f < h->face_count; f++) {
-        uint32_t e = h->face_element[f];
-        for (uint32_t k = 0; k < c->bands; k++) {
-            size_t at = (size_t)h->faces[f].input * c->bands + k;
-            double rho = p->reflectance[(size_t)f * c->bands + k];
-            c->solved[at] += rho * h->elements[e].area * irradiance[(size_t)e * c->bands + k];
-            for (int r = 0; r < REPLICATES; r++)
-                c->replicate[(size_t)r * c->values + at] += rho * tally_face(tally, r, f, k);
-        }
-    }
-    for (size_t i = 0; i < c->values; i++) {
-        for (int r = 0; r < REPLICATES; r++)
+    const struct summing s = {c, p, h, irradiance, tally};
+    thread_pool_run(p->options.threads, REPLICATES + 1, 1, sum_replicates, &s);
+    for (int r = 0; r < REPLICATES; r++)
+        for (size_t i = 0; i < c->values; i++)
             c->mean[i] += c->replicate[(size_t)r * c->values + i] / REPLICATES;
+    for (size_t i = 0; i < c->values; i++)
         c->reflected += c->mean[i];
-    }
 }
 
 static void counted_close(struct counted *c)

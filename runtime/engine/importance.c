@@ -20,6 +20,7 @@
 #include "kernel/constants.h"
 #include "kernel/surface_point.h"
 #include "util/array.h"
+#include "util/thread_pool.h"
 
 enum { SIDE = 8, POINTS = SIDE * SIDE };
 
@@ -65,17 +66,30 @@ static int reserve_importance(struct importance *y, uint32_t count)
     return array_reserve(&y->value, count, &y->capacity, sizeof *y->value);
 }
 
+/* For whom the surfaces made since the last call have a response. */
+struct responding {
+    const struct importance *y;
+    const struct light_operator *op;
+};
+
+static void take_shares(const void *responding, size_t from, size_t to)
+{
+    const struct responding *r = responding;
+    const struct problem *p = r->op->problem;
+    for (size_t i = r->y->started + from; i < r->y->started + to; i++) {
+        const struct element *e = &r->op->hierarchy->elements[i];
+        r->y->response[i] =
+            e->vertices ? share_in_picture(rays_host(p->rays), p->options.camera, e) : 0;
+    }
+}
+
 /* r of the surfaces made since the last call; what they carry starts as their parents'. */
 static void respond(struct importance *y, const struct light_operator *op)
 {
-    const struct solve_options *o = &op->problem->options;
     const struct element *elements = op->hierarchy->elements;
+    const struct responding r = {y, op};
     uint32_t count = op->hierarchy->count;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(o->threads)
-    for (uint32_t i = y->started; i < count; i++)
-        y->response[i] = elements[i].vertices ? share_in_picture(rays_host(op->problem->rays),
-                                                                 o->camera, &elements[i])
-                                              : 0;
+    thread_pool_run(op->problem->options.threads, count - y->started, 64, take_shares, &r);
     for (uint32_t i = y->started; i < count; i++) {
         y->source[i] = elements[i].reflectance * y->response[i];
         y->carried[i] = !elements[i].vertices   ? 0

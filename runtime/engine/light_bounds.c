@@ -18,12 +18,14 @@
  * are sorted by value, equal ones by element.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/light_bounds.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
-enum { POLICIES = 12, SWEEPS = 400, GROUPS = 64 };
+enum { POLICIES = 12, SWEEPS = 400, GROUPS = 64, RUN = 64 };
 
 struct bounding {
     const struct light_bounds *b;
@@ -31,7 +33,9 @@ struct bounding {
     const double *uncovered;
     double *value; /* [element]: y at leaves, its extreme below clusters and split surfaces */
     double *next;  /* [element]: leaves */
+    double *most;  /* [run of RUN elements]: by how much a sweep has changed one (W/m2) */
     int least, linked;
+    atomic_int *failed;
 };
 
 /* ---- shares of one leaf */
@@ -173,24 +177,26 @@ static void gather_extremes(const struct bounding *g)
     }
 }
 
-/* T(y) into next, and weights anew. Returns -1 when out of memory. */
-static int apply(const struct bounding *g)
+static int threads_of(const struct bounding *g)
 {
+    return g->b->ranges->op->problem->options.threads;
+}
+
+static void apply_to_leaves(const void *bounding, size_t from, size_t to)
+{
+    const struct bounding *g = bounding;
     const struct light_bounds *b = g->b;
-    int failed = 0;
-#pragma omp parallel for schedule(dynamic, 16) \
-    num_threads(b->ranges->op->problem->options.threads) reduction(| \
-                                                                   : failed)
-    for (uint32_t i = 0; i < g->h->count; i++) {
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
         const struct share_row *row = &b->ranges->rows[i];
         struct purse few[GROUPS], *purses = few;
         if (!counts(g, i))
             continue;
         if (row->group_count > GROUPS)
             purses = malloc(row->group_count * sizeof *purses);
-        failed |= !purses;
-        if (!purses)
+        if (!purses) {
+            *g->failed = 1;
             continue;
+        }
         sort_shares(g, row->shares, row->share_count);
         double light = allot(g, row, b->ranges->closed[i], purses);
         if (b->irradiance)
@@ -199,31 +205,44 @@ static int apply(const struct bounding *g)
         if (purses != few)
             free(purses);
     }
-    return failed ? -1 : 0;
+}
+
+/* T(y) into next, and weights anew. Returns -1 when out of memory. */
+static int apply(const struct bounding *g)
+{
+    thread_pool_run(threads_of(g), g->h->count, 16, apply_to_leaves, g);
+    return *g->failed ? -1 : 0;
+}
+
+static void sweep_leaves(const void *bounding, size_t from, size_t to)
+{
+    const struct bounding *g = bounding;
+    const struct light_bounds *b = g->b;
+    double most = 0;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        const struct share_row *row = &b->ranges->rows[i];
+        double light = 0;
+        if (!counts(g, i))
+            continue;
+        for (uint32_t k = 0; k < row->share_count; k++)
+            light += (double)row->shares[k].weight * g->value[row->shares[k].emitter];
+        g->next[i] = b->source[i] + b->rho[g->h->elements[i].face] * light;
+        most = fmax(most, fabs(g->next[i] - g->value[i]));
+    }
+    g->most[from / RUN] = most;
 }
 
 /* Sweep with the weights as they are until it changes little beside what is there to be found, in
  * the mean. */
 static void bracket_until(const struct bounding *g, double enough)
 {
-    const struct light_bounds *b = g->b;
     double most = INFINITY;
     for (int n = 0; n < SWEEPS && most > enough; n++) {
         most = 0;
         gather_extremes(g);
-#pragma omp parallel for schedule(dynamic, 64) \
-    num_threads(b->ranges->op->problem->options.threads) reduction(max \
-                                                                   : most)
-        for (uint32_t i = 0; i < g->h->count; i++) {
-            const struct share_row *row = &b->ranges->rows[i];
-            double light = 0;
-            if (!counts(g, i))
-                continue;
-            for (uint32_t k = 0; k < row->share_count; k++)
-                light += (double)row->shares[k].weight * g->value[row->shares[k].emitter];
-            g->next[i] = b->source[i] + b->rho[g->h->elements[i].face] * light;
-            most = fmax(most, fabs(g->next[i] - g->value[i]));
-        }
+        thread_pool_run(threads_of(g), g->h->count, RUN, sweep_leaves, g);
+        for (uint32_t i = 0; i < g->h->count; i += RUN)
+            most = fmax(most, g->most[i / RUN]);
         for (uint32_t i = 0; i < g->h->count; i++)
             if (counts(g, i))
                 g->value[i] = g->next[i];
@@ -273,15 +292,22 @@ int light_bounds_solve(const struct light_bounds *b)
                          .least = b->of == LIGHT_LEAST || b->of == LIGHT_LEAST_LINKED,
                          .linked = b->of == LIGHT_MOST_LINKED || b->of == LIGHT_LEAST_LINKED};
     double beyond = 0, moved;
+    atomic_int failed = 0;
+    g.failed = &failed;
     g.next = malloc(g.h->count * sizeof *g.next);
-    if (!g.next)
+    g.most = malloc((g.h->count / RUN + 1) * sizeof *g.most);
+    if (!g.next || !g.most) {
+        free(g.next);
+        free(g.most);
         return -1;
+    }
     for (uint32_t i = 0; i < g.h->count; i++)
         g.value[i] = counts(&g, i) ? b->start ? b->start[i] : b->source[i] : 0;
     for (int n = 0; n < POLICIES; n++) {
         gather_extremes(&g);
         if (apply(&g) < 0) {
             free(g.next);
+            free(g.most);
             return -1;
         }
         beyond = overshoot(&g, &moved) / (1 - b->rho_most);
@@ -291,5 +317,6 @@ int light_bounds_solve(const struct light_bounds *b)
     }
     finish(&g, beyond);
     free(g.next);
+    free(g.most);
     return 0;
 }

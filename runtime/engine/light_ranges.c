@@ -15,7 +15,7 @@
  * than 1, which keeps rows beside edges finite: derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <omp.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/light_ranges.h"
@@ -24,6 +24,7 @@
 #include "terms/blockers.h"
 #include "terms/form_factor_range.h"
 #include "util/array.h"
+#include "util/thread_pool.h"
 
 /* One thread's walk over the emitters that a leaf may see. */
 struct walk {
@@ -253,60 +254,89 @@ static void mark_clusters_of(struct walk *w, uint32_t face, int by)
     }
 }
 
+/* How far all threads have come. */
+struct progress {
+    _Atomic uint64_t shares, faces;
+    atomic_int stopped, failed;
+};
+
+/* All leaves, face by face. */
+struct ranging {
+    const struct hierarchy *h;
+    struct walk *walks; /* [thread] */
+    struct progress *progress;
+    ranges_watch *watch;
+    void *context;
+};
+
+static void range_faces(const void *ranging, size_t from, size_t to)
+{
+    const struct ranging *g = ranging;
+    struct progress *p = g->progress;
+    struct walk *w = &g->walks[thread_pool_number()];
+    for (size_t i = from; i < to; i++) {
+        uint64_t so_far = p->shares;
+        if (p->failed || p->stopped || so_far > RANGES_MOST)
+            continue;
+        mark_clusters_of(w, g->h->face_element[i], 1);
+        p->shares += find_below(w, g->h->face_element[i]);
+        mark_clusters_of(w, g->h->face_element[i], -1);
+        uint64_t faces = ++p->faces;
+        if (w->failed)
+            p->failed = 1;
+        if (g->watch && thread_pool_number() == 0 && g->watch(g->context, faces, so_far))
+            p->stopped = 1;
+    }
+}
+
+/* Returns 0 or -1. */
+static int walk_open(struct walk *w, struct light_ranges *r, const double *most,
+                     const double *spread)
+{
+    const struct light_operator *op = r->op;
+    *w = (struct walk){.ranges = r,
+                       .elements = op->hierarchy->elements,
+                       .most = most,
+                       .spread = spread,
+                       .detail = RANGE_DETAIL * rays_host(op->problem->rays)->irradiance,
+                       .linked = calloc(op->hierarchy->count, sizeof *w->linked),
+                       .below = calloc(op->hierarchy->count, sizeof *w->below),
+                       .between = calloc(op->hierarchy->count, sizeof *w->between)};
+    return w->linked && w->below && w->between ? 0 : -1;
+}
+
+static void walk_close(struct walk *w)
+{
+    free(w->linked);
+    free(w->below);
+    free(w->between);
+    free(w->shares);
+    free(w->groups);
+}
+
 int light_ranges_open(struct light_ranges *r, const struct light_operator *op, const double *most,
                       const double *spread, ranges_watch *watch, void *context)
 {
     const struct hierarchy *h = op->hierarchy;
-    uint64_t count = 0, done = 0;
-    int failed = 0, stopped = 0;
+    int threads = op->problem->options.threads;
+    struct progress p = {0};
+    const struct ranging g = {h, calloc((size_t)threads, sizeof *g.walks), &p, watch, context};
     *r = (struct light_ranges){.op = op};
     r->rows = calloc(h->count, sizeof *r->rows);
     r->closed = malloc(h->count);
-    if (!r->rows || !r->closed) {
-        light_ranges_close(r);
-        return -1;
+    p.failed = !r->rows || !r->closed || !g.walks;
+    for (int t = 0; t < threads && !p.failed; t++)
+        p.failed = walk_open(&g.walks[t], r, most, spread) < 0;
+    if (!p.failed) {
+        winding_closed(h, op->uncovered, threads, r->closed);
+        thread_pool_run(threads, h->face_count, 1, range_faces, &g);
     }
-    winding_closed(h, op->uncovered, op->problem->options.threads, r->closed);
-#pragma omp parallel num_threads(op->problem->options.threads)
-    {
-        struct walk w = {.ranges = r,
-                         .elements = h->elements,
-                         .most = most,
-                         .spread = spread,
-                         .detail = RANGE_DETAIL * rays_host(op->problem->rays)->irradiance,
-                         .linked = calloc(h->count, sizeof *w.linked),
-                         .below = calloc(h->count, sizeof *w.below),
-                         .between = calloc(h->count, sizeof *w.between)};
-        w.failed = !w.linked || !w.below || !w.between;
-#pragma omp for schedule(dynamic, 1)
-        for (uint32_t i = 0; i < h->face_count; i++) {
-            uint64_t so_far, faces;
-#pragma omp atomic read
-            so_far = count;
-            if (w.failed || stopped || so_far > RANGES_MOST)
-                continue;
-            mark_clusters_of(&w, h->face_element[i], 1);
-            uint64_t more = find_below(&w, h->face_element[i]);
-            mark_clusters_of(&w, h->face_element[i], -1);
-#pragma omp atomic
-            count += more;
-#pragma omp atomic capture
-            faces = ++done;
-            if (watch && omp_get_thread_num() == 0 && watch(context, faces, so_far))
-#pragma omp atomic write
-                stopped = 1;
-        }
-#pragma omp atomic
-        failed |= w.failed;
-        free(w.linked);
-        free(w.below);
-        free(w.between);
-        free(w.shares);
-        free(w.groups);
-    }
-    r->count = count;
-    r->too_many = count > RANGES_MOST;
-    if (failed || stopped) {
+    for (int t = 0; t < threads && g.walks; t++)
+        walk_close(&g.walks[t]);
+    free(g.walks);
+    r->count = p.shares;
+    r->too_many = p.shares > RANGES_MOST;
+    if (p.failed || p.stopped) {
         light_ranges_close(r);
         return -1;
     }

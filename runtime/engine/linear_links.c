@@ -18,9 +18,11 @@
 #include "engine/linear_links.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 static int between_surfaces(const struct hierarchy *h, const struct link *l)
 {
@@ -47,6 +49,34 @@ static void recall(const float moment[LINEAR_MOMENTS], double form_factor, doubl
     c[0][0] = form_factor;
 }
 
+static void make_bases(const void *links, size_t from, size_t to)
+{
+    const struct linear_links *l = links;
+    const struct hierarchy *h = l->of->hierarchy;
+    for (size_t i = from; i < to; i++)
+        if (h->elements[i].vertices)
+            linear_basis_of(&l->basis[i], &h->elements[i]);
+}
+
+static void make_couplings(const void *links, size_t begin, size_t end)
+{
+    const struct linear_links *l = links;
+    const struct hierarchy *h = l->of->hierarchy;
+    for (size_t i = begin; i < end; i++) {
+        const struct link *link = &l->of->refinement->links[i];
+        double c[3][3];
+        if (!between_surfaces(h, link))
+            continue;
+        struct linear_side to = side_of(l, h, link->receiver), from = side_of(l, h, link->emitter);
+        linear_coupling_integrate(c, to, from);
+        linear_coupling_scale(c, (double)link->form_factor);
+        if (link->visibility < LINK_VISIBLE)
+            linear_coupling_limit(c, to, from);
+        l->nonnegative[i] = link->visibility < LINK_VISIBLE;
+        store(l->moment[i], c);
+    }
+}
+
 int linear_links_open(struct linear_links *l, const struct light_operator *op)
 {
     const struct hierarchy *h = op->hierarchy;
@@ -62,39 +92,27 @@ int linear_links_open(struct linear_links *l, const struct light_operator *op)
         linear_links_close(l);
         return -1;
     }
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (uint32_t i = 0; i < h->count; i++)
-        if (h->elements[i].vertices)
-            linear_basis_of(&l->basis[i], &h->elements[i]);
-#pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-    for (size_t i = 0; i < r->link_count; i++) {
-        const struct link *link = &r->links[i];
-        double c[3][3];
-        if (!between_surfaces(h, link))
-            continue;
-        struct linear_side to = side_of(l, h, link->receiver), from = side_of(l, h, link->emitter);
-        linear_coupling_integrate(c, to, from);
-        linear_coupling_scale(c, (double)link->form_factor);
-        if (link->visibility < LINK_VISIBLE)
-            linear_coupling_limit(c, to, from);
-        l->nonnegative[i] = link->visibility < LINK_VISIBLE;
-        store(l->moment[i], c);
-    }
+    thread_pool_run(threads, h->count, 256, make_bases, l);
+    thread_pool_run(threads, r->link_count, 256, make_couplings, l);
     return 0;
 }
 
-size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers)
+struct limiting {
+    const struct linear_links *links;
+    const unsigned char *receivers; /* [element]; NULL: all */
+    atomic_size_t *made;
+};
+
+static void limit_links(const void *limiting, size_t from, size_t to)
 {
+    const struct limiting *m = limiting;
+    const struct linear_links *l = m->links;
     const struct hierarchy *h = l->of->hierarchy;
-    const struct refinement *r = l->of->refinement;
     size_t made = 0;
-    l->limited |= !receivers;
-#pragma omp parallel for schedule(dynamic, 256) num_threads(l->of->problem->options.threads) \
-    reduction(+ : made)
-    for (size_t i = 0; i < r->link_count; i++) {
-        const struct link *link = &r->links[i];
+    for (size_t i = from; i < to; i++) {
+        const struct link *link = &l->of->refinement->links[i];
         double c[3][3];
-        if ((receivers && !receivers[link->receiver]) || l->nonnegative[i]
+        if ((m->receivers && !m->receivers[link->receiver]) || l->nonnegative[i]
             || !between_surfaces(h, link))
             continue;
         recall(l->moment[i], (double)link->form_factor, c);
@@ -103,6 +121,16 @@ size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers
         l->nonnegative[i] = 1;
         made++;
     }
+    *m->made += made;
+}
+
+size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers)
+{
+    atomic_size_t made = 0;
+    const struct limiting m = {l, receivers, &made};
+    l->limited |= !receivers;
+    thread_pool_run(l->of->problem->options.threads, l->of->refinement->link_count, 256,
+                    limit_links, &m);
     return made;
 }
 
@@ -137,7 +165,7 @@ void linear_links_restrict(const struct linear_links *l, const struct hierarchy 
     on_child[2] = b[1] * t.from[0][1] + b[2] * t.from[1][1];
 }
 
-void linear_links_rows(struct linear_links *l, struct light_operator *op, uint32_t e,
+void linear_links_rows(const struct linear_links *l, const struct light_operator *op, uint32_t e,
                        const double above[3])
 {
     const struct element *x = &op->hierarchy->elements[e];
@@ -179,12 +207,17 @@ static double share_in_error(const struct linear_links *l, const struct light_op
     return most > room ? 1 - room / most : 0;
 }
 
-void linear_links_scale(struct linear_links *l, const struct light_operator *op)
+struct scaling {
+    const struct linear_links *links;
+    const struct light_operator *op;
+};
+
+static void scale_leaves(const void *scaling, size_t from, size_t to)
 {
-    const struct hierarchy *h = op->hierarchy;
-#pragma omp parallel for schedule(static) num_threads(op->problem->options.threads)
-    for (uint32_t i = 0; i < h->count; i++) {
-        const struct element *e = &h->elements[i];
+    const struct linear_links *l = ((const struct scaling *)scaling)->links;
+    const struct light_operator *op = ((const struct scaling *)scaling)->op;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        const struct element *e = &op->hierarchy->elements[i];
         struct linear_row *row = &l->row[i];
         double least, most, slopes[2];
         if (!e->vertices || e->children)
@@ -199,6 +232,12 @@ void linear_links_scale(struct linear_links *l, const struct light_operator *op)
                room = fmax(0, limit - op->row[i]);
         row->scale = op->uncovered[i] < 1 ? 0 : l->limited && most > room ? room / most : 1;
     }
+}
+
+void linear_links_scale(struct linear_links *l, const struct light_operator *op)
+{
+    const struct scaling s = {l, op};
+    thread_pool_run(op->problem->options.threads, op->hierarchy->count, 256, scale_leaves, &s);
 }
 
 void linear_links_close(struct linear_links *l)

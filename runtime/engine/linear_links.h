@@ -40,7 +40,7 @@ size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers
 
 /* The rows of the leaves below surface e, as sum_links of row_sums.c leaves them for constants:
  * [0] of their mean, into the operator's row_scale and row_above, slopes into l->row. */
-void linear_links_rows(struct linear_links *l, struct light_operator *op, uint32_t e,
+void linear_links_rows(const struct linear_links *l, const struct light_operator *op, uint32_t e,
                        const double above[3]);
 
 /* Once the rows are scaled: set flat and scale of the leaves' rows. */

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 enum { BLOCKS = 16, LINKS_WORTH_THREADS = 1 << 16 };
 
@@ -204,29 +205,47 @@ static void pull(const struct sweep *s, uint32_t e, const double spare[3], struc
     save_irradiance(s->x, &h, e);
 }
 
+/* Of one block. */
+struct block {
+    const struct sweep *sweep;
+    struct change *change;   /* [face of the block] */
+    const uint32_t *element; /* [face of the block] */
+};
+
+static void gather_faces(const void *block, size_t from, size_t to)
+{
+    const struct block *b = block;
+    for (size_t i = from; i < to; i++)
+        gather_below(b->sweep, b->element[i]);
+}
+
+static void update_faces(const void *block, size_t from, size_t to)
+{
+    const struct block *b = block;
+    static const struct piece nothing;
+    for (size_t i = from; i < to; i++) {
+        double spare[3] = {0, 0, 0};
+        push(b->sweep, b->element[i], &nothing, spare);
+        b->change[i] = (struct change){0};
+        pull(b->sweep, b->element[i], spare, &b->change[i]);
+    }
+}
+
 /* One sweep over all faces. change: [face]. */
 static void sweep(const struct sweep *s, struct change *change)
 {
     const struct light_operator *op = s->op;
     const struct solve_options *o = &op->problem->options;
-    const uint32_t *element = op->hierarchy->face_element, faces = op->hierarchy->face_count;
+    uint32_t faces = op->hierarchy->face_count;
+    int threads = op->refinement->link_count > LINKS_WORTH_THREADS ? o->threads : 1;
     uint32_t blocks = o->solver == RAD_SOLVER_JACOBI ? 1 : faces < BLOCKS ? faces : BLOCKS;
     separable_links_send(&op->separable, (int)s->bands, s->x->means->value);
-#pragma omp parallel num_threads(o->threads) if (op->refinement->link_count > LINKS_WORTH_THREADS)
-    for (uint32_t block = 0; block < blocks; block++) {
-        uint32_t from = (uint32_t)((uint64_t)faces * block / blocks),
-                 to = (uint32_t)((uint64_t)faces * (block + 1) / blocks);
-#pragma omp for schedule(dynamic, 8)
-        for (uint32_t i = from; i < to; i++)
-            gather_below(s, element[i]);
-#pragma omp for schedule(dynamic, 64)
-        for (uint32_t i = from; i < to; i++) {
-            static const struct piece nothing;
-            double spare[3] = {0, 0, 0};
-            push(s, element[i], &nothing, spare);
-            change[i] = (struct change){0};
-            pull(s, element[i], spare, &change[i]);
-        }
+    for (uint32_t i = 0; i < blocks; i++) {
+        uint32_t from = (uint32_t)((uint64_t)faces * i / blocks),
+                 to = (uint32_t)((uint64_t)faces * (i + 1) / blocks);
+        const struct block b = {s, change + from, op->hierarchy->face_element + from};
+        thread_pool_run(threads, to - from, 8, gather_faces, &b);
+        thread_pool_run(threads, to - from, 64, update_faces, &b);
     }
 }
 

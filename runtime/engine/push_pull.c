@@ -114,4 +114,7 @@ void face_update(const struct light_operator *op, const struct transport *x, uin
     push(op, x, e, nothing, spare);
     *change = (struct change){0};
     pull(op, x, e, spare, change);
+    for (uint32_t k = 0; k < x->bands; k++)
+        change->power[k] =
+            op->hierarchy->elements[e].area * op->uncovered[e] * x->value[(size_t)e * x->bands + k];
 }

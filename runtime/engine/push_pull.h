@@ -9,6 +9,7 @@
 struct change {
     double moved;           /* sum A |dx| over uncovered leaves, all bands */
     double most[3], sum[3]; /* max |dx| / (1 - k) over leaves; sum A k over uncovered leaves */
+    double power[3];        /* A x of the face as it is then, over what is uncovered */
 };
 
 /* Into irradiance[], what the surface e and each of its parts gather over links of their own. Where

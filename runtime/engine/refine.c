@@ -19,8 +19,9 @@
 #include <string.h>
 #include "engine/refine.h"
 #include "util/array.h"
+#include "util/thread_pool.h"
 
-enum { ROUND = 1 << 17, CHUNK = 64 };
+enum { ROUND = 1 << 17, CHUNK = 64, SORT_SHARES = 8 };
 
 int decision_links(enum decision decision)
 {
@@ -140,7 +141,8 @@ static int divides(unsigned char decision)
 }
 
 /* After the discussions of pair i: keep the list for the pairs below, if there will be any. */
-static void note_list(struct refinement *r, int i, const struct blockers *list, int divided)
+static void note_list(const struct refinement *r, size_t i, const struct blockers *list,
+                      int divided)
 {
     r->outcomes[i].listed = list->known == BLOCKERS_OWN && divided;
     if (r->outcomes[i].listed)
@@ -159,11 +161,11 @@ static void reverse_link(struct link *back, const struct link *there,
     back->levels = there->levels;
 }
 
-/* Discuss the pairs of the round, the second way round with what the first has found. */
-static void discuss_round(struct refinement *r, int count)
+/* Discuss pairs of the round, the second way round with what the first has found. */
+static void discuss_pairs(const void *refinement, size_t from, size_t to)
 {
-#pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
-    for (int i = 0; i < count; i++) {
+    const struct refinement *r = refinement;
+    for (size_t i = from; i < to; i++) {
         const struct pair *p = &r->round[i];
         struct outcome *o = &r->outcomes[i];
         struct link there = {p->receiver, p->emitter, 0, 0, 0, 0},
@@ -294,7 +296,7 @@ static int drain(struct refinement *r)
         int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND);
         r->queue_count -= (size_t)count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
-        discuss_round(r, count);
+        thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_pairs, r);
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             int both = (int)r->round[i].both;
@@ -322,6 +324,29 @@ int refinement_start(struct refinement *r)
     return drain(r);
 }
 
+/* Links to be discussed again, as far as an end has changed. */
+struct again {
+    const struct refinement *refinement;
+    const struct link *links;     /* [of the round] */
+    const unsigned char *changed; /* [element]; NULL: all have */
+};
+
+static void discuss_again(const void *again, size_t from, size_t to)
+{
+    const struct again *a = again;
+    for (size_t i = from; i < to; i++) {
+        const struct link *l = &a->links[i];
+        struct outcome *o = &a->refinement->outcomes[i];
+        struct blockers list;
+        list.known = BLOCKERS_UNKNOWN;
+        o->link[0] = *l;
+        o->decision[1] = !a->changed || a->changed[l->receiver] || a->changed[l->emitter];
+        o->decision[0] = o->decision[1] ? discuss(a->refinement, &o->link[0], &list)
+                                        : (unsigned char)DECISION_LINK;
+        note_list(a->refinement, i, &list, divides(o->decision[0]));
+    }
+}
+
 int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 {
     size_t all = r->link_count;
@@ -330,18 +355,8 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
     r->link_count = 0;
     for (size_t from = 0; from < all; from += ROUND) {
         int count = (int)(all - from < ROUND ? all - from : ROUND);
-        const struct link *links = r->links + from;
-#pragma omp parallel for schedule(dynamic, CHUNK) num_threads(r->threads)
-        for (int i = 0; i < count; i++) {
-            struct outcome *o = &r->outcomes[i];
-            struct blockers list;
-            list.known = BLOCKERS_UNKNOWN;
-            o->link[0] = links[i];
-            o->decision[1] = !changed || changed[links[i].receiver] || changed[links[i].emitter];
-            o->decision[0] =
-                o->decision[1] ? discuss(r, &o->link[0], &list) : (unsigned char)DECISION_LINK;
-            note_list(r, i, &list, divides(o->decision[0]));
-        }
+        const struct again a = {r, r->links + from, changed};
+        thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_again, &a);
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             if (!o->decision[1]) {
@@ -362,28 +377,68 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
     return drain(r) < 0 ? -1 : moved;
 }
 
+/* Links to be sorted by receiver, in shares: a share's links of a receiver stand behind those of
+ * the shares before it. */
+struct sorting {
+    const struct refinement *r;
+    size_t elements, each, shares; /* each: links of a share */
+    struct link *sorted;
+    size_t *at;                     /* [share][element]: links there are, then where they go */
+    uint64_t (*marked)[LINK_MARKS]; /* [share] */
+};
+
+static void count_receivers(const void *sorting, size_t from, size_t to)
+{
+    const struct sorting *s = sorting;
+    size_t share = from / s->each, *count = &s->at[share * s->elements];
+    for (size_t i = from; i < to; i++) {
+        count[s->r->links[i].receiver]++;
+        s->marked[share][s->r->links[i].mark]++;
+    }
+}
+
+static void place_links(const void *sorting, size_t from, size_t to)
+{
+    const struct sorting *s = sorting;
+    size_t *at = &s->at[from / s->each * s->elements];
+    for (size_t i = from; i < to; i++)
+        s->sorted[at[s->r->links[i].receiver]++] = s->r->links[i];
+}
+
 int refinement_sort(struct refinement *r)
 {
-    size_t elements = r->hierarchy->count;
-    size_t *first = calloc(elements + 2, sizeof *first);
-    struct link *sorted = malloc((r->link_count + 1) * sizeof *sorted);
-    if (!first || !sorted) {
+    uint64_t marked[SORT_SHARES][LINK_MARKS] = {{0}};
+    struct sorting s = {.r = r, .elements = r->hierarchy->count, .marked = marked};
+    s.shares = r->threads < SORT_SHARES ? (size_t)r->threads : SORT_SHARES;
+    s.each = r->link_count / s.shares + 1;
+    size_t *first = malloc((s.elements + 1) * sizeof *first), links = 0;
+    s.sorted = malloc((r->link_count + 1) * sizeof *s.sorted);
+    s.at = calloc(s.shares * s.elements, sizeof *s.at);
+    if (!first || !s.sorted || !s.at) {
         free(first);
-        free(sorted);
+        free(s.sorted);
+        free(s.at);
         return -1;
     }
-    memset(r->marked, 0, sizeof r->marked);
-    for (size_t i = 0; i < r->link_count; i++) {
-        first[r->links[i].receiver + 2]++;
-        r->marked[r->links[i].mark]++;
+    thread_pool_run(r->threads, r->link_count, s.each, count_receivers, &s);
+    for (size_t e = 0; e < s.elements; e++) {
+        first[e] = links;
+        for (size_t share = 0; share < s.shares; share++) {
+            size_t count = s.at[share * s.elements + e];
+            s.at[share * s.elements + e] = links;
+            links += count;
+        }
     }
-    for (size_t i = 2; i < elements + 2; i++)
-        first[i] += first[i - 1];
-    for (size_t i = 0; i < r->link_count; i++)
-        sorted[first[r->links[i].receiver + 1]++] = r->links[i];
+    first[s.elements] = links;
+    thread_pool_run(r->threads, r->link_count, s.each, place_links, &s);
+    memset(r->marked, 0, sizeof r->marked);
+    for (size_t share = 0; share < s.shares; share++)
+        for (int m = 0; m < LINK_MARKS; m++)
+            r->marked[m] += marked[share][m];
+    free(s.at);
     free(r->links);
     free(r->first_link);
-    r->links = sorted;
+    r->links = s.sorted;
     r->link_capacity = r->link_count + 1;
     r->first_link = first;
     return 0;

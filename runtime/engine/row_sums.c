@@ -26,19 +26,34 @@
 #include "engine/linear_links.h"
 #include "engine/row_sums.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
+
+enum { RUNS = 64 }; /* of faces, each measured by one thread */
 
 /* What the rows of one face come to. Areas are uncovered ones (m2). */
 struct face_rows {
     double cap, sum, area; /* sum: of A row */
     double seeing;         /* of A, leaves that have a row */
     double excess, room;   /* above the cap; between ROW_SHADOW of the cap and the cap */
-    struct light_operator *op;
+    const struct light_operator *op;
     struct row_report *report;
+};
+
+/* The rows of a run of faces. */
+struct run_rows {
+    struct row_report report;
+    double uncovered; /* m2 */
+};
+
+struct all_rows {
+    const struct light_operator *op;
+    size_t faces;          /* of a run */
+    struct run_rows *runs; /* [RUNS] */
 };
 
 /* Leave the row of every leaf below e where its scale will stand, and what its ancestors have of
  * it where theirs will. */
-static void sum_links(struct light_operator *op, uint32_t e, double above)
+static void sum_links(const struct light_operator *op, uint32_t e, double above)
 {
     const struct element *x = &op->hierarchy->elements[e];
     const struct refinement *r = op->refinement;
@@ -95,7 +110,7 @@ static void weigh_row(struct face_rows *rows, uint32_t leaf, double row, double 
 
 static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct light_operator *op = rows->op;
+    const struct light_operator *op = rows->op;
     double cap = rows->cap, most = fmax(rows->excess, rows->room), uncovered = op->uncovered[leaf];
     double above = uncovered > 0 ? op->row_above[leaf] / uncovered : 0, own = row - above;
     (void)area;
@@ -108,7 +123,7 @@ static void cap_row(struct face_rows *rows, uint32_t leaf, double row, double ar
 
 static void close_row(struct face_rows *rows, uint32_t leaf, double row, double area)
 {
-    struct light_operator *op = rows->op;
+    const struct light_operator *op = rows->op;
     int closed = op->problem->closed > 0;
     rows->excess += row > 1 ? area * (row - 1) : 0;
     op->row_scale[leaf] = !(area > 0) ? 0 : closure_row_scale(row, 1, closed);
@@ -119,25 +134,29 @@ static void close_row(struct face_rows *rows, uint32_t leaf, double row, double 
     op->row[leaf] = row > 1 || op->row_share[leaf] > 0 || (row > 0 && closed) ? 1 : row;
 }
 
-void row_sums_scale(struct light_operator *op, struct row_report *report)
+static void sum_faces(const void *operator, size_t from, size_t to)
 {
-    const struct problem *p = op->problem;
-    const struct hierarchy *h = op->hierarchy;
     static const double nothing[3] = {0, 0, 0};
-    double uncovered = 0;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(p->options.threads)
-    for (uint32_t i = 0; i < h->face_count; i++)
+    const struct light_operator *op = operator;
+    for (size_t i = from; i < to; i++)
         if (op->linear)
-            linear_links_rows(op->linear, op, h->face_element[i], nothing);
+            linear_links_rows(op->linear, op, op->hierarchy->face_element[i], nothing);
         else
-            sum_links(op, h->face_element[i], 0);
-    *report = (struct row_report){.low = INFINITY};
-    for (uint32_t i = 0; i < h->face_count; i++) {
-        uint32_t e = h->face_element[i];
+            sum_links(op, op->hierarchy->face_element[i], 0);
+}
+
+static void scale_faces(const void *all_rows, size_t from, size_t to)
+{
+    const struct all_rows *all = all_rows;
+    const struct light_operator *op = all->op;
+    const struct problem *p = op->problem;
+    struct run_rows *run = &all->runs[from / all->faces];
+    for (size_t i = from; i < to; i++) {
+        uint32_t e = op->hierarchy->face_element[i];
         double most = 1 + ROW_EXCESS * (1 - p->whitest[i]);
-        struct face_rows rows = {.cap = 1, .op = op, .report = report};
+        struct face_rows rows = {.cap = 1, .op = op, .report = &run->report};
         visit_leaves(&rows, e, measure_row);
-        uncovered += rows.area;
+        run->uncovered += rows.area;
         if (p->options.closure == CLOSURE_ROWS) {
             visit_leaves(&rows, e, close_row);
         } else {
@@ -146,7 +165,32 @@ void row_sums_scale(struct light_operator *op, struct row_report *report)
             visit_leaves(&rows, e, weigh_row);
             visit_leaves(&rows, e, cap_row);
         }
-        report->moved += rows.excess / rays_host(p->rays)->area;
+        run->report.moved += rows.excess / rays_host(p->rays)->area;
+    }
+}
+
+void row_sums_scale(struct light_operator *op, struct row_report *report)
+{
+    size_t faces = op->hierarchy->face_count;
+    int threads = op->problem->options.threads;
+    double uncovered = 0;
+    struct run_rows runs[RUNS];
+    const struct all_rows all = {op, faces / RUNS + 1, runs};
+    for (int i = 0; i < RUNS; i++)
+        runs[i] = (struct run_rows){.report.low = INFINITY};
+    thread_pool_run(threads, faces, 16, sum_faces, op);
+    thread_pool_run(threads, faces, all.faces, scale_faces, &all);
+    *report = (struct row_report){.low = INFINITY};
+    for (int i = 0; i < RUNS; i++) {
+        const struct row_report *run = &runs[i].report;
+        uncovered += runs[i].uncovered;
+        report->leaves += run->leaves;
+        report->low = fmin(report->low, run->low);
+        report->high = fmax(report->high, run->high);
+        report->defect_mean += run->defect_mean;
+        report->defect_most = fmax(report->defect_most, run->defect_most);
+        report->blind_area += run->blind_area;
+        report->moved += run->moved;
     }
     report->defect_mean = uncovered > 0 ? report->defect_mean / uncovered : 0;
 }

@@ -16,7 +16,7 @@ void separable_faces_arrays(struct separable_faces *f, float *at, size_t count, 
     f->bright = at + 13 * count;
 }
 
-void separable_faces_set(struct separable_faces *f, size_t i, const struct element *e,
+void separable_faces_set(const struct separable_faces *f, size_t i, const struct element *e,
                          const double low[3], double unit)
 {
     double along[3], other[3], square[3] = {0, 0, 0}, inverse = 1 / unit;

@@ -39,7 +39,7 @@ struct separable_side {
 void separable_faces_arrays(struct separable_faces *f, float *at, size_t count, int bands);
 
 /* Face i is the surface e, of a scene whose box begins at `low` (m); all but `sent`. */
-void separable_faces_set(struct separable_faces *f, size_t i, const struct element *e,
+void separable_faces_set(const struct separable_faces *f, size_t i, const struct element *e,
                          const double low[3], double unit);
 
 /* A side that is the faces from .. to - 1, whose arrays it borrows, or one part of a face. */

@@ -7,6 +7,7 @@
 #include <string.h>
 #include "engine/pivots.h"
 #include "engine/separable_links.h"
+#include "util/thread_pool.h"
 
 #define INVERSE_PI 0.31830988618379067154
 
@@ -116,16 +117,26 @@ static void receive_below(const struct separable_links *c, int bands, uint32_t e
         receive_below(c, bands, x->child + (uint32_t)k, from, to);
 }
 
-static void receive_all(const struct separable_links *c, int bands)
+/* What all links bring and take while radiosities are as they are. */
+struct exchanged {
+    const struct separable_links *links;
+    int bands;
+    const double *radiosity; /* [element * bands + band]; NULL: 1 everywhere */
+};
+
+static void receive_faces(const void *exchanged, size_t from, size_t to)
 {
-    size_t count = c->hierarchy->face_count;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(c->threads)
-    for (size_t i = 0; i < count; i += CHUNK) {
-        size_t to = i + CHUNK < count ? i + CHUNK : count;
-        for (int k = 0; k < bands; k++)
-            memset(&c->received[(size_t)k * count + i], 0, (to - i) * sizeof *c->received);
-        receive_below(c, bands, 0, i, to);
-    }
+    const struct exchanged *x = exchanged;
+    const struct separable_links *c = x->links;
+    for (int k = 0; k < x->bands; k++)
+        memset(&c->received[(size_t)k * c->hierarchy->face_count + from], 0,
+               (to - from) * sizeof *c->received);
+    receive_below(c, x->bands, 0, from, to);
+}
+
+static void receive_all(const struct exchanged *x)
+{
+    thread_pool_run(x->links->threads, x->links->hierarchy->face_count, CHUNK, receive_faces, x);
 }
 
 /* A power of two that is at least the scene's extent. */
@@ -139,77 +150,119 @@ static double unit_of(const struct hierarchy *h)
     return ldexp(1, exponent);
 }
 
-int separable_links_open(struct separable_links *c, const struct hierarchy *h,
-                         const struct refinement *r, int bands, int threads, int centres)
+static void place_faces(const void *links, size_t from, size_t to)
 {
-    size_t n = 0, faces = h->face_count;
-    memset(c, 0, sizeof *c);
-    c->hierarchy = h;
-    for (size_t i = 0; i < r->link_count; i++)
-        n += (size_t)is_separable(h, &r->links[i]);
-    if (n == 0)
-        return 0;
-    c->bands = bands;
-    c->threads = threads;
-    c->centres = centres;
-    c->unit = unit_of(h);
-    c->elements = h->count;
-    c->links = malloc(n * sizeof *c->links);
-    c->first = malloc(((size_t)h->count + 1) * sizeof *c->first);
-    c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
-    c->received = malloc(faces * (size_t)bands * sizeof *c->received);
-    c->place = malloc(faces * sizeof *c->place);
-    c->faces.centre[0] = malloc((SEPARABLE_ARRAYS + (size_t)bands) * faces * sizeof(float));
-    if (!c->links || !c->first || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
-        separable_links_close(c);
-        return -1;
-    }
-    separable_faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
-    for (uint32_t e = 0; e < h->count; e++) {
-        c->first[e] = c->count;
-        for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
-            c->count += (size_t)is_separable(h, &r->links[i]);
-    }
-    c->first[h->count] = c->count;
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (size_t i = 0; i < faces; i++) {
+    const struct separable_links *c = links;
+    const struct hierarchy *h = c->hierarchy;
+    for (size_t i = from; i < to; i++) {
         c->place[h->order[i]] = (uint32_t)i;
         separable_faces_set(&c->faces, i, &h->elements[h->face_element[h->order[i]]], h->low,
                             c->unit);
     }
-#pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-    for (uint32_t e = 0; e < h->count; e++) {
+}
+
+/* Where separable links come from. */
+struct separating {
+    const struct separable_links *links;
+    const struct refinement *r;
+};
+
+/* How many each element receives over, into the place behind its own. */
+static void count_links(const void *separating, size_t begin, size_t end)
+{
+    const struct separable_links *c = ((const struct separating *)separating)->links;
+    const struct refinement *r = ((const struct separating *)separating)->r;
+    for (size_t e = begin; e < end; e++) {
+        c->first[e + 1] = 0;
+        for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++)
+            c->first[e + 1] += (size_t)is_separable(c->hierarchy, &r->links[i]);
+    }
+}
+
+static void separate_links(const void *separating, size_t begin, size_t end)
+{
+    const struct separable_links *c = ((const struct separating *)separating)->links;
+    const struct refinement *r = ((const struct separating *)separating)->r;
+    for (size_t e = begin; e < end; e++) {
         size_t at = c->first[e];
         for (size_t from = r->first_link[e]; from < r->first_link[e + 1]; from++)
-            if (is_separable(h, &r->links[from])) {
+            if (is_separable(c->hierarchy, &r->links[from])) {
                 separate_link(c, &c->links[at], &r->links[from]);
                 send_link(c, &c->links[at], 1, NULL, &c->arrives[at]);
                 at++;
             }
     }
-    receive_all(c, 1);
+}
+
+int separable_links_open(struct separable_links *c, const struct hierarchy *h,
+                         const struct refinement *r, int bands, int threads, int centres)
+{
+    const struct separating s = {c, r};
+    size_t n, faces = h->face_count;
+    memset(c, 0, sizeof *c);
+    c->hierarchy = h;
+    c->bands = bands;
+    c->threads = threads;
+    c->centres = centres;
+    c->unit = unit_of(h);
+    c->elements = h->count;
+    c->first = calloc((size_t)h->count + 1, sizeof *c->first);
+    if (!c->first)
+        return -1;
+    thread_pool_run(threads, h->count, 1024, count_links, &s);
+    for (uint32_t e = 0; e < h->count; e++)
+        c->first[e + 1] += c->first[e];
+    c->count = n = c->first[h->count];
+    if (n == 0) {
+        separable_links_close(c);
+        c->hierarchy = h;
+        return 0;
+    }
+    c->links = malloc(n * sizeof *c->links);
+    c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
+    c->received = malloc(faces * (size_t)bands * sizeof *c->received);
+    c->place = malloc(faces * sizeof *c->place);
+    c->faces.centre[0] = malloc((SEPARABLE_ARRAYS + (size_t)bands) * faces * sizeof(float));
+    if (!c->links || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
+        separable_links_close(c);
+        return -1;
+    }
+    separable_faces_arrays(&c->faces, c->faces.centre[0], faces, bands);
+    thread_pool_run(threads, faces, 256, place_faces, c);
+    thread_pool_run(threads, h->count, 256, separate_links, &s);
+    receive_all(&(struct exchanged){c, 1, NULL});
     return 0;
+}
+
+static void send_faces(const void *exchanged, size_t from, size_t to)
+{
+    const struct exchanged *x = exchanged;
+    const struct hierarchy *h = x->links->hierarchy;
+    const struct separable_faces *faces = &x->links->faces;
+    for (size_t i = from; i < to; i++) {
+        const double *radiosity =
+            &x->radiosity[(size_t)h->face_element[h->order[i]] * (size_t)x->bands];
+        for (int k = 0; k < x->bands; k++)
+            faces->sent[k][i] = faces->area[i] * (float)radiosity[k];
+    }
+}
+
+static void send_links(const void *exchanged, size_t from, size_t to)
+{
+    const struct exchanged *x = exchanged;
+    const struct separable_links *c = x->links;
+    for (size_t i = from; i < to; i++)
+        send_link(c, &c->links[i], x->bands, x->radiosity, &c->arrives[i * (size_t)x->bands]);
 }
 
 void separable_links_send(const struct separable_links *c, int bands, const double *radiosity)
 {
-    const struct hierarchy *h = c->hierarchy;
+    const struct exchanged x = {c, bands, radiosity};
     if (c->count == 0)
         return;
-#pragma omp parallel num_threads(c->threads)
-    {
-#pragma omp for schedule(static)
-        for (size_t i = 0; i < h->face_count; i++) {
-            uint32_t e = h->face_element[h->order[i]];
-            for (int k = 0; k < bands; k++)
-                c->faces.sent[k][i] =
-                    c->faces.area[i] * (float)radiosity[(size_t)e * (size_t)bands + (size_t)k];
-        }
-#pragma omp for schedule(dynamic, 256)
-        for (size_t i = 0; i < c->count; i++)
-            send_link(c, &c->links[i], bands, radiosity, &c->arrives[i * (size_t)bands]);
-    }
-    receive_all(c, bands);
+    thread_pool_run(c->threads, c->hierarchy->face_count, 1024, send_faces, &x);
+    thread_pool_run(c->threads, c->count, 256, send_links, &x);
+    receive_all(&x);
 }
 
 /* What face i of `faces` takes of the link's J. */

@@ -22,6 +22,7 @@
 #include "kernel/constants.h"
 #include "util/array.h"
 #include "util/clock.h"
+#include "util/thread_pool.h"
 #include "visibility/contact_fraction.h"
 #include "visibility/enclosure.h"
 
@@ -68,16 +69,32 @@ static int make_room(struct solve *s)
     return 0;
 }
 
+/* New elements. */
+struct contacts {
+    const struct hierarchy *h;
+    const struct rays *rays;
+    double *uncovered; /* [element] */
+    uint32_t first;    /* the first of them */
+};
+
+static void measure_leaves(const void *contacts, size_t from, size_t to)
+{
+    const struct contacts *c = contacts;
+    for (size_t i = c->first + from; i < c->first + to; i++) {
+        const struct element *e = &c->h->elements[i];
+        if (e->vertices && !e->children)
+            c->uncovered[i] = 1 - contact_fraction(c->rays, e);
+    }
+}
+
 /* Which share of each new leaf no solid stands on; from there up, means. `first`: the first new
  * element. */
 static void measure_contact(double *uncovered, const struct hierarchy *h, const struct problem *p,
                             uint32_t first)
 {
     const struct element *elements = h->elements;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(p->options.threads)
-    for (uint32_t i = first; i < h->count; i++)
-        if (elements[i].vertices && !elements[i].children)
-            uncovered[i] = 1 - contact_fraction(p->rays, &elements[i]);
+    const struct contacts contacts = {h, p->rays, uncovered, first};
+    thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
     for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
         if (!elements[i].children)
             continue;

@@ -16,6 +16,7 @@
 #include "engine/point_error.h"
 #include "engine/surface_error.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 /* Shares of the rays. Of the rest, 3 %, particles are made that show where light lands. */
 #define SHARE_PARTICLES 0.32
@@ -98,6 +99,28 @@ static void measure_point(const struct measurement *m, struct stage *stage, uint
         point->part = stands_for(m, stage, &point->place);
 }
 
+/* The points of a stage. */
+struct stage_points {
+    const struct measurement *measurement;
+    struct stage *stage;
+    uint64_t stream;
+    struct watched_loop *loop;
+    _Atomic uint64_t *rays;
+};
+
+static void measure_points(const void *points, size_t from, size_t to)
+{
+    const struct stage_points *p = points;
+    uint64_t rays = 0;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        if (watched_loop_stopped(p->loop))
+            continue;
+        measure_point(p->measurement, p->stage, i, p->stream, &rays);
+        watched_loop_tell(p->loop);
+    }
+    *p->rays += rays;
+}
+
 /* Measure `n` points, of each density its share. Returns 0, or -1 when out of memory or stopped;
  * the points are the caller's in any case. */
 static int measure_stage(struct measurement *m, struct stage *stage, double n,
@@ -109,16 +132,11 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
     stage->point = malloc(stage->count * sizeof *stage->point);
     if (!stage->point)
         return -1;
-    uint64_t rays = 0;
+    _Atomic uint64_t rays = 0;
     const struct watch part = {tell_part, m};
     struct watched_loop loop = {.watch = m->watch ? &part : NULL, .all = stage->count};
-#pragma omp parallel for schedule(dynamic, 16) num_threads(m->tracer->threads) reduction(+ : rays)
-    for (uint32_t i = 0; i < stage->count; i++) {
-        if (watched_loop_stopped(&loop))
-            continue;
-        measure_point(m, stage, i, stream, &rays);
-        watched_loop_tell(&loop);
-    }
+    const struct stage_points points = {m, stage, stream, &loop, &rays};
+    thread_pool_run(m->tracer->threads, stage->count, 16, measure_points, &points);
     m->rays += rays;
     for (uint32_t i = 0; i < stage->count && !loop.stopped; i++)
         stage->area += stage->point[i].part;

@@ -17,6 +17,7 @@
 #include "kernel/leaf_at.h"
 #include "particles/area_line.h"
 #include "particles/paths.h"
+#include "util/thread_pool.h"
 #include "visibility/contact_fraction.h"
 
 enum { POINTS = 4096, CANDIDATES = 48, TAIL = POINTS / 1000, BEYOND = 8, PATHS_MOST = 4096 };
@@ -71,20 +72,35 @@ static uint64_t measure_point(const struct tail *x, struct point *point, uint64_
     return rays;
 }
 
+struct stage_points {
+    const struct tail *tail;
+    struct point *points;
+    uint64_t stage;
+    uint32_t paths;
+    struct watched_loop *loop;
+    _Atomic uint64_t *rays;
+};
+
+static void measure_some(const void *points, size_t from, size_t to)
+{
+    const struct stage_points *p = points;
+    for (size_t i = from; i < to; i++) {
+        if (watched_loop_stopped(p->loop))
+            continue;
+        if (p->points[i].leaf != UINT32_MAX)
+            *p->rays += measure_point(p->tail, &p->points[i], p->stage, p->paths);
+        watched_loop_tell(p->loop);
+    }
+}
+
 /* Measure points of a stage. Returns the rays cast, or UINT64_MAX when stopped. */
 static uint64_t measure_points(const struct tail *x, struct point *points, uint32_t count,
                                uint64_t stage, uint32_t paths, const struct watch *watch)
 {
-    uint64_t rays = 0;
+    _Atomic uint64_t rays = 0;
     struct watched_loop loop = {.watch = watch, .all = count};
-#pragma omp parallel for schedule(dynamic, 16) num_threads(x->tracer->threads) reduction(+ : rays)
-    for (uint32_t i = 0; i < count; i++) {
-        if (watched_loop_stopped(&loop))
-            continue;
-        if (points[i].leaf != UINT32_MAX)
-            rays += measure_point(x, &points[i], stage, paths);
-        watched_loop_tell(&loop);
-    }
+    const struct stage_points all = {x, points, stage, paths, &loop, &rays};
+    thread_pool_run(x->tracer->threads, count, 16, measure_some, &all);
     return loop.stopped ? UINT64_MAX : rays;
 }
 

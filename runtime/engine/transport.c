@@ -35,6 +35,7 @@
 #include "engine/transport.h"
 #include "engine/variation.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 enum { BLOCKS = 16, LINKS_WORTH_THREADS = 1 << 16 };
 
@@ -45,39 +46,55 @@ void transport_average(const struct light_operator *op, struct transport *x)
             element_average(op, x, e);
 }
 
+/* Of one block. */
+struct block {
+    const struct light_operator *op;
+    const struct transport *x;
+    struct change *change;   /* [face of the block] */
+    const uint32_t *element; /* [face of the block] */
+};
+
+static void gather_faces(const void *block, size_t from, size_t to)
+{
+    const struct block *b = block;
+    for (size_t i = from; i < to; i++)
+        face_gather(b->op, b->x, b->element[i]);
+}
+
+static void update_faces(const void *block, size_t from, size_t to)
+{
+    const struct block *b = block;
+    for (size_t i = from; i < to; i++)
+        face_update(b->op, b->x, b->element[i], &b->change[i]);
+}
+
 /* One sweep over all faces. change: [face]. */
 static void sweep(const struct light_operator *op, const struct transport *x, struct change *change)
 {
     const struct solve_options *o = &op->problem->options;
-    const uint32_t *element = op->hierarchy->face_element, faces = op->hierarchy->face_count;
-    int whole = o->solver == RAD_SOLVER_JACOBI || o->solver == RAD_SOLVER_SOUTHWELL;
+    uint32_t faces = op->hierarchy->face_count;
+    int whole = o->solver == RAD_SOLVER_JACOBI || o->solver == RAD_SOLVER_SOUTHWELL,
+        threads = op->refinement->link_count > LINKS_WORTH_THREADS ? o->threads : 1;
     uint32_t blocks = whole ? 1 : faces < BLOCKS ? faces : BLOCKS;
     separable_links_send(&op->separable, (int)x->bands, x->value);
-#pragma omp parallel num_threads(o->threads) if (op->refinement->link_count > LINKS_WORTH_THREADS)
-    for (uint32_t block = 0; block < blocks; block++) {
-        uint32_t from = (uint32_t)((uint64_t)faces * block / blocks),
-                 to = (uint32_t)((uint64_t)faces * (block + 1) / blocks);
-#pragma omp for schedule(dynamic, 8)
-        for (uint32_t i = from; i < to; i++)
-            face_gather(op, x, element[i]);
-#pragma omp for schedule(dynamic, 64)
-        for (uint32_t i = from; i < to; i++)
-            face_update(op, x, element[i], &change[i]);
+    for (uint32_t i = 0; i < blocks; i++) {
+        uint32_t from = (uint32_t)((uint64_t)faces * i / blocks),
+                 to = (uint32_t)((uint64_t)faces * (i + 1) / blocks);
+        const struct block b = {op, x, change + from, op->hierarchy->face_element + from};
+        thread_pool_run(threads, to - from, 8, gather_faces, &b);
+        thread_pool_run(threads, to - from, 64, update_faces, &b);
     }
 }
 
 /* Residual and bound after a sweep. */
-static void measure(const struct light_operator *op, struct transport *x,
-                    const struct change *change)
+static void measure(struct transport *x, const struct change *change, uint32_t faces)
 {
-    const struct hierarchy *h = op->hierarchy;
     struct change all = {0};
     double power = 0, left = 0;
-    for (uint32_t i = 0; i < h->face_count; i++) {
-        uint32_t e = h->face_element[i];
+    for (uint32_t i = 0; i < faces; i++) {
         all.moved += change[i].moved;
         for (uint32_t k = 0; k < x->bands; k++) {
-            power += h->elements[e].area * op->uncovered[e] * x->value[(size_t)e * x->bands + k];
+            power += change[i].power[k];
             all.most[k] = fmax(all.most[k], change[i].most[k]);
             all.sum[k] += change[i].sum[k];
         }
@@ -126,7 +143,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
         if (shooter)
             southwell_keep(shooter, op, x);
         sweep(op, x, change);
-        measure(op, x, change);
+        measure(x, change, op->hierarchy->face_count);
         x->sweeps++;
         double left = left_of(op, x, rho);
         x->converged = left <= 1;

@@ -14,11 +14,13 @@
  * [Gauss; the solid angle of a triangle: Van Oosterom and Strackee 1983; the test: derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 #include "engine/winding.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "kernel/lambert.h"
+#include "util/thread_pool.h"
 
 enum { PLACES = 3 };
 /* solid angles; as many take a second or two */
@@ -88,12 +90,35 @@ static void numbers_before(const struct hierarchy *h, const struct element *e, d
     }
 }
 
+struct numbering {
+    const struct hierarchy *h;
+    const double *uncovered; /* [element] */
+    double offset;           /* m */
+    unsigned char *closed;   /* [element] */
+    atomic_int *nested;
+};
+
+static void number_leaves(const void *numbering, size_t from, size_t to)
+{
+    const struct numbering *n = numbering;
+    for (size_t i = from; i < to; i++) {
+        const struct element *e = &n->h->elements[i];
+        double range[2];
+        if (!e->vertices || e->children)
+            continue;
+        numbers_before(n->h, e, n->offset, range);
+        n->closed[i] = range[0] > 0.5 && range[1] < 1.5;
+        if (range[1] > 1.5 && n->uncovered[i] > 0)
+            *n->nested = 1;
+    }
+}
+
 void winding_closed(const struct hierarchy *h, const double *uncovered, int threads,
                     unsigned char *closed)
 {
     double extent = 0;
     size_t leaves = 0;
-    int nested = 0;
+    atomic_int nested = 0;
     memset(closed, 0, h->count);
     for (int k = 0; k < 3; k++)
         extent = fmax(extent, h->high[k] - h->low[k]);
@@ -101,16 +126,8 @@ void winding_closed(const struct hierarchy *h, const double *uncovered, int thre
         leaves += h->elements[i].vertices && !h->elements[i].children;
     if ((double)leaves * 5 * h->face_count > WINDING_WORK || !bounds_volumes(h))
         return;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(threads) reduction(| : nested)
-    for (uint32_t i = 0; i < h->count; i++) {
-        const struct element *e = &h->elements[i];
-        double range[2];
-        if (!e->vertices || e->children)
-            continue;
-        numbers_before(h, e, RAY_OFFSET * extent, range);
-        closed[i] = range[0] > 0.5 && range[1] < 1.5;
-        nested |= range[1] > 1.5 && uncovered[i] > 0;
-    }
+    const struct numbering n = {h, uncovered, RAY_OFFSET * extent, closed, &nested};
+    thread_pool_run(threads, h->count, 16, number_leaves, &n);
     if (nested)
         memset(closed, 0, h->count);
 }

@@ -11,6 +11,7 @@
 #include "hierarchy/bvh_strategy.h"
 #include "kernel/constants.h"
 #include "hierarchy/hierarchy.h"
+#include "util/thread_pool.h"
 
 /* Nodes divided between two serial steps; items above which all threads share one. */
 enum { BLOCK = 4096, LARGE = 1 << 16 };
@@ -116,10 +117,10 @@ static int divide(const struct build *b, const struct strategy *s, const struct 
     return n < 2 ? halve(whole, parts) : n;
 }
 
-static void take_items(struct build *b)
+static void take_items(const void *build, size_t from, size_t to)
 {
-#pragma omp parallel for schedule(static) num_threads(b->threads)
-    for (uint32_t i = 0; i < b->count; i++) {
+    const struct build *b = build;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
         const struct face *f = &b->faces[i];
         struct item *x = &b->items[i];
         memcpy(x->box.low, f->vertex[0], sizeof x->box.low);
@@ -147,6 +148,22 @@ struct block {
     int *found;                      /* [BLOCK]: how many */
 };
 
+struct dividing {
+    const struct build *b;
+    const struct strategy *s;
+    const struct part *open;
+    const struct block *block;
+    uint32_t depth;
+};
+
+static void divide_parts(const void *dividing, size_t from, size_t to)
+{
+    const struct dividing *d = dividing;
+    for (size_t i = from; i < to; i++)
+        if (!d->block->found[i])
+            d->block->found[i] = divide(d->b, d->s, &d->open[i], d->block->parts[i], d->depth, 1);
+}
+
 /* Divide n open parts: large ones one after the other, by all threads, then the others side by
  * side. */
 static void divide_block(const struct build *b, const struct strategy *s, const struct part *open,
@@ -156,10 +173,8 @@ static void divide_block(const struct build *b, const struct strategy *s, const 
         block->found[i] = open[i].to - open[i].from > LARGE
                               ? divide(b, s, &open[i], block->parts[i], depth, b->threads)
                               : 0;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(b->threads)
-    for (uint32_t i = 0; i < n; i++)
-        if (!block->found[i])
-            block->found[i] = divide(b, s, &open[i], block->parts[i], depth, 1);
+    const struct dividing d = {b, s, open, block, depth};
+    thread_pool_run(b->threads, n, 16, divide_parts, &d);
 }
 
 /* Append the children of a node; those of two items and more are for the next level. */
@@ -267,7 +282,7 @@ int bvh_build(struct bvh *t, const struct face *faces, uint32_t count, enum clus
     t->nodes = malloc(2 * (size_t)count * sizeof *t->nodes);
     if (!b.items || !b.scratch || !t->nodes)
         goto done;
-    take_items(&b);
+    thread_pool_run(threads, count, 1024, take_items, &b);
     if (s->open && s->open(&b) < 0)
         goto done;
     result = grow(t, &b, s);

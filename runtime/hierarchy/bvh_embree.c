@@ -15,6 +15,7 @@
 #include "hierarchy/bvh_strategy.h"
 #include "util/embree.h"
 #include "hierarchy/hierarchy.h"
+#include "util/thread_pool.h"
 
 /* FANOUT: children of a node at the most. DEEPEST: Embree counts levels down to it and is done
  * long before. */
@@ -150,24 +151,36 @@ static void split(const struct RTCBuildPrimitive *p, unsigned axis, float positi
     set(right, &side[1]);
 }
 
-static struct RTCBuildPrimitive *primitives(const struct builder *a, size_t room)
+struct primitives {
+    const struct builder *builder;
+    struct RTCBuildPrimitive *list;
+};
+
+static void make_primitives(const void *primitives, size_t from, size_t to)
 {
-    const struct build *b = a->b;
-    struct RTCBuildPrimitive *list = aligned_alloc(32, room * sizeof *list);
-    if (!list)
-        return NULL;
-#pragma omp parallel for schedule(static) num_threads(b->threads)
-    for (uint32_t i = 0; i < b->count; i++) {
+    const struct builder *a = ((const struct primitives *)primitives)->builder;
+    struct RTCBuildPrimitive *list = ((const struct primitives *)primitives)->list;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        const struct item *x = &a->b->items[i];
         struct bounds box;
         for (int k = 0; k < 3; k++) {
-            box.low[k] = (b->items[i].box.low[k] - a->origin[k]) * a->scale;
-            box.high[k] = (b->items[i].box.high[k] - a->origin[k]) * a->scale;
+            box.low[k] = (x->box.low[k] - a->origin[k]) * a->scale;
+            box.high[k] = (x->box.high[k] - a->origin[k]) * a->scale;
         }
         struct RTCBounds r;
         set(&r, &box);
         list[i] = (struct RTCBuildPrimitive){r.lower_x, r.lower_y, r.lower_z, 0,
                                              r.upper_x, r.upper_y, r.upper_z, i};
     }
+}
+
+static struct RTCBuildPrimitive *primitives(const struct builder *a, size_t room)
+{
+    const struct build *b = a->b;
+    struct RTCBuildPrimitive *list = aligned_alloc(32, room * sizeof *list);
+    if (!list)
+        return NULL;
+    thread_pool_run(b->threads, b->count, 1024, make_primitives, &(struct primitives){a, list});
     return list;
 }
 

@@ -9,9 +9,10 @@
 #include <math.h>
 #include <string.h>
 #include "hierarchy/bvh_strategy.h"
+#include "util/thread_pool.h"
 
 /* ALONE: items below which more threads do not pay. */
-enum { BINS = 16, SHARES = 64, ALONE = 1 << 16 };
+enum { BINS = 16, SHARES = 32, ALONE = 1 << 16 };
 
 /* The slices of one axis. A slice that holds nothing has no box. */
 struct slices {
@@ -164,53 +165,88 @@ static uint32_t cut_alone(const struct build *b, uint32_t from, uint32_t to, int
     return from + left;
 }
 
-/* The same by many threads, each step in shares. */
+/* One cut by many threads: each step is done in shares, by one thread each, and what shares find is
+ * joined in their order. */
+struct together {
+    const struct build *b;
+    struct bounds range;                /* of all centres */
+    struct border border;               /* where it is cut */
+    uint32_t first[SHARES + 1], middle; /* of each share; of the right side */
+    struct share {
+        struct bounds range;
+        struct slices slices[3];
+        uint32_t left; /* items left of the border */
+    } * share;         /* [SHARES] */
+};
+
+static void find_centres(const void *together, size_t from, size_t to)
+{
+    const struct together *t = together;
+    for (size_t s = from; s < to; s++)
+        centres(t->b, t->first[s], t->first[s + 1], &t->share[s].range);
+}
+
+static void fill_slices(const void *together, size_t from, size_t to)
+{
+    const struct together *t = together;
+    for (size_t s = from; s < to; s++)
+        fill(t->b, t->first[s], t->first[s + 1], &t->range, t->share[s].slices);
+}
+
+static void count_shares(const void *together, size_t from, size_t to)
+{
+    const struct together *t = together;
+    for (size_t s = from; s < to; s++)
+        t->share[s].left = count_left(t->b, t->first[s], t->first[s + 1], &t->border);
+}
+
+static void part_shares(const void *together, size_t from, size_t to)
+{
+    const struct together *t = together;
+    for (size_t s = from; s < to; s++) {
+        uint32_t l = t->first[0];
+        for (size_t j = 0; j < s; j++)
+            l += t->share[j].left;
+        part_items(t->b, t->first[s], t->first[s + 1], &t->border, l,
+                   t->middle + (t->first[s] - l));
+    }
+}
+
+static void take_back_shares(const void *together, size_t from, size_t to)
+{
+    const struct together *t = together;
+    for (size_t s = from; s < to; s++)
+        take_back(t->b, t->first[s], t->first[s + 1]);
+}
+
 static uint32_t cut_together(const struct build *b, uint32_t from, uint32_t to, int full,
                              int threads)
 {
-    struct bounds range, share_range[SHARES];
-    uint32_t first[SHARES + 1], left[SHARES], middle = from;
-    int k, j;
-    for (int s = 0; s <= SHARES; s++)
-        first[s] = from + (uint32_t)((uint64_t)(to - from) * (uint64_t)s / SHARES);
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (int s = 0; s < SHARES; s++)
-        centres(b, first[s], first[s + 1], &share_range[s]);
-    range = share_range[0];
-    for (int s = 1; s < SHARES; s++)
-        bounds_add(&range, &share_range[s]);
+    struct share share[SHARES];
+    struct together t = {.b = b, .share = share, .middle = from};
     struct slices slices[3];
-    for (k = 0; k < 3; k++)
+    for (int s = 0; s <= SHARES; s++)
+        t.first[s] = from + (uint32_t)((uint64_t)(to - from) * (uint64_t)s / SHARES);
+    thread_pool_run(threads, SHARES, 1, find_centres, &t);
+    t.range = share[0].range;
+    for (int s = 1; s < SHARES; s++)
+        bounds_add(&t.range, &share[s].range);
+    for (int k = 0; k < 3; k++)
         memset(slices[k].count, 0, sizeof slices[k].count);
-#pragma omp parallel for schedule(dynamic) num_threads(threads) private(k, j)
-    for (int s = 0; s < SHARES; s++) {
-        struct slices mine[3];
-        fill(b, first[s], first[s + 1], &range, mine);
-#pragma omp critical(build_sah)
-        for (k = 0; k < 3; k++)
-            for (j = 0; j < BINS; j++)
-                if (mine[k].count[j])
-                    put(&slices[k], j, mine[k].count[j], &mine[k].box[j]);
-    }
-    struct border c;
-    if (!choose(slices, &range, to - from, full, &c))
+    thread_pool_run(threads, SHARES, 1, fill_slices, &t);
+    for (int s = 0; s < SHARES; s++)
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < BINS; j++)
+                if (share[s].slices[k].count[j])
+                    put(&slices[k], j, share[s].slices[k].count[j], &share[s].slices[k].box[j]);
+    if (!choose(slices, &t.range, to - from, full, &t.border))
         return from + (to - from) / 2;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    thread_pool_run(threads, SHARES, 1, count_shares, &t);
     for (int s = 0; s < SHARES; s++)
-        left[s] = count_left(b, first[s], first[s + 1], &c);
-    for (int s = 0; s < SHARES; s++)
-        middle += left[s];
-#pragma omp parallel for schedule(dynamic) num_threads(threads) private(j)
-    for (int s = 0; s < SHARES; s++) {
-        uint32_t l = from;
-        for (j = 0; j < s; j++)
-            l += left[j];
-        part_items(b, first[s], first[s + 1], &c, l, middle + (first[s] - l));
-    }
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (int s = 0; s < SHARES; s++)
-        take_back(b, first[s], first[s + 1]);
-    return middle;
+        t.middle += share[s].left;
+    thread_pool_run(threads, SHARES, 1, part_shares, &t);
+    thread_pool_run(threads, SHARES, 1, take_back_shares, &t);
+    return t.middle;
 }
 
 static uint32_t cut(const struct build *b, uint32_t from, uint32_t to, int full, int threads)

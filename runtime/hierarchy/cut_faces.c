@@ -22,10 +22,9 @@
 #include "hierarchy/cut_faces.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <omp.h>
 
 #include "geometry.h"
 #include "hierarchy/bvh.h"
@@ -33,6 +32,7 @@
 #include "hierarchy/polygon.h"
 #include "kernel/constants.h"
 #include "util/array.h"
+#include "util/thread_pool.h"
 
 enum { FEW = 2048 }; /* faces for which one thread does */
 /* of one face at the most, before polygons become quads; of one part */
@@ -325,11 +325,26 @@ static int replace_faces(struct scene *scene, const struct cutter *cutters, int 
     return 0;
 }
 
+struct all_cutters {
+    const struct scene *scene;
+    struct cutter *cutters; /* [thread] */
+    atomic_int *failed;
+};
+
+static void cut_some(const void *all, size_t from, size_t to)
+{
+    const struct all_cutters *c = all;
+    for (uint32_t i = (uint32_t)from; i < to; i++)
+        if (!*c->failed && !(i > 0 && is_pair(c->scene, i - 1))
+            && cut_face(&c->cutters[thread_pool_number()], i) < 0)
+            *c->failed = 1;
+}
+
 int scene_cut(struct scene *scene, int threads)
 {
     if (!scene->face_count)
         return 0;
-    threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : omp_get_max_threads();
+    threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : thread_pool_processors();
     struct bvh tree;
     struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
     if (!cutters
@@ -341,11 +356,10 @@ int scene_cut(struct scene *scene, int threads)
         cutters[t].scene = scene;
         cutters[t].tree = &tree;
     }
-    int status = 0;
-#pragma omp parallel for schedule(dynamic, 256) num_threads(threads) reduction(| : status)
-    for (uint32_t i = 0; i < scene->face_count; i++)
-        if (!status && !(i > 0 && is_pair(scene, i - 1)))
-            status |= cut_face(&cutters[omp_get_thread_num()], i) < 0;
+    atomic_int failed = 0;
+    const struct all_cutters all = {scene, cutters, &failed};
+    thread_pool_run(threads, scene->face_count, 256, cut_some, &all);
+    int status = failed;
     if (!status)
         status = replace_faces(scene, cutters, threads) < 0;
     for (int t = 0; t < threads; t++) {

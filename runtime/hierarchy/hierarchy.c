@@ -12,6 +12,7 @@
 #include "kernel/hash.h"
 #include "kernel/surface.h"
 #include "util/array.h"
+#include "util/thread_pool.h"
 
 /* What stands for a parent in the identities of faces, wherever the clusters put them. */
 #define FACES 0x2545f4914f6cdd1du
@@ -98,6 +99,36 @@ static void place_elements(struct hierarchy *h, const struct bvh *t)
     }
 }
 
+struct measuring {
+    struct hierarchy *h;
+    const struct bvh *t;
+    struct face_share *share; /* [face in the tree's order] */
+};
+
+static void make_faces(const void *measuring, size_t from, size_t to)
+{
+    const struct measuring *m = measuring;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        const struct bvh_node *n = &m->t->nodes[i];
+        if (n->children)
+            continue;
+        make_face(m->h, i, m->t->order[n->from]);
+        const struct element *e = &m->h->elements[i];
+        struct face_share *s = &m->share[n->from];
+        memcpy(s->normal, e->normal, sizeof s->normal);
+        s->area = e->area;
+        s->black = e->black;
+    }
+}
+
+static void measure_clusters(const void *measuring, size_t from, size_t to)
+{
+    const struct measuring *m = measuring;
+    for (size_t i = from; i < to; i++)
+        if (m->t->nodes[i].children)
+            element_measure_cluster(&m->h->elements[i], m->share, &m->t->boxes[i], m->h->range[i]);
+}
+
 int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t face_count,
                        enum clustering strategy, int threads)
 {
@@ -118,21 +149,9 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
     memcpy(h->low, t.boxes[0].low, sizeof h->low);
     memcpy(h->high, t.boxes[0].high, sizeof h->high);
     place_elements(h, &t);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (uint32_t i = 0; i < t.count; i++) {
-        const struct element *e = &h->elements[i];
-        struct face_share *s = &share[t.nodes[i].from];
-        if (t.nodes[i].children)
-            continue;
-        make_face(h, i, t.order[t.nodes[i].from]);
-        memcpy(s->normal, e->normal, sizeof s->normal);
-        s->area = e->area;
-        s->black = e->black;
-    }
-#pragma omp parallel for schedule(dynamic, 64) num_threads(threads)
-    for (uint32_t i = 0; i < t.count; i++)
-        if (t.nodes[i].children)
-            element_measure_cluster(&h->elements[i], share, &t.boxes[i], h->range[i]);
+    const struct measuring m = {h, &t, share};
+    thread_pool_run(threads, t.count, 256, make_faces, &m);
+    thread_pool_run(threads, t.count, 64, measure_clusters, &m);
     h->order = t.order;
     t.order = NULL;
     result = 0;

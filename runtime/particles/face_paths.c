@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
-#include <omp.h>
 #include "particles/face_paths.h"
 #include "particles/paths.h"
 
@@ -72,13 +71,25 @@ static void add(struct face_paths *p, const struct block *b)
     }
 }
 
+struct blocks {
+    const struct tracer *t;
+    struct block *blocks;
+    uint64_t stream;
+};
+
+static void trace_blocks(const void *blocks, size_t from, size_t to)
+{
+    const struct blocks *b = blocks;
+    for (size_t i = from; i < to; i++)
+        trace(&b->blocks[i], b->t, b->stream);
+}
+
 /* Trace the blocks, then add them in their order. Returns 0, or -1 when stopped. */
 static int flush(struct face_paths *p, const struct tracer *t, struct block *blocks, int count,
                  const struct watch *watch, double share)
 {
-#pragma omp parallel for schedule(dynamic, 16) num_threads(t->threads)
-    for (int i = 0; i < count; i++)
-        trace(&blocks[i], t, p->stream);
+    const struct blocks all = {t, blocks, p->stream};
+    thread_pool_run(t->threads, (size_t)count, 16, trace_blocks, &all);
     for (int i = 0; i < count; i++)
         add(p, &blocks[i]);
     return watch && watch->tell(watch->context, share) ? -1 : 0;

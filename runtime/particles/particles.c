@@ -45,9 +45,9 @@ struct batch {
 static void count(struct tally *tally, const struct tracer *t, uint32_t face, const double at[3],
                   const double share[3], struct batch *batch)
 {
-    int64_t *to_face =
+    _Atomic int64_t *to_face =
         &tally->face[((size_t)batch->replicate * tally->faces + face) * tally->bands];
-    int64_t *to_leaf = NULL;
+    _Atomic int64_t *to_leaf = NULL;
     if (tally->element) {
         double weight[4];
         uint32_t leaf =
@@ -58,10 +58,8 @@ static void count(struct tally *tally, const struct tracer *t, uint32_t face, co
         int64_t w = (int64_t)(share[k] * PARTICLE_ONE + 0.5);
         batch->first[k] += w;
         batch->second[k] += (int64_t)(share[k] * share[k] * PARTICLE_ONE + 0.5);
-#pragma omp atomic
         to_face[k] += w;
         if (to_leaf)
-#pragma omp atomic
             to_leaf[k] += w;
     }
 }
@@ -102,39 +100,61 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
     }
 }
 
+/* What batches come to. */
+struct sums {
+    _Atomic uint64_t rays;
+    _Atomic int64_t first[3], second[3];
+};
+
+/* Particles from .. to - 1 of every replicate, in batches, each of one replicate. */
+struct batches {
+    struct tally *tally;
+    const struct tracer *t;
+    const struct sobol_sequence *sobol;
+    uint64_t from, to;
+    struct watched_loop *loop;
+    struct sums *sums;
+};
+
+static void trace_batches(const void *batches, size_t begin, size_t end)
+{
+    const struct batches *all = batches;
+    for (uint64_t b = begin; b < end; b++) {
+        struct batch batch = {.sobol = all->sobol, .replicate = (int)(b % REPLICATES)};
+        uint64_t low = all->from + b / REPLICATES * BATCH,
+                 high = low + BATCH < all->to ? low + BATCH : all->to,
+                 set = all->tally->stream * REPLICATES + (uint64_t)batch.replicate;
+        if (watched_loop_stopped(all->loop))
+            continue;
+        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
+            batch.shift[d] = (uint32_t)(hash64(set * SOBOL_DIMENSIONS + (uint64_t)d + 1) >> 32);
+        for (uint64_t i = low; i < high; i++)
+            trace(all->tally, all->t, i, &batch);
+        all->sums->rays += batch.rays;
+        for (int k = 0; k < 3; k++) {
+            all->sums->first[k] += batch.first[k];
+            all->sums->second[k] += batch.second[k];
+        }
+        watched_loop_tell(all->loop);
+    }
+}
+
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
                 const struct watch *watch)
 {
     uint64_t from = tally->particles, to = from + particles,
-             all = (particles + BATCH - 1) / BATCH * REPLICATES, rays = 0;
-    int64_t first[3] = {0, 0, 0}, second[3] = {0, 0, 0};
+             count = (particles + BATCH - 1) / BATCH * REPLICATES;
     tally->particles = to;
     if (!(tally->power > 0))
         return 0;
     struct sobol_sequence sobol;
     sobol_sequence_open(&sobol);
-    struct watched_loop loop = {.watch = watch, .all = all};
-#pragma omp parallel for schedule(dynamic, 1) num_threads(t->threads)                              \
-    reduction(+ : rays, first[ : 3], second[ : 3])
-    for (uint64_t b = 0; b < all; b++) {
-        struct batch batch = {.sobol = &sobol, .replicate = (int)(b % REPLICATES)};
-        uint64_t low = from + b / REPLICATES * BATCH, high = low + BATCH < to ? low + BATCH : to,
-                 set = tally->stream * REPLICATES + (uint64_t)batch.replicate;
-        if (watched_loop_stopped(&loop))
-            continue;
-        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
-            batch.shift[d] = (uint32_t)(hash64(set * SOBOL_DIMENSIONS + (uint64_t)d + 1) >> 32);
-        for (uint64_t i = low; i < high; i++)
-            trace(tally, t, i, &batch);
-        rays += batch.rays;
-        for (int k = 0; k < 3; k++) {
-            first[k] += batch.first[k];
-            second[k] += batch.second[k];
-        }
-        watched_loop_tell(&loop);
-    }
-    tally->rays += rays;
+    struct watched_loop loop = {.watch = watch, .all = count};
+    struct sums sums = {0};
+    const struct batches all = {tally, t, &sobol, from, to, &loop, &sums};
+    thread_pool_run(t->threads, count, 1, trace_batches, &all);
+    tally->rays += sums.rays;
     for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
-        tally->square[k] = first[k] > 0 ? (double)second[k] / (double)first[k] : 0;
+        tally->square[k] = sums.first[k] > 0 ? (double)sums.second[k] / (double)sums.first[k] : 0;
     return loop.stopped ? -1 : 0;
 }

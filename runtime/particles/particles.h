@@ -26,13 +26,14 @@ enum { REPLICATES = 16 };
 
 struct tally {
     uint32_t faces, elements, bands;
-    uint64_t stream;    /* which random numbers: tallies of two streams are independent */
-    uint64_t particles; /* of each replicate, so far */
-    uint64_t rays;      /* cast for them */
-    double power;       /* of all emitters (W), all bands */
-    int64_t *face;      /* [REPLICATES][faces * bands + band] */
-    int64_t *element;   /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
-    double *square;     /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+    uint64_t stream;       /* which random numbers: tallies of two streams are independent */
+    uint64_t particles;    /* of each replicate, so far */
+    uint64_t rays;         /* cast for them */
+    double power;          /* of all emitters (W), all bands */
+    _Atomic int64_t *face; /* [REPLICATES][faces * bands + band] */
+    _Atomic int64_t
+        *element;   /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
+    double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
 };
 
 /* Empty, over the elements of a hierarchy as it is now (leaves: 1: count on them, too). Returns 0,

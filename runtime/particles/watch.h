@@ -4,7 +4,8 @@
 #define WATCH_H
 
 #include <stdint.h>
-#include <omp.h>
+#include <stdatomic.h>
+#include "util/thread_pool.h"
 
 /* Called now and then with the share that is done, by the thread that called in; nonzero stops. */
 struct watch {
@@ -15,30 +16,24 @@ struct watch {
 /* A parallel loop over `all` parts. */
 struct watched_loop {
     const struct watch *watch; /* NULL: nobody asks */
-    uint64_t all, done;
-    int stopped;
+    uint64_t all;
+    _Atomic uint64_t done;
+    atomic_int stopped;
 };
 
 /* Before each part: 1: leave it out. */
 static inline int watched_loop_stopped(const struct watched_loop *loop)
 {
-    int stopped;
-#pragma omp atomic read
-    stopped = loop->stopped;
-    return stopped;
+    return loop->stopped;
 }
 
 /* After each part. */
 static inline void watched_loop_tell(struct watched_loop *loop)
 {
-    uint64_t done;
-#pragma omp atomic capture
-    done = ++loop->done;
-    if (loop->watch && omp_get_thread_num() == 0
-        && loop->watch->tell(loop->watch->context, (double)done / (double)loop->all)) {
-#pragma omp atomic write
+    uint64_t done = ++loop->done;
+    if (loop->watch && thread_pool_number() == 0
+        && loop->watch->tell(loop->watch->context, (double)done / (double)loop->all))
         loop->stopped = 1;
-    }
 }
 
 #endif

@@ -20,6 +20,7 @@
 #include "kernel/hash.h"
 #include "kernel/hemisphere.h"
 #include "kernel/surface_point.h"
+#include "util/thread_pool.h"
 
 enum { WALKS = 1024, LENGTH = 256, SIDE = 4, AROUND = 64 };
 
@@ -62,24 +63,38 @@ static int walk_light(const struct rays *rays, uint32_t walk, const struct eleme
     return i;
 }
 
+struct walks {
+    const struct rays *rays;
+    const struct hierarchy *h;
+    uint32_t start[WALKS]; /* faces */
+    _Atomic int64_t *taken, *ends;
+};
+
+static void walk_some(const void *walks, size_t from, size_t to)
+{
+    const struct walks *w = walks;
+    for (size_t i = from; i < to; i++) {
+        int ended;
+        *w->taken += walk_light(w->rays, (uint32_t)i,
+                                &w->h->elements[w->h->face_element[w->start[i]]], &ended);
+        *w->ends += ended;
+    }
+}
+
 int enclosure_decide(const struct rays *rays, const struct hierarchy *h, const double *exitance,
                      int threads, uint64_t *steps)
 {
-    uint32_t start[WALKS] = {0}, count = 0, next = 0, w = 0;
-    int64_t taken = 0, ends = 0;
+    uint32_t count = 0, next = 0, w = 0;
+    _Atomic int64_t taken = 0, ends = 0;
+    struct walks walks = {.rays = rays, .h = h, .taken = &taken, .ends = &ends};
     for (uint32_t i = 0; i < h->face_count; i++)
         count += exitance[i] > 0;
     for (uint32_t i = 0; i < h->face_count; i++) { /* shared out evenly */
         next += exitance[i] > 0;
         while (w < WALKS && (uint64_t)w * count / WALKS < next)
-            start[w++] = i;
+            walks.start[w++] = i;
     }
-#pragma omp parallel for schedule(dynamic, 16) num_threads(threads) reduction(+ : taken, ends)
-    for (uint32_t i = 0; i < w; i++) {
-        int ended;
-        taken += walk_light(rays, i, &h->elements[h->face_element[start[i]]], &ended);
-        ends += ended;
-    }
+    thread_pool_run(threads, w, 16, walk_some, &walks);
     *steps = (uint64_t)taken;
     return taken > 0 && (double)ends <= ENCLOSURE_CRACKS * (double)taken;
 }

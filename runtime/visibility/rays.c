@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <omp.h>
 #include "visibility/back_faces.h"
 #include "visibility/candidates.h"
 #include "util/embree.h"
+#include "util/thread_pool.h"
 #include "kernel/constants.h"
 #include "visibility/rays.h"
 
@@ -23,8 +23,8 @@ enum { PACKET = 16 };
 /* Counters of a thread, alone on their cache lines. A thread that a program brings itself may have
  * any number, so threads may share a tally; they add to it one at a time. */
 struct tally {
-    uint64_t rays;
-    uint64_t nanoseconds;
+    _Atomic uint64_t rays;
+    _Atomic uint64_t nanoseconds;
     char pad[112];
 };
 
@@ -50,7 +50,7 @@ static uint64_t now(void)
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct rays *rays = (const struct rays *)(const void *)host;
-    struct tally *tally = &rays->tallies[omp_get_thread_num() % rays->threads];
+    struct tally *tally = &rays->tallies[thread_pool_number() % rays->threads];
     uint64_t hits = 0, inside = 0;
     for (int first = 0; first < count; first += PACKET) {
         int n = count - first < PACKET ? count - first : PACKET;
@@ -93,9 +93,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
         for (int i = 0; i < n; i++)
             hits |= (uint64_t)(packet.tfar[i] < 0) << (first + i); /* Embree: -inf when occluded */
     }
-#pragma omp atomic
     tally->rays += (uint64_t)count;
-#pragma omp atomic
     tally->nanoseconds += inside;
     return hits;
 }

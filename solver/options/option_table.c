@@ -159,6 +159,7 @@ static int read_basis(struct options *o, const struct option_row *row, const cha
 {
     int n = word_number(row, value);
     o->basis = (enum RadBasis)n;
+    o->basis_given = 1;
     return n < 0 ? -1 : 0;
 }
 
@@ -167,6 +168,12 @@ static int read_format(struct options *o, const struct option_row *row, const ch
     int n = word_number(row, value);
     o->format = (enum factor_format)n;
     return n < 0 ? -1 : 0;
+}
+
+static int read_cost(struct options *o, const struct option_row *row, const char *value)
+{
+    o->cost = word_number(row, value);
+    return o->cost < 0 ? -1 : 0;
 }
 
 static int read_clustering(struct options *o, const struct option_row *row, const char *value)
@@ -285,6 +292,15 @@ const struct command_row command_rows[COMMANDS] = {
          "L1, L2 and Linf; beside them what the reference's noise alone would look like,\n"
          "and the faces that hold most of the error.\n",
          "radiosity error faces.csv ref.csv"},
+    [COMMAND_TUNE] =
+        {"tune", "ORACLE SCENE...", "fit an oracle's parameters to scenes",
+         "Fit thresholds of an oracle, built in or FILE.dag, to scenes: least becomes the\n"
+         "mean over scenes of the logarithm of cost max(1, error/E)^P. The error is that\n"
+         "of links alone, face by face (L1), against particles traced first. Then each\n"
+         "scene is left out in turn, fitted without, and tried: exit status 3 where\n"
+         "cost max(1, error/E)^2, which is what it needs once particles mend it, is more\n"
+         "than 1.5 times that with fits that used it. Ctrl-C ends it with the best so far.\n",
+         "radiosity tune mine.dag room.obj hall.obj shop.obj -o mine.dag"},
     [COMMAND_STABILITY] =
         {"study stability", "", "where methods fail, and by how much",
          "Small scenes whose answer is known and on which published methods fail:\n"
@@ -335,6 +351,7 @@ enum {
     FACTORS = 1 << COMMAND_VIEWFACTORS,
     REFERENCE = 1 << COMMAND_REFERENCE,
     ERROR = 1 << COMMAND_ERROR,
+    TUNE = 1 << COMMAND_TUNE,
     STABILITY = 1 << COMMAND_STABILITY,
     VISIBILITY = 1 << COMMAND_VISIBILITY,
     CLUSTERING = 1 << COMMAND_CLUSTERING,
@@ -343,7 +360,7 @@ enum {
     CAUSES = 1 << COMMAND_CAUSES,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
-    THREADED = SCENES | REFERENCE | STABILITY | ARVO,
+    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO,
     ALL = THREADED | ERROR
 };
 
@@ -354,9 +371,11 @@ const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
 const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", NULL};
 const char *const projection_words[] = {"galerkin", "collocation", NULL};
 static const char *const bases[] = {"constant", "linear", NULL};
+static const char *const costs[] = {"rays", "links", "time", NULL}; /* enum tune_cost */
 static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
+static const char *const graphs[] = {".dag", NULL};
 static const char *const csv[] = {".csv", NULL};
 static const char *const drawings[] = {".svg", ".png", NULL};
 
@@ -381,6 +400,18 @@ const struct option_row option_rows[] = {
      .rare = 1},
     {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
      .read = read_setting},
+    {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
+     .read = read_setting},
+    {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",
+     "a share such as 2% or 0.02, above 0 and below 1", .read = read_share, IN(noise), .low = 1},
+    {"power", "P", TUNE, "8", "twice the error E is as bad as 2^P times the cost",
+     "a whole number from 1 to 64", WHOLE(power, 1, 64)},
+    {"cost", "rays|links|time", TUNE, "rays", "rays + links, links, or rays + 40 per pair",
+     WORD(read_cost, costs)},
+    {"evaluations", "N", TUNE, "60", "sets of values that each fit may try",
+     "a whole number from 1 to 10000", WHOLE(evaluations, 1, 10000)},
+    {"limit-seconds", "N", TUNE, NULL, "about when to end, shared out to the fits",
+     "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX)},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters), .rare = 1},
     {"tolerance", "X", MATRICES, NULL, "relative error of B that iteration may leave",
@@ -418,7 +449,7 @@ const struct option_row option_rows[] = {
     {"exitance-error", "X", SOLVE, NULL, "each E may be off by X of itself, as 5%",
      "a number from 0, below 1, or percent", .read = read_share, IN(account.exitance_error),
      .rare = 1},
-    {"basis", "constant|linear", SOLVE, NULL, "elements of one value, or with slopes (constant)",
+    {"basis", "constant|linear", SOLVE, NULL, "elements of one value, or with slopes (linear)",
      WORD(read_basis, bases), .rare = 1},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
@@ -440,8 +471,8 @@ const struct option_row option_rows[] = {
      "a whole number from 16 to 2000000000", WHOLE(cause_rays, 16, 2000000000)},
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
-    {"two-sided", NULL, SCENES | REFERENCE, NULL, "faces have two sides, not only those *_2s",
-     FLAG(two_sided)},
+    {"two-sided", NULL, SCENES | REFERENCE | TUNE, NULL,
+     "faces have two sides, not only those *_2s", FLAG(two_sided)},
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
@@ -450,6 +481,8 @@ const struct option_row option_rows[] = {
      NAMED(out, tables)},
     {"o", "FILE.csv", REFERENCE, NULL, "the table; must be given", NAMED(out, csv)},
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
+    {"o", "FILE.dag", TUNE, NULL, "the oracle with these defaults; may be ORACLE itself",
+     NAMED(out, graphs)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
@@ -468,7 +501,7 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES, NULL,
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | TUNE, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };

@@ -52,9 +52,8 @@ static int print_help(void)
            "  --help                  this, or of a command: its options\n"
            "  --version               the version\n"
            "\n"
-           "Messages go to standard error. Exit status: 0 done; 1 the scene, an oracle or a\n"
-           "file is at fault, and nothing half-written is left; 2 wrong usage; 3 --accuracy\n"
-           "was not kept.\n");
+           "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
+           "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;
 }
 
@@ -254,22 +253,43 @@ static const struct option_row *row_of(enum command command, int number)
     return NULL;
 }
 
+/* Of a command that takes many. Returns -1 to go on, or the exit status. */
+static int add_scene(struct options *o, const char *path)
+{
+    if (array_reserve(&o->scenes, (size_t)o->scene_count + 1, &o->scene_capacity, sizeof *o->scenes)
+        < 0)
+        return wrong(command_rows[o->command].name, "out of memory for so many scenes");
+    o->scenes[o->scene_count++] = path;
+    o->scene = o->scenes[0];
+    return -1;
+}
+
+/* The arguments of tune: an oracle, then scenes. Returns -1 to go on, or the exit status. */
+static int add_oracle_or_scene(struct options *o, const char *path)
+{
+    if (!*path)
+        return wrong("tune", "%s name is empty", o->oracle ? "a scene's" : "the oracle's");
+    if (!o->oracle) {
+        o->oracle = path;
+        return -1;
+    }
+    for (int i = 0; i < o->scene_count; i++)
+        if (strcmp(o->scenes[i], path) == 0)
+            return wrong("tune", "%s is named twice; left out, it would not be unknown", path);
+    return add_scene(o, path);
+}
+
 static int set_scene(struct options *o, const char *path)
 {
+    if (o->command == COMMAND_TUNE)
+        return add_oracle_or_scene(o, path);
     const struct command_row *c = &command_rows[o->command];
     if (!*c->argument)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
                      *path ? path : "an empty name");
     int tables = o->command == COMMAND_ERROR;
-    if (*path && strstr(c->argument, "...")) {
-        if (array_reserve(&o->scenes, (size_t)o->scene_count + 1, &o->scene_capacity,
-                          sizeof *o->scenes)
-            < 0)
-            return wrong(c->name, "out of memory for so many scenes");
-        o->scenes[o->scene_count++] = path;
-        o->scene = o->scenes[0];
-        return -1;
-    }
+    if (*path && strstr(c->argument, "..."))
+        return add_scene(o, path);
     if (!*path)
         return wrong(c->name, tables ? "a table's name is empty" : "the scene's name is empty");
     if (o->scene && (!tables || o->reference))
@@ -315,6 +335,9 @@ static int check_together(struct options *o)
     const struct command_row *c = &command_rows[o->command];
     if (o->command == COMMAND_ERROR && !o->reference)
         return wrong(c->name, "two tables are needed, FACES.csv and REF.csv");
+    if (o->command == COMMAND_TUNE && !o->scene_count)
+        return wrong(c->name, "%s",
+                     o->oracle ? "no scene is given" : "an oracle and scenes are needed");
     if (*c->argument && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->command == COMMAND_REFERENCE && !o->out)
@@ -328,8 +351,11 @@ static int check_together(struct options *o)
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
         return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
                      o->no_errors ? "--no-errors" : "--no-correct");
-    if (o->limit_seconds && !(o->accuracy > 0))
+    if (o->command == COMMAND_SOLVE && o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if (o->command == COMMAND_SOLVE && !o->basis_given && o->projection == RAD_PROJECTION_GALERKIN
+        && o->solver != RAD_SOLVER_SOUTHWELL && o->solver != RAD_SOLVER_LU)
+        o->basis = RAD_BASIS_LINEAR;
     if (o->basis == RAD_BASIS_LINEAR
         && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
             || o->solver == RAD_SOLVER_LU))

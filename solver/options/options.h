@@ -13,6 +13,7 @@ enum command {
     COMMAND_VIEWFACTORS,
     COMMAND_REFERENCE,
     COMMAND_ERROR,
+    COMMAND_TUNE,
     COMMAND_STABILITY,
     COMMAND_VISIBILITY,
     COMMAND_CLUSTERING,
@@ -50,12 +51,14 @@ struct options {
     const char *oracle;
     enum RadRelease release;
     int release_given;
-    char **settings; /* [setting_count] "NAME=VALUE", owned */
+    /* [setting_count] "NAME=VALUE", of tune "NAME" or "NAME=LOW:HIGH"; owned */
+    char **settings;
     int setting_count;
     size_t setting_capacity;
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     enum RadBasis basis;
+    int basis_given;
     double tolerance;
     enum RadSolver solver;
     enum RadProjection projection;
@@ -83,11 +86,12 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    double noise;   /* reference: the standard error to reach, a share */
-    int keep;       /* reference: its state file stays */
-    int worst;      /* error: how many faces to name */
-    int samples;    /* arvo: across the receiver; 0: exactly */
-    int cause_rays; /* causes: about how many */
+    double noise; /* reference: the standard error to reach; tune: the error; a share */
+    int evaluations, cost, power; /* tune: of each fit; enum tune_cost; of error over noise */
+    int keep;                     /* reference: its state file stays */
+    int worst;                    /* error: how many faces to name */
+    int samples;                  /* arvo: across the receiver; 0: exactly */
+    int cause_rays;               /* causes: about how many */
 };
 
 /* Returns -1 to go on, or the exit status: 0 after --help or --version, 2 after a message on

@@ -146,7 +146,7 @@ void contact_at(struct contact *c, const struct solution *solution, uint32_t f, 
         const struct RadFace *g = &solution->surfaces.faces[near.face[i]];
         if (g->material == solution->surfaces.faces[f].material
             && dot3(normal_of(solution, near.face[i]), normal) > OUTPUT_SAME_PLANE
-            && fabs(height3(p, g->vertex[0], normal)) <= touch)
+            && in_face(g, normal_of(solution, near.face[i]), p, touch))
             c->face[c->faces++] = near.face[i];
         else if (!g->back)
             add_standing(c, solution, near.face[i], normal, p, touch);

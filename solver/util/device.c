@@ -3,6 +3,7 @@
 #include "util/device.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "util/report.h"
 
@@ -51,4 +52,14 @@ int report_device(RadDevice device, const char *where)
     report_error(where, 0, "%s", radGetDeviceErrorMessage(device));
     (void)radGetDeviceError(device);
     return -1;
+}
+
+int report_unless_cancelled(RadDevice device, const char *where)
+{
+    char *message = strdup(radGetDeviceErrorMessage(device)); /* asking for the code forgets it */
+    int cancelled = radGetDeviceError(device) == RAD_ERROR_CANCELLED;
+    if (!cancelled)
+        report_error(where, 0, "%s", message && *message ? message : "out of memory");
+    free(message);
+    return cancelled ? 1 : -1;
 }

@@ -16,4 +16,8 @@ RadDevice open_device(const char *where, int threads);
 /* Say what the device's last call could not do, as "where: error: sentence". Returns -1. */
 int report_device(RadDevice device, const char *where);
 
+/* The same, but not a word where the progress function has cancelled it. Returns 1 then, else -1.
+ */
+int report_unless_cancelled(RadDevice device, const char *where);
+
 #endif

@@ -473,6 +473,57 @@ START_TEST(test_reference)
 }
 END_TEST
 
+/* A solution of one element per face, whose error is known: B of it less the continuous one. */
+START_TEST(test_error_by_reference)
+{
+    static const double wanted[3] = {1.1043616, 0.1712161, 0.1811056}; /* lamp, across, beside */
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5), other = lamp_scene(device, 0.25);
+    RadOracle oracle = radNewOracle(device, "ff", RAD_RELEASE_FLAT);
+    ck_assert_int_eq(radSetOracleParameter(oracle, "limit", 2), 0);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    RadReference x = radNewReference(scene), none = radNewReference(scene),
+                 foreign = radNewReference(other);
+    struct RadErrorReport e;
+    ck_assert_int_eq(radTraceReference(x, RAD_METHOD_PARTICLES, 1 << 18), 0);
+    ck_assert_int_eq(radTraceReference(foreign, RAD_METHOD_PARTICLES, 1 << 12), 0);
+    ck_assert_int_eq(radMeasureErrorBy(solution, x, &e), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "radSolve or radStep");
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(radMeasureErrorBy(solution, none, &e), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "radTraceReference");
+    ck_assert_int_eq(radMeasureErrorBy(solution, foreign, &e), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "another scene");
+    ck_assert_int_eq(radMeasureErrorBy(solution, NULL, &e), -1);
+
+    double b[6], off = 0, more = 0;
+    ck_assert_int_eq(radGetPolygonValues(solution, 0, b, NULL), 0);
+    int lamp = b[1] > b[0];
+    for (int i = 0; i < 6; i++) {
+        double want = wanted[i == lamp ? 0 : i < 2 ? 1 : 2];
+        off += fabs(b[i] - want); /* 1 W is reflected */
+        more += b[i] - want;
+    }
+    ck_assert_double_gt(off, 0.005);
+    ck_assert_int_eq(radMeasureErrorBy(solution, x, &e), 0);
+    ck_assert_double_eq_tol(e.reflected, 1, 0.01);
+    ck_assert_msg(e.l1_faces.low <= off && off <= e.l1_faces.high, "%g is not within %g and %g",
+                  off, e.l1_faces.low, e.l1_faces.high);
+    ck_assert(e.power.low <= more && more <= e.power.high);
+    ck_assert_double_lt(e.l1_faces.high - e.l1_faces.low, 0.01);
+    ck_assert_uint_eq(e.particles, 1 << 18);
+    ck_assert_uint_gt(e.rays, e.particles);
+    radReleaseReference(foreign);
+    radReleaseReference(none);
+    radReleaseReference(x);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(other);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* ---- oracles */
 
 START_TEST(test_oracles)
@@ -491,6 +542,12 @@ START_TEST(test_oracles)
         radReleaseOracle(oracle);
     }
     ck_assert_int_eq(found, 1);
+    RadOracle text =
+        radParseOracle(device, "text", radGetOracleText("clusters"), NULL, RAD_RELEASE_DAG);
+    ck_assert_msg(text != NULL, "%s", radGetDeviceErrorMessage(device)); /* it stands alone */
+    radReleaseOracle(text);
+    ck_assert_ptr_null(radGetOracleText("nobody"));
+    ck_assert_ptr_null(radGetOracleText(NULL));
     ck_assert_ptr_null(radNewOracle(device, "nobody", RAD_RELEASE_FLAT));
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no built-in oracle 'nobody'");
     ck_assert_ptr_null(radNewOracle(device, "bf", RAD_RELEASE_HAND));
@@ -1155,6 +1212,7 @@ int main(void)
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_exchange);
     tcase_add_test(t, test_reference);
+    tcase_add_test(t, test_error_by_reference);
     tcase_add_test(t, test_oracles);
     tcase_add_test(t, test_registered);
     tcase_add_test(t, test_statistics);

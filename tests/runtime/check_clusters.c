@@ -132,8 +132,63 @@ START_TEST(test_small)
 }
 END_TEST
 
-/* In a scene of many faces: fewer links, and nearly the same light. The same links whatever the
- * threads and the release. */
+/* All that a solve says, to the bit. */
+static void assert_same(const struct solve *a, const struct solve *b)
+{
+    const struct refinement *r = &a->refinement, *other = &b->refinement;
+    const struct row_report *rows = &a->report.rows, *others = &b->report.rows;
+    size_t elements = a->hierarchy.count, values = elements * a->problem.bands;
+    ck_assert_uint_eq(elements, b->hierarchy.count);
+    ck_assert_uint_eq(r->link_count, other->link_count);
+    ck_assert_int_eq(memcmp(r->links, other->links, r->link_count * sizeof *r->links), 0);
+    ck_assert_int_eq(
+        memcmp(r->first_link, other->first_link, (elements + 1) * sizeof *r->first_link), 0);
+    ck_assert_int_eq(memcmp(r->marked, other->marked, sizeof r->marked), 0);
+    ck_assert_int_eq(memcmp(a->state.radiosity, b->state.radiosity, values * sizeof(double)), 0);
+    for (size_t i = 0; i < elements; i++) /* rows are leaves' */
+        if (a->hierarchy.elements[i].vertices && !a->hierarchy.elements[i].children)
+            ck_assert_int_eq(memcmp(&a->operator.row[i], &b->operator.row[i], sizeof(double)), 0);
+    ck_assert(!(rows->low < others->low) && !(rows->low > others->low));
+    ck_assert(!(rows->high < others->high) && !(rows->high > others->high));
+    ck_assert_uint_eq(rows->leaves, others->leaves);
+    const double mine[] = {rows->defect_mean, rows->defect_most, rows->blind_area, rows->moved},
+                 its[] = {others->defect_mean, others->defect_most, others->blind_area,
+                          others->moved};
+    ck_assert_int_eq(memcmp(mine, its, sizeof mine), 0);
+}
+
+/* Links as they were found, in their order, behind each other by receiver. */
+START_TEST(test_sorted)
+{
+    enum { ELEMENTS = 300, LINKS = 20000 };
+    for (int threads = 1; threads <= 11; threads += 2)
+        for (size_t count = 0; count <= LINKS; count = count < 3 ? count + 1 : count * 7 + 1) {
+            struct hierarchy h = {.count = ELEMENTS};
+            struct refinement r = {.hierarchy = &h, .threads = threads, .link_count = count};
+            r.links = calloc(count + 1, sizeof *r.links);
+            for (size_t i = 0; i < count; i++)
+                r.links[i] = (struct link){.receiver = (uint32_t)(i * i * 7919 % ELEMENTS),
+                                           .emitter = (uint32_t)i,
+                                           .mark = (uint8_t)(i % LINK_MARKS)};
+            ck_assert_int_eq(refinement_sort(&r), 0);
+            size_t at = 0;
+            for (uint32_t e = 0; e < ELEMENTS; e++) {
+                ck_assert_uint_eq(r.first_link[e], at);
+                for (; at < count && r.links[at].receiver == e; at++)
+                    ck_assert(at == r.first_link[e]
+                              || r.links[at].emitter > r.links[at - 1].emitter);
+            }
+            ck_assert_uint_eq(at, count);
+            ck_assert_uint_eq(r.first_link[ELEMENTS], count);
+            for (size_t m = 0; m < LINK_MARKS; m++)
+                ck_assert_uint_eq(r.marked[m], (count + LINK_MARKS - 1 - m) / LINK_MARKS);
+            refinement_close(&r);
+        }
+}
+END_TEST
+
+/* In a scene of many faces: fewer links, and nearly the same light. The same whatever the threads
+ * and the release. */
 START_TEST(test_large)
 {
     struct solve with, without, one;
@@ -141,7 +196,7 @@ START_TEST(test_large)
     room(&scene, 10);
     ck_assert_uint_gt(scene.face_count, 1500);
     const char *setting = thorough() ? NULL : "min_share=3e-4";
-    solved(&with, &scene, "clusters", 2, CLOSURE_NONE, setting);
+    solved(&with, &scene, "clusters", 5, CLOSURE_NONE, setting);
     released(&one, &scene, "clusters", RELEASE_DAG, 1, CLOSURE_NONE, setting);
     solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, setting);
     printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; "
@@ -153,10 +208,7 @@ START_TEST(test_large)
     ck_assert_uint_lt(2 * with.refinement.link_count, without.refinement.link_count);
     ck_assert_double_le(difference(&with, &without), 0.015);
     ck_assert_double_le(fabs(1 - with.report.absorbed / with.report.emitted), 0.03);
-    ck_assert_uint_eq(with.refinement.link_count, one.refinement.link_count);
-    ck_assert_int_eq(memcmp(with.refinement.links, one.refinement.links,
-                            one.refinement.link_count * sizeof *one.refinement.links),
-                     0);
+    assert_same(&with, &one);
     solve_close(&with);
     solve_close(&one);
     solve_close(&without);
@@ -306,6 +358,7 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_small);
     tcase_add_test(c, test_large);
+    tcase_add_test(c, test_sorted);
     if (thorough())
         tcase_add_test(c, test_feature);
     tcase_add_test(c, test_furnace);

@@ -86,15 +86,15 @@ int main(void)
 }
 END2
 embree=$(objdump -p "$build/libradiosity.so" | sed -n 's/ *NEEDED *lib\(embree[0-9]*\)\.so.*/\1/p')
-openmp=$(objdump -p "$build/libradiosity.so" | sed -n 's/ *NEEDED *lib\(gomp\|omp\)\.so.*/\1/p')
-[ "$openmp" = omp ] && cc=clang || cc=cc # the compiler that has it
+objdump -p "$build/libradiosity.so" | grep -E 'NEEDED *lib(g|i)?omp' >openmp
+check "it needs no OpenMP" none openmp
 flags="-std=c11 -Wall -Wextra -Werror ${SANITIZE-} -I$top/runtime -I$top/dagc -I$build/gen"
 # shellcheck disable=SC2086
 check "a program with names of the engine's, and its own libdagc" \
-    $cc $flags -o own own.c "$build/libradiosity.a" "$build/libdagc.a" -l"$embree" -llapacke -fopenmp -lpthread -ldl -lm
+    cc $flags -o own own.c "$build/libradiosity.a" "$build/libdagc.a" -l"$embree" -llapacke -lpthread -ldl -lm
 check "it runs" ./own
 # shellcheck disable=SC2086
-check "the same by the shared library" $cc $flags -o shared_own own.c "$build/libradiosity.so" "$build/libdagc.a" -ldl -lm
+check "the same by the shared library" cc $flags -o shared_own own.c "$build/libradiosity.so" "$build/libdagc.a" -ldl -lm
 check "it runs" env LD_LIBRARY_PATH="$build" sh -c "ln -s '$build/libradiosity.so' \"\$(objdump -p '$build/libradiosity.so' | awk '/SONAME/ { print \$2 }')\"; LD_LIBRARY_PATH=. ./shared_own"
 
 # ---- the header by itself

@@ -2,10 +2,6 @@
  * with its threshold, and thermal keeps its promise.
  *
  * References: closed forms where there are some, else path tracing (path_reference.h).
- * ORACLES_TABLE=1 build/tests/runtime/check_oracles SCENE... prints instead what each oracle costs
- * and how wrong it is, at its default parameters: the table in examples/oracles/README.md.
- * ORACLES_ONLY="NAME ..." leaves the others out, ORACLES_SET="PARAM=VALUE ..." sets parameters,
- * ORACLES_PATHS is the number of particles of the reference.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -59,55 +55,6 @@ static double power_error(const struct solve *s, const double *reference, uint32
         *all += power * reference[at];
     }
     return sum;
-}
-
-static int table(const char *path)
-{
-    struct scene_options how = {0, 1};
-    struct scene scene;
-    double quiet = 0;
-    if (scene_read(&scene, path, &how) < 0)
-        return 1;
-    double *reference;
-    reference = calloc((size_t)scene.face_count * scene.bands, sizeof *reference);
-    double *noise;
-    noise = calloc((size_t)scene.face_count * scene.bands, sizeof *noise);
-    path_reference(&scene, getenv("ORACLES_PATHS") ? atoi(getenv("ORACLES_PATHS")) : 1 << 23,
-                   reference, noise);
-    double all;
-    size_t i;
-    for (const struct builtin *b = builtins; b->name; b++) {
-        char *settings[16] = {0},
-             *given = getenv("ORACLES_SET") ? strdup(getenv("ORACLES_SET")) : NULL;
-        int n = 0;
-        for (char *word = given ? strtok(given, " ") : NULL; word; word = strtok(NULL, " "))
-            settings[n++] = word;
-        if (strcmp(b->name, "viewfactors") == 0
-            || (getenv("ORACLES_ONLY") && !strstr(getenv("ORACLES_ONLY"), b->name)))
-            continue;
-        struct solve s;
-        solve_with(&s, &scene, b->name, settings);
-        free(given);
-        double error = power_error(&s, reference, 0, &all);
-        for (quiet = 0, i = 0; i < scene.face_count; i++)
-            quiet += s.problem.reflectance[i * s.problem.bands]
-                     * s.hierarchy.elements[s.hierarchy.face_element[i]].area
-                     * noise[i * s.problem.bands];
-        printf(
-            "%-15s %9zu links %9.0f rays %7.2f s  error %.3f %% of %.4g W (reference's noise %.3f "
-            "%%), %llu kept by a guard; %.3g of its tolerance\n",
-            b->name, s.refinement.link_count, (double)rays_count(s.problem.rays).rays,
-            s.report.seconds.refine + s.report.seconds.iterate, 100 * error / all, all,
-            100 * quiet / all, (unsigned long long)s.refinement.marked[1],
-            error
-                / (0.02 * rays_host(s.problem.rays)->irradiance * rays_host(s.problem.rays)->area));
-        fflush(stdout);
-        solve_close(&s);
-    }
-    free(reference);
-    free(noise);
-    scene_free(&scene);
-    return 0;
 }
 
 /* ---- releases */
@@ -322,16 +269,10 @@ START_TEST(test_promise)
 }
 END_TEST
 
-int main(int count, char **arguments)
+int main(void)
 {
     Suite *suite = suite_create("oracles");
     TCase *c = tcase_create("oracles");
-    int status = 0;
-    if (getenv("ORACLES_TABLE")) {
-        for (int i = 1; i < count; i++)
-            status |= table(arguments[i]);
-        return status;
-    }
     tcase_set_timeout(c, 600);
     tcase_add_loop_test(c, test_releases, 0, thorough() ? 3 : 1);
     tcase_add_test(c, test_declared);

@@ -125,7 +125,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors reference error study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" oracles; do
+for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -136,7 +136,7 @@ for command in "" solve compare viewfactors reference error study "study stabili
         fi
     done
     count=$((count + 1))
-    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/')
+    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/; s/mine\.dag/bf/; s/-o bf/-o x.dag/')
     # shellcheck disable=SC2086
     case $command in
     study | "study stability" | "study arvo" | oracles) ;;
@@ -144,7 +144,7 @@ for command in "" solve compare viewfactors reference error study "study stabili
     esac
     rm -f out err
 done
-for command in solve compare viewfactors reference error "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
+for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done

@@ -1,0 +1,286 @@
+/* tune.c - `radiosity tune`: fit an oracle's parameters to scenes by measured error and cost, and
+ * see whether they carry over to scenes that were not used.
+ *
+ * First to all scenes, which gives the parameters; then, for each scene, to the others alone, from
+ * the same start: what the scene fares with that fit, against what it fares with those that it had
+ * a part in, tells whether parameters were found or scenes learnt by heart.
+ * A limit of time is shared out evenly to these fits, so that it cuts all of them short rather than
+ * leaving the last ones out. SIGINT ends them all; the best so far is told and written.
+ * SPDX-License-Identifier: MIT */
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/commands.h"
+#include "commands/tune_parameters.h"
+#include "commands/tune_report.h"
+#include "output/json_file.h"
+#include "util/atomic_file.h"
+#include "util/clock.h"
+#include "util/device.h"
+#include "util/graph_defaults.h"
+#include "util/open_oracle.h"
+#include "util/report.h"
+#include "util/text_file.h"
+
+enum {
+    STOPPED = 130, /* the exit status of what SIGINT ends, by the habit of shells */
+    CARRIES_NOT = 3
+};
+
+static const double FORETELL = 2; /* s, after which each fit is told of */
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int number)
+{
+    stop = number;
+}
+
+/* SIGINT and SIGTERM end the fits; a second one the program. */
+static void watch_signals(void)
+{
+    struct sigaction action = {.sa_flags = (int)SA_RESETHAND};
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+struct work {
+    const struct options *options;
+    RadDevice device; /* the oracle's */
+    struct tuner tuner;
+    struct tune_outcome outcome;
+    char *text;          /* of the oracle's graph, where it shall be written */
+    double start, begin; /* s, of the clock: of the command, of the fits */
+};
+
+/* ---- the graph */
+
+/* The oracle's text, and does it compile where the new one will stand? Before the work, since what
+ * it imports is looked for beside it. Returns 0, or -1 after a message. */
+static int read_graph(struct work *w)
+{
+    const struct options *o = w->options;
+    const char *built_in = radGetOracleText(o->oracle);
+    size_t size;
+    w->text = built_in ? strdup(built_in) : text_file_read(o->oracle, &size);
+    if (!w->text)
+        return report_error(o->oracle, 0, "cannot be read: %s", strerror(errno ? errno : ENOMEM));
+    RadOracle there = radParseOracle(w->device, o->out, w->text, NULL, RAD_RELEASE_DAG);
+    if (!there) {
+        (void)radGetDeviceError(w->device);
+        return report_error(o->out, 0,
+                            "%s does not compile in that folder: what it imports is looked for "
+                            "there; copy that first, or write beside %s",
+                            o->oracle, o->oracle);
+    }
+    radReleaseOracle(there);
+    return 0;
+}
+
+/* The text with the fitted defaults, which must compile. Returns 0, or -1 after a message. */
+static int write_graph(const struct work *w)
+{
+    const struct options *o = w->options;
+    const struct tuner *t = &w->tuner;
+    struct graph_default defaults[PATTERN_NUMBERS];
+    const char *missing;
+    int count = 0;
+    for (int i = 0; i < t->parameter_count; i++)
+        if (w->outcome.all.found.at[i])
+            defaults[count++] = (struct graph_default){
+                t->parameters[i].name, tune_value(&t->parameters[i], w->outcome.all.found.at[i])};
+    char *text = graph_with_defaults(w->text, defaults, count, &missing);
+    if (!text)
+        return report_error(o->out, 0, "out of memory for the graph");
+    RadOracle made = radParseOracle(w->device, o->out, text, NULL, RAD_RELEASE_DAG);
+    radReleaseOracle(made);
+    struct atomic_file file;
+    int failed = !made ? report_device(w->device, o->out) : atomic_open(&file, o->out);
+    if (!failed) {
+        fputs(text, file.stream);
+        failed = atomic_commit(&file);
+    }
+    free(text);
+    return failed ? -1 : 0;
+}
+
+/* ---- the work */
+
+/* Returns 0, or -1 after a message. */
+static int open_scenes(struct work *w)
+{
+    const struct options *o = w->options;
+    const struct scene_options how = {o->two_sided, o->quiet};
+    struct tuner *t = &w->tuner;
+    t->scenes = calloc((size_t)o->scene_count, sizeof *t->scenes);
+    if (!t->scenes)
+        return report_error("tune", 0, "out of memory for scenes");
+    for (int i = 0; i < o->scene_count; i++) {
+        if (tune_scene_open(&t->scenes[i], o->scenes[i], &how, o->threads) < 0)
+            return -1;
+        t->scene_count++;
+        radSetDeviceProgressFunction(t->scenes[i].scene.device, tune_watch, t);
+    }
+    return 0;
+}
+
+/* Solve each scene with the fit that has not seen it. Returns 0, or -1 after a message. */
+static int judge(struct tuner *t, struct tune_fold *folds)
+{
+    int count = t->scene_count;
+    for (int s = 0; s < count; s++) {
+        struct tune_fold *f = &folds[s];
+        snprintf(t->doing, sizeof t->doing, "%.*s, which was left out", t->scenes[s].name_length,
+                 t->scenes[s].name);
+        for (int other = 0; other < count; other++) {
+            struct tune_result r;
+            int status = tune_result(t, folds[other].fit.found.at, s, &r);
+            if (status)
+                return status < 0 ? -1 : 0;
+            if (other == s) {
+                f->left = r;
+            } else {
+                f->used_cost += log(r.cost) / (count - 1);
+                f->used_needs += log(tune_needs(t, &r)) / (count - 1);
+                f->used_error += r.error / (count - 1);
+            }
+        }
+        f->used_cost = exp(f->used_cost);
+        f->used_needs = exp(f->used_needs);
+        f->ratio = tune_needs(t, &f->left) / f->used_needs;
+        /* a fit of which no more than its start was looked at says nothing */
+        f->known = f->fit.found.evaluations > 1 || f->fit.found.end == PATTERN_FOUND;
+    }
+    return 0;
+}
+
+/* Is standard output what --json goes to? */
+static int to_output(const struct work *w)
+{
+    return w->options->json && strcmp(w->options->json, "-") == 0;
+}
+
+/* To all scenes, and without each. */
+static int fits(const struct tuner *t)
+{
+    return t->scene_count > 1 ? t->scene_count + 1 : 1;
+}
+
+/* Where the share of the time ends that is for so many of the fits, of what is left when they
+ * begin. */
+static double deadline(const struct work *w, int count)
+{
+    double left = w->start + w->options->limit_seconds - w->begin;
+    return w->options->limit_seconds ? w->begin + fmax(0, left) * count / fits(&w->tuner) : 0;
+}
+
+/* Said of each fit where they take long, also to a log. */
+static void tell(struct work *w, const struct tune_fit *f)
+{
+    struct tuner *t = &w->tuner;
+    if (w->options->quiet || to_output(w) || seconds() - w->start < FORETELL)
+        return;
+    progress_end(&t->progress);
+    printf("fit %d of %d: %d places, best %.3g of the price of the defaults, %.0f s so far\n",
+           f->left_out + 2, fits(t), f->found.evaluations, exp(f->found.value),
+           seconds() - w->start);
+    fflush(stdout);
+}
+
+/* All fits. Returns 0, STOPPED, or -1 after a message. */
+static int fit_all(struct work *w)
+{
+    struct tuner *t = &w->tuner;
+    struct tune_outcome *out = &w->outcome;
+    int status = tune_defaults(t);
+    if (status)
+        return status < 0 ? -1 : STOPPED;
+    w->begin = seconds();
+    t->deadline = deadline(w, 1);
+    if (tune_fit(t, -1, &out->all) < 0)
+        return -1;
+    tell(w, &out->all);
+    if (!isfinite(out->all.found.value))
+        return report_error(out->oracle, 0, "nothing was solved within the ranges given");
+    if (t->scene_count < 2)
+        return 0;
+    out->folds = calloc((size_t)t->scene_count, sizeof *out->folds);
+    if (!out->folds)
+        return report_error("tune", 0, "out of memory for folds");
+    out->fold_count = t->scene_count;
+    for (int s = 0; s < t->scene_count && !stop; s++) {
+        t->deadline = deadline(w, s + 2);
+        if (tune_fit(t, s, &out->folds[s].fit) < 0)
+            return -1;
+        tell(w, &out->folds[s].fit);
+    }
+    t->deadline = 0;
+    if (!stop && judge(t, out->folds) < 0)
+        return -1;
+    tune_best(t, &out->all);
+    return 0;
+}
+
+/* Say and write what was found. Returns the exit status. */
+static int finish(struct work *w)
+{
+    const struct options *o = w->options;
+    w->outcome.seconds = seconds() - w->start;
+    progress_end(&w->tuner.progress);
+    if (!o->quiet && !to_output(w))
+        tune_print(&w->outcome);
+    if (o->out && write_graph(w) < 0)
+        return 1;
+    if (o->json && json_file_write(o->json, tune_json(&w->outcome)) < 0)
+        return 1;
+    return stop ? STOPPED : tune_worst(&w->outcome) > TUNE_CARRIES ? CARRIES_NOT : 0;
+}
+
+/* Returns the exit status. */
+static int run(struct work *w)
+{
+    const struct options *o = w->options;
+    struct tuner *t = &w->tuner;
+    t->oracle = open_oracle(w->device, o->oracle, RAD_RELEASE_FLAT, NULL, 0);
+    if (!t->oracle || tune_parameters(t, o->oracle, o->settings, o->setting_count) < 0
+        || (o->out && read_graph(w) < 0))
+        return 1;
+    watch_signals();
+    progress_start(&t->progress, o->quiet);
+    int status = open_scenes(w) < 0 || tuner_open(t) < 0 ? -1 : fit_all(w);
+    progress_end(&t->progress);
+    if (status == STOPPED)
+        fprintf(stderr, "stopped before anything was fitted\n");
+    return status ? (status == STOPPED ? STOPPED : 1) : finish(w);
+}
+
+int command_tune(const struct options *o, const struct open_scene *scene)
+{
+    (void)scene;
+    struct work w = {.options = o,
+                     .start = seconds(),
+                     .device = open_device(o->quiet ? NULL : o->oracle, o->threads)};
+    w.tuner = (struct tuner){.cost = (enum tune_cost)o->cost,
+                             .target = o->noise,
+                             .power = o->power,
+                             .evaluations = o->evaluations,
+                             .stop = &stop,
+                             .limit = INFINITY};
+    w.outcome = (struct tune_outcome){.oracle = o->oracle, .tuner = &w.tuner};
+    int status = w.device ? run(&w) : 1;
+    tuner_close(&w.tuner);
+    for (int i = 0; i < w.tuner.scene_count; i++)
+        tune_scene_close(&w.tuner.scenes[i]);
+    free(w.tuner.scenes);
+    free(w.outcome.folds);
+    free(w.text);
+    radReleaseOracle(w.tuner.oracle);
+    radReleaseDevice(w.device);
+    return status;
+}

@@ -1,0 +1,123 @@
+/* pattern_search.c - see pattern_search.h. The pattern search of Hooke and Jeeves, "Direct search"
+ * solution of numerical and statistical problems, J. ACM 8, 1961.
+ *
+ * Each number is tried a step up and a step down, and what lowers the value is kept. If anything
+ * did, the same move is made once more, all numbers at once, and tried around there: that is how
+ * valleys are followed that lie along no axis. If nothing did, the step is halved. Places are whole
+ * numbers, so that one comes back to places exactly, and each is evaluated once.
+ * SPDX-License-Identifier: MIT */
+#include "util/pattern_search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A place and its value. */
+struct place {
+    int at[PATTERN_NUMBERS];
+    double value;
+};
+
+struct run {
+    const struct pattern_search *search;
+    struct place *seen; /* [found.evaluations] */
+    struct pattern_found found;
+    int direction[PATTERN_NUMBERS]; /* 1 or -1: the one that lowered the value last */
+};
+
+/* Value at a place. Returns 0, or -1: the search is at its end. */
+static int look(struct run *r, struct place *p)
+{
+    const struct pattern_search *s = r->search;
+    size_t bytes = (size_t)s->count * sizeof *p->at;
+    for (int i = 0; i < r->found.evaluations; i++)
+        if (memcmp(r->seen[i].at, p->at, bytes) == 0) {
+            p->value = r->seen[i].value;
+            return 0;
+        }
+    r->found.end = PATTERN_SPENT;
+    if (r->found.evaluations >= s->evaluations)
+        return -1;
+    r->found.end = PATTERN_STOPPED;
+    if (s->value(s->user, p->at, &p->value) < 0)
+        return -1;
+    r->seen[r->found.evaluations++] = *p;
+    if (p->value < r->found.value) {
+        r->found.value = p->value;
+        memcpy(r->found.at, p->at, bytes);
+    }
+    return 0;
+}
+
+/* Go from `p`, whose value is known, to what is lower along each number in turn. Returns 0, or -1:
+ * the search is at its end. */
+static int explore(struct run *r, struct place *p, int step)
+{
+    const struct pattern_search *s = r->search;
+    for (int i = 0; i < s->count; i++)
+        for (int turn = 0; turn < 2; turn++) {
+            struct place next = *p;
+            next.at[i] += step * r->direction[i];
+            if (next.at[i] >= s->low[i] && next.at[i] <= s->high[i]) {
+                if (look(r, &next) < 0)
+                    return -1;
+                if (next.value < p->value) {
+                    *p = next;
+                    break;
+                }
+            }
+            r->direction[i] = -r->direction[i];
+        }
+    return 0;
+}
+
+/* Where the same move leads once more, kept in the ranges. */
+static struct place again(const struct pattern_search *s, const struct place *from,
+                          const struct place *to)
+{
+    struct place p = *to;
+    for (int i = 0; i < s->count; i++) {
+        p.at[i] += to->at[i] - from->at[i];
+        p.at[i] = p.at[i] < s->low[i] ? s->low[i] : p.at[i] > s->high[i] ? s->high[i] : p.at[i];
+    }
+    return p;
+}
+
+/* Until no step is left. Returns 0, or -1: the search is at its end. */
+static int descend(struct run *r, struct place base)
+{
+    for (int step = r->search->step; step > 0;) {
+        struct place p = base;
+        if (explore(r, &p, step) < 0)
+            return -1;
+        if (!(p.value < base.value)) {
+            step /= 2;
+            continue;
+        }
+        while (p.value < base.value) {
+            struct place next = again(r->search, &base, &p);
+            base = p;
+            if (look(r, &next) < 0 || explore(r, &next, step) < 0)
+                return -1;
+            p = next;
+        }
+    }
+    return 0;
+}
+
+struct pattern_found pattern_search(const struct pattern_search *search, const int *start)
+{
+    struct run r = {.search = search, .found = {.value = INFINITY}};
+    struct place base = {.value = INFINITY};
+    for (int i = 0; i < search->count; i++) {
+        base.at[i] = r.found.at[i] = start[i];
+        r.direction[i] = 1;
+    }
+    r.seen = malloc(((size_t)search->evaluations + 1) * sizeof *r.seen);
+    if (!r.seen)
+        r.found.end = PATTERN_MEMORY;
+    else if (look(&r, &base) == 0 && descend(&r, base) == 0)
+        r.found.end = PATTERN_FOUND;
+    free(r.seen);
+    return r.found;
+}
