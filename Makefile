@@ -8,6 +8,7 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
+# make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
 # make bench    what the releases cost, in instructions
@@ -203,11 +204,12 @@ bench: all
 bench-threads: commands
 	@bash tests/bench_threads.sh $(BUILD)/bin/radiosity $(SCENES)
 
-# The drawings of the oracles, without Graphviz's comments and tooltips.
+# The drawings of the oracles, without Graphviz's comments and tooltips. Not of tester, which asks the
+# same of eight sizes of pairs.
 .PHONY: drawings
 drawings: commands
 	@mkdir -p examples/oracles/drawings
-	for name in $(ORACLES); do \
+	for name in $(filter-out tester,$(ORACLES)); do \
 	    $(BUILD)/bin/dagc --emit=svg -Wno-all -o $(BUILD)/$$name.svg examples/oracles/$$name.dag && \
 	    sed -e '/^<!--.*-->$$/d' -e '/^<!--/,/-->$$/d' -e '/^<title>/d' $(BUILD)/$$name.svg > examples/oracles/drawings/$$name.svg || exit 1; \
 	done
@@ -232,3 +234,11 @@ $(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c
 .PHONY: tables
 tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays
 	@sh tests/tables/make.sh $(BUILD) $(TABLES)
+
+# A row of a table: how far pictures are from what each pixel gathers.
+.PHONY: picture-table
+picture-table: $(BUILD)/bin/picture_table
+$(BUILD)/bin/picture_table: $(BUILD)/tests/solver/picture_table.o $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+

@@ -64,6 +64,9 @@ struct element {
     double importance;
     /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     double tolerance;
+    /* of the lower and the upper solution (W/m2): no point has less B than `lower`; how much nearer
+     * the two come where its parts are taken one by one. 0 where nobody asks */
+    double lower, gap;
     uint32_t parent; /* index in the hierarchy; the root is its own parent */
     /* surface: index of the face it is part of; of the first of a group's faces */
     uint32_t face;
@@ -116,6 +119,8 @@ struct host {
     double irradiance;  /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;   /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance;  /* the largest Y; 1 where no view asks */
+    double impact;      /* what the largest importance stands for, W per W; 1 where nobody asks */
+    double rank;        /* W: what this pass leaves to later ones; 0: nothing */
     double faces;       /* how many */
     /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
     const struct element *const *elements;

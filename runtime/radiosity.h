@@ -225,7 +225,9 @@ struct RadOracleReport {
     int reads_importance, reads_tolerance; /* facts that a solver must provide */
 };
 RAD_API void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report);
-/* Returns 0, or -1: no such parameter, or not in its range. */
+/* Returns 0, or -1: no such parameter, or not in its range. A progress function may set them, and
+ * ask for statistics, too: in phase "refine" it is called between rounds, when nobody asks the
+ * oracle, and the next round goes by the new value. */
 RAD_API int radSetOracleParameter(RadOracle oracle, const char *name, double value);
 /* NAN when there is no such parameter. */
 RAD_API double radGetOracleParameter(RadOracle oracle, const char *name);
@@ -410,11 +412,25 @@ struct RadReport {
     /* under closure: 1 no light leaves the scene, 0 some does, -1 not asked */
     int closed;
     uint64_t closed_rays;
-    /* sweeps 0: none was asked for */
+    /* of a view, or, for oracles that compare errors in watts, of all surfaces alike; sweeps 0:
+     * none was asked for */
     struct {
         int sweeps;
         double largest, mean, seen;
     } importance;
+    /* two solutions that enclose the true one, W: sum of area times radiosity over all surfaces and
+     * bands; solves 0: none were asked for. True for oracles that drop no pair which exchanges
+     * light, as `bracket` does not */
+    struct {
+        int solves;
+        double lower, upper;
+    } bracket;
+    /* where links are ranked (asked: 1), W: error times impact of all links together, and of the
+     * worst that can still be split */
+    struct {
+        int asked;
+        double all, worst;
+    } ranking;
     /* of error control (W/m2, m2); target 0: none */
     struct {
         double target, largest, area;
@@ -582,7 +598,8 @@ struct RadCausesReport {
     struct {
         double links, rays; /* reflected light that these links bring; that rays find to come so */
     } way[RAD_WAYS];
-    double reflected; /* light that the links' solution reflects, all bands (W) */
+    /* light that the links' solution reflects, all bands (W); where it is none, that it should */
+    double reflected;
     uint64_t rays;
     double seconds;
 };
@@ -594,6 +611,28 @@ struct RadCausesReport {
  * [engine/error_causes.c] */
 RAD_API int radFindCauses(RadSolution solution, const struct RadCausesOptions *options,
                           struct RadCausesReport *report);
+/* ---- light at points */
+
+/* A point of a face, and how many rays gather light there. */
+struct RadGatherPoint {
+    uint32_t face;      /* of radGetSceneFaces */
+    double position[3]; /* m, in the face's plane */
+    /* Points of one set share one sequence of directions, spread evenly over all of them: this one
+     * takes numbers first .. first + rays - 1, below 2^32. Sets of other numbers are independent */
+    uint64_t set;
+    uint32_t first, rays;
+};
+
+/* Gather the light that the solution, mended or not, sends to points: B = E + rho H per band
+ * (W/m2), H from what of the solution each point sees, by `rays` rays from it, half of them towards
+ * emitters that are brighter than the scene is in the mean; rays that end very near go on by two
+ * more. What elements cannot hold, a shadow's edge within one, is resolved; the error of the
+ * solution itself is left, reflected once. Noise falls as rays grow in number; where all is equally
+ * bright there is none. radiosity: [point * bands + band], the caller's. On all threads, and the
+ * same for any number of them; no progress is told: give it points in parts of some thousands.
+ * After radSolve or radStep. Returns 0, or -1. [Reichert 1992; particles/gather.h] */
+RAD_API int radGather(RadSolution solution, const struct RadGatherPoint *points, size_t count,
+                      double *radiosity);
 
 /* ---- the account of error, by cause */
 

@@ -20,9 +20,10 @@
 enum { HOST_SEGMENTS = SEGMENTS_MAX };
 
 /* Makes a host of its callbacks. `totals` is called once, here, to fill in the scene's
- * totals (area to importance), ray_offset and flat; `occluded` whenever a tool casts rays: bit i of
- * what it returns says that segment i meets something. To give them data of your own, let `host` be
- * the first member of a structure of yours. */
+ * totals (area to importance; impact and rank where they are not 1 and 0), ray_offset and flat;
+ * `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets
+ * something. To give them data of your own, let `host` be the first member of a structure of
+ * yours. */
 static inline void host_open(struct host *host,
                              uint64_t (*occluded)(const struct host *host, int count,
                                                   const struct segment *segments),
@@ -31,7 +32,8 @@ static inline void host_open(struct host *host,
     host->occluded = occluded;
     host->area = host->extent = host->exitance = host->reflectance = host->irradiance =
         host->radiosity = 0;
-    host->importance = 1;
+    host->importance = host->impact = 1;
+    host->rank = 0;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;
     host->corners = NULL;

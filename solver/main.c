@@ -102,6 +102,9 @@ static int flush_output(int status)
     errno = 0;
     if (!fflush(stdout) && !failed)
         return status;
+    /* A write before this one failed and nobody heard why: the next fails for the same cause. */
+    if (failed && !errno && write(STDOUT_FILENO, "\n", 1) == 1)
+        errno = EIO;
     if (status == 0)
         report_error("standard output", 0, "cannot write: %s; free some space or write elsewhere",
                      strerror(errno ? errno : EIO));

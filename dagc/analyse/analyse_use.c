@@ -87,7 +87,7 @@ static void unused_parameters(struct dag *dag, const struct oracle_graph *graph,
                 mark(dag, dag->arguments[a].expression, used);
     }
     for (int i = parameters.first; i < parameters.first + parameters.count; i++)
-        if (!used[i]
+        if (!used[i] && dag->parameters[i].role < 0 /* a program reads it */
             && dag_warn(dag, WARNING_UNUSED_PARAMETER, dag->parameters[i].where,
                         "no node of '%s' uses the parameter '%s'", graph->name,
                         dag->parameters[i].name))

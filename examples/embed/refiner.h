@@ -91,6 +91,9 @@ struct refiner_element {
     double importance;
     /* the error one link may bring here, W/m2, as the account of error set it; INFINITY: any */
     double tolerance;
+    /* of the lower and the upper solution (W/m2): no point has less B than `lower`; how much nearer
+     * the two come where its parts are taken one by one. 0 where nobody asks */
+    double lower, gap;
     uint32_t parent; /* index in the hierarchy; the root is its own parent */
     /* surface: index of the face it is part of; of the first of a group's faces */
     uint32_t face;
@@ -144,6 +147,8 @@ struct refiner_host {
     double irradiance;  /* mean irradiance to expect, W/m2: <E>/(1-<rho>), exact in a sphere */
     double radiosity;   /* mean radiosity to expect, W/m2: <E> + <rho> irradiance */
     double importance;  /* the largest Y; 1 where no view asks */
+    double impact;      /* what the largest importance stands for, W per W; 1 where nobody asks */
+    double rank;        /* W: what this pass leaves to later ones; 0: nothing */
     double faces;       /* how many */
     /* where the hierarchy's elements stand, for `child`; NULL: no clusters here */
     const struct refiner_element *const *elements;
@@ -189,9 +194,10 @@ struct refiner_discussion {
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
 
 /* Makes a host of its callbacks. `totals` is called once, here, to fill in the scene's
- * totals (area to importance), ray_offset and flat; `occluded` whenever a tool casts rays: bit i of
- * what it returns says that segment i meets something. To give them data of your own, let `host` be
- * the first member of a structure of yours. */
+ * totals (area to importance; impact and rank where they are not 1 and 0), ray_offset and flat;
+ * `occluded` whenever a tool casts rays: bit i of what it returns says that segment i meets
+ * something. To give them data of your own, let `host` be the first member of a structure of
+ * yours. */
 static inline void refiner_host_open(struct refiner_host *host,
                              uint64_t (*occluded)(const struct refiner_host *host, int count,
                                                   const struct refiner_segment *segments),
@@ -200,7 +206,8 @@ static inline void refiner_host_open(struct refiner_host *host,
     host->occluded = occluded;
     host->area = host->extent = host->exitance = host->reflectance = host->irradiance =
         host->radiosity = 0;
-    host->importance = 1;
+    host->importance = host->impact = 1;
+    host->rank = 0;
     host->ray_offset = host->flat = 0;
     host->candidates = NULL;
     host->corners = NULL;

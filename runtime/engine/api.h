@@ -86,6 +86,9 @@ int api_give_up(RadSolution solution, const char *cause);
 /* Returns 0, or -1 with the device told that the solution can do no more. */
 int api_not_dead(RadSolution solution);
 
+/* Is there light to be looked at? Returns 0, or -1 with the device told that `what` needs it. */
+int api_solved(RadSolution solution, const char *what);
+
 /* The code of a cause that the engine gives as a constant string. */
 enum RadError api_cause(const char *cause);
 

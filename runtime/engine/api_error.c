@@ -33,27 +33,12 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                    .seconds = m->seconds};
 }
 
-/* Is there a solution to be measured? */
-static int check_solved(RadSolution solution, const char *what)
-{
-    if (api_not_dead(solution) < 0)
-        return -1;
-    RadDevice device = solution->scene->device;
-    if (solution->solve.report.passes == 0)
-        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "%s needs a solution: radSolve or radStep comes first", what);
-    if (solution->solve.problem.options.unit)
-        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
-                        "%s needs the scene's own light; RadSolveOptions.unit has none", what);
-    return 0;
-}
-
 int radMeasureError(RadSolution solution, const struct RadMeasureOptions *given,
                     struct RadErrorReport *report)
 {
     static const struct RadMeasureOptions defaults;
     const struct RadMeasureOptions *o = given ? given : &defaults;
-    if (check_solved(solution, "radMeasureError") < 0)
+    if (api_solved(solution, "radMeasureError") < 0)
         return -1;
     if (o->stream > 1u << 31)
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,
@@ -104,7 +89,7 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
 {
     static const struct RadCorrectOptions defaults;
     const struct RadCorrectOptions *o = given ? given : &defaults;
-    if (check_solved(solution, "radCorrect") < 0)
+    if (api_solved(solution, "radCorrect") < 0)
         return -1;
     if (!(o->noise >= 0 && o->noise < 1))
         return api_fail(solution->scene->device, RAD_ERROR_INVALID_ARGUMENT,

@@ -225,7 +225,9 @@ void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report)
     report->fingerprint = r->fingerprint ? r->fingerprint : "";
     report->parameters = r->parameters;
     report->parameter_count = r->parameter_count;
-    report->reads_importance = refiner_reads(r, FACT_RECEIVER_IMPORTANCE);
+    report->reads_importance = refiner_reads(r, FACT_RECEIVER_IMPORTANCE)
+                               || refiner_reads(r, FACT_RECEIVER_IMPACT)
+                               || refiner_reads(r, FACT_SCENE_RANK);
     report->reads_tolerance = refiner_reads(r, FACT_RECEIVER_TOLERANCE);
 }
 

@@ -224,6 +224,20 @@ int api_not_dead(RadSolution solution)
     return 0;
 }
 
+int api_solved(RadSolution solution, const char *what)
+{
+    if (api_not_dead(solution) < 0)
+        return -1;
+    RadDevice device = solution->scene->device;
+    if (solution->solve.report.passes == 0)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "%s needs a solution: radSolve or radStep comes first", what);
+    if (solution->solve.problem.options.unit)
+        return api_fail(device, RAD_ERROR_INVALID_OPERATION,
+                        "%s needs the scene's own light; RadSolveOptions.unit has none", what);
+    return 0;
+}
+
 /* Are there links? */
 static int is_refined(RadSolution solution)
 {
@@ -416,6 +430,8 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .closed_rays = s->problem.closed_rays,
         .importance = {s->importance.sweeps, s->importance.largest, s->importance.mean,
                        s->importance.seen},
+        .bracket = {s->bracket.solves, s->bracket.power[0], s->bracket.power[1]},
+        .ranking = {s->ranking.asked, s->ranking.all, s->ranking.worst},
         .tolerance = {s->error.target, s->error.largest, s->error.area},
         .power_tolerance = power_tolerance(solution->oracle->refiner, rays_host(s->problem.rays)),
         .seconds = {s->report.seconds.build, s->report.seconds.refine, s->report.seconds.iterate,

@@ -29,7 +29,7 @@ static void part_spread(struct cause_polygon *p, uint32_t bands)
         for (int r = 0; r < REPLICATES; r++) {
             double spread = p->after[pairs[i][0]][r];
             for (uint32_t k = 0; k < bands; k++)
-                spread -= p->growth[k] / n * p->sum[pairs[i][0]][k][r];
+                spread -= p->growth[k] / p->weight * p->sum[pairs[i][0]][k][r];
             spread *= n / (n - 1); /* a covariance of n points */
             p->after[pairs[i][0]][r] -= spread;
             p->after[pairs[i][1]][r] += spread;

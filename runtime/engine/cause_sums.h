@@ -13,9 +13,11 @@ enum { CAUSE_ALL = RAD_CAUSES, CAUSE_SUMS };
 struct cause_polygon {
     double sum[CAUSE_SUMS][3][REPLICATES]; /* [][band] */
     /* the same, each point's difference times what light grows to from there, all bands; the sum of
-     * that growth, and how many points there are */
+     * that growth over points, by their weight, and how many points there are */
     double after[CAUSE_SUMS][REPLICATES], growth[3];
+    double weight; /* of all points */
     uint64_t points;
+    double last[3]; /* growth at its last point that no solid covers */
 };
 
 /* Of many polygons, all bands. */

@@ -5,9 +5,9 @@
  * that the links stand for, K B, it is an estimate without bias,
  *     B(x) - E - rho B(y)
  * being what the solution's equation is short of there: all causes together. The ray is known to
- * come by the link (a, b) that has r in a and s in b: pairs are refined from (root, root) on, so
- * there is one or none. Let F* be the exact form factor of the pair, h = 1 where the ray came by
- * this link, else 0, and B_b the mean of B over b, which the link sends. Then
+ * come by the link (a, b) that has r in a and s in b: there is one or none (link_cover.h). Let F*
+ * be the exact form factor of the pair, h = 1 where the ray came by this link, else 0, and B_b the
+ * mean of B over b, which the link sends. Then
  *     F V B_b - h B(y)  =  h (B_b - B(y))          bright spot: visibility goes with radiosity
  *                        + (F - F*) V B_b          kernel
  *                        + F* V B_b - h B_b        visibility
@@ -16,72 +16,51 @@
  * lost. What the operator makes of rows, iteration and contact fill up the rest, leaf by leaf: so
  * causes add up to `together` ray for ray, to rounding.
  *
- * The links of r and of all above it are marked at their emitters while the tree below a face is
- * walked, each link once; from y the way up to the first mark finds the link.
+ * A point whose ray meets no front may lie inside a solid (contact_fraction.h): nothing leaves it.
+ * A leaf that is taken for covered shows the light that links bring, as tables of faces do, and
+ * reflects none; both are contact.
  *
- * Light of emitters is looked for by points on them, too, and what either ray finds counts by the
- * balance heuristic (paths.h): else chance would find small lamps now and then.
- *
- * Points are spread evenly over a line that all leaves lie along, in REPLICATES sets that are
- * shifted at random; place on the leaf and direction follow a Sobol' sequence along it. Sums are
- * made by polygon, and by chunks of polygons in their order: no thread shows.
+ * Points are spread along a line that all leaves lie on (cause_line.h); sums are made by polygon,
+ * and by chunks of polygons in their order: no thread shows.
  *
  * What a difference at x comes to in the power of the whole solution, after all reflections, is
  * 1 + E[rho (1 + E[rho (...)])] times as much, along a path from x: the adjoint, which is the same
  * equation since the kernel is symmetric. One path from each point, independent of what its other
- * rays find, estimates it without bias, of the true surfaces and not of the links.
+ * rays find, estimates it without bias, of the true surfaces and not of the links. So `together`
+ * comes to the solution's error, which tests hold against particles.
  *
  * Fails: a polygon of few rays hides its difference in noise (cause_sums.c). What is wrong within a
  * polygon and cancels over it is not told.
- * [derived here; residuals by rays: Lischinski, Tampieri and Greenberg 1993 hold links against
- * finer ones]
+ * [derived here; that residuals carried on make the error: Arvo, Torrance and Smits 1994]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include "engine/cause_sums.h"
+#include "engine/cause_line.h"
+#include "engine/cause_rays.h"
 #include "engine/error_causes.h"
 #include "engine/push_pull.h"
 #include "engine/solve_tracer.h"
-#include "kernel/constants.h"
-#include "kernel/lambert.h"
-#include "kernel/leaf_at.h"
 #include "kernel/polygon_factor.h"
-#include "kernel/surface_point.h"
-#include "particles/sobol_sequence.h"
-#include "visibility/contact_fraction.h"
-
-enum { CHUNKS = 1024, RAYS_OF_POINT = 2 /* besides the path */ };
+#include "util/thread_pool.h"
 
 struct causes {
     struct solve *solve;
-    const struct light_operator *op;
-    struct tracer tracer;
-    double *gathered;     /* [element * bands + band]: K B of leaves, over whole leaves (W/m2) */
-    float *of_one;        /* [separable link]: J of a radiosity of 1 */
-    double *until;        /* [faces + 1]: running sums of areas that reflect (m2) */
-    uint32_t *chunk_face; /* [CHUNKS + 1]: the first face of each chunk */
-    uint32_t chunks;
-    double spacing; /* m2 between points of a replicate */
-    struct sobol_sequence sobol;
-    struct {
-        double start; /* of the first point, in spacings */
-        uint32_t digits[SOBOL_DIMENSIONS];
-    } shift[REPLICATES];
-    uint64_t stream;
-    uint64_t points, done; /* all replicates; for the watch */
-    int stopped;
+    struct cause_line line;
+    struct cause_rays rays;
+    double *gathered;      /* [element * bands + band]: K B of leaves, over whole leaves (W/m2) */
+    double *shines;        /* [face * bands + band]: mean B (W/m2) */
+    float *of_one;         /* [separable link]: J of a radiosity of 1 */
+    _Atomic uint64_t done; /* points, for the watch */
+    atomic_int stopped;
 };
 
-/* Which link of the elements from the leaf up sends light of an element, and of which kind: 0:
- * none; 2 (i + 1): link i, of surfaces; 2 (i + 1) + 1: separable link i. */
-typedef size_t covering;
-
+/* One thread's way through all receivers. */
 struct walk {
     struct causes *causes;
-    covering *cover; /* [elements]: by emitter */
-    uint32_t top;    /* the cluster down to which links are in cover */
-    struct cause_polygon polygon;
+    struct link_cover cover;
+    struct cause_polygon polygon; /* so far */
     struct cause_sums *sums;
 };
 
@@ -91,386 +70,227 @@ struct brought {
     double kernel[RAD_WAYS][3]; /* of it, what would be less were F exact */
 };
 
-static int is_separable(const struct hierarchy *h, const struct link *l)
-{
-    return !h->elements[l->receiver].vertices || !h->elements[l->emitter].vertices;
-}
-
-static enum RadWay way_of(const struct link *l)
-{
-    return l->visibility == LINK_VISIBLE ? RAD_WAY_OPEN : RAD_WAY_HALF;
-}
-
-/* Mark the emitters of the links of e, or unmark them. */
-static void mark_links(struct walk *w, uint32_t e, int marked)
-{
-    const struct light_operator *op = w->causes->op;
-    const struct refinement *r = op->refinement;
-    size_t group = op->separable.count ? op->separable.first[e] : 0;
-    for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
-        const struct link *l = &r->links[i];
-        covering found = 2 * (i + 1);
-        if (is_separable(op->hierarchy, l))
-            found = 2 * (++group) + 1;
-        if (l->visibility > 0)
-            w->cover[l->emitter] = marked ? found : 0;
-    }
-}
-
-static covering find_link(const struct walk *w, uint32_t emitter)
-{
-    const struct element *elements = w->causes->op->hierarchy->elements;
-    while (!w->cover[emitter] && emitter != 0)
-        emitter = elements[emitter].parent;
-    return w->cover[emitter];
-}
-
-static int holds(const struct element *elements, uint32_t cluster, uint32_t e)
-{
-    while (e != cluster && e != 0)
-        e = elements[e].parent;
-    return e == cluster;
-}
-
-/* Have the links marked of a cluster and of all above it, and no others. */
-static void move_to(struct walk *w, uint32_t cluster)
-{
-    const struct element *elements = w->causes->op->hierarchy->elements;
-    for (; !holds(elements, w->top, cluster); w->top = elements[w->top].parent)
-        mark_links(w, w->top, 0);
-    for (uint32_t e = cluster; e != w->top; e = elements[e].parent)
-        mark_links(w, e, 1);
-    w->top = cluster;
-}
-
 /* Add what the links of surface e bring. */
 static void add_links(const struct causes *c, uint32_t e, struct brought *b)
 {
-    const struct light_operator *op = c->op;
+    const struct light_operator *op = &c->solve->operator;
     const struct refinement *r = op->refinement;
     const double *radiosity = c->solve->state.radiosity;
-    uint32_t bands = c->tracer.bands;
+    const struct element *elements = op->hierarchy->elements;
+    uint32_t bands = c->rays.tracer.bands;
     for (size_t i = r->first_link[e]; i < r->first_link[e + 1]; i++) {
         const struct link *l = &r->links[i];
-        if (is_separable(op->hierarchy, l) || l->visibility == 0)
+        if (link_is_separable(op->hierarchy, l) || l->visibility == 0)
             continue;
-        const struct element *elements = op->hierarchy->elements;
         double visible = l->visibility * (1.0 / LINK_VISIBLE),
                exact = polygon_factor(&elements[e], &elements[l->emitter], 0),
                off = (operator_factor(op, i) - exact) * visible;
         for (uint32_t k = 0; k < bands; k++) {
             double sent = radiosity[(size_t)l->emitter * bands + k];
-            b->way[way_of(l)][k] += operator_weight(op, i) * sent;
-            b->kernel[way_of(l)][k] += off * sent;
+            b->way[link_way(l)][k] += operator_weight(op, i) * sent;
+            b->kernel[link_way(l)][k] += off * sent;
         }
     }
     separable_links_gather(&op->separable, (int)bands, e, b->way[RAD_WAY_GROUPS]);
 }
 
-/* ---- one ray */
+/* ---- one leaf */
 
-/* What all rays of a leaf have in common, and where what they find goes. */
-struct receiver {
-    uint32_t leaf, face;
-    double uncovered, shown[3], reflectance[3];    /* shown: B - E */
-    double sum[RAD_CAUSES][3];                     /* what no ray is asked for (W/m2) */
-    double grows[3];                               /* of this point: see follow_light */
-    double *to[CAUSE_SUMS][3], *after[CAUSE_SUMS]; /* sums of this replicate */
-};
-
-static void add(const struct receiver *at, int cause, uint32_t band, double difference)
+/* By cause, what no ray is asked for (W/m2). */
+static void set_known(const struct causes *c, const struct cause_receiver *at,
+                      const struct brought *b, double known[RAD_CAUSES][3])
 {
-    *at->to[cause][band] += difference;
-    *at->after[cause] += at->grows[band] * difference;
-}
-
-static double turn(double u)
-{
-    return u < 0.5 ? u + 0.5 : u - 0.5;
-}
-
-/* A ray finds light at point y of a face, and counts as `share` of one. */
-static void add_arrival(struct walk *w, const struct receiver *at, uint32_t face, const double y[3],
-                        double share)
-{
-    static const struct {
-        enum RadCauseKind bright, visibility;
-    } causes[RAD_WAYS] = {{RAD_CAUSE_LOST, RAD_CAUSE_LOST},
-                          {RAD_CAUSE_OPEN_BRIGHT, RAD_CAUSE_OPEN_VISIBILITY},
-                          {RAD_CAUSE_HALF_BRIGHT, RAD_CAUSE_HALF_VISIBILITY},
-                          {RAD_CAUSE_GROUPS_BRIGHT, RAD_CAUSE_GROUPS_REST}};
-    const struct causes *c = w->causes;
-    const struct separable_links *groups = &c->op->separable;
-    const struct hierarchy *h = c->op->hierarchy;
-    const uint32_t bands = c->tracer.bands;
-    double weight[4];
-    uint32_t emitter = leaf_at(h->elements, h->face_element[face], y, weight);
-    const double *B = &c->solve->state.radiosity[(size_t)emitter * bands];
-    covering found = find_link(w, emitter);
-    size_t i = found / 2 - 1;
-    const struct link *l = found && !(found & 1) ? &c->op->refinement->links[i] : NULL;
-    enum RadWay way = !found ? RAD_WAY_NONE : l ? way_of(l) : RAD_WAY_GROUPS;
-    for (uint32_t k = 0; k < bands; k++) {
-        double rho = share * at->reflectance[k], mean = 0;
-        add(at, CAUSE_ALL, k, -rho * B[k]);
-        if (!(at->uncovered > 0)) {
-            add(at, RAD_CAUSE_CONTACT, k, -rho * B[k]);
-            continue;
-        }
-        if (l)
-            mean = c->solve->state.radiosity[(size_t)l->emitter * bands + k];
-        else if (found && c->of_one[i] > 0)
-            mean = (double)groups->arrives[i * bands + k] / (double)c->of_one[i];
-        add(at, causes[way].bright, k, rho * (mean - B[k]));
-        if (way != RAD_WAY_NONE)
-            add(at, causes[way].visibility, k, -rho * mean);
-        w->sums->rays[way] += rho * B[k];
+    uint32_t bands = c->rays.tracer.bands;
+    memset(known, 0, RAD_CAUSES * sizeof *known);
+    for (uint32_t k = 0; k < bands && at->uncovered > 0; k++) {
+        const double rho = at->reflectance[k], open = rho * b->way[RAD_WAY_OPEN][k],
+                     half = rho * b->way[RAD_WAY_HALF][k], groups = rho * b->way[RAD_WAY_GROUPS][k];
+        const double gathered = rho * c->gathered[(size_t)at->leaf * bands + k];
+        known[RAD_CAUSE_OPEN_KERNEL][k] = rho * b->kernel[RAD_WAY_OPEN][k];
+        known[RAD_CAUSE_HALF_KERNEL][k] = rho * b->kernel[RAD_WAY_HALF][k];
+        known[RAD_CAUSE_OPEN_VISIBILITY][k] = open - known[RAD_CAUSE_OPEN_KERNEL][k];
+        known[RAD_CAUSE_HALF_VISIBILITY][k] = half - known[RAD_CAUSE_HALF_KERNEL][k];
+        known[RAD_CAUSE_GROUPS_REST][k] = groups;
+        known[RAD_CAUSE_ROW_CAP][k] = gathered - (open + half + groups);
+        known[RAD_CAUSE_SOLVER][k] = at->uncovered * at->shown[k] - gathered;
     }
 }
 
-/* The balance heuristic's share of light from y of an emitter, found from p, by a ray of either
- * kind; chance: that the emitter is chosen (paths.c). */
-static double share_of(const struct element *from, const double p[3], const struct element *emitter,
-                       const double y[3], double chance)
-{
-    double by_cosine = lambert_points(p, from->normal, y, emitter->normal, 0);
-    return by_cosine > 0 ? by_cosine / (by_cosine + chance / emitter->area) : 0;
-}
-
-/* A ray from p to the emitters. */
-static void look_for_light(struct walk *w, const struct receiver *at, const double p[3],
-                           const double u[3])
-{
-    const struct tracer *t = &w->causes->tracer;
-    const struct element *from = tracer_surface(t, at->face);
-    uint32_t face;
-    double chance = light_tree_choose(&t->light_tree, p, from->normal, u[0], &face);
-    if (!(chance > 0))
-        return;
-    const struct element *emitter = tracer_surface(t, face);
-    double q[3], y[3], way[3];
-    tracer_point(t, face, u[1], u[2], q);
-    for (int d = 0; d < 3; d++)
-        y[d] = q[d] - rays_host(t->rays)->ray_offset * emitter->normal[d];
-    double share = share_of(from, p, emitter, y, chance);
-    sub3(way, q, p);
-    if (share > 0 && !rays_blocked(t->rays, p, way))
-        add_arrival(w, at, face, y, share);
-}
-
-/* Set at->grows: by a path from p, what light reflected there comes to after all reflections.
- * Returns its rays. */
-static uint64_t follow_light(const struct tracer *t, struct receiver *at, const double p[3],
-                             struct dice *dice)
-{
-    double through[3] = {1, 1, 1}, x[3] = {p[0], p[1], p[2]};
-    uint32_t face = at->face;
-    for (uint64_t rays = 1;; rays++) {
-        double u = dice_throw(dice), v = dice_throw(dice), strongest = 0, left = 0;
-        int64_t met = tracer_step(t, face, x, u, v, NULL);
-        if (met < 0)
-            return rays;
-        face = (uint32_t)met;
-        for (uint32_t k = 0; k < t->bands; k++) {
-            strongest = fmax(strongest, through[k]);
-            through[k] *= t->reflectance[(size_t)face * t->bands + k];
-            left = fmax(left, through[k]);
-            at->grows[k] += through[k];
-        }
-        if (!(dice_throw(dice) * strongest < left))
-            return rays;
-        for (uint32_t k = 0; k < t->bands; k++)
-            through[k] *= strongest / left;
-    }
-}
-
-/* The rays of one point, u in [0, 1)^5: one by the cosine, one to the emitters, and a path. */
-static void trace(struct walk *w, struct receiver *at, const double u[SOBOL_DIMENSIONS],
-                  struct dice *dice)
-{
-    const struct causes *c = w->causes;
-    const struct tracer *t = &c->tracer;
-    const struct element *leaf = &c->op->hierarchy->elements[at->leaf];
-    double from[3], p[3], y[3];
-    surface_even_point(from, leaf, u[0], u[1]);
-    for (int d = 0; d < 3; d++)
-        p[d] = from[d] += rays_host(t->rays)->ray_offset * leaf->normal[d];
-    int64_t met = tracer_step(t, at->face, p, u[2], u[3], y);
-    int covered = (met < 0 || at->uncovered < 1) && contact_covers(t->rays, leaf, from);
-    double bare = covered ? 0 : 1;
-    for (uint32_t k = 0; k < t->bands; k++)
-        at->grows[k] = 1;
-    w->sums->traced += RAYS_OF_POINT + (covered ? 0 : follow_light(t, at, from, dice));
-    for (uint32_t k = 0; k < t->bands; k++) {
-        add(at, CAUSE_ALL, k, bare * at->shown[k]);
-        add(at, RAD_CAUSE_CONTACT, k,
-            (at->uncovered > 0 ? bare - at->uncovered : bare) * at->shown[k]);
-    }
-    if (covered)
-        return;
-    if (met >= 0) {
-        double share = 1;
-        uint32_t face = (uint32_t)met;
-        if (t->light_tree.place[face] != UINT32_MAX)
-            share = share_of(leaf, from, tracer_surface(t, face), y,
-                             light_tree_chance(&t->light_tree, from, leaf->normal, face));
-        add_arrival(w, at, face, y, share);
-    }
-    /* Of a Sobol' sequence with the place, too; that it goes with the direction does no harm:
-     * each of the two rays is spread evenly by itself. */
-    const double v[3] = {u[4], turn(u[2]), turn(u[3])};
-    look_for_light(w, at, from, v);
-}
-
-/* ---- one leaf, one face */
-
-/* How many points of a replicate lie before the place on the line. */
-static uint64_t points_before(const struct causes *c, int replicate, double place)
-{
-    return (uint64_t)ceil(fmax(place / c->spacing - c->shift[replicate].start, 0));
-}
-
-static void set_receiver(const struct causes *c, struct receiver *at, uint32_t leaf,
-                         const struct brought *b)
+static void set_receiver(const struct causes *c, struct cause_receiver *at, uint32_t leaf)
 {
     const struct solve *s = c->solve;
-    uint32_t bands = c->tracer.bands;
+    uint32_t bands = c->rays.tracer.bands;
     memset(at, 0, sizeof *at);
     at->leaf = leaf;
     at->face = s->hierarchy.elements[leaf].face;
     at->uncovered = s->operator.uncovered[leaf];
     for (uint32_t k = 0; k < bands; k++) {
-        at->reflectance[k] = s->problem.reflectance[(size_t)at->face * bands + k];
-        at->shown[k] = s->state.radiosity[(size_t)leaf * bands + k]
-                       - s->problem.exitance[(size_t)at->face * bands + k];
+        size_t of_face = (size_t)at->face * bands + k;
+        at->reflectance[k] = s->problem.reflectance[of_face];
+        at->shown[k] = s->state.radiosity[(size_t)leaf * bands + k] - s->problem.exitance[of_face];
     }
-    for (uint32_t k = 0; k < bands && at->uncovered > 0; k++) {
-        double rho = at->reflectance[k], gathered = c->gathered[(size_t)leaf * bands + k], all = 0;
-        for (int way = RAD_WAY_OPEN; way < RAD_WAYS; way++)
-            all += b->way[way][k];
-        at->sum[RAD_CAUSE_SOLVER][k] = at->uncovered * at->shown[k] - rho * gathered;
-        at->sum[RAD_CAUSE_ROW_CAP][k] = rho * (gathered - all);
-        at->sum[RAD_CAUSE_OPEN_KERNEL][k] = rho * b->kernel[RAD_WAY_OPEN][k];
-        at->sum[RAD_CAUSE_HALF_KERNEL][k] = rho * b->kernel[RAD_WAY_HALF][k];
-        at->sum[RAD_CAUSE_OPEN_VISIBILITY][k] =
-            rho * (b->way[RAD_WAY_OPEN][k] - b->kernel[RAD_WAY_OPEN][k]);
-        at->sum[RAD_CAUSE_HALF_VISIBILITY][k] =
-            rho * (b->way[RAD_WAY_HALF][k] - b->kernel[RAD_WAY_HALF][k]);
-        at->sum[RAD_CAUSE_GROUPS_REST][k] = rho * b->way[RAD_WAY_GROUPS][k];
+}
+
+/* The points of one replicate on the leaf, `first` to end - 1. */
+static void cast_replicate(struct walk *w, struct cause_receiver *at, double known[RAD_CAUSES][3],
+                           int r, uint64_t first, uint64_t end)
+{
+    const struct causes *c = w->causes;
+    const double *irradiance = &c->solve->state.irradiance[(size_t)at->leaf * c->rays.tracer.bands];
+    double growth[3] = {0, 0, 0}, weight = at->weight * (double)(end - first);
+    for (int cause = 0; cause < CAUSE_SUMS; cause++) {
+        for (int k = 0; k < 3; k++)
+            at->to[cause][k] = &w->polygon.sum[cause][k][r];
+        at->after[cause] = &w->polygon.after[cause][r];
     }
+    for (uint64_t i = first; i < end; i++) {
+        double u[SOBOL_DIMENSIONS];
+        struct dice dice = cause_line_point(&c->line, r, i, u);
+        w->sums->traced += cause_rays_cast(&c->rays, &w->cover, at, u, &dice);
+        for (uint32_t k = 0; k < c->rays.tracer.bands; k++)
+            growth[k] += at->weight * at->growth[k];
+    }
+    for (uint32_t k = 0; k < c->rays.tracer.bands; k++) {
+        for (int cause = 0; cause < RAD_CAUSES; cause++) {
+            *at->to[cause][k] += weight * known[cause][k];
+            *at->after[cause] += growth[k] * known[cause][k];
+        }
+        /* what is brought to a leaf that is taken for covered is shown, but not reflected */
+        double idle = at->uncovered > 0 ? 0 : weight * at->reflectance[k] * irradiance[k];
+        *at->to[CAUSE_ALL][k] += idle;
+        *at->to[RAD_CAUSE_CONTACT][k] += idle;
+        *at->after[CAUSE_ALL] += idle;
+        *at->after[RAD_CAUSE_CONTACT] += idle;
+        w->polygon.growth[k] += growth[k];
+    }
+    w->polygon.weight += weight;
+    w->polygon.points += end - first;
 }
 
 /* The rays of a leaf that lies from .. to along the line (m2). */
-static void trace_leaf(struct walk *w, uint32_t leaf, const struct brought *b, double from,
-                       double to)
+static void cast_leaf(struct walk *w, uint32_t leaf, const struct brought *b, double from,
+                      double to)
 {
     const struct causes *c = w->causes;
-    struct receiver at;
-    set_receiver(c, &at, leaf, b);
-    uint64_t points = 0;
-    for (int r = 0; r < REPLICATES; r++) {
-        uint64_t first = points_before(c, r, from), end = points_before(c, r, to);
-        double growth[3] = {0, 0, 0};
-        for (int cause = 0; cause < CAUSE_SUMS; cause++)
-            for (int k = 0; k < 3; k++) {
-                at.to[cause][k] = &w->polygon.sum[cause][k][r];
-                at.after[cause] = &w->polygon.after[cause][r];
-            }
-        for (uint64_t i = first; i < end; i++) {
-            double u[SOBOL_DIMENSIONS];
-            sobol_sequence_point(&c->sobol, (uint32_t)i, c->shift[r].digits, u);
-            struct dice dice = dice_of(c->stream, (uint64_t)r << 32 | i);
-            trace(w, &at, u, &dice);
-            for (uint32_t k = 0; k < c->tracer.bands; k++)
-                growth[k] += at.grows[k];
-        }
-        for (int cause = 0; cause < RAD_CAUSES; cause++)
-            for (uint32_t k = 0; k < c->tracer.bands; k++) {
-                *at.to[cause][k] += (double)(end - first) * at.sum[cause][k];
-                *at.after[cause] += growth[k] * at.sum[cause][k];
-            }
-        for (uint32_t k = 0; k < c->tracer.bands; k++)
-            w->polygon.growth[k] += growth[k];
-        points += end - first;
-    }
-    w->polygon.points += points;
-    for (uint32_t k = 0; k < c->tracer.bands && at.uncovered > 0; k++)
-        for (int way = RAD_WAY_OPEN; way < RAD_WAYS; way++)
-            w->sums->links[way] += (double)points * at.reflectance[k] * b->way[way][k];
+    struct cause_receiver at;
+    double known[RAD_CAUSES][3], before = w->polygon.weight;
+    set_receiver(c, &at, leaf);
+    memcpy(at.growth, w->polygon.last, sizeof at.growth);
+    set_known(c, &at, b, known);
+    at.weight = c->solve->hierarchy.elements[leaf].area / (to - from);
+    at.found = w->sums->rays;
+    for (int r = 0; r < REPLICATES; r++)
+        cast_replicate(w, &at, known, r, cause_line_before(&c->line, r, from),
+                       cause_line_before(&c->line, r, to));
+    memcpy(w->polygon.last, at.growth, sizeof at.growth);
+    for (uint32_t k = 0; k < c->rays.tracer.bands && at.uncovered > 0; k++)
+        for (int way = 0; way < RAD_WAYS; way++)
+            w->sums->links[way] +=
+                (w->polygon.weight - before) * at.reflectance[k] * b->way[way][k];
 }
 
-static int has_points(const struct causes *c, double from, double to)
-{
-    for (int r = 0; r < REPLICATES; r++)
-        if (points_before(c, r, from) < points_before(c, r, to))
-            return 1;
-    return 0;
-}
+/* ---- all of them */
 
 /* All rays from surface e and its parts; `above`: what the links above it bring. */
 static void walk_surface(struct walk *w, uint32_t e, struct brought above, double from, double to)
 {
     const struct causes *c = w->causes;
-    const struct element *elements = c->op->hierarchy->elements, *x = &elements[e];
-    if (!has_points(c, from, to))
+    const struct element *x = &c->solve->hierarchy.elements[e];
+    if (!cause_line_has_points(&c->line, from, to))
         return;
     add_links(c, e, &above);
-    mark_links(w, e, 1);
+    link_cover_mark(&w->cover, e, 1);
     double whole = 0, part = 0;
     for (int i = 0; i < x->children; i++)
-        whole += elements[x->child + (uint32_t)i].area;
+        whole += cause_line_length(&c->line, x->child + (uint32_t)i);
     for (int i = 0; i < x->children; i++) {
         double begin = from + (to - from) * part / whole;
-        part += elements[x->child + (uint32_t)i].area;
+        part += cause_line_length(&c->line, x->child + (uint32_t)i);
         double end = i + 1 < x->children ? from + (to - from) * part / whole : to;
         walk_surface(w, x->child + (uint32_t)i, above, begin, end);
     }
     if (!x->children)
-        trace_leaf(w, e, &above, from, to);
-    mark_links(w, e, 0);
+        cast_leaf(w, e, &above, from, to);
+    link_cover_mark(&w->cover, e, 0);
 }
 
 /* Nonzero: stop. By the thread that called in, the work is told of. */
-static int watch(struct causes *c, double area)
+static int watch(struct causes *c, double length)
 {
-    uint64_t done, points = (uint64_t)(REPLICATES * area / c->spacing);
-    int stopped;
-#pragma omp atomic capture
-    done = c->done += points;
-    if (omp_get_thread_num() == 0) {
-        const struct counting counting = {RAYS_OF_POINT * done,
-                                          fmin((double)done / (double)c->points, 1)};
+    uint64_t points = (uint64_t)(REPLICATES * length / c->line.spacing);
+    uint64_t done = c->done += points;
+    if (thread_pool_number() == 0) {
+        const struct counting counting = {CAUSE_RAYS * done,
+                                          fmin((double)done / (double)c->line.points, 1)};
         c->solve->counting = &counting;
-        if (solve_tell(c->solve, "causes")) {
-#pragma omp atomic write
+        if (solve_tell(c->solve, "causes"))
             c->stopped = 1;
-        }
         c->solve->counting = NULL;
     }
-#pragma omp atomic read
-    stopped = c->stopped;
-    return stopped;
+    return c->stopped;
 }
 
 static void walk_chunk(struct walk *w, uint32_t chunk)
 {
     static const struct brought nothing;
     struct causes *c = w->causes;
-    const struct hierarchy *h = c->op->hierarchy;
-    for (uint32_t i = c->chunk_face[chunk]; i < c->chunk_face[chunk + 1]; i++) {
+    const struct hierarchy *h = &c->solve->hierarchy;
+    const double *until = c->line.until;
+    for (uint32_t i = c->line.chunk[chunk]; i < c->line.chunk[chunk + 1]; i++) {
         uint32_t e = h->face_element[i];
-        if (c->until[i] < c->until[i + 1] && has_points(c, c->until[i], c->until[i + 1])) {
-            move_to(w, h->elements[e].parent);
-            walk_surface(w, e, nothing, c->until[i], c->until[i + 1]);
+        if (cause_line_has_points(&c->line, until[i], until[i + 1])) {
+            link_cover_move(&w->cover, h->elements[e].parent);
+            walk_surface(w, e, nothing, until[i], until[i + 1]);
         }
         if (i + 1 == h->face_count || h->faces[i + 1].input != h->faces[i].input)
-            cause_sums_add(w->sums, &w->polygon, c->tracer.bands);
-        if (watch(c, c->until[i + 1] - c->until[i]))
+            cause_sums_add(w->sums, &w->polygon, c->rays.tracer.bands);
+        if (watch(c, until[i + 1] - until[i]))
             return;
     }
 }
 
-/* ---- all of it */
+/* All chunks; each thread has a walk of its own, and each chunk its sums. */
+struct walking {
+    struct walk *walks;      /* [thread] */
+    struct cause_sums *part; /* [chunk] */
+};
+
+static void walk_chunks(const void *walking, size_t from, size_t to)
+{
+    const struct walking *g = walking;
+    struct walk *w = &g->walks[thread_pool_number()];
+    for (size_t i = from; i < to; i++) {
+        w->sums = &g->part[i];
+        walk_chunk(w, (uint32_t)i);
+    }
+}
+
+/* Sums of all chunks into *sums. Returns 0, or -1 when out of memory or stopped. */
+static int walk_all(struct causes *c, struct cause_sums *sums)
+{
+    uint32_t chunks = c->line.chunks;
+    int threads = c->rays.tracer.threads, open = 0;
+    const struct walking g = {calloc((size_t)threads, sizeof *g.walks),
+                              calloc((size_t)chunks + 1, sizeof *g.part)};
+    int failed = !g.walks || !g.part;
+    for (; !failed && open < threads; open += !failed) {
+        g.walks[open].causes = c;
+        failed = link_cover_open(&g.walks[open].cover, &c->solve->operator) < 0;
+        if (failed)
+            link_cover_close(&g.walks[open].cover);
+    }
+    if (!failed)
+        thread_pool_run(threads, chunks, 1, walk_chunks, &g);
+    for (uint32_t i = 0; i < chunks && !failed; i++)
+        cause_sums_join(sums, &g.part[i]);
+    while (open-- > 0)
+        link_cover_close(&g.walks[open].cover);
+    free(g.walks);
+    free(g.part);
+    return failed || c->stopped ? -1 : 0;
+}
+
+/* ---- what it takes */
 
 /* Where the last pass has changed links, the operator is that of the links before. Returns 0 or -1.
  */
@@ -489,12 +309,32 @@ static int renew_operator(struct solve *s)
     return 0;
 }
 
+struct sweeping {
+    const struct light_operator *op;
+    const struct transport *x;
+};
+
+static void gather_faces(const void *sweeping, size_t from, size_t to)
+{
+    const struct sweeping *g = sweeping;
+    for (size_t i = from; i < to; i++)
+        face_gather(g->op, g->x, g->op->hierarchy->face_element[i]);
+}
+
+static void update_faces(const void *sweeping, size_t from, size_t to)
+{
+    const struct sweeping *g = sweeping;
+    struct change change;
+    for (size_t i = from; i < to; i++)
+        face_update(g->op, g->x, g->op->hierarchy->face_element[i], &change);
+}
+
 /* K B into c->gathered, by a sweep of Jacobi's over copies; J of a radiosity of 1 before. Returns 0
  * or -1. */
 static int gather_all(struct causes *c)
 {
     struct solve *s = c->solve;
-    const struct light_operator *op = c->op;
+    const struct light_operator *op = &s->operator;
     uint32_t bands = s->problem.bands;
     size_t elements = s->hierarchy.count, values = elements * bands;
     double *value = malloc((values + 1) * sizeof *value);
@@ -516,125 +356,53 @@ static int gather_all(struct causes *c)
                                 .irradiance = c->gathered,
                                 .source = s->problem.exitance,
                                 .reflectance = s->problem.reflectance};
-#pragma omp parallel num_threads(s->problem.options.threads)
-    {
-        struct change change;
-#pragma omp for schedule(dynamic, 8)
-        for (uint32_t i = 0; i < s->hierarchy.face_count; i++)
-            face_gather(op, &x, s->hierarchy.face_element[i]);
-#pragma omp for schedule(dynamic, 64)
-        for (uint32_t i = 0; i < s->hierarchy.face_count; i++)
-            face_update(op, &x, s->hierarchy.face_element[i], &change);
-    }
+    const struct sweeping g = {op, &x};
+    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 8, gather_faces, &g);
+    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 64, update_faces, &g);
     free(value);
     return 0;
 }
 
-/* The line, its chunks, and where points stand on it. Returns 0 or -1. */
-static int lay_out(struct causes *c, uint64_t rays)
-{
-    const struct hierarchy *h = c->op->hierarchy;
-    const struct problem *p = &c->solve->problem;
-    uint32_t faces = h->face_count, polygons = h->faces[faces - 1].input + 1;
-    c->until = malloc(((size_t)faces + 1) * sizeof *c->until);
-    c->chunk_face = malloc((CHUNKS + 1) * sizeof *c->chunk_face);
-    if (!c->until || !c->chunk_face)
-        return -1;
-    c->until[0] = 0;
-    c->chunks = 0;
-    double white = 0;
-    uint64_t chunk = UINT64_MAX;
-    for (uint32_t i = 0; i < faces; i++) {
-        uint32_t input = h->faces[i].input;
-        uint64_t at = polygons > CHUNKS ? (uint64_t)input * CHUNKS / polygons : input;
-        if (at != chunk)
-            c->chunk_face[c->chunks++] = i;
-        chunk = at;
-        double area = p->whitest[i] > 0 ? h->elements[h->face_element[i]].area : 0;
-        white += area * p->whitest[i];
-        c->until[i + 1] = c->until[i] + area;
-    }
-    c->chunk_face[c->chunks] = faces;
-    /* a path has 1 / (1 - rho) rays, about */
-    double whole = c->until[faces],
-           each = RAYS_OF_POINT + whole / fmax(whole - white, 0.01 * whole);
-    c->points = (uint64_t)fmax((double)rays / each, REPLICATES);
-    c->spacing = whole * REPLICATES / (double)c->points;
-    sobol_sequence_open(&c->sobol);
-    for (int r = 0; r < REPLICATES; r++) {
-        struct dice dice = dice_of(c->stream, UINT64_MAX - (uint64_t)r);
-        c->shift[r].start = dice_throw(&dice);
-        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
-            c->shift[r].digits[d] = (uint32_t)(dice_throw(&dice) * 0x1p32);
-    }
-    return 0;
-}
-
-static double reflected(const struct causes *c)
+/* Where rays go to: to faces by their mean radiosity. Returns 0, or -1 when out of memory. */
+static int open_rays(struct causes *c)
 {
     const struct solve *s = c->solve;
-    double sum = 0;
-    for (uint32_t i = 0; i < s->hierarchy.face_count; i++) {
-        uint32_t e = s->hierarchy.face_element[i];
-        for (uint32_t k = 0; k < s->problem.bands; k++)
-            sum += s->hierarchy.elements[e].area
-                   * s->operator.uncovered[e] *(
-                       s->state.radiosity[(size_t)e * s->problem.bands + k]
-                       - s->problem.exitance[(size_t)i * s->problem.bands + k]);
-    }
-    return sum;
-}
-
-/* Sums of all chunks into *sums. Returns 0, or -1 when out of memory or stopped. */
-static int walk_all(struct causes *c, struct cause_sums *sums)
-{
-    struct cause_sums *part = calloc(c->chunks, sizeof *part);
-    int failed = !part;
-#pragma omp parallel num_threads(c->tracer.threads) if (part)
-    {
-        struct walk *w = calloc(1, sizeof *w);
-        if (w) {
-            w->causes = c;
-            w->cover = calloc(c->op->hierarchy->count, sizeof *w->cover);
-        }
-        int ready = part && w && w->cover;
-        if (ready)
-            mark_links(w, 0, 1);
-        else {
-#pragma omp atomic write
-            failed = 1;
-        }
-#pragma omp for schedule(dynamic, 1)
-        for (uint32_t i = 0; i < c->chunks; i++)
-            if (ready) {
-                w->sums = &part[i];
-                walk_chunk(w, i);
-            }
-        if (w)
-            free(w->cover);
-        free(w);
-    }
-    for (uint32_t i = 0; i < c->chunks && !failed; i++)
-        cause_sums_join(sums, &part[i]);
-    free(part);
-    return failed || c->stopped ? -1 : 0;
+    size_t bands = s->problem.bands;
+    c->shines = malloc(((size_t)s->hierarchy.face_count * bands + 1) * sizeof *c->shines);
+    if (!c->shines)
+        return -1;
+    for (uint32_t i = 0; i < s->hierarchy.face_count; i++)
+        memcpy(&c->shines[i * bands], &s->state.radiosity[s->hierarchy.face_element[i] * bands],
+               bands * sizeof *c->shines);
+    c->rays = (struct cause_rays){.solve = s, .tracer = solve_tracer(s), .of_one = c->of_one};
+    c->rays.tracer.exitance = c->shines;
+    return tracer_open(&c->rays.tracer);
 }
 
 int error_causes_find(struct solve *s, uint64_t rays, uint64_t stream,
                       struct RadCausesReport *report)
 {
-    struct causes c = {.solve = s, .op = &s->operator, .tracer = solve_tracer(s), .stream = stream};
+    struct causes c = {.solve = s};
     struct cause_sums sums = {0};
-    *report = (struct RadCausesReport){.reflected = reflected(&c)};
-    int failed = tracer_open(&c.tracer) < 0 || renew_operator(s) < 0 || gather_all(&c) < 0
-                 || lay_out(&c, rays) < 0 || (c.spacing > 0 && walk_all(&c, &sums) < 0);
-    if (!failed && c.spacing > 0) {
-        cause_sums_report(&sums, report->reflected / c.spacing, report);
+    *report = (struct RadCausesReport){.rays = 0};
+    int failed = renew_operator(s) < 0 || gather_all(&c) < 0 || open_rays(&c) < 0
+                 || cause_line_open(&c.line, s, stream) < 0;
+    if (!failed) {
+        report->reflected = c.line.reflected;
+        /* a path has 1 / (1 - rho) rays, about */
+        double each = CAUSE_RAYS + 1 / fmax(1 - c.line.white, 0.01);
+        cause_line_spread(&c.line, (uint64_t)((double)rays / each));
     }
-    tracer_close(&c.tracer);
+    if (!failed && c.line.spacing > 0) {
+        failed = walk_all(&c, &sums) < 0;
+        for (int way = 0; way < RAD_WAYS && !(c.line.reflected > 0); way++)
+            report->reflected += sums.rays[way] * c.line.spacing / REPLICATES;
+        cause_sums_report(&sums, report->reflected / c.line.spacing, report);
+    }
+    cause_line_close(&c.line);
+    tracer_close(&c.rays.tracer);
     free(c.gathered);
+    free(c.shines);
     free(c.of_one);
-    free(c.until);
-    free(c.chunk_face);
     return failed ? -1 : 0;
 }

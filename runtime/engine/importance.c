@@ -8,7 +8,9 @@
  *
  * Three bands are one here: rho is the largest. The oracles see Y as a share of its largest value
  * (so scene.importance is 1, with a view or without), at least IMPORTANCE_LEAST, and with the
- * hysteresis of radiosity (oracle_inputs.c). At first they see r itself: what the picture does not
+ * hysteresis of radiosity (oracle_inputs.c); host.impact is that largest value, for those who
+ * compare errors in watts. Without a view, for them alone, r is 1 everywhere. At first they see r
+ * itself: what the picture does not
  * hold is linked coarsely, and refined once the first solve has said what it means for the picture.
  * Fails: 64 points may all miss the part of a large leaf that is in the picture; r is then 0 until
  * something splits it.
@@ -78,8 +80,10 @@ static void take_shares(const void *responding, size_t from, size_t to)
     const struct problem *p = r->op->problem;
     for (size_t i = r->y->started + from; i < r->y->started + to; i++) {
         const struct element *e = &r->op->hierarchy->elements[i];
-        r->y->response[i] =
-            e->vertices ? share_in_picture(rays_host(p->rays), p->options.camera, e) : 0;
+        r->y->response[i] = !e->vertices ? 0
+                            : !p->options.camera
+                                ? 1
+                                : share_in_picture(rays_host(p->rays), p->options.camera, e);
     }
 }
 

@@ -18,8 +18,8 @@ struct importance {
     double seen;          /* area in the picture (m2) */
 };
 
-/* Before the first refinement: what the view sees of every face is all that counts. Returns 0,
- * or -1 when out of memory. */
+/* Before the first refinement: what the view sees of every face is all that counts, and every face
+ * does where there is no view. Returns 0, or -1 when out of memory. */
 int importance_start(struct importance *y, const struct light_operator *op, struct hierarchy *h,
                      struct oracle_inputs *in);
 

@@ -26,8 +26,8 @@
 #include "visibility/contact_fraction.h"
 #include "visibility/enclosure.h"
 
-/* Where the solver lowers error tolerances a pass may be one step of them. */
-enum { PASSES = 32, PASSES_OF_ERROR_CONTROL = 200 };
+/* Where the solver lowers error tolerances or ranks links, a pass may be one step of many. */
+enum { PASSES = 32, PASSES_IN_STEPS = 200 };
 
 static double largest(const double *v, uint32_t n)
 {
@@ -254,8 +254,15 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
 {
     const struct problem *p = &s->problem;
     double start = seconds(), error = error_control_target(refiner, rays_host(p->rays));
-    if (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE)
-        && importance_start(&s->importance, &s->operator, & s->hierarchy, &s->inputs) < 0)
+    int impact = refiner_reads(refiner, FACT_RECEIVER_IMPACT),
+        bracket =
+            refiner_reads(refiner, FACT_EMITTER_LOWER) || refiner_reads(refiner, FACT_EMITTER_GAP);
+    ranking_start(&s->ranking, refiner, p->rays);
+    impact = impact || s->ranking.asked
+             || (p->options.camera && refiner_reads(refiner, FACT_RECEIVER_IMPORTANCE));
+    if (impact && importance_start(&s->importance, &s->operator, & s->hierarchy, &s->inputs) < 0)
+        return fail(s, "out of memory", cause);
+    if (bracket && bracket_start(&s->bracket, &s->operator, & s->hierarchy) < 0)
         return fail(s, "out of memory", cause);
     if (error > 0)
         error_control_start(&s->error, error, &s->hierarchy, &s->inputs);
@@ -306,6 +313,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
                                                        : x.held;
     transport_average(op, &x);
     oracle_inputs_update(&s->inputs, op, s->state.radiosity, &s->hierarchy);
+    if (s->bracket.capacity > 0 && bracket_update(&s->bracket, op, &s->hierarchy, &s->inputs) < 0)
+        return -1;
     if (s->importance.capacity == 0)
         return 0;
     if (importance_open(&s->importance, op, &carried) < 0)
@@ -317,6 +326,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
     s->importance.sweeps += carried.sweeps;
     s->report.converged &= carried.converged;
     importance_update(&s->importance, op, &s->hierarchy, &s->inputs);
+    rays_tell_impact(s->problem.rays, s->importance.largest);
     return 0;
 }
 
@@ -368,6 +378,15 @@ static int64_t refine_for_error(struct solve *s)
     }
 }
 
+/* Where links are ranked: those that are the worst now, and nothing else. Returns how many links
+ * changed, or -1. */
+static int64_t refine_worst(struct solve *s)
+{
+    if (ranking_update(&s->ranking, &s->operator, s->problem.rays, &s->inputs) < 0)
+        return -1;
+    return refine_again(s);
+}
+
 /* Solve once more over the final links for functions linear over the elements. Returns 0 or -1. */
 static int solve_linear(struct solve *s, const char **cause)
 {
@@ -398,7 +417,9 @@ int solve_step(struct solve *s, const char **cause)
     if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance, rough) < 0)
         return fail(s, "out of memory", cause);
     double middle = seconds();
-    int64_t changed = s->error.target > 0 ? refine_for_error(s) : refine_again(s);
+    int64_t changed = s->error.target > 0 ? refine_for_error(s)
+                      : s->ranking.asked  ? refine_worst(s)
+                                          : refine_again(s);
     if (changed < 0)
         return fail(s, refining, cause);
     s->report.passes++;
@@ -437,7 +458,8 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     int more = 1;
     if (!s->refinement.hierarchy && solve_refine(s, refiner, cause) < 0)
         return -1;
-    while (more > 0 && s->report.passes < (s->error.target > 0 ? PASSES_OF_ERROR_CONTROL : PASSES))
+    const int most = s->error.target > 0 || s->ranking.asked ? PASSES_IN_STEPS : PASSES;
+    while (more > 0 && s->report.passes < most)
         more = solve_step(s, cause);
     if (more > 0 && s->problem.options.linear)
         more = solve_linear(s, cause);
@@ -462,6 +484,8 @@ void solve_close(struct solve *s)
     hierarchy_free(&s->hierarchy);
     importance_free(&s->importance);
     error_control_free(&s->error);
+    bracket_free(&s->bracket);
+    ranking_free(&s->ranking);
     linear_solution_free(&s->linear);
     double *const lists[] = {s->state.radiosity,    s->state.irradiance,   s->inputs.least,
                              s->inputs.most,        s->inputs.deviation,   s->operator.uncovered,

@@ -3,12 +3,14 @@
 #ifndef SOLVE_H
 #define SOLVE_H
 
+#include "engine/bracket.h"
 #include "engine/error_control.h"
 #include "engine/importance.h"
 #include "engine/linear_solution.h"
 #include "engine/operator.h"
 #include "engine/oracle_inputs.h"
 #include "engine/problem.h"
+#include "engine/ranking.h"
 #include "engine/refine.h"
 #include "engine/row_sums.h"
 
@@ -58,6 +60,8 @@ struct solve {
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;
+    struct bracket bracket;
+    struct ranking ranking;
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
     const struct counting *counting; /* NULL: no particles are traced now */

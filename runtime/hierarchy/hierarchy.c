@@ -187,6 +187,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
         c->reflectance = e->reflectance;
         c->importance = e->importance;
         c->tolerance = e->tolerance;
+        c->lower = e->lower;
         c->id = child_id(e->id, i);
     }
     e->child = first;

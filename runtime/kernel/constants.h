@@ -243,6 +243,9 @@
 /* of the error to be held: the most that all links of a leaf may bring together by the oracle's
  * own measure before the leaf is given up; chosen */
 #define ERROR_ENOUGH 0.25
+/* of what is between lower and upper solution. A sweep that brings them no nearer than by this is
+ * the last of a pass; every further one would bring the largest reflectance of it. chosen */
+#define BRACKET_ENOUGH 1e-3
 /* cosine. A side whose mean normal is turned less than this to the other side is seen on edge:
  * that normal says nothing of what passes, only the place does; chosen */
 #define PIVOT_RELIABLE 0.3
@@ -342,6 +345,22 @@
 /* rays. Fewer would make no interval: 20 points in the first stage and as many in the second */
 #define SURFACE_ERROR_LEAST 4000.0
 
+/* ---- light gathered at points (particles) */
+
+/* radii of the element that a ray meets. Nearer than that the ray goes on: the element is seen as
+ * large as it is, and so is what it cannot hold. Derived: at one diameter a square fills .18 of
+ * what a point before its middle receives, so that no element counts for more than that */
+#define GATHER_NEAR 2.0
+/* of the mean B of all surfaces. Elements that reflect more are looked for as lamps are, and a ray
+ * that meets one goes on, as so many rays as it weighs: light that is so much more in one place
+ * than in others varies in it. Chosen; without it the spot behind the lamps of scenes/panels, which
+ * nobody sees, leaks out of elements that reach beyond the lamp, and in td the noise of 256 rays is
+ * 10 % for 4 (make picture-table) */
+#define GATHER_BRIGHT 4.0
+/* rays. As so many a ray goes on at the most; chosen: what one of them finds then weighs less than
+ * a ray of the first step */
+#define GATHER_AGAIN 64
+
 /* ---- exchange areas (engine) */
 
 /* of a row's sum. The default, and the tolerance that the limits of
@@ -376,6 +395,20 @@
 /* ... up it, where it must be to stand here. chosen: clear of what touches, near enough to be
  * local */
 #define OUTPUT_RISE 3
+/* rays. A sample of a pixel gathers by one of each kind at the least */
+#define GATHERING_LEAST 2
+/* rays of all corners per pixel: a pixel gathers by as many at the least, were it asked to. Chosen
+ */
+#define GATHERING_SHARE 8
+/* rays by which one corner gathers, half of them towards what is bright, at the most and at the
+ * least. Chosen; make picture-table tells what comes of it */
+#define GATHERING_MOST 256
+#define GATHERING_FEWEST 64
+/* corners. So many of a face say what gathering is worth on it: known to a third; chosen */
+#define GATHERING_TELLING 16
+/* of the way from a corner to the centre of the smallest leaf there. Chosen: between 1/64 and 1/2
+ * pictures are equally good; what stands at the corner is clear of it */
+#define GATHERING_INWARD 0.25
 /* where the log-mean of a picture goes. chosen: 0.18 is a film's middle grey, rooms with bright
  * walls want more */
 #define EXPOSURE_MIDDLE 0.34

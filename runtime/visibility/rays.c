@@ -154,6 +154,7 @@ static void totals(struct rays *rays, const struct hierarchy *h, const double *e
     rays->host.exitance = brightest;
     rays->host.reflectance = whitest;
     rays->host.importance = 1;
+    rays->host.impact = 1;
     rays->host.faces = h->face_count;
     rays->host.elements = (const struct element *const *)&h->elements;
     rays->host.irradiance = area > 0 && area > reflected ? emitted / (area - reflected) : 0;
@@ -322,6 +323,16 @@ int rays_blocked(const struct rays *rays, const double from[3], const double dir
     rtcOccluded1(rays->scene, &context, &ray);
 #endif
     return ray.tfar < 0;
+}
+
+void rays_tell_impact(struct rays *rays, double impact)
+{
+    rays->host.impact = impact;
+}
+
+void rays_tell_rank(struct rays *rays, double rank)
+{
+    rays->host.rank = rank;
 }
 
 const struct host *rays_host(const struct rays *rays)

@@ -46,6 +46,10 @@ int rays_blocked(const struct rays *rays, const double from[3], const double dir
 
 /* The services in the form that a discussion takes. Valid until rays_close. */
 const struct host *rays_host(const struct rays *rays);
+/* What a solve finds out for the oracles: host.impact, host.rank (W). Not while a discussion goes
+ * on. */
+void rays_tell_impact(struct rays *rays, double impact);
+void rays_tell_rank(struct rays *rays, double rank);
 struct rays_count rays_count(const struct rays *rays);
 void rays_close(struct rays *rays);
 

@@ -16,23 +16,28 @@
 #include "util/open_oracle.h"
 #include "util/report.h"
 
-/* Both pictures, of the light and of its error, through the same camera. */
+/* Both pictures, of the error and of the light, through the same camera. */
 static int write_pictures(const struct options *o, const struct solution *solution,
-                          const struct vertex_values *values, const double *error)
+                          struct vertex_values *values, RadDevice device, RadSolution solved,
+                          struct progress *progress)
 {
     const struct view *view = o->view_given ? &o->view : NULL;
+    struct gathering gathering = {o->image, device, solved, progress, o->gather > 0 ? o->gather : 0,
+                                  0};
     int failed = 0;
-    if (o->image)
-        failed |= image_write(o->image, solution, values, view, o->width, o->height, o->mesh) < 0;
     if (o->image_error)
-        failed |= error_image_write(o->image_error, solution, values, error, view, o->width,
-                                    o->height, o->mesh)
+        failed |= error_image_write(o->image_error, solution, values, radGetElementErrors(solved),
+                                    view, o->width, o->height, o->mesh)
+                  < 0;
+    if (o->image)
+        failed |= image_write(o->image, solution, values, view, o->width, o->height, o->mesh,
+                              o->gather == 0 ? NULL : &gathering)
                   < 0;
     return failed;
 }
 
 static int write_solution(const struct options *o, const struct surfaces *surfaces,
-                          RadSolution solved, int measured)
+                          RadDevice device, RadSolution solved, int measured)
 {
     const struct solution solution = solution_of(surfaces, solved);
     int failed = 0;
@@ -45,7 +50,10 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
                                 0, "out of memory");
         if (o->out)
             failed |= export_write(o->out, &solution, &values) < 0;
-        failed |= write_pictures(o, &solution, &values, radGetElementErrors(solved));
+        struct progress progress;
+        progress_start(&progress, o->quiet);
+        failed |= write_pictures(o, &solution, &values, device, solved, &progress);
+        progress_end(&progress);
         vertex_values_free(&values);
     }
     if (o->faces)
@@ -60,7 +68,8 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                          const struct accuracy *accuracy, RadOracle oracle)
 {
     double start = seconds();
-    int status = write_solution(o, surfaces, solved->solution, measured->measured) < 0;
+    int status =
+        write_solution(o, surfaces, scene->device, solved->solution, measured->measured) < 0;
     if (o->statistics && statistics_write(o->statistics, oracle) < 0)
         status = 1;
     const struct summary summary = {o,

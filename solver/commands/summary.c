@@ -50,6 +50,21 @@ static json_t *importance_json(const struct RadReport *r)
                      r->importance.seen);
 }
 
+static json_t *bracket_json(const struct RadReport *r)
+{
+    if (!r->bracket.solves)
+        return json_null();
+    return json_pack("{s:i, s:f, s:f}", "solves", r->bracket.solves, "lower", r->bracket.lower,
+                     "upper", r->bracket.upper);
+}
+
+static json_t *ranking_json(const struct RadReport *r)
+{
+    if (!r->ranking.asked)
+        return json_null();
+    return json_pack("{s:f, s:f}", "all", r->ranking.all, "worst", r->ranking.worst);
+}
+
 static json_t *error_control_json(const struct RadReport *r)
 {
     if (!(r->tolerance.target > 0))
@@ -113,11 +128,12 @@ json_t *summary_json(const struct summary *s)
                   solver_json(s->options, r), "basis", basis_json(r), "power_emitted", r->emitted,
                   "power_absorbed", r->absorbed, "power_imbalance", imbalance(r));
     json_t *quality =
-        json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "row_sums",
-                  "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
-                  "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most,
-                  "closure", closure_json(s->options, r), "importance", importance_json(r),
-                  "error_control", error_control_json(r), "error", measured_json(s->measured),
+        json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                  "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
+                  r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest",
+                  r->rows.defect_most, "closure", closure_json(s->options, r), "importance",
+                  importance_json(r), "error_control", error_control_json(r), "bracket",
+                  bracket_json(r), "ranking", ranking_json(r), "error", measured_json(s->measured),
                   "correction", mended_json(s->measured), "promise", power_promise_json(s->promise),
                   "accuracy", s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null());
     json_t *cost = json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:f}", "seconds", "build",
@@ -219,10 +235,22 @@ void summary_print(const struct summary *s)
             "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
             "area, where a solid stands on a part\n",
             r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
-    if (r->importance.sweeps)
+    if (r->importance.sweeps && !s->options->view_given)
+        printf("impact    of a watt that leaves a surface come %.3g W at all surfaces in the mean, "
+               "%.3g at the most; %d of the sweeps\n",
+               r->importance.mean, r->importance.largest, r->importance.sweeps);
+    else if (r->importance.sweeps)
         printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
                "%d of the sweeps\n",
                r->importance.seen, r->importance.mean, r->importance.largest, r->importance.sweeps);
+    if (r->ranking.asked)
+        printf("ranked    error times impact of all links %.3g W, of the worst that can be split "
+               "%.3g W\n",
+               r->ranking.all, r->ranking.worst);
+    if (r->bracket.solves)
+        printf("bracket   proved: the radiosities of all surfaces come to %.6g W at least and %.6g "
+               "W at the most\n",
+               r->bracket.lower, r->bracket.upper);
     if (r->tolerance.target > 0)
         printf("control   estimated %.3g W/m2 at the most, %.3g were asked for; above that are "
                "%.3g m2%s\n",

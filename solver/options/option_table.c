@@ -312,8 +312,10 @@ const struct command_row command_rows[COMMANDS] = {
     [COMMAND_VISIBILITY] =
         {"study visibility", "SCENE", "how often few rays are wrong about visibility",
          "Classify what the pairs of a scene see of each other by few rays, and again by\n"
-         "so many that the answer is trusted. [Turbet and Sillion, section 5]\n",
-         "radiosity study visibility room.obj --rays 4,16,64 --chart wrong.svg"},
+         "so many that the answer is trusted; then say which tool is good enough for\n"
+         "which projected areas. SIGINT leaves partial tables and exit status 130.\n"
+         "[Turbet and Sillion, section 5]\n",
+         "radiosity study visibility room.obj --rays 4,16,64 --wrong 5%"},
     [COMMAND_CLUSTERING] =
         {"study clustering", "SCENE", "what ways of grouping faces cost and give",
          "Solve a scene once for each way of grouping its faces into clusters, and compare\n"
@@ -469,6 +471,15 @@ const struct option_row option_rows[] = {
      "some of 4,16,64,256,1024, rising, parted by commas", .read = read_rays},
     {"rays", "N", CAUSES, "4000000", "how many of each scene, about",
      "a whole number from 16 to 2000000000", WHOLE(cause_rays, 16, 2000000000)},
+    {"within", "X%", VISIBILITY, "0.5%", "half of the 95 % interval to draw pairs for",
+     "a share such as 0.5% or 0.005, above 0 and below 1", .read = read_share, IN(within),
+     .low = 1},
+    {"wrong", "X%", VISIBILITY, "5%", "wrong answers that are good enough",
+     "a share such as 5% or 0.05, above 0 and below 1", .read = read_share, IN(wrong), .low = 1},
+    {"iterations", "N", VISIBILITY, "2", "passes of refinement, with a solve between two",
+     "a whole number from 1 to 1000", WHOLE(iterations, 1, 1000)},
+    {"limit-seconds", "N", VISIBILITY, NULL, "stop then, with partial tables (exit status 3)",
+     "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX)},
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
     {"two-sided", NULL, SCENES | REFERENCE | TUNE, NULL,
@@ -491,6 +502,8 @@ const struct option_row option_rows[] = {
      .read = read_size},
     {"view", "X,Y,Z:X,Y,Z[:FOV]", SOLVE, NULL, "eye, point looked at, degrees of height (70)",
      "X,Y,Z:X,Y,Z[:FOV], two different points and 1 to 170 degrees", .read = read_view},
+    {"gather", "N", SOLVE, NULL, "gather light once more, by N rays per pixel",
+     "a whole number from 0 to 1000000", WHOLE(gather, 0, 1000000)},
     {"image-error", "FILE.png", SOLVE, NULL, "the measured error on the surfaces",
      OUTPUT(image_error)},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},

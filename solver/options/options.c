@@ -366,6 +366,8 @@ static int check_together(struct options *o)
     if (o->mesh && !o->image && !o->image_error)
         return wrong(c->name, "--mesh is for a picture: add --image FILE.png or --image-error "
                               "FILE.png");
+    if (o->gather >= 0 && !o->image)
+        return wrong(c->name, "--gather is for a picture: add --image FILE.png");
     if (o->no_errors && (o->errors || o->image_error))
         return wrong(c->name, "--no-errors and %s contradict each other",
                      o->errors ? "--errors" : "--image-error");
@@ -381,6 +383,7 @@ int options_parse(struct options *o, int count, char **arguments)
     int status = -1;
     memset(o, 0, sizeof *o);
     o->threads = omp_get_num_procs();
+    o->gather = -1;
     int words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
     if (!words)
         return without_command(count, arguments);

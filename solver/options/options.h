@@ -76,6 +76,7 @@ struct options {
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int width, height, mesh; /* of the picture */
+    int gather;              /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
     int view_given;
 
@@ -86,7 +87,9 @@ struct options {
     double thresholds[STUDY_LIST]; /* visibility: of projected area, [threshold_count], rising */
     int rays[STUDY_LIST];          /* visibility: how many per pair, [ray_count], rising */
     int threshold_count, ray_count;
-    double noise; /* reference: the standard error to reach; tune: the error; a share */
+    double within; /* visibility: half of the interval to work for */
+    double wrong;  /* visibility: the share of wrong answers that is good enough */
+    double noise;  /* reference: the standard error to reach; tune: the error; a share */
     int evaluations, cost, power; /* tune: of each fit; enum tune_cost; of error over noise */
     int keep;                     /* reference: its state file stays */
     int worst;                    /* error: how many faces to name */

@@ -137,13 +137,12 @@ struct error_colours {
     double mean, scale;
 };
 
-static uint32_t error_colour(const void *context, uint32_t face, const double point[3],
-                             double colour[3])
+static void error_colour(const void *context, uint32_t leaf, const double *radiosity,
+                         double colour[3])
 {
     const struct error_colours *c = context;
     const struct picture *p = c->picture;
-    double radiosity[3], lit[3], rgb[3];
-    uint32_t leaf = vertex_values_at(p->values, p->solution, face, point, radiosity);
+    double lit[3], rgb[3];
     exposure_apply(&p->exposure, radiosity, p->solution->tree.bands, lit);
     double share = error_image_share(p->solution, c->error, c->mean, leaf) / c->scale;
     /* The root is about the lightness that an eye sees. */
@@ -151,7 +150,6 @@ static uint32_t error_colour(const void *context, uint32_t face, const double po
     hue_of(fabs(share) < 1 + 1e-9 ? fmin(fmax(share, -1), 1) : share, rgb);
     for (int k = 0; k < 3; k++)
         colour[k] = shade * linear(rgb[k]);
-    return leaf;
 }
 
 /* ---- the scale */

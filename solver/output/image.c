@@ -9,22 +9,39 @@
 
 #include "output/picture.h"
 #include "output/png_file.h"
+#include "util/report.h"
 
-static uint32_t light(const void *context, uint32_t face, const double point[3], double colour[3])
+static void light(const void *context, uint32_t leaf, const double *radiosity, double colour[3])
 {
     const struct picture *p = context;
-    double radiosity[3];
-    uint32_t leaf = vertex_values_at(p->values, p->solution, face, point, radiosity);
+    (void)leaf;
     exposure_apply(&p->exposure, radiosity, p->solution->tree.bands, colour);
-    return leaf;
 }
 
-int image_write(const char *path, const struct solution *solution,
-                const struct vertex_values *values, const struct view *view, int width, int height,
-                int mesh)
+/* At the corners of what is seen. Returns 0, or -1 after a message. */
+static int gather_corners(const struct picture *p, struct vertex_values *values,
+                          struct gathering *gathering)
+{
+    uint8_t *seen = calloc(p->solution->tree.count + (size_t)1, sizeof *seen);
+    if (!seen)
+        return report_error(p->path, 0, "out of memory for the picture");
+    int result = picture_seen(p, seen) < 0 ? -1
+                                           : gathering_corners(gathering, values, p->solution, seen,
+                                                               (double)p->width * p->height);
+    free(seen);
+    return result;
+}
+
+int image_write(const char *path, const struct solution *solution, struct vertex_values *values,
+                const struct view *view, int width, int height, int mesh,
+                struct gathering *gathering)
 {
     struct picture p;
     if (picture_open(&p, path, solution, values, view, width, height, mesh) < 0)
+        return -1;
+    if (gathering && gathering->rays > 0)
+        p.gathering = gathering;
+    else if (gathering && gather_corners(&p, values, gathering) < 0)
         return -1;
     uint8_t *rgb = picture_draw(&p, light, &p);
     int result = rgb ? png_file_write(path, width, height, rgb) : -1;

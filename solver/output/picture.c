@@ -29,19 +29,6 @@ static const double LINE = 0.5 * SIDE;
 /* Dark, yet told from a black face. */
 static const double BACKGROUND = 0.015;
 
-/* Where the ray of sample (x, y) meets the plane of a face. */
-static void point_seen(const struct raster *r, const struct solution *s, uint32_t face, double x,
-                       double y, double direction[3], double point[3])
-{
-    const struct element *e = element_of_face(s, face);
-    raster_direction(r, x, y, direction);
-    double to[3];
-    sub3(to, e->vertex[0], r->eye);
-    double t = dot3(e->normal, to) / dot3(e->normal, direction);
-    for (int k = 0; k < 3; k++)
-        point[k] = r->eye[k] + t * direction[k];
-}
-
 /* How much a mesh line covers the sample: its distance in the picture from the leaf's edges. The
  * plane through the eye and an edge is linear in the picture, so no edge needs to be clipped. */
 static double line_cover(const struct raster *r, const struct element *leaf,
@@ -71,29 +58,55 @@ static void draw_line(double colour[3], double cover)
         colour[k] += 0.6 * cover * (ink - colour[k]);
 }
 
-/* The colour of sample (x, y), which sees that face. */
-static void shade(const struct drawing *d, uint32_t face, double x, double y, double colour[3])
+/* What the samples of some rows see. */
+struct samples {
+    uint32_t *face;
+    double *nearness;
+    double *light; /* [sample * bands + band], W/m2, where it is gathered; else NULL */
+};
+
+static int samples_open(struct samples *s, size_t count, uint32_t gathered)
 {
-    const struct solution *s = d->picture->solution;
-    double direction[3], point[3];
+    s->face = malloc((count + 1) * sizeof *s->face);
+    s->nearness = malloc((count + 1) * sizeof *s->nearness);
+    s->light = gathered ? malloc((count + 1) * gathered * sizeof *s->light) : NULL;
+    return s->face && s->nearness && (s->light || !gathered) ? 0 : -1;
+}
+
+static void samples_close(struct samples *s)
+{
+    free(s->face);
+    free(s->nearness);
+    free(s->light);
+}
+
+/* The colour of sample (x, y), which sees that face, lit by `light` unless that is NULL. */
+static void shade(const struct drawing *d, uint32_t face, double x, double y, const double *light,
+                  double colour[3])
+{
+    const struct picture *p = d->picture;
+    double direction[3], point[3], radiosity[3];
     colour[0] = colour[1] = colour[2] = BACKGROUND;
     if (face == NO_FACE)
         return;
-    point_seen(&d->raster, s, face, x, y, direction, point);
-    uint32_t leaf = d->colour(d->context, face, point, colour);
-    if (d->picture->mesh)
-        draw_line(colour, line_cover(&d->raster, &s->tree.elements[leaf], direction));
+    raster_point(&d->raster, p->solution, face, x, y, direction, point);
+    uint32_t leaf = vertex_values_at(p->values, p->solution, face, point, radiosity);
+    d->colour(d->context, leaf, light ? light : radiosity, colour);
+    if (p->mesh)
+        draw_line(colour, line_cover(&d->raster, &p->solution->tree.elements[leaf], direction));
 }
 
-/* The mean colour of pixel (x, y), whose samples' faces stand in rows that begin with sample row
- * `from`. */
-static void shade_pixel(const struct drawing *d, const uint32_t *faces, int from, int x, int y,
+/* The mean colour of pixel (x, y), whose samples stand in rows that begin with sample row `from`.
+ */
+static void shade_pixel(const struct drawing *d, const struct samples *s, int from, int x, int y,
                         uint8_t rgb[3])
 {
+    uint32_t bands = d->picture->solution->tree.bands;
     double sum[3] = {0, 0, 0}, colour[3];
     for (int j = 0; j < SIDE * SIDE; j++) {
         int sx = x * SIDE + j % SIDE, sy = y * SIDE + j / SIDE;
-        shade(d, faces[(size_t)(sy - from) * (size_t)d->raster.width + (size_t)sx], sx, sy, colour);
+        size_t at = (size_t)(sy - from) * (size_t)d->raster.width + (size_t)sx;
+        shade(d, s->face[at], sx, sy, s->light ? &s->light[at * bands] : NULL, colour);
         for (int k = 0; k < 3; k++)
             sum[k] += colour[k] / (SIDE * SIDE);
     }
@@ -101,38 +114,24 @@ static void shade_pixel(const struct drawing *d, const uint32_t *faces, int from
         rgb[k] = srgb_byte(sum[k]);
 }
 
-/* Which face each sample of some rows sees. */
-struct samples {
-    uint32_t *face;
-    double *nearness;
-};
-
-static int samples_open(struct samples *s, size_t count)
-{
-    s->face = malloc((count + 1) * sizeof *s->face);
-    s->nearness = malloc((count + 1) * sizeof *s->nearness);
-    return s->face && s->nearness ? 0 : -1;
-}
-
-static void samples_close(struct samples *s)
-{
-    free(s->face);
-    free(s->nearness);
-}
-
 /* Rows [from, to) of pixels into rgb. */
 static int draw_rows(const struct drawing *d, int from, int to, uint8_t *rgb)
 {
     struct samples samples;
-    int width = d->picture->width;
-    int failed = samples_open(&samples, (size_t)((to - from) * SIDE) * (size_t)d->raster.width);
+    const struct picture *p = d->picture;
+    int failed = samples_open(&samples, (size_t)((to - from) * SIDE) * (size_t)d->raster.width,
+                              p->gathering ? p->solution->tree.bands : 0);
     if (!failed) {
         raster_rows(&d->raster, from * SIDE, to * SIDE, samples.face, samples.nearness);
-        for (int y = from; y < to; y++)
-            for (int x = 0; x < width; x++)
-                shade_pixel(d, samples.face, from * SIDE, x, y,
-                            &rgb[((size_t)y * (size_t)width + (size_t)x) * 3]);
+        failed = p->gathering
+                 && gathering_rows(p->gathering, &d->raster, p->solution, SIDE, from, to,
+                                   samples.face, samples.light)
+                        < 0;
     }
+    for (int y = from; !failed && y < to; y++)
+        for (int x = 0; x < p->width; x++)
+            shade_pixel(d, &samples, from * SIDE, x, y,
+                        &rgb[((size_t)y * (size_t)p->width + (size_t)x) * 3]);
     samples_close(&samples);
     return failed;
 }
@@ -146,7 +145,7 @@ static size_t read_meter(const struct picture *p, const struct raster *r, const 
         double direction[3], point[3], radiosity[3];
         if (face[i] == NO_FACE || is_lamp(&p->solution->surfaces, face[i]) != lamps)
             continue;
-        point_seen(r, p->solution, face[i], (double)(i % w), (double)(i / w), direction, point);
+        raster_point(r, p->solution, face[i], (double)(i % w), (double)(i / w), direction, point);
         vertex_values_at(p->values, p->solution, face[i], point, radiosity);
         double l = luminance(radiosity, p->solution->tree.bands);
         if (l > 0)
@@ -163,7 +162,7 @@ static int measure(struct picture *p)
     struct meter_sample *meter = malloc(all * sizeof *meter);
     struct samples samples;
     struct raster r = {0};
-    int failed = samples_open(&samples, all) || !meter
+    int failed = samples_open(&samples, all, 0) || !meter
                  || raster_begin(&r, &p->solution->surfaces, &p->view, w, h, 0);
     if (!failed)
         raster_rows(&r, 0, h, samples.face, samples.nearness);
@@ -177,6 +176,8 @@ static int measure(struct picture *p)
     return failed ? -1 : 0;
 }
 
+/* Light is gathered on all threads, in one part of the rows after the other; else each part is
+ * drawn by one thread. */
 static int draw(const struct picture *p, picture_colour colour, const void *context, uint8_t *rgb)
 {
     struct drawing d = {.picture = p, .colour = colour, .context = context};
@@ -185,10 +186,11 @@ static int draw(const struct picture *p, picture_colour colour, const void *cont
                      0))
         return -1;
 #ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic) reduction(| : failed)
+#pragma omp parallel for schedule(dynamic) reduction(| : failed) if (!p->gathering)
 #endif
     for (int from = 0; from < height; from += BAND)
-        failed |= draw_rows(&d, from, from + BAND < height ? from + BAND : height, rgb) != 0;
+        if (!failed)
+            failed |= draw_rows(&d, from, from + BAND < height ? from + BAND : height, rgb) != 0;
     raster_end(&d.raster);
     return failed ? -1 : 0;
 }
@@ -218,12 +220,36 @@ int picture_open(struct picture *p, const char *path, const struct solution *sol
     return measure(p) < 0 ? out_of_memory(path) : 0;
 }
 
+int picture_seen(const struct picture *p, uint8_t *seen)
+{
+    const struct solution *s = p->solution;
+    size_t all = (size_t)p->width * (size_t)p->height;
+    struct samples samples;
+    struct raster r = {0};
+    int failed = samples_open(&samples, all, 0)
+                 || raster_begin(&r, &s->surfaces, &p->view, p->width, p->height, 0);
+    if (!failed)
+        raster_rows(&r, 0, p->height, samples.face, samples.nearness);
+    for (size_t i = 0; i < all && !failed; i++) {
+        double direction[3], point[3], radiosity[3];
+        if (samples.face[i] == NO_FACE)
+            continue;
+        raster_point(&r, s, samples.face[i], (double)(i % (size_t)p->width),
+                     (double)(i / (size_t)p->width), direction, point);
+        seen[vertex_values_at(p->values, s, samples.face[i], point, radiosity)] = 1;
+    }
+    raster_end(&r);
+    samples_close(&samples);
+    return failed ? out_of_memory(p->path) : 0;
+}
+
 uint8_t *picture_draw(const struct picture *p, picture_colour colour, const void *context)
 {
     uint8_t *rgb = malloc((size_t)p->width * (size_t)p->height * 3);
     if (rgb && draw(p, colour, context, rgb) == 0)
         return rgb;
     free(rgb);
-    out_of_memory(p->path);
+    if (!p->gathering || !p->gathering->failed)
+        out_of_memory(p->path);
     return NULL;
 }

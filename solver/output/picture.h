@@ -7,6 +7,7 @@
 #define PICTURE_H
 
 #include "output/exposure.h"
+#include "output/gathering.h"
 #include "output/vertex_values.h"
 #include "output/view.h"
 
@@ -15,20 +16,25 @@ struct picture {
     const struct solution *solution;
     const struct vertex_values *values;
     struct view view;
-    int width, height, mesh;  /* pixels; mesh: the edges of the leaves over it */
-    struct exposure exposure; /* for what the picture shows of the light */
+    int width, height, mesh;     /* pixels; mesh: the edges of the leaves over it */
+    struct exposure exposure;    /* for what the picture shows of the light */
+    struct gathering *gathering; /* NULL: light is interpolated between corners */
 };
 
-/* The colour, linear, each channel 0 to 1, of a point of a face. Returns the leaf there. Asked on
- * many threads at once. */
-typedef uint32_t (*picture_colour)(const void *context, uint32_t face, const double point[3],
-                                   double colour[3]);
+/* The colour, linear, each channel 0 to 1, of a leaf where its radiosity is that. Asked on many
+ * threads at once. */
+typedef void (*picture_colour)(const void *context, uint32_t leaf, const double *radiosity,
+                               double colour[3]);
 
 /* View NULL: one is guessed. Backs of one-sided faces are cut away, so that one can look into a
  * closed room from outside. Nothing is copied. Returns 0, or -1 after one line on stderr. */
 int picture_open(struct picture *p, const char *path, const struct solution *solution,
                  const struct vertex_values *values, const struct view *view, int width, int height,
                  int mesh);
+
+/* Mark the leaves that are seen in the middle of pixels: seen[element]. Returns 0, or -1 after one
+ * line on stderr. */
+int picture_seen(const struct picture *p, uint8_t *seen);
 
 /* The pixels, sRGB, from the top left, [height * width * 3]; the caller frees them. NULL after one
  * line on stderr. Colours are averaged over nine samples a pixel. */

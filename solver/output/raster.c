@@ -179,6 +179,18 @@ void raster_direction(const struct raster *r, double x, double y, double directi
         direction[k] = r->corner[k] + (x + 0.5) * r->step_x[k] + (y + 0.5) * r->step_y[k];
 }
 
+void raster_point(const struct raster *r, const struct solution *s, uint32_t face, double x,
+                  double y, double direction[3], double point[3])
+{
+    const struct element *e = element_of_face(s, face);
+    raster_direction(r, x, y, direction);
+    double to[3];
+    sub3(to, e->vertex[0], r->eye);
+    double t = dot3(e->normal, to) / dot3(e->normal, direction);
+    for (int k = 0; k < 3; k++)
+        point[k] = r->eye[k] + t * direction[k];
+}
+
 void raster_end(struct raster *r)
 {
     free(r->faces);

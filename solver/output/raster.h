@@ -47,6 +47,10 @@ void raster_rows(const struct raster *r, int from, int to, uint32_t *face, doubl
 /* The direction of the middle of sample (x, y); its component along the axis of view is 1. */
 void raster_direction(const struct raster *r, double x, double y, double direction[3]);
 
+/* Where the ray of sample (x, y) meets the plane of a face, and its direction. */
+void raster_point(const struct raster *r, const struct solution *s, uint32_t face, double x,
+                  double y, double direction[3], double point[3]);
+
 void raster_end(struct raster *r);
 
 #endif

@@ -186,12 +186,13 @@ static double edge_length(const struct vertex_values *v, uint32_t a, uint32_t b)
     return length3(d);
 }
 
-/* Note which vertices hang on the edge a-b of a leaf, and on its halves. */
-static void mark_hanging(struct vertex_values *v, uint32_t a, uint32_t b)
+/* Note which vertices hang on the edge a-b of a leaf, and on its halves. Returns that in the
+ * middle, or NO_VERTEX. */
+static uint32_t mark_hanging(struct vertex_values *v, uint32_t a, uint32_t b)
 {
     uint32_t m = vertex_values_middle(v, a, b);
     if (m == NO_VERTEX)
-        return;
+        return m;
     uint32_t *end = v->vertices[m].end;
     if (end[0] == NO_VERTEX || edge_length(v, a, b) > edge_length(v, end[0], end[1])) {
         end[0] = a;
@@ -199,6 +200,7 @@ static void mark_hanging(struct vertex_values *v, uint32_t a, uint32_t b)
     }
     mark_hanging(v, a, m);
     mark_hanging(v, m, b);
+    return m;
 }
 
 /* Give a hanging vertex its value, the ends of its edge first. While a vertex waits for its ends it
@@ -281,7 +283,8 @@ static void close_seams(struct vertex_values *v, const struct solution *solution
         const struct element *e = &solution->tree.elements[i];
         const uint32_t *c = &v->corner[4 * (size_t)i];
         for (uint32_t j = 0; is_leaf(e) && j < e->vertices; j++)
-            mark_hanging(v, c[j], c[j + 1 < e->vertices ? j + 1 : 0]);
+            v->middle[4 * (size_t)i + j] =
+                mark_hanging(v, c[j], c[j + 1 < e->vertices ? j + 1 : 0]);
     }
     for (uint32_t i = 0; i < v->count; i++)
         interpolate_hanging(v, i);
@@ -301,14 +304,16 @@ static int allocate(struct vertex_values *v, const struct solution *solution)
     v->value = calloc((corners + 1) * v->bands, sizeof *v->value);
     v->weight = calloc(corners + 1, sizeof *v->weight);
     v->corner = malloc((4 * elements + 1) * sizeof *v->corner);
+    v->middle = malloc((4 * elements + 1) * sizeof *v->middle);
     v->table = malloc(v->table_size * sizeof *v->table);
     if (array_reserve(&v->contact, CONTACT_DIRECTIONS, &v->contact_capacity, sizeof *v->contact)
         < 0)
         return -1;
-    if (!v->vertices || !v->value || !v->weight || !v->corner || !v->table)
+    if (!v->vertices || !v->value || !v->weight || !v->corner || !v->middle || !v->table)
         return -1;
     memset(v->table, 0xff, v->table_size * sizeof *v->table);
     memset(v->corner, 0xff, 4 * elements * sizeof *v->corner);
+    memset(v->middle, 0xff, 4 * elements * sizeof *v->middle);
     return 0;
 }
 
@@ -333,10 +338,34 @@ void vertex_values_free(struct vertex_values *v)
     free(v->value);
     free(v->weight);
     free(v->corner);
+    free(v->middle);
     free(v->table);
     free(v->contact);
     free(v->passing);
     *v = (struct vertex_values){0};
+}
+
+/* How far the value at u of the edge from a to b, in whose middle is m, is above the line between
+ * its ends. */
+static double above_line(const struct vertex_values *v, uint32_t a, uint32_t b, uint32_t m,
+                         double u, uint32_t k)
+{
+    double low = v->value[(size_t)a * v->bands + k], high = v->value[(size_t)b * v->bands + k];
+    double line = low + u * (high - low), from = 0, length = 1;
+    while (m != NO_VERTEX) {
+        double middle = v->value[(size_t)m * v->bands + k];
+        length *= 0.5;
+        if (u < from + length) {
+            b = m;
+            high = middle;
+        } else {
+            a = m;
+            low = middle;
+            from += length;
+        }
+        m = vertex_values_middle(v, a, b);
+    }
+    return low + (u - from) / length * (high - low) - line;
 }
 
 uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution,
@@ -346,11 +375,20 @@ uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *
     uint32_t leaf =
                  leaf_at(solution->tree.elements, solution->tree.face_element[face], point, weight),
              n = solution->tree.elements[leaf].vertices;
+    const uint32_t *corner = &v->corner[4 * (size_t)leaf], *middle = &v->middle[4 * (size_t)leaf];
     for (uint32_t k = 0; k < v->bands; k++) {
         radiosity[k] = 0;
         for (uint32_t j = 0; j < n; j++)
-            radiosity[k] +=
-                weight[j] * v->value[(size_t)v->corner[4 * (size_t)leaf + j] * v->bands + k];
+            radiosity[k] += weight[j] * v->value[(size_t)corner[j] * v->bands + k];
+        for (uint32_t j = 0; j < n; j++) {
+            uint32_t next = j + 1 < n ? j + 1 : 0;
+            double share = weight[j] + weight[next];
+            if (middle[j] != NO_VERTEX && share > 0)
+                radiosity[k] +=
+                    share
+                    * above_line(v, corner[j], corner[next], middle[j], weight[next] / share, k);
+        }
+        radiosity[k] = radiosity[k] > 0 ? radiosity[k] : 0;
     }
     return leaf;
 }

@@ -4,9 +4,13 @@
  * mean over the leaves that meet there in one plane and one material. A corner in the middle of a
  * larger neighbour's edge ("hanging") takes what the neighbour has there, the mean of the edge's
  * ends, so that both sides of the edge show the same. [Cohen & Wallace 1993, section 8.3]
- * Where faces of one surface do not share whole edges, as parts of a cut face, the leaf past whose
- * edge a corner lies counts for its mean; there the two sides agree at corners only as far as the
- * solution is smooth.
+ *
+ * A hanging vertex may be given a value of its own afterwards. Then the neighbour is bent along
+ * that edge: to the function between its corners is added what each edge has above the line between
+ * its ends, fading towards the other edges. So both sides still show the same, and what is linear
+ * at the vertices is linear everywhere. [Coons 1967] Where faces of one surface do not share whole
+ * edges, as parts of a cut face, the leaf past whose edge a corner lies counts for its mean; there
+ * the two sides agree at corners only as far as the solution is smooth.
  *
  * Where another face stands on the surface, light may jump: leaves on two sides of a wall share no
  * vertex along it, so that nothing shines under it and a box that stands on the floor darkens none
@@ -43,7 +47,8 @@ struct vertex_values {
     double *value;                  /* B, W/m2: [vertex * bands + band] */
     double *weight;                 /* [vertex]: area of the leaves whose mean it is, m2 */
     uint32_t *corner;               /* [element * 4 + i]: the vertex of a leaf's corner i */
-    double (*contact)[3];           /* [contact_count]: directions in the surface at a vertex */
+    uint32_t *middle; /* the same: what hangs in the middle of the edge from there, or NO_VERTEX */
+    double (*contact)[3]; /* [contact_count]: directions in the surface at a vertex */
     uint32_t contact_count;
     size_t contact_capacity;
     struct passing {
@@ -63,7 +68,8 @@ void vertex_values_free(struct vertex_values *v);
  * or NO_VERTEX. */
 uint32_t vertex_values_middle(const struct vertex_values *v, uint32_t a, uint32_t b);
 
-/* B interpolated at a point of a face: bilinear in quads, linear in triangles. Returns the leaf. */
+/* B interpolated at a point of a face: bilinear in quads, linear in triangles, but for what hangs
+ * on their edges. Returns the leaf. */
 uint32_t vertex_values_at(const struct vertex_values *v, const struct solution *solution,
                           uint32_t face, const double point[3], double *radiosity);
 

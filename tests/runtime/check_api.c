@@ -1013,6 +1013,98 @@ START_TEST(test_particles_tell)
 }
 END_TEST
 
+static void expect_sums(const struct RadCausesReport *r)
+{
+    double power = 0, after = 0;
+    for (int i = 0; i < RAD_CAUSES; i++) {
+        power += r->cause[i].power.value;
+        after += r->cause[i].after.value;
+    }
+    ck_assert_double_eq_tol(power, r->together.power.value, 1e-10);
+    ck_assert_double_eq_tol(after, r->together.after.value, 1e-10);
+    ck_assert(r->rays > 10000 && r->seconds > 0 && isfinite(power) && isfinite(after));
+}
+
+/* Causes are of links as they are, whether more passes would change them, by whichever solver and
+ * closure, in three bands; mended or not, the same bits. */
+START_TEST(test_causes)
+{
+    const struct RadMaterial materials[2] = {{{0.8, 0.3, 0.6}, {9, 7, 0}, 0},
+                                             {{0.2, 0.9, 0.5}, {0, 0, 0}, 0}};
+    const struct RadPolygons p = cube(lamp_above);
+    const struct RadSolveOptions options[] = {{.closure = RAD_CLOSURE_ROWS},
+                                              {.solver = RAD_SOLVER_SOUTHWELL},
+                                              {.projection = RAD_PROJECTION_COLLOCATION}};
+    const struct RadCausesOptions few = {.rays = 40000};
+    struct RadCausesReport r, again;
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = make_scene(device, &p, materials, 2);
+    RadOracle oracle = default_oracle(device);
+    ck_assert_int_eq(radSetOracleParameter(oracle, "relative", 0.5), 0);
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        RadSolution solution = radNewSolution(scene, oracle, &options[i]);
+        ck_assert_int_ge(radStep(solution), 0);
+        ck_assert_int_eq(radFindCauses(solution, &few, &r), 0);
+        expect_sums(&r);
+        ck_assert_int_eq(radSolve(solution), 0);
+        ck_assert_int_eq(radFindCauses(solution, &few, &r), 0);
+        expect_sums(&r);
+        struct RadErrorReport links;
+        ck_assert_int_eq(radCorrect(solution, NULL, &links), 0);
+        ck_assert_int_eq(radFindCauses(solution, &few, &again), 0);
+        again.seconds = r.seconds;
+        ck_assert_mem_eq(&again, &r, sizeof r);
+        radReleaseSolution(solution);
+    }
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
+static int stop_at_causes(void *user, const struct RadProgress *p)
+{
+    (void)user;
+    return strcmp(p->phase, "causes") == 0;
+}
+
+/* Asked too early, of what it does not know, of too much; and cancelled. */
+START_TEST(test_causes_refused)
+{
+    const struct RadCausesOptions many = {.rays = (uint64_t)1 << 33};
+    const struct RadSolveOptions unit = {.unit = 1}, linear = {.basis = RAD_BASIS_LINEAR};
+    struct RadCausesReport r;
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    ck_assert_int_eq(radSetOracleParameter(oracle, "relative", 0.5), 0);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    ck_assert_int_eq(radFindCauses(solution, NULL, &r), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "radSolve or radStep comes first");
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(radFindCauses(solution, &many, &r), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "at most 2^32");
+    radSetDeviceProgressFunction(device, stop_at_causes, NULL);
+    ck_assert_int_eq(radFindCauses(solution, NULL, &r), -1);
+    expect_error(device, RAD_ERROR_CANCELLED, "cancelled");
+    radReleaseSolution(solution);
+    solution = radNewSolution(scene, oracle, &linear);
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_int_eq(radFindCauses(solution, NULL, &r), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "RAD_BASIS_CONSTANT");
+    radReleaseSolution(solution);
+    solution = radNewSolution(scene, oracle, &unit);
+    ck_assert_int_eq(radStep(solution), 0);
+    ck_assert_int_eq(radFindCauses(solution, NULL, &r), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "unit has none");
+    ck_assert_int_eq(radFindCauses(NULL, NULL, &r), -1);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* The first error stays until it is asked for; the message function hears of all. */
 static void count_messages(void *user, enum RadError code, const char *message)
 {
@@ -1223,6 +1315,8 @@ int main(void)
     tcase_add_test(t, test_first_error);
     tcase_add_test(t, test_cancel);
     tcase_add_test(t, test_particles_tell);
+    tcase_add_test(t, test_causes);
+    tcase_add_test(t, test_causes_refused);
     tcase_add_test(t, test_side_by_side);
     tcase_add_test(t, test_count_side_by_side);
     tcase_add_test(t, test_lifetimes);

@@ -351,6 +351,34 @@ START_TEST(test_self_shadow)
 }
 END_TEST
 
+/* Groups after Kok, linked by their size and their power alone, keep the power of a scene of many
+ * small faces: a furnace of tiles with a box of tiles in it, where B is the same everywhere. */
+START_TEST(test_kok_keeps_power)
+{
+    struct scene scene;
+    made_open(&scene);
+    uint32_t grey = made_material(&scene, 0.5, 0.5), white = made_material(&scene, 0.8, 0.2);
+    box(&scene, grey, 12, 0, 0, 0, 4, 5, 3, 0);
+    box(&scene, white, 8, 1.5, 2, 1, 1, 1, 1, 1);
+    struct solve s;
+    solved(&s, &scene, "kok", 2, CLOSURE_NONE, "relative=0.2");
+    double sum = 0, off = 0, area = 0;
+    for (uint32_t f = 0; f < scene.face_count; f++) {
+        double a = s.hierarchy.elements[s.hierarchy.face_element[f]].area;
+        sum += a * face_value(&s, f);
+        off += a * fabs(face_value(&s, f) - 1);
+        area += a;
+    }
+    printf("kok: %u faces, %zu links, %zu of them of groups; B is %.4f in the mean, off by %.2g\n",
+           scene.face_count, s.refinement.link_count, group_links(&s), sum / area, off / area);
+    ck_assert_uint_gt(group_links(&s), s.refinement.link_count / 10);
+    ck_assert_uint_lt(s.refinement.link_count, (size_t)scene.face_count * scene.face_count / 8);
+    ck_assert_double_eq_tol(sum / area, 1, 0.01);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("clusters");
@@ -364,6 +392,7 @@ int main(void)
     tcase_add_test(c, test_furnace);
     tcase_add_test(c, test_leak);
     tcase_add_loop_test(c, test_self_shadow, 0, 2);
+    tcase_add_test(c, test_kok_keeps_power);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -97,6 +97,8 @@ START_TEST(test_declared)
         reading += flat->read_count > 0;
         ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_IMPORTANCE),
                          strcmp(b->name, "importance") == 0);
+        ck_assert_int_eq(refiner_reads(flat, FACT_SCENE_RANK), strcmp(b->name, "ranked") == 0);
+        ck_assert_int_eq(refiner_reads(flat, FACT_EMITTER_LOWER), strcmp(b->name, "bracket") == 0);
         ck_assert_int_eq(refiner_reads(flat, FACT_RECEIVER_TOLERANCE),
                          strcmp(b->name, "error_control") == 0);
         ck_assert_int_eq(refiner_find_role(flat, ROLE_ERROR_TOLERANCE, -1) >= 0,
@@ -150,6 +152,10 @@ static const struct falling {
      {"relative=0.1", "visible=0.1"},
      {"relative=0.02", "visible=0.02"},
      {1e-3, 2e-4, 3e-4}},
+    {"bracket", {"relative=1e-2"}, {"relative=1e-3"}, {"relative=1e-5"}, {2e-3, 2e-4, 1e-3}},
+    {"ranked", {"relative=1e-3"}, {"relative=1e-4"}, {"relative=3e-6"}, {1e-3, 2e-4, 1e-3}},
+    {"kok", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
+    {"by_reliability", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
     {"tester", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
 };
 

@@ -175,7 +175,8 @@ START_TEST(test_picture)
     png_image image = {.version = PNG_IMAGE_VERSION};
     struct stage s;
     stage_open(&s);
-    ck_assert_int_eq(image_write(in_folder("cut.png"), &s.solution, &s.values, &view, W, H, 0), 0);
+    ck_assert_int_eq(
+        image_write(in_folder("cut.png"), &s.solution, &s.values, &view, W, H, 0, NULL), 0);
     ck_assert_int_ne(png_image_begin_read_from_file(&image, in_folder("cut.png")), 0);
     image.format = PNG_FORMAT_GRAY;
     unsigned char *rgb = malloc(PNG_IMAGE_SIZE(image));

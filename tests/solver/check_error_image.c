@@ -374,8 +374,8 @@ START_TEST(test_same_camera)
     static const double shares[FACES] = {0.2, 0.2, 0.2, 0.2, 0.2, -0.2};
     struct row *r = row_new(1, shares, FACES);
     r->view.at[0] = 0.5;
-    ck_assert_int_eq(image_write(in_folder("i.png"), &r->solution, &r->values, &r->view, W, H, 0),
-                     0);
+    ck_assert_int_eq(
+        image_write(in_folder("i.png"), &r->solution, &r->values, &r->view, W, H, 0, NULL), 0);
     struct pixels image = load(in_folder("i.png")), error = draw(r, W, H, 0),
                   lined = draw(r, W, H, 1);
     int seen = 0, lines = 0;

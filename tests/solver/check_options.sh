@@ -65,10 +65,12 @@ for value in 0 -3 1.5 99999999999 x; do
     says 2 "--repeats takes" compare "$scene" --repeats $value
 done
 for value in x 1x x1 0x1 1x0 20000x1 99999999999999999999x2 1x2x3 1 4294967297x1; do says 2 "--size takes WxH" solve "$scene" --size $value; done
+for value in x -1 1.5 1000001 16x; do says 2 "--gather takes a whole number from 0 to 1000000, not $value" solve "$scene" --image x.png --gather $value; done
 for value in 1 0,0,0 0,0,0:0,0,0 0,0,0:1,1,1: 0,0,0:1,1,1:200 inf,0,0:1,1,1 1e308,0,0:-1e308,0,0 nan,0,0:1,1,1; do
     says 2 "--view takes" solve "$scene" --view $value
 done
 for value in 1e308 inf nan 0 -1 5,5 5,3 5, ,5 x 1,,2; do says 2 "--thresholds takes rising numbers from 1e-300 to 1e300" study visibility "$scene" --thresholds $value; done
+for value in 15 0 -1 1e6 x 2000000001; do says 2 "--rays takes a whole number from 16 to 2000000000" study causes "$scene" --rays $value; done
 for value in 3 4,4 16,4 1e308 x 4, 4096; do says 2 "--rays takes some of 4,16,64,256,1024" study visibility "$scene" --rays $value; done
 for value in -1 1 100% 2x x nan 1e400; do
     says 2 "--reflectance-error takes a number from 0, below 1, or percent" solve "$scene" --errors=all --reflectance-error $value
@@ -104,6 +106,9 @@ says 2 "no value goes with --mesh" solve "$scene" --mesh=1
 says 2 "more than one scene: b.obj" solve a.obj b.obj
 says 2 "more than one scene: -b.obj" solve a.obj -- -b.obj
 says 2 "no scene is given; see radiosity compare --help" compare -q
+says 2 "no scene is given; see radiosity study causes --help" study causes -q
+says 2 "the scene's name is empty" study causes "$scene" ""
+says 2 "this is a scene, which would be lost" study causes none.obj "$scene" --json "$scene"
 says 2 "study stability takes no scene, but got x.obj" study stability x.obj
 says 2 "study arvo takes no scene, but got x.obj" study arvo x.obj
 says 2 "oracles takes no scene, but got x.obj" oracles x.obj
@@ -111,6 +116,7 @@ says 2 "unknown command nix; see radiosity --help" nix
 says 2 "there is no study nix; see radiosity study --help" study nix
 says 2 "a command comes first, not --image" --image x solve "$scene"
 says 2 "--mesh is for a picture: add --image FILE.png or --image-error FILE.png" solve "$scene" --mesh
+says 2 "--gather is for a picture: add --image FILE.png" solve "$scene" --gather 4
 says 2 "--no-errors and --image-error contradict each other" solve "$scene" --no-errors --image-error x.png
 says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 # An abbreviation is good as long as it is clear, with --name=value as well; one that is not names what it could be.
@@ -125,7 +131,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" oracles; do
+for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -144,7 +150,7 @@ for command in "" solve compare viewfactors reference error tune study "study st
     esac
     rm -f out err
 done
-for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo"; do
+for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes"; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
@@ -178,6 +184,7 @@ says 1 "make the folder first" viewfactors none.obj --names nowhere/x
 says 1 "make the folder first" study stability -o nowhere/x.csv
 says 1 "make the folder first" study arvo --csv nowhere/x.csv
 says 1 "make the folder first" study visibility none.obj -o nowhere/x.csv
+says 1 "make the folder first" study causes none.obj --json nowhere/x.json
 says 1 "make the folder first" study visibility none.obj --chart nowhere/x.svg
 says 2 "two outputs would go there" solve none.obj --faces x --json x
 says 2 "two outputs would go there" viewfactors none.obj -o x --names x

@@ -148,6 +148,41 @@ START_TEST(test_no_seams)
 }
 END_TEST
 
+/* Vertices with values of their own, hanging ones too: a linear function is shown exactly in every
+ * leaf, and any others without a jump. */
+START_TEST(test_own_values)
+{
+    const double g[3] = {3, -2, 0.5};
+    struct stage *s = stage_new(1);
+    stage_face(s, 0, 4, SQUARE);
+    stage_face(s, 0, 4, SKEW);
+    stage_face(s, 0, 3, TRIANGLE);
+    stage_build(s);
+    stage_split(s, 6);
+    stage_solve(s);
+    int hanging = 0;
+    for (uint32_t i = 0; i < s->values.count; i++)
+        s->values.value[i] = 100 + dot3(g, s->values.vertices[i].position);
+    for (uint32_t i = 0; i < s->h.count; i++) {
+        const struct element *e = &s->h.elements[i];
+        for (int j = 0; leaf(s, i) && j < e->vertices; j++)
+            for (double t = 0.05; t < 1; t += 0.1) {
+                double p[3], value;
+                for (int k = 0; k < 3; k++)
+                    p[k] = e->vertex[j][k] + t * (e->centre[k] - e->vertex[j][k]);
+                vertex_values_at(&s->values, &s->solution, e->face, p, &value);
+                ck_assert_double_eq_tol(value, 100 + dot3(g, p), 1e-9);
+                hanging += s->values.middle[4 * (size_t)i + (size_t)j] != NO_VERTEX;
+            }
+    }
+    ck_assert_int_gt(hanging, 1000);
+    for (uint32_t i = 0; i < s->values.count; i++)
+        s->values.value[i] = i * 7919 % 1000 / 100.0;
+    check_seams(s);
+    stage_free(s);
+}
+END_TEST
+
 /* Two faces side by side are one surface when they share plane and material, else not. */
 START_TEST(test_across_faces)
 {
@@ -384,7 +419,8 @@ START_TEST(test_not_mirrored)
     struct view v;
     ck_assert_int_eq(view_parse(text, &v), 0);
     v.up[2] = 1;
-    ck_assert_int_eq(image_write(in_folder("a.png"), &s->solution, &s->values, &v, 240, 200, 0), 0);
+    ck_assert_int_eq(
+        image_write(in_folder("a.png"), &s->solution, &s->values, &v, 240, 200, 0, NULL), 0);
     struct pixels p = load(in_folder("a.png"));
     ck_assert_int_eq(p.width, 240);
     ck_assert_int_eq(p.height, 200);
@@ -424,7 +460,7 @@ START_TEST(test_mesh_lines)
     struct pixels p[2];
     for (int mesh = 0; mesh < 2; mesh++) {
         ck_assert_int_eq(
-            image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh), 0);
+            image_write(in_folder("m.png"), &s->solution, &s->values, &v, 101, 101, mesh, NULL), 0);
         p[mesh] = load(in_folder("m.png"));
     }
     for (int y = 0; y < 101; y++)
@@ -570,14 +606,16 @@ START_TEST(test_bad_sizes)
     stage_face(s, 0, 4, SQUARE);
     stage_build(s);
     stage_solve(s);
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 0, 10, 0), -1);
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0),
-                     -1);
-    ck_assert_int_eq(image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0),
-                     -1);
+    ck_assert_int_eq(
+        image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 0, 10, 0, NULL), -1);
+    ck_assert_int_eq(
+        image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 10, 20000, 0, NULL), -1);
+    ck_assert_int_eq(
+        image_write(in_folder("no/n.png"), &s->solution, &s->values, NULL, 10, 10, 0, NULL), -1);
     ck_assert_int_ne(access(in_folder("n.png"), F_OK), 0);
     /* All black, and seen from outside: still a picture. */
-    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 1, 1, 1), 0);
+    ck_assert_int_eq(image_write(in_folder("n.png"), &s->solution, &s->values, NULL, 1, 1, 1, NULL),
+                     0);
     stage_free(s);
 }
 END_TEST
@@ -763,6 +801,7 @@ int main(void)
     TCase *t = tcase_create("picture");
     tcase_set_timeout(t, 60);
     tcase_add_test(t, test_no_seams);
+    tcase_add_test(t, test_own_values);
     tcase_add_test(t, test_across_faces);
     tcase_add_test(t, test_across_an_edge);
     tcase_add_test(t, test_shape_functions);

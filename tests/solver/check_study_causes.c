@@ -1,0 +1,109 @@
+/* check_study_causes.c - `radiosity study causes`, run as the user would: several scenes, a table
+ * of each, and JSON in which causes add up.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include "suite.h"
+
+static char folder[] = "/tmp/causes-XXXXXX";
+
+/* Returns the exit status; standard output goes to FOLDER/out. */
+static int run(const char *more)
+{
+    const char *program = getenv("RADIOSITY");
+    char command[1024];
+    snprintf(command, sizeof command, "%s study causes %s >%s/out 2>%s/err",
+             program ? program : "build/bin/radiosity", more, folder, folder);
+    int status = system(command);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static double number(const json_t *object, const char *key, const char *value)
+{
+    const json_t *x = json_object_get(json_object_get(object, key), value);
+    ck_assert_msg(json_is_real(x), "%s.%s", key, value);
+    return json_real_value(x);
+}
+
+/* The sum over causes of one of their measures. */
+static double sum_of(json_t *scene, const char *what)
+{
+    const char *key;
+    json_t *cause;
+    double sum = 0;
+    json_object_foreach(json_object_get(scene, "causes"), key, cause)
+    {
+        (void)key;
+        ck_assert_double_le(number(cause, what, "low"), number(cause, what, "value"));
+        ck_assert_double_le(number(cause, what, "value"), number(cause, what, "high"));
+        sum += number(cause, what, "value");
+    }
+    return sum;
+}
+
+START_TEST(test_scenes)
+{
+    char more[512], path[64], text[8192];
+    snprintf(path, sizeof path, "%s/causes.json", folder);
+    snprintf(more, sizeof more,
+             "examples/scenes/cornell.obj examples/scenes/furnace.obj --rays 100000 --set "
+             "relative=0.5 --json %s",
+             path);
+    ck_assert_int_eq(run(more), 0);
+    json_t *scenes = json_load_file(path, 0, NULL);
+    ck_assert_uint_eq(json_array_size(scenes), 2);
+    for (size_t i = 0; i < 2; i++) {
+        json_t *scene = json_array_get(scenes, i), *all = json_object_get(scene, "together");
+        const char *name = json_string_value(json_object_get(scene, "scene"));
+        ck_assert_str_eq(name, i ? "examples/scenes/furnace.obj" : "examples/scenes/cornell.obj");
+        ck_assert_double_eq_tol(sum_of(scene, "power"), number(all, "power", "value"), 1e-9);
+        ck_assert_double_eq_tol(sum_of(scene, "after"), number(all, "after", "value"), 1e-9);
+        ck_assert(sum_of(scene, "l1") >= 0 && sum_of(scene, "after_l1") >= 0);
+    }
+    json_decref(scenes);
+    /* a table of each, and no row of groups, of which there are none */
+    snprintf(path, sizeof path, "%s/out", folder);
+    FILE *in = fopen(path, "r");
+    ck_assert_ptr_nonnull(in);
+    text[fread(text, 1, sizeof text - 1, in)] = 0;
+    (void)fclose(in);
+    char *first = strstr(text, "cornell.obj, oracle clusters: ");
+    ck_assert_ptr_nonnull(first);
+    ck_assert_ptr_nonnull(strstr(first, "furnace.obj, oracle clusters: "));
+    ck_assert_ptr_nonnull(strstr(text, "\nlinks seen whole"));
+    ck_assert_ptr_null(strstr(text, "groups"));
+}
+END_TEST
+
+/* What cannot be read is told, and no table stands for it. */
+START_TEST(test_missing)
+{
+    char more[256], path[64];
+    snprintf(path, sizeof path, "%s/missing.json", folder);
+    snprintf(more, sizeof more, "examples/scenes/furnace.obj none.obj --rays 1000 --json %s -q",
+             path);
+    ck_assert_int_eq(run(more), 1);
+    ck_assert_int_ne(access(path, F_OK), 0);
+}
+END_TEST
+
+int main(void)
+{
+    if (!mkdtemp(folder))
+        return 1;
+    Suite *suite = suite_create("study causes");
+    TCase *all = tcase_create("all");
+    tcase_set_timeout(all, 60);
+    tcase_add_test(all, test_scenes);
+    tcase_add_test(all, test_missing);
+    suite_add_tcase(suite, all);
+    int failed = suite_failures(suite);
+    char command[64];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command) != 0 || failed != 0;
+}
