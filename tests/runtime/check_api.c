@@ -537,8 +537,9 @@ START_TEST(test_oracles)
         radGetOracleReport(oracle, &r);
         ck_assert_str_eq(r.name, *name);
         ck_assert_int_eq(radHasOracle(device, *name, RAD_RELEASE_FLAT), 1);
-        ck_assert_int_eq(r.reads_importance,
-                         strcmp(*name, "importance") == 0 || strcmp(*name, "ranked") == 0);
+        ck_assert_int_eq(r.reads_importance, strcmp(*name, "importance") == 0
+                                                 || strcmp(*name, "ranked") == 0
+                                                 || strcmp(*name, "bracket") == 0);
         found += strcmp(*name, radGetDefaultOracle()) == 0;
         radReleaseOracle(oracle);
     }
