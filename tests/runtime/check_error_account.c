@@ -232,7 +232,7 @@ static const struct {
                {"relative", {"exitance=0.01", "min_share=1e-3"}},
                {"clusters", {"shadow=0.02", "min_share=1e-3"}},
                {"bf", {"relative=0.2"}},
-               {"clusters", {"from_faces=1", "min_share=1e-3"}},
+               {"clusters", {"spread=0.5", "min_share=1e-3"}},
                {"feature", {"min_share=2e-3"}},
                {"gibson_hubbold", {"relative=0.3", "min_share=1e-3"}}};
 enum { ORACLES = sizeof oracles / sizeof *oracles };
