@@ -218,7 +218,7 @@ static void walk_surface(struct walk *w, uint32_t e, struct brought above, doubl
 static int watch(struct causes *c, double length)
 {
     uint64_t points = (uint64_t)(REPLICATES * length / c->line.spacing);
-    uint64_t done = c->done += points;
+    uint64_t done = atomic_fetch_add(&c->done, points) + points;
     if (thread_pool_number() == 0) {
         const struct counting counting = {CAUSE_RAYS * done,
                                           fmin((double)done / (double)c->line.points, 1)};

@@ -89,12 +89,13 @@ static double measure_deviation(struct oracle_inputs *in, const struct light_ope
     return widest;
 }
 
-/* What the oracles see of a value that is `now`: it follows when they differ. Returns 1 when it
+/* What the oracles see of a value that is `now`: it follows when they differ
+ * by more than the share `within`. Returns 1 when it
  * grew by more than `unknown`. */
-static int follow(double *seen, double now, double unknown)
+static int follow(double *seen, double now, double within, double unknown)
 {
-    int grew = now > (1 + HYSTERESIS) * *seen + unknown;
-    if (grew || now < (1 - HYSTERESIS) * *seen)
+    int grew = now > (1 + within) * *seen + unknown;
+    if (grew || now < (1 - within) * *seen)
         *seen = now;
     return grew;
 }
@@ -109,9 +110,10 @@ void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator 
         for (uint32_t k = 0; k < b; k++)
             brightest = fmax(brightest, radiosity[(size_t)i * b + k]);
         double unknown = in->known * brightest;
-        int grew = follow(&e->radiosity, brightest, 0);
-        grew |= follow(&e->spread, measure_spread(in, op, radiosity, i), unknown);
-        grew |= follow(&e->deviation, measure_deviation(in, op, radiosity, i), unknown);
+        int grew = follow(&e->radiosity, brightest, HYSTERESIS, 0);
+        grew |= follow(&e->spread, measure_spread(in, op, radiosity, i), HYSTERESIS, unknown);
+        grew |= follow(&e->deviation, measure_deviation(in, op, radiosity, i), DEVIATION_HYSTERESIS,
+                       unknown);
         in->changed[i] = (unsigned char)grew;
     }
 }
