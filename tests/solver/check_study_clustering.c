@@ -14,7 +14,7 @@
 #include "suite.h"
 
 #define SCENE "examples/scenes/furnace_4.obj"
-#define HOW "--oracle clusters --set from_faces=1 --set relative=0.2 -q"
+#define HOW "--oracle clusters --set relative=0.4 -q"
 
 /* The exit status; what went to standard error is in folder/log. */
 static int run(const char *format, const char *a, const char *b)
