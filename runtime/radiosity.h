@@ -484,9 +484,9 @@ struct RadMeasureOptions {
 struct RadErrorReport {
     struct RadMeasure power;    /* of all light together; positive: the solution is too bright */
     struct RadMeasure l1_faces; /* sum over polygons and bands of the modulus */
-    /* over the surfaces, of what RadMeasureOptions.surfaces asked for: root of the integral of the
-     * squared error over that of (B - E)^2; and what 99.9 % of the area is below, over the area
-     * mean of B - E */
+    /* over the surfaces, of what RadMeasureOptions.surfaces asked for, slopes included: root of
+     * the integral of the squared error over that of (B - E)^2; and what 99.9 % of the area is
+     * below, over the area mean of B - E */
     struct RadMeasure l2, p999;
     /* the L1 error per polygon that these particles, by chance, have themselves: what is left of it
      * in what is mended with them */
@@ -511,8 +511,9 @@ RAD_API int radMeasureError(RadSolution solution, const struct RadMeasureOptions
  * E + rho H, H the mean over both sides. Returns 0, or -1: nothing has been measured. */
 RAD_API int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error,
                                 double *deviation);
-/* The same of each element, as far as it stands out of its noise: [element * bands + band], W/m2,
- * the solution's own until it is measured again or stepped; NULL: nothing has been measured. */
+/* The same of each element's mean, as far as it stands out of its noise: [element * bands + band],
+ * W/m2, the solution's own until it is measured again or stepped; NULL: nothing has been measured.
+ */
 RAD_API const double *radGetElementErrors(RadSolution solution);
 
 struct RadCorrectOptions {
@@ -667,6 +668,9 @@ struct RadAccountOptions {
  * for discretization, cap and solver, whose signs are known and which mend each other. They cannot
  * know of light that no link stands for, nor of what links between groups lose.
  *
+ * All are of one value per element. Of RAD_BASIS_LINEAR they are what the same links would leave
+ * without slopes; radMeasureError knows slopes.
+ *
  * Bounds hold for certain, after all reflections, for every point of every surface: proved by
  * ranges of form factors and by shafts, never by rays (engine/light_ranges.h). Discretization: were
  * the links' visibilities right; what form factors, cap and solver have done is in it. Visibility:
@@ -687,6 +691,7 @@ struct RadAccountReport {
     uint64_t guarded;                            /* links that a guard kept whole */
     /* 1: there are bounds. 0: none were asked for, or there are more ranges than fit */
     int bounded;
+    int without_slopes; /* 1: the solution has slopes, which the account leaves out */
     uint64_t ranges;
     double visible; /* share of them, by what they carry, of which it is proved that nothing is
                        between */

@@ -361,15 +361,11 @@ void radGetElements(RadSolution solution, struct RadElements *elements)
     if (!solution || solution->dead)
         return;
     const struct solve *s = &solution->solve;
-    *elements = (struct RadElements){s->hierarchy.elements,
-                                     s->started,
-                                     s->hierarchy.built,
-                                     s->hierarchy.face_element,
-                                     s->problem.bands,
-                                     solve_shown(s)->radiosity,
-                                     solve_shown(s)->irradiance,
-                                     s->operator.uncovered,
-                                     s->mended_gradient ? s->mended_gradient : s->linear.gradient};
+    *elements = (struct RadElements){s->hierarchy.elements,      s->started,
+                                     s->hierarchy.built,         s->hierarchy.face_element,
+                                     s->problem.bands,           solve_shown(s)->radiosity,
+                                     solve_shown(s)->irradiance, s->operator.uncovered,
+                                     solve_gradient(s)};
 }
 
 void radGetLinks(RadSolution solution, struct RadLinks *links)

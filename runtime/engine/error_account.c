@@ -5,6 +5,9 @@
  * they cancel, and their estimates are not transported. Cap and solver may have one sign
  * everywhere, and are transported by the operator as they are; so is what an error of E and rho
  * would make, dE + drho H~. [Arvo, Torrance and Smits 1994, sections 5 and 6]
+ *
+ * All of it is derived for constants. Where the solution has slopes the account is that of what its
+ * links would say without them, which is solved for once more, and says so.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -188,29 +191,94 @@ static void find_reflected(struct error_account *a, double *x)
     a->report->reflected = account_norms(a, x, 0);
 }
 
-/* The operator as the links are now: the last pass may have changed them after the last solve. */
-static int renew_operator(struct solve *s)
+/* The operator as the links are now: the last pass may have changed them after the last solve, and
+ * slopes have rows of their own. */
+static int renew_operator(struct solve *s, struct row_report *rows)
 {
     struct light_operator *op = &s->operator;
-    struct row_report rows;
-    if (s->report.changing > 0) {
+    if (s->report.changing > 0 || s->linear.gradient) {
         separable_links_close(&op->separable);
         if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement,
                                  (int)s->problem.bands, s->problem.options.threads,
                                  s->problem.options.projection == RAD_PROJECTION_COLLOCATION)
             < 0)
             return -1;
-        row_sums_scale(op, &rows);
+        row_sums_scale(op, rows);
     }
     return 0;
 }
 
-int error_account_make(struct error_account *a)
+/* ---- constants in place of slopes */
+
+/* What a solution with slopes is given back. */
+struct slopes {
+    struct state state;
+    double *rows; /* row_scale, row_above, row_share and row, one after the other */
+};
+
+static void rows_of(const struct light_operator *op, double *rows[4])
+{
+    rows[0] = op->row_scale;
+    rows[1] = op->row_above;
+    rows[2] = op->row_share;
+    rows[3] = op->row;
+}
+
+/* Keep in `k` what there is, to be given back in any case, and leave copies of the radiosities. */
+static int keep_slopes(struct solve *s, struct slopes *k)
+{
+    size_t count = s->hierarchy.count, values = count * s->problem.bands;
+    double *rows[4];
+    *k = (struct slopes){s->state, malloc(4 * count * sizeof *k->rows)};
+    s->state = (struct state){malloc(values * sizeof(double)), malloc(values * sizeof(double))};
+    if (!k->rows || !s->state.radiosity || !s->state.irradiance) {
+        free(k->rows);
+        k->rows = NULL;
+        return -1;
+    }
+    memcpy(s->state.radiosity, k->state.radiosity, values * sizeof(double));
+    memcpy(s->state.irradiance, k->state.irradiance, values * sizeof(double));
+    rows_of(&s->operator, rows);
+    for (int i = 0; i < 4; i++)
+        memcpy(&k->rows[(size_t)i * count], rows[i], count * sizeof(double));
+    return 0;
+}
+
+static void give_back(struct solve *s, struct slopes *k)
+{
+    size_t count = s->hierarchy.count;
+    double *rows[4];
+    rows_of(&s->operator, rows);
+    for (int i = 0; i < 4 && k->rows; i++)
+        memcpy(rows[i], &k->rows[(size_t)i * count], count * sizeof(double));
+    free(k->rows);
+    free(s->state.radiosity);
+    free(s->state.irradiance);
+    s->state = k->state;
+}
+
+/* Constants that go with the operator, from what the state holds. */
+static int solve_constants(struct solve *s)
+{
+    double tolerance = s->problem.options.tolerance;
+    struct transport t = {.bands = s->problem.bands,
+                          .value = s->state.radiosity,
+                          .irradiance = s->state.irradiance,
+                          .source = s->problem.exitance,
+                          .reflectance = s->problem.reflectance,
+                          .tolerance = tolerance > 0 ? tolerance : SOLVE_TOLERANCE};
+    if (transport_solve(&s->operator, & t) < 0)
+        return -1;
+    transport_average(&s->operator, & t);
+    return 0;
+}
+
+static int make(struct error_account *a)
 {
     struct solve *s = a->solve;
     struct RadAccountReport *r = a->report;
+    struct row_report rows = s->report.rows;
     size_t count = s->hierarchy.count, bands = s->problem.bands;
-    memset(r, 0, sizeof *r);
     a->cap = calloc((3 * bands + 2) * count, sizeof *a->cap);
     if (!a->cap)
         return -1;
@@ -218,7 +286,7 @@ int error_account_make(struct error_account *a)
     a->factor = a->left + bands * count;
     a->most = a->factor + bands * count;
     a->spread = a->most + count;
-    int failed = renew_operator(s) < 0;
+    int failed = renew_operator(s, &rows) < 0 || (s->linear.gradient && solve_constants(s) < 0);
     if (!failed) {
         separable_links_send(&s->operator.separable, (int)bands, s->state.radiosity);
         find_spread(a);
@@ -226,16 +294,33 @@ int error_account_make(struct error_account *a)
         find_kappa(a, a->left);
         error_local_signed(a);
         failed = error_local_make(a) < 0 || find_carried(a) < 0;
-        separable_links_send(&s->operator.separable, (int)bands, s->state.radiosity);
     }
     if (!failed) {
         add_up(r);
-        r->defect_mean = s->report.rows.defect_mean;
-        r->defect_most = s->report.rows.defect_most;
-        r->blind_area = s->report.rows.blind_area;
+        r->defect_mean = rows.defect_mean;
+        r->defect_most = rows.defect_most;
+        r->blind_area = rows.blind_area;
         r->guarded = s->refinement.marked[LINK_GUARDED];
         failed = error_bounds_make(a) < 0;
     }
     free(a->cap);
     return failed ? -1 : 0;
+}
+
+int error_account_make(struct error_account *a)
+{
+    struct solve *s = a->solve;
+    struct slopes slopes = {{NULL, NULL}, NULL};
+    int result = 0, constants = s->linear.gradient != NULL;
+    memset(a->report, 0, sizeof *a->report);
+    a->report->without_slopes = constants;
+    if (constants)
+        result = keep_slopes(s, &slopes);
+    if (result == 0)
+        result = make(a);
+    if (constants)
+        give_back(s, &slopes);
+    if (result == 0)
+        separable_links_send(&s->operator.separable, (int)s->problem.bands, s->state.radiosity);
+    return result;
 }

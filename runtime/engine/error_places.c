@@ -1,7 +1,8 @@
 /* error_places.c - see error_places.h.
  *
  * What is constant on a leaf is off by half of what it differs from its neighbours, if the truth is
- * smooth: so the detail of a leaf is the mean square of its difference to its parent's children.
+ * smooth: so the detail of a leaf is the mean square of its difference to its parent's children, at
+ * their centres. What is linear is off by what it does not foretell of them there.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -79,8 +80,8 @@ static double detail_of(const struct error_places *x, uint32_t leaf)
         return 0;
     for (uint32_t c = parent->child; c < parent->child + parent->children; c++)
         for (uint32_t k = 0; k < bands; k++) {
-            double off =
-                x->radiosity[(size_t)c * bands + k] - x->radiosity[(size_t)leaf * bands + k];
+            double off = x->light->mean[(size_t)c * bands + k]
+                         - element_light_at(x->light, leaf, k, elements[c].centre);
             square += off * off / parent->children;
         }
     return square;
@@ -113,10 +114,11 @@ static int spread_detail(struct error_places *x)
 
 /* ---- all of them */
 
-int error_places_open(struct error_places *x, const struct tracer *t, const double *radiosity,
-                      uint32_t landings, uint64_t stream, uint64_t *rays)
+int error_places_open(struct error_places *x, const struct tracer *t,
+                      const struct element_light *light, uint32_t landings, uint64_t stream,
+                      uint64_t *rays)
 {
-    *x = (struct error_places){.tracer = t, .radiosity = radiosity};
+    *x = (struct error_places){.tracer = t, .light = light};
     if (area_line_open(&x->line, t) < 0)
         return -1;
     if (x->line.count == 0 || t->lights.count == 0)

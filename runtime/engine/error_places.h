@@ -7,20 +7,21 @@
 #ifndef ERROR_PLACES_H
 #define ERROR_PLACES_H
 
+#include "engine/element_light.h"
 #include "particles/area_line.h"
 #include "particles/spread.h"
 
 enum error_place {
     PLACES_EVEN,
     PLACES_LIT,    /* where particles land */
-    PLACES_DETAIL, /* where radiosities of neighbours differ */
+    PLACES_DETAIL, /* where a leaf does not tell what its neighbours are */
     PLACES_WRONG,  /* where error has been found */
     PLACES
 };
 
 struct error_places {
     const struct tracer *tracer;
-    const double *radiosity; /* [element * bands + band] */
+    const struct element_light *light;
     struct area_line line;
     struct spread even, lit, wrong;
     struct {
@@ -39,10 +40,11 @@ struct place {
 };
 
 /* All but PLACES_WRONG, which is even until it is made of what has been measured. landings: how
- * many particles make PLACES_LIT; the rays are added to *rays. The tracer and the radiosities are
+ * many particles make PLACES_LIT; the rays are added to *rays. The tracer and the light are
  * borrowed. Returns 0, or -1 when out of memory; to be closed in any case. */
-int error_places_open(struct error_places *x, const struct tracer *t, const double *radiosity,
-                      uint32_t landings, uint64_t stream, uint64_t *rays);
+int error_places_open(struct error_places *x, const struct tracer *t,
+                      const struct element_light *light, uint32_t landings, uint64_t stream,
+                      uint64_t *rays);
 void error_places_close(struct error_places *x);
 
 /* The point of a density that v in [0, 1) stands for, or one nearby. */

@@ -98,19 +98,19 @@ static int give_up(const struct solve *s, const char **cause)
 static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t rays, uint64_t stream,
                             struct measured_error *m)
 {
-    const double *shown = solve_shown(s)->radiosity;
+    const struct element_light shown = element_light_shown(s);
     struct watched watched = {.solve = s,
                               .before = m->rays,
                               .now = (double)rays,
                               .all = (double)m->rays + 2 * (double)rays};
     const struct watch watch = {tell, &watched};
     struct surface_error surface;
-    if (surface_error_measure(s, t, shown, rays, stream, &watch, &surface) < 0)
+    if (surface_error_measure(s, t, &shown, rays, stream, &watch, &surface) < 0)
         return -1;
     m->l2 = surface.l2;
     m->rays += surface.rays;
     watched.before = m->rays;
-    return tail_error_measure(s, t, shown, rays, stream, &watch, &m->p999, &m->rays);
+    return tail_error_measure(s, t, &shown, rays, stream, &watch, &m->p999, &m->rays);
 }
 
 int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,

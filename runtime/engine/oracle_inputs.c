@@ -11,6 +11,14 @@
 #include "engine/oracle_inputs.h"
 #include "kernel/constants.h"
 
+/* What the oracles see of the radiosity of an element at the least. Where rows are closed they are
+ * scaled by what is missing, so an error in a link from a dark element moves light of the mean
+ * radiosity. */
+static double least_radiosity(const struct problem *p)
+{
+    return p->options.closure == CLOSURE_NONE ? 0 : rays_host(p->rays)->radiosity;
+}
+
 void oracle_inputs_guess(const struct problem *p, struct hierarchy *h)
 {
     for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
@@ -22,8 +30,10 @@ void oracle_inputs_guess(const struct problem *p, struct hierarchy *h)
                 fmax(e->radiosity,
                      p->exitance[at] + p->reflectance[at] * rays_host(p->rays)->irradiance);
         }
-        if (e->vertices)
+        if (e->vertices) {
+            e->radiosity = fmax(e->radiosity, least_radiosity(p));
             continue;
+        }
         for (int c = 0; c < e->children; c++) {
             const struct element *child = &h->elements[e->child + (uint32_t)c];
             sum += child->radiosity * child->area;
@@ -95,7 +105,7 @@ void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator 
     uint32_t b = op->problem->bands;
     for (uint32_t i = h->count; i-- > 0;) {
         struct element *e = &h->elements[i];
-        double brightest = 0;
+        double brightest = op->problem->rays ? least_radiosity(op->problem) : 0;
         for (uint32_t k = 0; k < b; k++)
             brightest = fmax(brightest, radiosity[(size_t)i * b + k]);
         double unknown = in->known * brightest;

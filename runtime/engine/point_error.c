@@ -54,7 +54,7 @@ static void measure_leaves(const struct point_error *x, const struct tally *tall
         for (uint32_t k = 0; k < bands; k++) {
             if (!(rho[k] > 0))
                 continue;
-            double solved = area * (x->radiosity[(size_t)i * bands + k] - exitance[k]) / rho[k];
+            double solved = area * (x->light->mean[(size_t)i * bands + k] - exitance[k]) / rho[k];
             d->area[i] = area;
             d->expected[i] += one > 0 ? solved / one : 0;
             d->power[(size_t)i * bands + k] = solved - tally_leaf(tally, i, k);
@@ -80,7 +80,7 @@ static void mend(const struct point_error *x, const struct defects *d, double *r
         const struct element *e = &h->elements[i];
         for (uint32_t k = 0; k < bands && !e->children; k++) {
             size_t at = (size_t)i * bands + k, face = (size_t)e->face * bands + k;
-            reflected[at] = x->radiosity[at] - x->tracer->exitance[face]
+            reflected[at] = x->light->mean[at] - x->tracer->exitance[face]
                             - x->tracer->reflectance[face] * reflected[at];
         }
     }
@@ -114,11 +114,11 @@ static int tell_half(void *context, double share)
 }
 
 int point_error_open(struct point_error *x, const struct solve *s, const struct tracer *t,
-                     const double *radiosity, uint64_t budget, uint64_t stream,
+                     const struct element_light *light, uint64_t budget, uint64_t stream,
                      const struct watch *watch, uint64_t *rays)
 {
     size_t count = t->hierarchy->count, values = count * t->bands;
-    *x = (struct point_error){.solve = s, .tracer = t, .radiosity = radiosity};
+    *x = (struct point_error){.solve = s, .tracer = t, .light = light};
     struct defects d = {malloc(values * sizeof *d.power), malloc(count * sizeof *d.area),
                         malloc(count * sizeof *d.expected)};
     int failed = !d.power || !d.area || !d.expected;
@@ -178,7 +178,9 @@ int point_error_measure(const struct point_error *x, const struct place *at,
                 continue;
             uint32_t leaf = leaf_at(elements, t->hierarchy->face_element[met], end, weight);
             for (uint32_t k = 0; k < bands; k++)
-                h[half][k] += x->reflected[half][(size_t)leaf * bands + k] / count->cosine;
+                h[half][k] += (x->reflected[half][(size_t)leaf * bands + k]
+                               + element_light_slope(x->light, leaf, k, end))
+                              / count->cosine;
             fronts++;
         }
         *rays += (uint64_t)count->cosine;
@@ -195,8 +197,8 @@ int point_error_measure(const struct point_error *x, const struct place *at,
             return 1;
     }
     for (uint32_t k = 0; k < bands; k++) {
-        out->solved[k] =
-            x->radiosity[(size_t)at->leaf * bands + k] - t->exitance[(size_t)at->face * bands + k];
+        out->solved[k] = element_light_at(x->light, at->leaf, k, at->p)
+                         - t->exitance[(size_t)at->face * bands + k];
         for (int half = 0; half < HALVES; half++)
             out->error[half][k] =
                 out->solved[k] - t->reflectance[(size_t)at->face * bands + k] * h[half][k];

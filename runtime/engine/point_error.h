@@ -33,8 +33,9 @@ struct point_sample {
 struct point_error {
     const struct solve *solve;
     const struct tracer *tracer;
-    const double *radiosity; /* [element * bands + band]: B~ */
-    /* [element * bands + band]: what leaves reflect once mended, B - E, by each half's particles */
+    const struct element_light *light; /* B~ */
+    /* [element * bands + band]: what leaves reflect once mended, the mean of B - E, by each half's
+     * particles; slopes are those of B~ */
     double *reflected[HALVES];
     /* of a half's particles: square of the relative standard error of the light they have reflected
      * in all, mean of both */
@@ -44,7 +45,7 @@ struct point_error {
 /* Trace particles of two streams by about so many rays; *rays: added to. Returns 0, or -1 when out
  * of memory or stopped by `watch` (may be NULL). */
 int point_error_open(struct point_error *x, const struct solve *s, const struct tracer *t,
-                     const double *radiosity, uint64_t budget, uint64_t stream,
+                     const struct element_light *light, uint64_t budget, uint64_t stream,
                      const struct watch *watch, uint64_t *rays);
 void point_error_close(struct point_error *x);
 

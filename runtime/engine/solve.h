@@ -93,6 +93,12 @@ static inline const struct state *solve_shown(const struct solve *s)
     return s->mended.radiosity ? &s->mended : &s->state;
 }
 
+/* Its slopes, as linear_solution.gradient; NULL: it is constant on leaves. */
+static inline const double *solve_gradient(const struct solve *s)
+{
+    return s->mended_gradient ? s->mended_gradient : s->linear.gradient;
+}
+
 /* Show what the links say. */
 void solve_forget_mended(struct solve *s);
 

@@ -260,12 +260,13 @@ static struct RadMeasure mean_square(const struct measurement *m, const struct s
 
 /* ---- all of it */
 
-static int measure_all(struct measurement *m, const struct solve *s, const double *radiosity,
-                       double rays, struct stage stage[2], struct surface_error *out)
+static int measure_all(struct measurement *m, const struct solve *s,
+                       const struct element_light *light, double rays, struct stage stage[2],
+                       struct surface_error *out)
 {
     struct watch watch = {tell_part, m};
     begin(m, SHARE_PARTICLES);
-    if (point_error_open(&m->error, s, m->tracer, radiosity, (uint64_t)(SHARE_PARTICLES * rays),
+    if (point_error_open(&m->error, s, m->tracer, light, (uint64_t)(SHARE_PARTICLES * rays),
                          stream_of(m, 0), m->watch ? &watch : NULL, &m->rays)
         < 0)
         return -1;
@@ -291,19 +292,19 @@ static int measure_all(struct measurement *m, const struct solve *s, const doubl
     return 0;
 }
 
-int surface_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                          uint64_t rays, uint64_t stream, const struct watch *watch,
-                          struct surface_error *out)
+int surface_error_measure(const struct solve *s, const struct tracer *t,
+                          const struct element_light *light, uint64_t rays, uint64_t stream,
+                          const struct watch *watch, struct surface_error *out)
 {
     struct measurement m = {.tracer = t, .watch = watch, .stream = stream};
     struct stage stage[2] = {{0}, {0}};
     double all = fmax((double)rays, SURFACE_ERROR_LEAST),
            landings = (1 - SHARE_PARTICLES - SHARE_FIRST - SHARE_SECOND) * all;
     *out = (struct surface_error){0};
-    int failed = error_places_open(&m.places, t, radiosity, (uint32_t)fmin(landings, 0x1p30),
+    int failed = error_places_open(&m.places, t, light, (uint32_t)fmin(landings, 0x1p30),
                                    stream_of(&m, 1), &m.rays);
     if (!failed && m.places.line.count > 0 && t->lights.count > 0)
-        failed = measure_all(&m, s, radiosity, all, stage, out);
+        failed = measure_all(&m, s, light, all, stage, out);
     for (int i = 0; i < 2; i++)
         free(stage[i].point);
     error_places_close(&m.places);

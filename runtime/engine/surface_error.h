@@ -4,7 +4,7 @@
 #ifndef SURFACE_ERROR_H
 #define SURFACE_ERROR_H
 
-#include "engine/solve.h"
+#include "engine/element_light.h"
 #include "particles/particles.h"
 
 /* Of e = B~ - B over all points of surfaces that reflect and that no solid covers; B - E is the
@@ -15,12 +15,12 @@ struct surface_error {
     uint64_t rays, points;
 };
 
-/* The error of radiosity[element * bands + band] (W/m2), which is constant on leaves, by about so
- * many `rays`; 20,000 give a rough idea. Another stream gives another, independent answer; the
- * number of threads does not show. Scenes where nothing shines or nothing reflects: all zero.
- * watch: NULL, or asked. Returns 0, or -1 when out of memory or stopped by `watch`. */
-int surface_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                          uint64_t rays, uint64_t stream, const struct watch *watch,
-                          struct surface_error *out);
+/* The error of a light, point by point, slopes and all, by about so many `rays`; 20,000 give a
+ * rough idea. Another stream gives another, independent answer; the number of threads does not
+ * show. Scenes where nothing shines or nothing reflects: all zero. watch: NULL, or asked. Returns
+ * 0, or -1 when out of memory or stopped by `watch`. */
+int surface_error_measure(const struct solve *s, const struct tracer *t,
+                          const struct element_light *light, uint64_t rays, uint64_t stream,
+                          const struct watch *watch, struct surface_error *out);
 
 #endif

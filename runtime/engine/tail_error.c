@@ -37,7 +37,7 @@ struct point {
 struct tail {
     const struct solve *solve;
     const struct tracer *tracer;
-    const double *radiosity;
+    const struct element_light *light;
     uint64_t stream;
 };
 
@@ -61,7 +61,7 @@ static uint64_t measure_point(const struct tail *x, struct point *point, uint64_
     }
     double error = 0, mean = 0;
     for (uint32_t k = 0; k < p->bands; k++) {
-        double reflected = x->radiosity[(size_t)point->leaf * p->bands + k]
+        double reflected = element_light_at(x->light, point->leaf, k, point->p)
                            - p->exitance[(size_t)point->face * p->bands + k];
         error += fabs(reflected - rho[k] * sum[k] / paths);
         mean += rho[k] * sum[k] / paths;
@@ -124,7 +124,7 @@ static double lay_points(const struct tail *x, const struct area_line *line, str
         at->leaf = leaf;
         bare++;
         for (uint32_t k = 0; k < p->bands; k++)
-            mean += x->radiosity[(size_t)leaf * p->bands + k]
+            mean += element_light_at(x->light, leaf, k, at->p)
                     - p->exitance[(size_t)at->face * p->bands + k];
     }
     return bare ? mean / bare : 0;
@@ -144,11 +144,11 @@ static uint32_t paths_for(double rays, double each)
     return paths < 1 ? 1 : paths > PATHS_MOST ? PATHS_MOST : (uint32_t)paths;
 }
 
-int tail_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                       uint64_t budget, uint64_t stream, const struct watch *watch,
-                       struct RadMeasure *tail, uint64_t *rays)
+int tail_error_measure(const struct solve *s, const struct tracer *t,
+                       const struct element_light *light, uint64_t budget, uint64_t stream,
+                       const struct watch *watch, struct RadMeasure *tail, uint64_t *rays)
 {
-    const struct tail x = {s, t, radiosity, stream};
+    const struct tail x = {s, t, light, stream};
     struct area_line line;
     *tail = (struct RadMeasure){0, 0, 0};
     if (t->lights.count == 0)

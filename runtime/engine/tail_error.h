@@ -3,17 +3,17 @@
 #ifndef TAIL_ERROR_H
 #define TAIL_ERROR_H
 
-#include "engine/solve.h"
+#include "engine/element_light.h"
 #include "particles/particles.h"
 
 /* The sum over bands of |B~ - B| that 99.9 % of the uncovered, reflecting area is below, over the
- * area mean of B~ - E, the light reflected; B~ = radiosity[element * bands + band] (W/m2), constant
- * on leaves. By about so many rays, which are added to *rays; below TAIL_LEAST candidates are
- * chosen by chance. Another stream, another answer; threads do not show. All zero where nothing
- * shines or reflects. watch: NULL, or asked. Returns 0, or -1 when out of memory or stopped. */
+ * area mean of B~ - E, the light reflected; B~ the light, slopes and all. By about so many rays,
+ * which are added to *rays; below TAIL_LEAST candidates are chosen by chance. Another stream,
+ * another answer; threads do not show. All zero where nothing shines or reflects. watch: NULL, or
+ * asked. Returns 0, or -1 when out of memory or stopped. */
 enum { TAIL_LEAST = 100000 };
-int tail_error_measure(const struct solve *s, const struct tracer *t, const double *radiosity,
-                       uint64_t budget, uint64_t stream, const struct watch *watch,
-                       struct RadMeasure *tail, uint64_t *rays);
+int tail_error_measure(const struct solve *s, const struct tracer *t,
+                       const struct element_light *light, uint64_t budget, uint64_t stream,
+                       const struct watch *watch, struct RadMeasure *tail, uint64_t *rays);
 
 #endif

@@ -55,11 +55,11 @@ static int largest(const struct RadErrorNorms *norms)
 void account_print(const struct RadAccountReport *r)
 {
     int most = largest(r->estimate);
-    printf("account   how far B by links alone may be off, by cause: W, as a share of the "
+    printf("account   how far B by links alone%s may be off, by cause: W, as a share of the "
            "reflected light; root "
            "mean square, W/m2 m; worst point, W/m2\n"
            "          %-14s  likely                              at the most\n",
-           "");
+           r->without_slopes ? ", one value per element (slopes are left out)," : "", "");
     for (int c = 0; c < RAD_CATEGORIES; c++) {
         printf("          %-14s", categories[c].name);
         print_norms(&r->estimate[c], r->reflected.l1);
@@ -116,6 +116,7 @@ json_t *account_json(const struct RadAccountReport *r)
                                   number_json(r->inverse_found), "row_defect_mean", r->defect_mean,
                                   "row_defect_largest", r->defect_most, "blind_area", r->blind_area,
                                   "guard_hits", (json_int_t)r->guarded));
+    json_object_set_new(all, "slopes_left_out", json_boolean(r->without_slopes));
     json_object_set_new(all, "bounded", json_boolean(r->bounded));
     json_object_set_new(all, "ranges", json_integer((json_int_t)r->ranges));
     json_object_set_new(all, "proved_visible", json_real(r->visible));

@@ -718,6 +718,45 @@ START_TEST(test_library)
 }
 END_TEST
 
+/* With slopes the account is that of the same links without, and the solution stays what it was. */
+START_TEST(test_slopes)
+{
+    static const struct RadAccountOptions estimates = {0.01, 0.02, 1};
+    char *settings[] = {"relative=0.3", "min_share=2e-3", NULL};
+    struct RadAccountReport report[2];
+    for (int linear = 0; linear < 2; linear++) {
+        struct scene scene;
+        struct solve s;
+        struct solve_options how = quick(1);
+        how.linear = linear;
+        furnished(&scene, 1);
+        solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, how);
+        size_t count = s.hierarchy.count, size = count * sizeof(double);
+        double *before[3] = {malloc(size), malloc(size), malloc(size)};
+        const double *after[3] = {s.state.radiosity, s.state.irradiance, s.operator.row_scale };
+        for (int i = 0; i < 3; i++)
+            memcpy(before[i], after[i], size);
+        struct error_account a = {.solve = &s, .options = &estimates, .report = &report[linear]};
+        ck_assert_int_eq(error_account_make(&a), 0);
+        ck_assert_int_eq(report[linear].without_slopes, linear);
+        ck_assert_ptr_eq(s.state.radiosity, after[0]);
+        for (int i = 0; i < 3; i++) {
+            ck_assert_mem_eq(before[i], after[i], size);
+            free(before[i]);
+        }
+        solve_close(&s);
+        made_close(&scene);
+    }
+    for (int c = 0; c < RAD_CATEGORIES; c++) {
+        const struct RadErrorNorms *x = &report[0].estimate[c], *y = &report[1].estimate[c];
+        double all = report[0].estimate[RAD_CATEGORY_TOGETHER].l1;
+        ck_assert_double_eq_tol(x->l1, y->l1, 1e-3 * all);
+        ck_assert_double_eq_tol(x->l2, y->l2, 1e-3 * all);
+    }
+    ck_assert_double_eq_tol(report[0].kappa_inf, report[1].kappa_inf, 1e-12);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("error_account");
@@ -734,6 +773,7 @@ int main(void)
     tcase_add_test(parts, test_ranges);
     tcase_add_test(parts, test_open);
     tcase_add_test(parts, test_library);
+    tcase_add_test(parts, test_slopes);
     suite_add_tcase(suite, parts);
     return suite_failures(suite) != 0;
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include "runtime/make_known.h"
 #include "runtime/make_solve.h"
+#include "engine/element_light.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/solve_tracer.h"
@@ -280,6 +281,45 @@ static void furnished_solve(struct solve *s, struct scene *scene, int threads, d
     solve_with(s, scene, "bf_guarded", RELEASE_FLAT, coarse, o);
 }
 
+/* Slopes are mended, too: no corner is below 0, and what is measured over the surfaces is less than
+ * without them. */
+START_TEST(test_slopes)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error m[2];
+    const char *cause;
+    struct solve_options o = quick(1);
+    o.linear = 1;
+    furnished(&scene, 1);
+    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    ck_assert_int_eq(measure_and_mend(&s, 0.01, 200000, &m[0], &cause), 0);
+    measured_error_free(&m[0]);
+    const struct element_light light = element_light_shown(&s);
+    ck_assert_ptr_eq(light.gradient, s.mended_gradient);
+    ck_assert_ptr_nonnull(light.gradient);
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
+        const struct element *e = &s.hierarchy.elements[i];
+        for (uint32_t j = 0; !e->children && j < e->vertices; j++)
+            ck_assert_double_ge(element_light_at(&light, i, 0, e->vertex[j]),
+                                -1e-12 * light.mean[i]);
+    }
+    double *slopes[2] = {s.mended_gradient, s.linear.gradient};
+    for (int i = 0; i < 2; i++) {
+        ck_assert_int_eq(measure_error(&s, 400000, 1, 1, &m[i], &cause), 0);
+        s.mended_gradient = s.linear.gradient = NULL;
+    }
+    s.mended_gradient = slopes[0];
+    s.linear.gradient = slopes[1];
+    ck_assert_double_lt(m[0].l2.high, m[1].l2.low);
+    ck_assert_double_eq(m[0].faces.l1.value, m[1].faces.l1.value); /* which know means alone */
+    for (int i = 0; i < 2; i++)
+        measured_error_free(&m[i]);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Mended and measured: the same bits for any number of threads, and for any power of two of size.
  */
 START_TEST(test_same_bits)
@@ -436,6 +476,7 @@ int main(void)
     tcase_add_test(tests, test_coverage);
     tcase_add_test(tests, test_mended);
     tcase_add_test(tests, test_mends);
+    tcase_add_test(tests, test_slopes);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_streams);
     tcase_add_test(tests, test_cancel);

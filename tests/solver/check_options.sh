@@ -84,7 +84,7 @@ says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
 says 2 "--solver takes gauss-seidel, jacobi, southwell or lu, not x" solve "$scene" --solver x
 says 2 "--projection takes galerkin or collocation, not x" compare "$scene" --projection x
-says 1 "LU solves for at most 5000 leaves, and there are" solve "$scenes/room.obj" --solver lu
+says 1 "LU solves for at most 5000 leaves, and there are" solve "$scenes/room.obj" --solver lu --set bend=1e-6
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal
 says 2 "--basis takes constant or linear, not quadratic" solve "$scene" --basis quadratic
 says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --closure x
@@ -156,18 +156,18 @@ for command in solve compare viewfactors reference error tune "study stability" 
 done
 
 # ---- parameters and oracles: exit 1
-says 1 "relative has no value" solve "$scene" --set relative=
+says 1 "energy has no value" solve "$scene" --set energy=
 says 1 "'=1' names no parameter" solve "$scene" --set =1
-says 1 "'relative' names no parameter" solve "$scene" --set relative
-says 1 "'x' is not a number" solve "$scene" --set relative=x
-says 1 "'nan' is not a number" solve "$scene" --set relative=nan
-says 1 "out of range; relative takes 0 to inf" solve "$scene" --set relative=-1
-says 1 "relative=1e999: too large to be a number" solve "$scene" --set relative=1e999
-says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --set rays=16.5
-says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --set rays=1e30
-says 1 "has no parameter 'no'; it has epsilon" solve "$scene" --set no=1
+says 1 "'energy' names no parameter" solve "$scene" --set energy
+says 1 "'x' is not a number" solve "$scene" --set energy=x
+says 1 "'nan' is not a number" solve "$scene" --set energy=nan
+says 1 "out of range; energy takes 0 to inf" solve "$scene" --set energy=-1
+says 1 "energy=1e999: too large to be a number" solve "$scene" --set energy=1e999
+says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --oracle bf_guarded --set rays=16.5
+says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --oracle bf_guarded --set rays=1e30
+says 1 "has no parameter 'no'; it has energy" solve "$scene" --set no=1
 says 1 "no such oracle" solve "$scene" --oracle nix
-says 1 "clusters: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded" \
+says 1 "power: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded" \
     solve "$scene" --release hand
 
 # ---- outputs that cannot be written are told before the scene is read, which is not there

@@ -151,7 +151,7 @@ START_TEST(test_command)
     snprintf(path, sizeof path, "%s/out", folder);
     snprintf(arguments, sizeof arguments, "stability --only shared_edge > %s", path);
     ck_assert_int_eq(run(arguments), 0);
-    ck_assert(holds(path, "clusters") && holds(path, "fails: 1/r2 is unbounded")
+    ck_assert(holds(path, "power") && holds(path, "fails: 1/r2 is unbounded")
               && holds(path, "0 are not as expected"));
     unlink(path);
     snprintf(path, sizeof path, "%s/out.csv", folder);

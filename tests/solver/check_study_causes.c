@@ -51,8 +51,8 @@ START_TEST(test_scenes)
     char more[512], path[64], text[8192];
     snprintf(path, sizeof path, "%s/causes.json", folder);
     snprintf(more, sizeof more,
-             "examples/scenes/cornell.obj examples/scenes/furnace.obj --rays 100000 --set "
-             "relative=0.5 --json %s",
+             "examples/scenes/cornell.obj examples/scenes/furnace.obj --rays 100000 "
+             "--oracle bf_guarded --set relative=0.5 --json %s",
              path);
     ck_assert_int_eq(run(more), 0);
     json_t *scenes = json_load_file(path, 0, NULL);

@@ -49,7 +49,7 @@ for value in 0 10001 x; do says 2 "--evaluations takes a whole number from 1" ff
 says 2 "--cost takes rays, links or time" ff "$room" --cost seconds
 says 2 "-o takes a file named .dag" ff "$room" -o x.txt
 says 2 "tune has no option --set; solve has" ff "$room" --set limit=1
-says 2 "this is a scene, which would be lost" ff "$room" --json "$room"
+says 2 "this is the scene, which would be lost" ff "$room" --json "$room"
 
 # ---- oracles, parameters, scenes
 says 1 "no such oracle" nix "$room"
@@ -63,7 +63,7 @@ for range in 1:0.5 0:1 1 :1 1: 1:2:3 x:y -1:1 nan:1 1:inf ''; do
     says 1 "write NAME=LOW:HIGH with numbers 0 < LOW <= HIGH" ff "$room" --param limit=$range
 done
 says 1 "limit: no value between 0.061 and 0.062" ff "$room" --param limit=0.061:0.062
-says 1 "say which to fit by --param NAME: threshold, unit_share" tester "$room"
+says 1 "say which to fit by --param NAME: threshold_1" tester "$room"
 { sed 's/Ke .*/Ke 0 0 0/' "$scenes/furnace.mtl" >dark.mtl; sed 's/furnace.mtl/dark.mtl/' "$room" >dark.obj; }
 says 1 "dark.obj: error: no light is reflected" ff dark.obj
 
