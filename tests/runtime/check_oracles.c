@@ -129,7 +129,7 @@ static const struct falling {
      {"bend=5e-4", "shadow=1e-3"},
      {"bend=1e-4", "shadow=1e-4"},
      {"bend=1e-5", "shadow=1e-5"},
-     {1, 1, 1}},
+     {2.5e-3, 2e-4, 1.2e-3}},
     {"bfv", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
     {"relative", {"exitance=0.1"}, {"exitance=0.02"}, {"exitance=0.004"}, {2.5e-3, 2e-4, 6e-4}},
     {"gap", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {1e-3, 2e-4, 3e-4}},
