@@ -345,9 +345,7 @@ START_TEST(test_furnace)
                                     .clusters = 1 + _i,
                                     .closure = run < 2 ? CLOSURE_ROWS : CLOSURE_NONE};
         struct refiner *r = oracles_open("clusters", RELEASE_FLAT);
-        char *setting = (char *)"from_faces=300";
         ck_assert_ptr_nonnull(r);
-        ck_assert_int_eq(oracles_set(r, &setting, 1), 0);
         if (run == 2)
             solve_close(t);
         const char *cause;

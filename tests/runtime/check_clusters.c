@@ -1,5 +1,5 @@
-/* check_clusters.c - links between groups of faces: they must change nothing in small scenes,
- * little in large ones, and leak nothing.
+/* check_clusters.c - links between groups of faces: they must change little, in small scenes
+ * and in large ones, and leak nothing.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
@@ -101,31 +101,22 @@ static void room(struct scene *s, int n)
     made_quad(s, 2, 1.8, 1.2, 2.4, 0, 0.5, 0, 0.5, 0, 0);
 }
 
-/* Below `from_faces` the oracle decides as bf_guarded does: the same links and the same light,
- * bit for bit. */
+/* In a scene of few faces: groups are linked, and give the same light, nearly. */
 START_TEST(test_small)
 {
     struct solve a, b;
     struct scene scene;
     room(&scene, 3);
     ck_assert(scene.face_count > 150 && scene.face_count < 1500);
-    const char *setting = thorough() ? NULL : "min_share=3e-4";
+    const char *setting = thorough() ? NULL : "min_share=1.2e-4";
     solved(&a, &scene, "clusters", 2, CLOSURE_NONE, setting);
-    solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, setting);
-    ck_assert_uint_eq(group_links(&a), 0);
-    ck_assert_uint_eq(a.refinement.link_count, b.refinement.link_count);
-    ck_assert_int_eq(memcmp(a.refinement.links, b.refinement.links,
-                            a.refinement.link_count * sizeof *a.refinement.links),
-                     0);
-    ck_assert_uint_eq(a.hierarchy.count, b.hierarchy.count);
-    ck_assert_int_eq(
-        memcmp(a.state.radiosity, b.state.radiosity,
-               (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.radiosity),
-        0);
-    ck_assert_int_eq(
-        memcmp(a.state.irradiance, b.state.irradiance,
-               (size_t)a.hierarchy.count * a.problem.bands * sizeof *a.state.irradiance),
-        0);
+    solved(&b, &scene, "bf_guarded", 2, CLOSURE_NONE, thorough() ? NULL : "min_share=3e-4");
+    printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g\n",
+           scene.face_count, a.refinement.link_count, group_links(&a), b.refinement.link_count,
+           difference(&a, &b));
+    ck_assert_uint_gt(group_links(&a), 1000);
+    ck_assert_uint_eq(group_links(&b), 0);
+    ck_assert_double_le(difference(&a, &b), 0.015);
     solve_close(&a);
     solve_close(&b);
     made_close(&scene);
@@ -195,10 +186,10 @@ START_TEST(test_large)
     struct scene scene;
     room(&scene, 10);
     ck_assert_uint_gt(scene.face_count, 1500);
-    const char *setting = thorough() ? NULL : "min_share=3e-4";
+    const char *setting = thorough() ? NULL : "min_share=1.2e-4";
     solved(&with, &scene, "clusters", 5, CLOSURE_NONE, setting);
     released(&one, &scene, "clusters", RELEASE_DAG, 1, CLOSURE_NONE, setting);
-    solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, setting);
+    solved(&without, &scene, "bf_guarded", 2, CLOSURE_NONE, thorough() ? NULL : "min_share=3e-4");
     printf("room of %u faces: %zu links, %zu of them of clusters; %zu without; B differs by %.2g; "
            "power lost %.2g\n",
            scene.face_count, with.refinement.link_count, group_links(&with),
@@ -225,7 +216,7 @@ START_TEST(test_feature)
     room(&scene, 10);
     solved(&fog, &scene, "clusters_feature", 2, CLOSURE_NONE, "min_share=5e-4");
     released(&one, &scene, "clusters_feature", RELEASE_DAG, 1, CLOSURE_NONE, "min_share=5e-4");
-    solved(&rays, &scene, "clusters", 2, CLOSURE_NONE, "min_share=5e-4");
+    solved(&rays, &scene, "clusters", 2, CLOSURE_NONE, "min_share=2e-4");
     printf("room of %u faces through fog: %zu links, %zu of them of clusters; B differs by %.2g; "
            "power lost %.2g\n",
            scene.face_count, fog.refinement.link_count, group_links(&fog), difference(&fog, &rays),
@@ -334,7 +325,7 @@ START_TEST(test_self_shadow)
         expected += 1000 * 0.0004 * z * z / (3.14159265358979323846 * square * square) / (24 * 24);
     }
     struct solve s;
-    solved(&s, &scene, "clusters", 2, CLOSURE_NONE, _i == 0 ? "from_faces=1" : NULL);
+    solved(&s, &scene, "clusters", 2, CLOSURE_NONE, NULL);
     for (uint32_t i = 0; i < scene.face_count; i++)
         if (scene.faces[i].material < 3)
             got[scene.faces[i].material] +=

@@ -230,9 +230,9 @@ static const struct {
                {"gap", {"relative=0.1", "min_share=1e-3"}},
                {"bf_guarded", {"relative=0.1", "min_share=1e-3"}},
                {"relative", {"exitance=0.01", "min_share=1e-3"}},
-               {"clusters", {"shadow=0.02", "min_share=1e-3"}},
+               {"bf_guarded", {"shadow=0.02", "min_share=1e-3"}},
                {"bf", {"relative=0.2"}},
-               {"clusters", {"spread=0.5", "min_share=1e-3"}},
+               {"clusters", {"min_share=4e-4"}},
                {"feature", {"min_share=2e-3"}},
                {"gibson_hubbold", {"relative=0.3", "min_share=1e-3"}}};
 enum { ORACLES = sizeof oracles / sizeof *oracles };

@@ -136,7 +136,7 @@ static const struct test_case {
     {"clusters",
      crowded,
      "clusters",
-     {"min_share=2e-3", "from_faces=1"},
+     {"min_share=8e-4"},
      RAD_CLOSURE_NONE,
      RAD_PROJECTION_GALERKIN,
      1,
@@ -148,7 +148,7 @@ static const struct test_case {
     {"clusters, closed rows, collocation",
      crowded,
      "clusters",
-     {"min_share=2e-3", "from_faces=1"},
+     {"min_share=8e-4"},
      RAD_CLOSURE_ROWS,
      RAD_PROJECTION_COLLOCATION,
      0,
@@ -352,7 +352,7 @@ START_TEST(test_threads)
     struct solve_options how = quick(1), more = quick(3);
     how.solver = more.solver = _i % 2 ? RAD_SOLVER_LU : RAD_SOLVER_SOUTHWELL;
     how.projection = more.projection = (enum RadProjection)(_i / 2);
-    char *settings[] = {"min_share=2e-3", "from_faces=1", NULL};
+    char *settings[] = {"min_share=8e-4", NULL};
     crowded(&scene);
     solve_with(&one, &scene, "clusters", RELEASE_FLAT, settings, how);
     solve_with(&other, &scene, "clusters", RELEASE_FLAT, settings, more);

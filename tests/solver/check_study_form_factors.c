@@ -128,13 +128,13 @@ START_TEST(test_outputs)
 {
     struct row one[KINDS][BINS + 1], two[KINDS][BINS + 1];
     ck_assert_int_eq(run("study form-factors examples/scenes/furnace_4.obj --oracle clusters "
-                         "--set from_faces=1 --set relative=2 --tolerance 1e-2 --threads 1 -o %s%s",
+                         "--set relative=4 --tolerance 1e-2 --threads 1 -o %s%s",
                          in_folder("one.csv"), ""),
                      0);
     ck_assert(holds("out", "of clusters, left out") && holds("out", "inverse_square"));
     ck_assert_int_eq(
         run("study form-factors examples/scenes/furnace_4.obj --oracle clusters "
-            "--set from_faces=1 --set relative=2 --tolerance 1e-2 --threads 2 -q -o %s%s",
+            "--set relative=4 --tolerance 1e-2 --threads 2 -q -o %s%s",
             in_folder("two.csv"), ""),
         0);
     read_table("one.csv", one);
