@@ -107,10 +107,10 @@
 #define SAMPLER_PARALLELOGRAM 1e-12
 /* choices per segment. Then fewer segments than were asked for must do; chosen */
 #define CLUSTER_TRIES 8
-/* of r R / d^2 times A B / (pi d^2). The irradiance that links of groups misplace, for the kernel is
- * taken for a product; above all of 2,640 pairs of bodies of like size, at most .2, half of them below
- * .003, and 97 of 100 where one is a speck, which on the other's horizon leaves 2.5e-3 (r + R) / d:
- * THOROUGH=1 build/tests/runtime/check_separable_links */
+/* of r R / d^2 times A B / (pi d^2). The irradiance that links of groups misplace, for the kernel
+ * is taken for a product; above all of 2,640 pairs of bodies of like size, at most .2, half of them
+ * below .003, and 97 of 100 where one is a speck, which on the other's horizon leaves
+ * 2.5e-3 (r + R) / d: THOROUGH=1 build/tests/runtime/check_separable_links */
 #define SEPARABLE_ERROR 0.25
 /* sums of radii. Nearer clusters are not points: there (d - a)^-2 exceeds (d + a)^-2 by 25 times;
  * chosen */

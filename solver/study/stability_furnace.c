@@ -89,8 +89,7 @@ static int sweep_furnace(struct stability_trial *trial, double rho,
 {
     static const char *const six_elements[] = {"relative=1",
                                                NULL}; /* they are as good as many here */
-    const struct stability_how how = {"bf", six_elements, trial->threads,
-                                      *options};
+    const struct stability_how how = {"bf", six_elements, trial->threads, *options};
     struct made_scene cube = {.count = 0};
     make_cube(&cube, rho);
     struct solved s;

@@ -26,7 +26,7 @@ struct run {
 };
 
 /* Value at a place. Returns 0, or -1: the search is at its end. */
-static int look(struct run *r, struct place *p)
+static int look_at(struct run *r, struct place *p)
 {
     const struct pattern_search *s = r->search;
     size_t bytes = (size_t)s->count * sizeof *p->at;
@@ -59,7 +59,7 @@ static int explore(struct run *r, struct place *p, int step)
             struct place next = *p;
             next.at[i] += step * r->direction[i];
             if (next.at[i] >= s->low[i] && next.at[i] <= s->high[i]) {
-                if (look(r, &next) < 0)
+                if (look_at(r, &next) < 0)
                     return -1;
                 if (next.value < p->value) {
                     *p = next;
@@ -97,7 +97,7 @@ static int descend(struct run *r, struct place base)
         while (p.value < base.value) {
             struct place next = again(r->search, &base, &p);
             base = p;
-            if (look(r, &next) < 0 || explore(r, &next, step) < 0)
+            if (look_at(r, &next) < 0 || explore(r, &next, step) < 0)
                 return -1;
             p = next;
         }
@@ -116,7 +116,7 @@ struct pattern_found pattern_search(const struct pattern_search *search, const i
     r.seen = malloc(((size_t)search->evaluations + 1) * sizeof *r.seen);
     if (!r.seen)
         r.found.end = PATTERN_MEMORY;
-    else if (look(&r, &base) == 0 && descend(&r, base) == 0)
+    else if (look_at(&r, &base) == 0 && descend(&r, base) == 0)
         r.found.end = PATTERN_FOUND;
     free(r.seen);
     return r.found;

@@ -351,8 +351,8 @@ END_TEST
 
 START_TEST(test_groups)
 {
-    char *settings[] = {"from_faces=1", "relative=1", "dim=10",         "shadow=1",
-                        "spread=100",   "dull=0.1",   "min_share=1e-3", NULL};
+    char *settings[] = {"relative=1", "dim=10",         "shadow=1", "spread=100",
+                        "faint=0.1",  "min_share=1e-3", NULL};
     check_particles("clusters", settings, 128);
 }
 END_TEST
@@ -407,8 +407,8 @@ static int check_covers(const struct solve *s, struct link_cover *c, uint32_t le
 
 START_TEST(test_covers)
 {
-    char *settings[] = {"from_faces=1", "relative=1", "dim=10",         "shadow=1",
-                        "spread=100",   "dull=0.1",   "min_share=1e-3", NULL};
+    char *settings[] = {"relative=1", "dim=10",         "shadow=1", "spread=100",
+                        "faint=0.1",  "min_share=1e-3", NULL};
     struct scene scene;
     struct solve s;
     struct link_cover c;

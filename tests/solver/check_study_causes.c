@@ -72,9 +72,9 @@ START_TEST(test_scenes)
     ck_assert_ptr_nonnull(in);
     text[fread(text, 1, sizeof text - 1, in)] = 0;
     (void)fclose(in);
-    char *first = strstr(text, "cornell.obj, oracle clusters: ");
+    char *first = strstr(text, "cornell.obj, oracle bf_guarded: ");
     ck_assert_ptr_nonnull(first);
-    ck_assert_ptr_nonnull(strstr(first, "furnace.obj, oracle clusters: "));
+    ck_assert_ptr_nonnull(strstr(first, "furnace.obj, oracle bf_guarded: "));
     ck_assert_ptr_nonnull(strstr(text, "\nlinks seen whole"));
     ck_assert_ptr_null(strstr(text, "groups"));
 }

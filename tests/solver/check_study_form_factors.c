@@ -132,11 +132,10 @@ START_TEST(test_outputs)
                          in_folder("one.csv"), ""),
                      0);
     ck_assert(holds("out", "of clusters, left out") && holds("out", "inverse_square"));
-    ck_assert_int_eq(
-        run("study form-factors examples/scenes/furnace_4.obj --oracle clusters "
-            "--set relative=4 --tolerance 1e-2 --threads 2 -q -o %s%s",
-            in_folder("two.csv"), ""),
-        0);
+    ck_assert_int_eq(run("study form-factors examples/scenes/furnace_4.obj --oracle clusters "
+                         "--set relative=4 --tolerance 1e-2 --threads 2 -q -o %s%s",
+                         in_folder("two.csv"), ""),
+                     0);
     read_table("one.csv", one);
     read_table("two.csv", two);
     for (int k = 0; k < KINDS; k++)
