@@ -116,7 +116,7 @@ else
     check "ended before it could be stopped" [ $status = 0 -o $status = 3 ]
 fi
 if [ -n "${THOROUGH-}" ]; then
-    "$radiosity" tune bf_guarded "$scenes/cornell.obj" "$room" --error 4% --limit-seconds 3 >out 2>err
+    "$radiosity" tune bf_guarded "$scenes/cornell.obj" "$room" --error 1% --evaluations 10000 --limit-seconds 1 >out 2>err
     check "stopped by time" grep -q "stopped, the best so far" out
 fi
 
