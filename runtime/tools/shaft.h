@@ -18,10 +18,12 @@
 TOOL enum shaft_answer tool_shaft(struct discussion *d)
 {
     struct blockers own;
-    if (d->terms.visibility_level == VISIBILITY_EXACT
-        && (d->terms.visibility <= 0 || d->terms.visibility >= 1))
+    int known = d->terms.visibility_level == VISIBILITY_EXACT
+                && (d->terms.visibility <= 0 || d->terms.visibility >= 1);
+    /* pairs below may want the list, whatever is known of this one */
+    const struct blockers *list = known && !d->blockers ? NULL : blockers_list(d, &own);
+    if (known)
         return d->terms.visibility > 0 ? SHAFT_VISIBLE : SHAFT_INVISIBLE;
-    const struct blockers *list = blockers_list(d, &own);
     if (list->count > BLOCKERS_MAX)
         return SHAFT_TOO_COMPLEX;
     if (list->count > 0 && !list->covered)
