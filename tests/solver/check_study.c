@@ -192,11 +192,11 @@ START_TEST(test_partial)
     ck_assert_int_gt(rows[0][0].tested, 0);
     ck_assert_int_eq(rows[0][0].complete, 0);
     const char *program = getenv("RADIOSITY");
-    snprintf(
-        more, sizeof more,
-        "timeout --preserve-status -s INT 1 %s study visibility examples/scenes/cornell.obj %s "
-        "-o %s/stopped.csv > %s/stopped.txt",
-        program ? program : "build/bin/radiosity", slow, folder, folder);
+    snprintf(more, sizeof more,
+             "timeout --foreground --preserve-status -s INT 1 %s study visibility "
+             "examples/scenes/cornell.obj %s "
+             "-o %s/stopped.csv > %s/stopped.txt",
+             program ? program : "build/bin/radiosity", slow, folder, folder);
     int status = system(more);
     ck_assert_int_eq(WEXITSTATUS(status), 130);
     snprintf(more, sizeof more,
