@@ -60,9 +60,8 @@ int radGather(RadSolution solution, const struct RadGatherPoint *points, size_t 
         return -1;
     const struct solve *s = &solution->solve;
     const struct tracer t = solve_tracer(s);
-    const double *gradient = s->mended_gradient ? s->mended_gradient : s->linear.gradient;
     struct gather g;
-    if (gather_open(&g, &t, solve_shown(s)->radiosity, gradient, GATHER_STREAM) < 0)
+    if (gather_open(&g, &t, solve_shown(s)->radiosity, solve_gradient(s), GATHER_STREAM) < 0)
         return api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory to gather light");
     const struct gathering work = {&g, points, radiosity, t.bands};
     thread_pool_run(t.threads, count, 64, gather_points, &work);

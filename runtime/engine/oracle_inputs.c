@@ -16,7 +16,8 @@
  * radiosity. */
 static double least_radiosity(const struct problem *p)
 {
-    return p->options.closure == CLOSURE_NONE ? 0 : rays_host(p->rays)->radiosity;
+    int told = p->rays && p->options.closure != CLOSURE_NONE; /* no rays yet: no mean */
+    return told ? rays_host(p->rays)->radiosity : 0;
 }
 
 void oracle_inputs_guess(const struct problem *p, struct hierarchy *h)
@@ -89,9 +90,8 @@ static double measure_deviation(struct oracle_inputs *in, const struct light_ope
     return widest;
 }
 
-/* What the oracles see of a value that is `now`: it follows when they differ
- * by more than the share `within`. Returns 1 when it
- * grew by more than `unknown`. */
+/* What the oracles see of a value that is `now`: it follows when they differ by more than the share
+ * `within`. Returns 1 when it grew by more than that and `unknown`. */
 static int follow(double *seen, double now, double within, double unknown)
 {
     int grew = now > (1 + within) * *seen + unknown;
@@ -106,7 +106,7 @@ void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator 
     uint32_t b = op->problem->bands;
     for (uint32_t i = h->count; i-- > 0;) {
         struct element *e = &h->elements[i];
-        double brightest = op->problem->rays ? least_radiosity(op->problem) : 0;
+        double brightest = least_radiosity(op->problem);
         for (uint32_t k = 0; k < b; k++)
             brightest = fmax(brightest, radiosity[(size_t)i * b + k]);
         double unknown = in->known * brightest;

@@ -218,7 +218,7 @@
  * truth, so that passes end; chosen, below the 5 % that the oracles' own thresholds decide by */
 #define HYSTERESIS 0.02
 /* share. The same of deviations, which are bounds: that a bound grew by less is no reason to ask
- * again. Passes over soda fall from 9 to 6 with it; chosen */
+ * again. Passes over soda fall from 9 to 7 with it; chosen */
 #define DEVIATION_HYSTERESIS 0.25
 /* relative L1 error of B that iteration may leave, least, when nobody says: links hold V in steps
  * of 2^-14, so that their own rounding is half of it. derived from LINK_VISIBLE */
