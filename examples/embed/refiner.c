@@ -388,6 +388,15 @@ REFINER_TOOL enum refiner_support_planes_answer refiner_tool_support_planes(stru
     return side_s == 0 ? REFINER_SUPPORT_PLANES_EMITTER_CROSSES : REFINER_SUPPORT_PLANES_TOWARD;
 }
 
+/* threshold.h - the larger of `absolute` and `relative` times the scene's mean, in the unit of
+ * both: what most questions hold an error against. */
+
+static inline double refiner_threshold(double absolute, double relative, double mean)
+{
+    double share = relative * mean;
+    return absolute > share ? absolute : share;
+}
+
 /* axis.h - term: the vector from the receiver's centre to the emitter's (m). */
 
 REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
@@ -1281,11 +1290,9 @@ REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum 
 
 REFINER_TOOL enum refiner_transfer_answer refiner_tool_transfer(struct refiner_discussion *d, double absolute, double relative)
 {
-    double limit = relative * d->host->irradiance;
+    double limit = refiner_threshold(absolute, relative, d->host->irradiance);
     if (d->emitter->black)
         return REFINER_TRANSFER_DARK;
-    if (absolute > limit)
-        limit = absolute;
     if (!(d->emitter->radiosity > limit)) /* F <= 1 */
         return REFINER_TRANSFER_BELOW;
     return d->emitter->radiosity * refiner_term_form_factor(d, REFINER_FORM_FACTOR_DISC) > limit ? REFINER_TRANSFER_ABOVE
@@ -1318,6 +1325,30 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
     const struct refiner_element *r = d->receiver, *s = d->emitter;
     return r->area > s->area || (r->area == s->area && r->id <= s->id) ? REFINER_LARGER_RECEIVER
                                                                        : REFINER_LARGER_EMITTER;
+}
+
+/* segments.h - visibility by segments, each with the weight of what it would carry. */
+
+/* Move both ends off the surfaces they are on, whose normals are n and m, as far as rays start. */
+static inline void refiner_segment_clear(struct refiner_segment *g, const double n[3], const double m[3],
+                                 const struct refiner_host *host)
+{
+    for (int k = 0; k < 3; k++) {
+        g->from[k] += host->ray_offset * n[k];
+        g->to[k] += host->ray_offset * m[k];
+    }
+}
+
+/* Cast up to SEGMENTS_MAX of them: add to *all their weights, to *seen those of what arrives. */
+static inline void refiner_segments_cast(const struct refiner_host *host, int count, const struct refiner_segment *segments,
+                                 const double *weight, double *seen, double *all)
+{
+    uint64_t blocked = host->occluded(host, count, segments);
+    for (int i = 0; i < count; i++) {
+        *all += weight[i];
+        if (!(blocked >> i & 1))
+            *seen += weight[i];
+    }
 }
 
 /* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In
@@ -1367,19 +1398,9 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
             refiner_sampler_point(g->from, &p, refiner_sobol_at(&net, 0), refiner_sobol_at(&net, 1));
             refiner_sampler_point(g->to, &q, refiner_sobol_at(&net, 2), refiner_sobol_at(&net, 3));
             weight[i] = refiner_lambert_points(g->from, r->normal, g->to, s->normal, spread);
-            g->from[0] += host->ray_offset * r->normal[0];
-            g->from[1] += host->ray_offset * r->normal[1];
-            g->from[2] += host->ray_offset * r->normal[2];
-            g->to[0] += host->ray_offset * s->normal[0];
-            g->to[1] += host->ray_offset * s->normal[1];
-            g->to[2] += host->ray_offset * s->normal[2];
+            refiner_segment_clear(g, r->normal, s->normal, host);
         }
-        uint64_t blocked = host->occluded(host, batch, segments);
-        for (int i = 0; i < batch; i++) {
-            all += weight[i];
-            if (!(blocked >> i & 1))
-                seen += weight[i];
-        }
+        refiner_segments_cast(host, batch, segments, weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

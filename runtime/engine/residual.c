@@ -23,6 +23,7 @@
 #include "engine/residual.h"
 #include "kernel/constants.h"
 #include "kernel/point_factor.h"
+#include "kernel/surface_point.h"
 
 /* Add what the emitter would bring to each point through visibility `visible`: as one, or, where
  * its leaves differ enough to matter, part by part. */
@@ -123,8 +124,7 @@ void residual_corners(const struct element *e, struct residual_points *p)
 {
     p->count = e->vertices + 1;
     for (int i = 0; i < e->vertices; i++)
-        for (int c = 0; c < 3; c++)
-            p->at[i][c] = e->vertex[i][c] + CORNER_INSET * (e->centre[c] - e->vertex[i][c]);
+        surface_corner(p->at[i], e, i);
     memcpy(p->at[e->vertices], e->centre, sizeof e->centre);
 }
 

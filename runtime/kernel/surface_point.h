@@ -10,6 +10,7 @@
 #define KERNEL_SURFACE_POINT_H
 
 #include "discussion.h"
+#include "kernel/constants.h"
 
 static inline void surface_point(double p[3], const struct element *e, double s, double t)
 {
@@ -40,6 +41,14 @@ static inline void surface_even_point(double p[3], const struct element *e, doub
         const double a = e->vertex[0][k], b = e->vertex[first][k], c = e->vertex[first + 1][k];
         p[k] = a + root * (b - a) + root * t * (c - b);
     }
+}
+
+/* Corner i of a surface, CORNER_INSET of the way to its centre: where two surfaces touch F has no
+ * value at the corner itself. */
+static inline void surface_corner(double p[3], const struct element *e, int i)
+{
+    for (int k = 0; k < 3; k++)
+        p[k] = e->vertex[i][k] + CORNER_INSET * (e->centre[k] - e->vertex[i][k]);
 }
 
 #endif

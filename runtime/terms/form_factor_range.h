@@ -24,6 +24,7 @@
 #include "kernel/constants.h"
 #include "kernel/point_factor.h"
 #include "kernel/point_gradient.h"
+#include "kernel/surface_point.h"
 
 enum { FORM_FACTOR_RANGE_DEPTH = 3 };
 
@@ -49,8 +50,7 @@ OUTLINE void form_factor_range_sample(const struct element *r, const struct elem
     }
     for (int i = 0; i < r->vertices; i++) {
         double x[3];
-        for (int k = 0; k < 3; k++)
-            x[k] = r->vertex[i][k] + CORNER_INSET * (r->centre[k] - r->vertex[i][k]);
+        surface_corner(x, r, i);
         double f = point_factor_at(x, r, s, &q);
         range[0] = f < range[0] ? f : range[0];
         range[1] = f > range[1] ? f : range[1];

@@ -28,6 +28,7 @@
 #include "kernel/hash.h"
 #include "kernel/lambert.h"
 #include "kernel/sampler.h"
+#include "kernel/segments.h"
 #include "kernel/sobol.h"
 
 /* The visible fraction by `count` segments, a power of two up to SOBOL_MOST, cast in batches of
@@ -55,19 +56,9 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
             sampler_point(g->from, &p, sobol_at(&net, 0), sobol_at(&net, 1));
             sampler_point(g->to, &q, sobol_at(&net, 2), sobol_at(&net, 3));
             weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
-            g->from[0] += host->ray_offset * r->normal[0];
-            g->from[1] += host->ray_offset * r->normal[1];
-            g->from[2] += host->ray_offset * r->normal[2];
-            g->to[0] += host->ray_offset * s->normal[0];
-            g->to[1] += host->ray_offset * s->normal[1];
-            g->to[2] += host->ray_offset * s->normal[2];
+            segment_clear(g, r->normal, s->normal, host);
         }
-        uint64_t blocked = host->occluded(host, batch, segments);
-        for (int i = 0; i < batch; i++) {
-            all += weight[i];
-            if (!(blocked >> i & 1))
-                seen += weight[i];
-        }
+        segments_cast(host, batch, segments, weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

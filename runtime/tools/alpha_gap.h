@@ -16,6 +16,7 @@
 #include "discussion.h"
 #include "terms/axis.h"
 #include "kernel/cluster_facing.h"
+#include "kernel/threshold.h"
 #include "tools/cluster_gap.h"
 
 OUTLINE double alpha_gap_range(const struct element *r, const struct element *s,
@@ -42,9 +43,7 @@ TOOL enum alpha_gap_answer tool_alpha_gap(struct discussion *d, double absolute,
 {
     /* NULL: there are no clusters */
     const struct element *all = d->host->elements ? *d->host->elements : NULL;
-    double limit = relative * d->host->irradiance;
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->irradiance);
     return alpha_gap_range(d->receiver, d->emitter, all, term_axis(d)) > limit ? ALPHA_GAP_ABOVE
                                                                                : ALPHA_GAP_BELOW;
 }

@@ -16,6 +16,7 @@
 
 #include "discussion.h"
 #include "kernel/constants.h"
+#include "kernel/threshold.h"
 #include "terms/visibility.h"
 
 /* F from x, with normal n, to the four quarters of s. A corner's quarter has its centre half way
@@ -52,9 +53,8 @@ OUTLINE void bfv_error_factors(const struct element *r, const struct element *s,
 
 TOOL enum bfv_error_answer tool_bfv_error(struct discussion *d, double absolute, double relative)
 {
-    double limit = relative * d->host->irradiance, v = term_visibility(d, VISIBILITY_RAYS_16);
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->irradiance),
+           v = term_visibility(d, VISIBILITY_RAYS_16);
     double f, df;
     bfv_error_factors(d->receiver, d->emitter, &f, &df);
     return (v * df + (v > 0 && v < 1 ? 1 : BFV_ERROR_DOUBT) * (f + df)) * d->emitter->radiosity

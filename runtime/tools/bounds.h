@@ -15,16 +15,16 @@
 #define TOOL_BOUNDS_H
 
 #include "discussion.h"
+#include "kernel/threshold.h"
 #include "terms/form_factor_range.h"
 
 TOOL enum bounds_answer tool_bounds(struct discussion *d, double absolute, double relative)
 {
     const struct element *s = d->emitter;
-    double limit = relative * d->host->radiosity, rho = d->receiver->reflectance;
+    double limit = threshold(absolute, relative, d->host->radiosity),
+           rho = d->receiver->reflectance;
     double v_low = 0, v_high = 1, b_low = s->radiosity - s->spread,
            b_high = s->radiosity + s->spread;
-    if (absolute > limit)
-        limit = absolute;
     if (!(rho * b_high > limit)) /* F <= 1 */
         return BOUNDS_BELOW;
     const double *f = term_form_factor_range(d, FORM_FACTOR_RANGE_BOUNDED);

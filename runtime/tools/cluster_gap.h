@@ -11,6 +11,8 @@
 
 #include "discussion.h"
 #include "kernel/constants.h"
+#include "kernel/point_intensity.h"
+#include "kernel/threshold.h"
 #include "terms/axis.h"
 
 TOOL enum cluster_gap_answer tool_cluster_gap(struct discussion *d, double absolute,
@@ -18,19 +20,16 @@ TOOL enum cluster_gap_answer tool_cluster_gap(struct discussion *d, double absol
 {
     const struct element *r = d->receiver, *s = d->emitter;
     const double *axis = term_axis(d);
-    double limit = relative * d->host->irradiance, square = dot3(axis, axis),
+    double limit = threshold(absolute, relative, d->host->irradiance), square = dot3(axis, axis),
            reach = r->radius + s->radius;
     if (s->black)
         return CLUSTER_GAP_DARK;
-    if (absolute > limit)
-        limit = absolute;
     if (!(square > CLUSTER_GAP_APART * CLUSTER_GAP_APART * reach * reach))
         return CLUSTER_GAP_NEAR;
     double distance = sqrt(square);
     double low = distance - reach;
     double high = distance + reach;
-    return 0.31830988618379067154 * s->area * s->radiosity * (1 / (low * low) - 1 / (high * high))
-                   > limit
+    return point_intensity(s, s->radiosity) * (1 / (low * low) - 1 / (high * high)) > limit
                ? CLUSTER_GAP_ABOVE
                : CLUSTER_GAP_BELOW;
 }

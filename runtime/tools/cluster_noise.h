@@ -6,6 +6,8 @@
 #define TOOL_CLUSTER_NOISE_H
 
 #include "discussion.h"
+#include "kernel/point_intensity.h"
+#include "kernel/threshold.h"
 #include "terms/axis.h"
 #include "terms/visibility_error.h"
 
@@ -13,11 +15,8 @@ TOOL enum cluster_noise_answer tool_cluster_noise(struct discussion *d, double a
                                                   double relative)
 {
     const double *axis = term_axis(d);
-    double limit = relative * d->host->irradiance;
-    if (absolute > limit)
-        limit = absolute;
-    return 0.31830988618379067154 * d->emitter->area * d->emitter->radiosity
-                       * term_visibility_error(d)
+    double limit = threshold(absolute, relative, d->host->irradiance);
+    return point_intensity(d->emitter, d->emitter->radiosity) * term_visibility_error(d)
                    > limit * dot3(axis, axis)
                ? CLUSTER_NOISE_LARGE
                : CLUSTER_NOISE_SMALL;

@@ -7,17 +7,16 @@
 #define TOOL_CLUSTER_TRANSFER_H
 
 #include "discussion.h"
+#include "kernel/point_intensity.h"
+#include "kernel/threshold.h"
 #include "terms/axis.h"
 
 TOOL enum cluster_transfer_answer tool_cluster_transfer(struct discussion *d, double absolute,
                                                         double relative)
 {
     const double *axis = term_axis(d);
-    double limit = relative * d->host->irradiance;
-    if (absolute > limit)
-        limit = absolute;
-    return 0.31830988618379067154 * d->emitter->area * d->emitter->radiosity
-                   > limit * dot3(axis, axis)
+    double limit = threshold(absolute, relative, d->host->irradiance);
+    return point_intensity(d->emitter, d->emitter->radiosity) > limit * dot3(axis, axis)
                ? CLUSTER_TRANSFER_ABOVE
                : CLUSTER_TRANSFER_BELOW;
 }

@@ -6,6 +6,8 @@
 #define TOOL_CLUSTER_UNEVEN_H
 
 #include "discussion.h"
+#include "kernel/point_intensity.h"
+#include "kernel/threshold.h"
 #include "terms/unevenness.h"
 #include "terms/axis.h"
 
@@ -13,10 +15,8 @@ TOOL enum cluster_uneven_answer tool_cluster_uneven(struct discussion *d, double
                                                     double relative)
 {
     const double *axis = term_axis(d);
-    double limit = relative * d->host->irradiance;
-    if (absolute > limit)
-        limit = absolute;
-    return 0.31830988618379067154 * d->emitter->area * unevenness(d) > limit * dot3(axis, axis)
+    double limit = threshold(absolute, relative, d->host->irradiance);
+    return point_intensity(d->emitter, unevenness(d)) > limit * dot3(axis, axis)
                ? CLUSTER_UNEVEN_ABOVE
                : CLUSTER_UNEVEN_BELOW;
 }

@@ -20,6 +20,7 @@
 #include "kernel/cluster_facing.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
+#include "kernel/segments.h"
 #include "kernel/surface_point.h"
 #include "terms/visibility.h"
 
@@ -144,21 +145,13 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
                 continue;
             weight[n] = cos_a * cos_b * (a->area / r->area) * (b->area / s->area)
                         / (square * square * of_r.chance[i] * of_s.chance[i]);
-            for (int k = 0; k < 3; k++) {
-                g->from[k] += host->ray_offset * a->normal[k];
-                g->to[k] += host->ray_offset * b->normal[k];
-            }
+            segment_clear(g, a->normal, b->normal, host);
             n++;
         }
     }
     if (n == 0)
         return 0;
-    uint64_t blocked = host->occluded(host, n, segments);
-    for (int i = 0; i < n; i++) {
-        whole += weight[i];
-        if (!(blocked >> i & 1))
-            seen += weight[i];
-    }
+    segments_cast(host, n, segments, weight, &seen, &whole);
     return whole > 0 ? seen / whole : 0;
 }
 

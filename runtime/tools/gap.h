@@ -16,13 +16,12 @@
 #define TOOL_GAP_H
 
 #include "discussion.h"
+#include "kernel/threshold.h"
 #include "terms/form_factor_range.h"
 
 TOOL enum gap_answer tool_gap(struct discussion *d, double absolute, double relative, double weight)
 {
-    double limit = relative * d->host->radiosity, most = 1, least = 1;
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->radiosity), most = 1, least = 1;
     double scale = weight * d->receiver->reflectance;
     if (!(scale * (d->emitter->radiosity + d->emitter->spread) > limit)) /* F <= 1 */
         return GAP_SMALL;

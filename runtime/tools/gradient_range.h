@@ -16,6 +16,7 @@
 
 #include "discussion.h"
 #include "kernel/constants.h"
+#include "kernel/threshold.h"
 #include "terms/form_factor.h"
 #include "terms/gradient.h"
 
@@ -42,9 +43,7 @@ TOOL enum gradient_range_answer tool_gradient_range(struct discussion *d, double
                                                     double relative)
 {
     const struct element *r = d->receiver, *s = d->emitter;
-    double limit = relative * d->host->radiosity, scale = r->reflectance;
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->radiosity), scale = r->reflectance;
     if (d->terms.visibility_level > VISIBILITY_ABSENT)
         scale *= d->terms.visibility;
     if (!(scale * (s->radiosity + s->spread) > limit)) /* no F varies by more than 1 */

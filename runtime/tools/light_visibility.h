@@ -13,6 +13,7 @@
 #define TOOL_LIGHT_VISIBILITY_H
 
 #include "discussion.h"
+#include "kernel/segments.h"
 #include "kernel/surface_point.h"
 #include "terms/visibility.h"
 
@@ -41,8 +42,8 @@ static inline const struct element *light_visibility_part(const struct element *
 OUTLINE double light_visibility_rays(const struct element *r, const struct element *s,
                                      const struct host *host, int count)
 {
-    const struct element *all = host->elements ? *host->elements : NULL;
-    double weight[SEGMENTS_MAX], seen = 0, sum = 0,
+    const struct element *elements = host->elements ? *host->elements : NULL;
+    double weight[SEGMENTS_MAX], seen = 0, all = 0,
                                  spread = (r->area < s->area ? r->area : s->area) / count;
     struct sampler p;
     struct sobol net;
@@ -57,23 +58,15 @@ OUTLINE double light_visibility_rays(const struct element *r, const struct eleme
             struct segment *g = &segments[i];
             sobol_go(&net, first + i);
             double u = sobol_at(&net, 2);
-            const struct element *part = light_visibility_part(s, all, &u);
+            const struct element *part = light_visibility_part(s, elements, &u);
             sampler_point(g->from, &p, sobol_at(&net, 0), sobol_at(&net, 1));
             surface_point(g->to, part, u, sobol_at(&net, 3));
             weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
-            for (int k = 0; k < 3; k++) {
-                g->from[k] += host->ray_offset * r->normal[k];
-                g->to[k] += host->ray_offset * s->normal[k];
-            }
+            segment_clear(g, r->normal, s->normal, host);
         }
-        uint64_t blocked = host->occluded(host, batch, segments);
-        for (int i = 0; i < batch; i++) {
-            sum += weight[i];
-            if (!(blocked >> i & 1))
-                seen += weight[i];
-        }
+        segments_cast(host, batch, segments, weight, &seen, &all);
     }
-    return sum > 0 ? seen / sum : 0;
+    return all > 0 ? seen / all : 0;
 }
 
 TOOL enum light_visibility_answer tool_light_visibility(struct discussion *d, int rays)

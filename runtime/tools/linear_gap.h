@@ -16,8 +16,9 @@
 #define TOOL_LINEAR_GAP_H
 
 #include "discussion.h"
-#include "kernel/constants.h"
 #include "kernel/point_factor.h"
+#include "kernel/surface_point.h"
+#include "kernel/threshold.h"
 #include "terms/axis.h"
 #include "terms/form_factor.h"
 
@@ -30,8 +31,7 @@ OUTLINE double linear_gap_bend(const struct element *r, const struct element *s,
     middle = point_factor_at(r->centre, r, s, &q);
     for (int i = 0; i < r->vertices; i++) {
         double x[3];
-        for (int k = 0; k < 3; k++)
-            x[k] = r->vertex[i][k] + CORNER_INSET * (r->centre[k] - r->vertex[i][k]);
+        surface_corner(x, r, i);
         f[i] = point_factor_at(x, r, s, &q);
         sum += f[i] / r->vertices;
     }
@@ -46,9 +46,7 @@ OUTLINE double linear_gap_bend(const struct element *r, const struct element *s,
 TOOL enum linear_gap_answer tool_linear_gap(struct discussion *d, double absolute, double relative)
 {
     const struct element *r = d->receiver, *s = d->emitter;
-    double limit = relative * d->host->irradiance, v = 1;
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->irradiance), v = 1;
     if (d->terms.visibility_level > VISIBILITY_ABSENT)
         v = d->terms.visibility;
     double f = v * term_form_factor(d, FORM_FACTOR_POLYGON);

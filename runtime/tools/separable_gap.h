@@ -13,6 +13,8 @@
 
 #include "discussion.h"
 #include "kernel/constants.h"
+#include "kernel/point_intensity.h"
+#include "kernel/threshold.h"
 #include "terms/axis.h"
 
 TOOL enum separable_gap_answer tool_separable_gap(struct discussion *d, double absolute,
@@ -20,15 +22,13 @@ TOOL enum separable_gap_answer tool_separable_gap(struct discussion *d, double a
 {
     const struct element *r = d->receiver, *s = d->emitter;
     const double *axis = term_axis(d);
-    double limit = relative * d->host->irradiance, square = dot3(axis, axis),
+    double limit = threshold(absolute, relative, d->host->irradiance), square = dot3(axis, axis),
            reach = r->radius + s->radius;
     if (s->black)
         return SEPARABLE_GAP_DARK;
-    if (absolute > limit)
-        limit = absolute;
     if (!(square > reach * reach))
         return SEPARABLE_GAP_NEAR;
-    return 0.31830988618379067154 * s->area * s->radiosity * SEPARABLE_ERROR * r->radius * s->radius
+    return point_intensity(s, s->radiosity) * SEPARABLE_ERROR * r->radius * s->radius
                    > limit * square * square
                ? SEPARABLE_GAP_ABOVE
                : SEPARABLE_GAP_BELOW;

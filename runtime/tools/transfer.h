@@ -6,15 +6,14 @@
 #define TOOL_TRANSFER_H
 
 #include "discussion.h"
+#include "kernel/threshold.h"
 #include "terms/form_factor.h"
 
 TOOL enum transfer_answer tool_transfer(struct discussion *d, double absolute, double relative)
 {
-    double limit = relative * d->host->irradiance;
+    double limit = threshold(absolute, relative, d->host->irradiance);
     if (d->emitter->black)
         return TRANSFER_DARK;
-    if (absolute > limit)
-        limit = absolute;
     if (!(d->emitter->radiosity > limit)) /* F <= 1 */
         return TRANSFER_BELOW;
     return d->emitter->radiosity * term_form_factor(d, FORM_FACTOR_DISC) > limit ? TRANSFER_ABOVE

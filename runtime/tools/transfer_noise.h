@@ -11,15 +11,14 @@
 #define TOOL_TRANSFER_NOISE_H
 
 #include "discussion.h"
+#include "kernel/threshold.h"
 #include "terms/form_factor.h"
 #include "terms/visibility_error.h"
 
 TOOL enum transfer_noise_answer tool_transfer_noise(struct discussion *d, double absolute,
                                                     double relative)
 {
-    double limit = relative * d->host->irradiance;
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->irradiance);
     return d->emitter->radiosity * term_form_factor(d, FORM_FACTOR_DISC) * term_visibility_error(d)
                    > limit
                ? TRANSFER_NOISE_LARGE

@@ -8,14 +8,13 @@
 #define TOOL_UNEVEN_H
 
 #include "discussion.h"
+#include "kernel/threshold.h"
 #include "terms/form_factor.h"
 #include "terms/unevenness.h"
 
 TOOL enum uneven_answer tool_uneven(struct discussion *d, double absolute, double relative)
 {
-    double limit = relative * d->host->irradiance, most = unevenness(d);
-    if (absolute > limit)
-        limit = absolute;
+    double limit = threshold(absolute, relative, d->host->irradiance), most = unevenness(d);
     if (!(most > limit)) /* F <= 1 */
         return UNEVEN_BELOW;
     return most * term_form_factor(d, FORM_FACTOR_DISC) > limit ? UNEVEN_ABOVE : UNEVEN_BELOW;
