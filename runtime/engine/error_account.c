@@ -195,17 +195,9 @@ static void find_reflected(struct error_account *a, double *x)
  * slopes have rows of their own. */
 static int renew_operator(struct solve *s, struct row_report *rows)
 {
-    struct light_operator *op = &s->operator;
-    if (s->report.changing > 0 || s->linear.gradient) {
-        separable_links_close(&op->separable);
-        if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement,
-                                 (int)s->problem.bands, s->problem.options.threads,
-                                 s->problem.options.projection == RAD_PROJECTION_COLLOCATION)
-            < 0)
-            return -1;
-        row_sums_scale(op, rows);
-    }
-    return 0;
+    if (s->report.changing == 0 && !s->linear.gradient)
+        return 0;
+    return row_sums_renew(&s->operator, rows);
 }
 
 /* ---- constants in place of slopes */

@@ -296,17 +296,8 @@ static int walk_all(struct causes *c, struct cause_sums *sums)
  */
 static int renew_operator(struct solve *s)
 {
-    struct light_operator *op = &s->operator;
     struct row_report rows;
-    if (s->report.changing == 0)
-        return 0;
-    separable_links_close(&op->separable);
-    if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)s->problem.bands,
-                             s->problem.options.threads, op->collocated != NULL)
-        < 0)
-        return -1;
-    row_sums_scale(op, &rows);
-    return 0;
+    return s->report.changing == 0 ? 0 : row_sums_renew(&s->operator, &rows);
 }
 
 struct sweeping {

@@ -52,13 +52,8 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
 static int solve_once(struct linear_solution *s, struct light_operator *op, struct linear_links *l,
                       struct linear_transport *x, struct row_report *rows)
 {
-    const struct problem *p = op->problem;
-    separable_links_close(&op->separable);
-    if (separable_links_open(&op->separable, op->hierarchy, op->refinement, (int)p->bands,
-                             p->options.threads, 0)
-        < 0)
+    if (row_sums_renew(op, rows) < 0)
         return -1;
-    row_sums_scale(op, rows);
     linear_links_scale(l, op);
     int result = linear_transport_solve(op, l, x);
     s->sweeps += x->means->sweeps;

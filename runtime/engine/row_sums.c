@@ -169,7 +169,7 @@ static void scale_faces(const void *all_rows, size_t from, size_t to)
     }
 }
 
-void row_sums_scale(struct light_operator *op, struct row_report *report)
+static void scale_rows(const struct light_operator *op, struct row_report *report)
 {
     size_t faces = op->hierarchy->face_count;
     int threads = op->problem->options.threads;
@@ -193,4 +193,17 @@ void row_sums_scale(struct light_operator *op, struct row_report *report)
         report->moved += run->moved;
     }
     report->defect_mean = uncovered > 0 ? report->defect_mean / uncovered : 0;
+}
+
+int row_sums_renew(struct light_operator *op, struct row_report *report)
+{
+    const struct problem *p = op->problem;
+    separable_links_close(&op->separable);
+    if (separable_links_open(&op->separable, op->hierarchy, op->refinement, (int)p->bands,
+                             p->options.threads,
+                             p->options.projection == RAD_PROJECTION_COLLOCATION)
+        < 0)
+        return -1;
+    scale_rows(op, report);
+    return 0;
 }

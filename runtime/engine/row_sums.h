@@ -17,7 +17,9 @@ struct row_report {
     double moved;
 };
 
-/* Measure all rows and set the operator's row scales as options.closure says. */
-void row_sums_scale(struct light_operator *op, struct row_report *report);
+/* After the links have changed: take those that have a cluster at one end anew, which the rows are
+ * measured over before they send, measure all rows and set the operator's row scales as
+ * options.closure says. Returns 0, or -1 when out of memory. */
+int row_sums_renew(struct light_operator *op, struct row_report *report);
 
 #endif

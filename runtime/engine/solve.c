@@ -291,13 +291,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
     struct light_operator *op = &s->operator;
     struct transport x = light(s, tolerance), carried;
     x.rough = rough;
-    separable_links_close(&op->separable);
-    if (separable_links_open(&op->separable, &s->hierarchy, &s->refinement, (int)x.bands,
-                             s->problem.options.threads,
-                             s->problem.options.projection == RAD_PROJECTION_COLLOCATION)
-        < 0)
+    if (row_sums_renew(op, &s->report.rows) < 0)
         return -1;
-    row_sums_scale(op, &s->report.rows);
     if (s->problem.options.solver == RAD_SOLVER_LU && !rough && solve_tell(s, "matrix"))
         return -1;
     x.watch = watch_light;
