@@ -297,27 +297,7 @@ static int walk_all(struct causes *c, struct cause_sums *sums)
 static int renew_operator(struct solve *s)
 {
     struct row_report rows;
-    return s->report.changing == 0 ? 0 : row_sums_renew(&s->operator, &rows);
-}
-
-struct sweeping {
-    const struct light_operator *op;
-    const struct transport *x;
-};
-
-static void gather_faces(const void *sweeping, size_t from, size_t to)
-{
-    const struct sweeping *g = sweeping;
-    for (size_t i = from; i < to; i++)
-        face_gather(g->op, g->x, g->op->hierarchy->face_element[i]);
-}
-
-static void update_faces(const void *sweeping, size_t from, size_t to)
-{
-    const struct sweeping *g = sweeping;
-    struct change change;
-    for (size_t i = from; i < to; i++)
-        face_update(g->op, g->x, g->op->hierarchy->face_element[i], &change);
+    return s->report.changing == 0 ? 0 : row_sums_renew(&s->operator, & rows);
 }
 
 /* K B into c->gathered, by a sweep of Jacobi's over copies; J of a radiosity of 1 before. Returns 0
@@ -329,29 +309,27 @@ static int gather_all(struct causes *c)
     uint32_t bands = s->problem.bands;
     size_t elements = s->hierarchy.count, values = elements * bands;
     double *value = malloc((values + 1) * sizeof *value);
+    struct change *change = malloc(s->hierarchy.face_count * sizeof *change);
     c->gathered = malloc((values + 1) * sizeof *c->gathered);
     c->of_one = malloc((op->separable.count + 1) * sizeof *c->of_one);
-    if (!value || !c->gathered || !c->of_one) {
-        free(value);
-        return -1;
+    int failed = !value || !change || !c->gathered || !c->of_one;
+    if (!failed) {
+        for (size_t e = 0; e < elements; e++)
+            value[e] = 1;
+        separable_links_send(&op->separable, 1, value);
+        if (op->separable.count)
+            memcpy(c->of_one, op->separable.arrives, op->separable.count * sizeof *c->of_one);
+        memcpy(value, s->state.radiosity, values * sizeof *value);
+        const struct transport x = {.bands = bands,
+                                    .value = value,
+                                    .irradiance = c->gathered,
+                                    .source = s->problem.exitance,
+                                    .reflectance = s->problem.reflectance};
+        transport_sweep(op, &x, 1, change);
     }
-    for (size_t e = 0; e < elements; e++)
-        value[e] = 1;
-    separable_links_send(&op->separable, 1, value);
-    if (op->separable.count)
-        memcpy(c->of_one, op->separable.arrives, op->separable.count * sizeof *c->of_one);
-    separable_links_send(&op->separable, (int)bands, s->state.radiosity);
-    memcpy(value, s->state.radiosity, values * sizeof *value);
-    const struct transport x = {.bands = bands,
-                                .value = value,
-                                .irradiance = c->gathered,
-                                .source = s->problem.exitance,
-                                .reflectance = s->problem.reflectance};
-    const struct sweeping g = {op, &x};
-    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 8, gather_faces, &g);
-    thread_pool_run(s->problem.options.threads, s->hierarchy.face_count, 64, update_faces, &g);
     free(value);
-    return 0;
+    free(change);
+    return failed ? -1 : 0;
 }
 
 /* Where rays go to: to faces by their mean radiosity. Returns 0, or -1 when out of memory. */

@@ -68,14 +68,12 @@ static void update_faces(const void *block, size_t from, size_t to)
         face_update(b->op, b->x, b->element[i], &b->change[i]);
 }
 
-/* One sweep over all faces. change: [face]. */
-static void sweep(const struct light_operator *op, const struct transport *x, struct change *change)
+void transport_sweep(const struct light_operator *op, const struct transport *x, uint32_t blocks,
+                     struct change *change)
 {
-    const struct solve_options *o = &op->problem->options;
     uint32_t faces = op->hierarchy->face_count;
-    int whole = o->solver == RAD_SOLVER_JACOBI || o->solver == RAD_SOLVER_SOUTHWELL,
-        threads = op->refinement->link_count > LINKS_WORTH_THREADS ? o->threads : 1;
-    uint32_t blocks = whole ? 1 : faces < BLOCKS ? faces : BLOCKS;
+    int threads =
+        op->refinement->link_count > LINKS_WORTH_THREADS ? op->problem->options.threads : 1;
     separable_links_send(&op->separable, (int)x->bands, x->value);
     for (uint32_t i = 0; i < blocks; i++) {
         uint32_t from = (uint32_t)((uint64_t)faces * i / blocks),
@@ -133,6 +131,15 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
     return x->bound / x->held;
 }
 
+/* Of one sweep by the method that is asked for. */
+static uint32_t blocks_of(const struct light_operator *op)
+{
+    const enum RadSolver solver = op->problem->options.solver;
+    uint32_t faces = op->hierarchy->face_count;
+    int whole = solver == RAD_SOLVER_JACOBI || solver == RAD_SOLVER_SOUTHWELL;
+    return whole ? 1 : faces < BLOCKS ? faces : BLOCKS;
+}
+
 /* Sweeps, between which Southwell's method shoots. */
 static int iterate(const struct light_operator *op, struct transport *x, struct change *change,
                    struct southwell *shooter)
@@ -142,7 +149,7 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     while (x->sweeps < most && !x->converged) {
         if (shooter)
             southwell_keep(shooter, op, x);
-        sweep(op, x, change);
+        transport_sweep(op, x, blocks_of(op), change);
         measure(x, change, op->hierarchy->face_count);
         x->sweeps++;
         double left = left_of(op, x, rho);

@@ -5,6 +5,8 @@
 
 #include "engine/operator.h"
 
+struct change;
+
 /* Radiosity (source: exitance) or whatever else travels as light does. */
 struct transport {
     uint32_t bands;
@@ -37,6 +39,11 @@ struct transport {
  * name; the row scales are set (row_sums.h). Returns 0, or -1 when out of memory or stopped by
  * `watch`. */
 int transport_solve(const struct light_operator *op, struct transport *x);
+
+/* One sweep over all faces, in so many blocks; 1 is Jacobi's, which takes all of `value` as it was.
+ * change: [face], room for what it changes (push_pull.h). */
+void transport_sweep(const struct light_operator *op, const struct transport *x, uint32_t blocks,
+                     struct change *change);
 
 /* Means of the clusters in value and irradiance, whose surfaces have theirs. */
 void transport_average(const struct light_operator *op, struct transport *x);
