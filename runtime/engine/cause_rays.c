@@ -10,6 +10,7 @@
 #include "kernel/lambert.h"
 #include "kernel/leaf_at.h"
 #include "kernel/surface_point.h"
+#include "particles/paths.h"
 #include "visibility/contact_fraction.h"
 
 static void add(const struct cause_receiver *at, int cause, uint32_t band, double difference)
@@ -67,8 +68,9 @@ static void add_arrival(const struct cause_rays *c, const struct link_cover *cov
 static double share_of(const struct element *from, const double p[3], const struct element *emitter,
                        const double y[3], double chance)
 {
+    static const struct path_rays each = {1, 1};
     double by_cosine = lambert_points(p, from->normal, y, emitter->normal, 0);
-    return by_cosine > 0 ? by_cosine / (by_cosine + chance / emitter->area) : 0;
+    return by_cosine > 0 ? path_share(&each, by_cosine, chance / emitter->area) : 0;
 }
 
 /* A ray from p to what shines. */

@@ -169,12 +169,6 @@ static void add_seen(const struct gather *g, const struct fan *fan, uint32_t lea
     }
 }
 
-/* c / (n_c c + n_l d) */
-static double share_of(const struct fan *fan, double by_cosine, double by_light)
-{
-    return by_cosine / (fan->rays.cosine * by_cosine + fan->rays.light * by_light);
-}
-
 /* The ray towards the point of a bright piece that u[3] stand for. */
 static void to_light(const struct gather *g, const struct fan *fan, const double u[3], double *h)
 {
@@ -197,7 +191,7 @@ static void to_light(const struct gather *g, const struct fan *fan, const double
     sub3(way, to, fan->p);
     if (!rays_blocked(g->tracer->rays, fan->p, way))
         add_seen(g, fan, leaf_at(elements, element, y, weight), y,
-                 share_of(fan, by_cosine, chance / e->area), h);
+                 path_share(&fan->rays, by_cosine, chance / e->area), h);
 }
 
 /* The ray in the direction by the cosine that (u, v) stand for. */
@@ -215,8 +209,8 @@ static void onward(const struct gather *g, const struct fan *fan, double u, doub
     if (piece != NO_PIECE && fan->rays.light > 0) {
         const struct element *e = &hierarchy->elements[g->lights.face_element[piece]];
         double by_cosine = lambert_points(fan->p, n, at, e->normal, 0);
-        share = by_cosine > 0 ? share_of(fan, by_cosine,
-                                         light_tree_chance(&g->tree, fan->p, n, piece) / e->area)
+        share = by_cosine > 0 ? path_share(&fan->rays, by_cosine,
+                                           light_tree_chance(&g->tree, fan->p, n, piece) / e->area)
                               : 0;
     }
     add_seen(g, fan, leaf, at, share, h);

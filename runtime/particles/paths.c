@@ -12,7 +12,7 @@
 static void add_exitance(const struct tracer *t, uint32_t emitter, double by_cosine,
                          double by_light, const struct path_rays *rays, double *h)
 {
-    double share = by_cosine / (rays->cosine * by_cosine + rays->light * by_light);
+    double share = path_share(rays, by_cosine, by_light);
     for (uint32_t k = 0; k < t->bands; k++)
         h[k] += share * t->exitance[(size_t)emitter * t->bands + k];
 }

@@ -19,6 +19,14 @@ struct path_rays {
     double cosine, light;
 };
 
+/* The share of what leaves a point that one of `rays`, of either kind, counts as irradiance when it
+ * finds that point (the balance heuristic): c / (n_c c + n_l d), where by_cosine is how densely
+ * directions by the cosine find it, c, and by_light how densely points on emitters do, d (1/m2). */
+static inline double path_share(const struct path_rays *rays, double by_cosine, double by_light)
+{
+    return by_cosine / (rays->cosine * by_cosine + rays->light * by_light);
+}
+
 /* From p, just in front of the face, towards the point of the emitters that u in [0, 1)^3 stands
  * for: adds to h[bands] what this ray of `rays` finds (W/m2). One ray, or none where the emitter
  * faces away. The scene has emitters. Returns how many rays were cast. */
