@@ -10,7 +10,6 @@
  * the scene and its rays, but one starts where the other ends.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,22 +21,15 @@
 #include "util/device.h"
 #include "util/progress.h"
 #include "util/report.h"
+#include "util/stop_signal.h"
 #include "util/text_file.h"
 
 /* Steps of a quarter of a doubling by which a method may fall behind: a quarter as many. */
 enum { LAG = 8 };
-enum { STOPPED = 130 }; /* the exit status of what SIGINT ends, by the habit of shells */
 
 static const uint64_t CHUNK = 1 << 17; /* paths, or half the particles, between looks at signals */
 static const double SAVE_EVERY = 10;   /* s; and no more than a twentieth of the time */
 static const double FORETELL = 2;      /* s, after which the time that it will take is told */
-
-static volatile sig_atomic_t stop; /* the signal that asked for it */
-
-static void on_signal(int number)
-{
-    stop = number;
-}
 
 struct run {
     const struct options *options;
@@ -198,10 +190,10 @@ static int trace(struct run *r, enum RadMethod method, uint64_t wanted)
             return report_device(r->scene->device, r->scene->path) ? 1 : 0;
         }
         r->report.traced[method] = next;
-        if (stop || seconds() - r->saved > fmax(SAVE_EVERY, 20 * r->save_for))
+        if (stop_signal_came() || seconds() - r->saved > fmax(SAVE_EVERY, 20 * r->save_for))
             if (save(r) < 0)
                 return 1;
-        if (stop)
+        if (stop_signal_came())
             return STOPPED;
     }
     return 0;
@@ -352,16 +344,6 @@ static int finish(struct run *r)
     return failed || (o->json && json_file_write(o->json, reference_json(r)) < 0);
 }
 
-/* SIGINT and SIGTERM stop it at the next chunk; a second one at once. */
-static void watch_signals(void (*handler)(int))
-{
-    struct sigaction action = {.sa_flags = (int)SA_RESETHAND};
-    action.sa_handler = handler;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 static int run(struct run *r)
 {
     char text[32];
@@ -370,7 +352,7 @@ static int run(struct run *r)
     r->start = r->saved = seconds();
     int status = trace_all(r);
     progress_end(&r->progress);
-    watch_signals(SIG_DFL);
+    stop_signal_unwatch();
     if (status == 0)
         return finish(r);
     if (status == STOPPED && !r->options->quiet)
@@ -390,7 +372,7 @@ int command_reference(const struct options *o, const struct open_scene *scene)
     int status = 1;
     progress_start(&r.progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, show_progress, &r);
-    watch_signals(on_signal);
+    stop_signal_watch();
     if (atomic_check(r.state) == 0) {
         r.reference = radNewReference(scene->scene);
         status = r.reference ? run(&r) : report_device(scene->device, scene->path) < 0;

@@ -9,7 +9,6 @@
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,31 +23,12 @@
 #include "util/graph_defaults.h"
 #include "util/open_oracle.h"
 #include "util/report.h"
+#include "util/stop_signal.h"
 #include "util/text_file.h"
 
-enum {
-    STOPPED = 130, /* the exit status of what SIGINT ends, by the habit of shells */
-    CARRIES_NOT = 3
-};
+enum { CARRIES_NOT = 3 }; /* exit status */
 
 static const double FORETELL = 2; /* s, after which each fit is told of */
-
-static volatile sig_atomic_t stop;
-
-static void on_signal(int number)
-{
-    stop = number;
-}
-
-/* SIGINT and SIGTERM end the fits; a second one the program. */
-static void watch_signals(void)
-{
-    struct sigaction action = {.sa_flags = (int)SA_RESETHAND};
-    action.sa_handler = on_signal;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
 
 struct work {
     const struct options *options;
@@ -214,14 +194,14 @@ static int fit_all(struct work *w)
     if (!out->folds)
         return report_error("tune", 0, "out of memory for folds");
     out->fold_count = t->scene_count;
-    for (int s = 0; s < t->scene_count && !stop; s++) {
+    for (int s = 0; s < t->scene_count && !stop_signal_came(); s++) {
         t->deadline = deadline(w, s + 2);
         if (tune_fit(t, s, &out->folds[s].fit) < 0)
             return -1;
         tell(w, &out->folds[s].fit);
     }
     t->deadline = 0;
-    if (!stop && judge(t, out->folds) < 0)
+    if (!stop_signal_came() && judge(t, out->folds) < 0)
         return -1;
     tune_best(t, &out->all);
     return 0;
@@ -239,7 +219,7 @@ static int finish(struct work *w)
         return 1;
     if (o->json && json_file_write(o->json, tune_json(&w->outcome)) < 0)
         return 1;
-    return stop ? STOPPED : tune_worst(&w->outcome) > TUNE_CARRIES ? CARRIES_NOT : 0;
+    return stop_signal_came() ? STOPPED : tune_worst(&w->outcome) > TUNE_CARRIES ? CARRIES_NOT : 0;
 }
 
 /* Returns the exit status. */
@@ -251,7 +231,7 @@ static int run(struct work *w)
     if (!t->oracle || tune_parameters(t, o->oracle, o->settings, o->setting_count) < 0
         || (o->out && read_graph(w) < 0))
         return 1;
-    watch_signals();
+    stop_signal_watch();
     progress_start(&t->progress, o->quiet);
     int status = open_scenes(w) < 0 || tuner_open(t) < 0 ? -1 : fit_all(w);
     progress_end(&t->progress);
@@ -270,7 +250,6 @@ int command_tune(const struct options *o, const struct open_scene *scene)
                              .target = o->noise,
                              .power = o->power,
                              .evaluations = o->evaluations,
-                             .stop = &stop,
                              .limit = INFINITY};
     w.outcome = (struct tune_outcome){.oracle = o->oracle, .tuner = &w.tuner};
     int status = w.device ? run(&w) : 1;

@@ -23,6 +23,7 @@
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/report.h"
+#include "util/stop_signal.h"
 
 /* A step is a doubling, and changes a cost by 4 at the most where links go with its square. */
 static const double GUARD = 4;
@@ -65,11 +66,16 @@ static double cost_of(const struct tuner *t, uint64_t rays, uint64_t links, uint
                                   : (double)rays + TUNE_PAIR * (double)pairs;
 }
 
+static int told_to_stop(const struct tuner *t)
+{
+    return stop_signal_came() || (t->deadline > 0 && seconds() > t->deadline);
+}
+
 int tune_watch(void *user, const struct RadProgress *at)
 {
     struct tuner *t = user;
     progress_say(&t->progress, "%s; %d solves, %.3g rays", t->doing, t->solves, (double)at->rays);
-    if (*t->stop || (t->deadline > 0 && seconds() > t->deadline)
+    if (told_to_stop(t)
         || (strcmp(at->phase, "refine") == 0
             && cost_of(t, at->rays, at->links, at->pairs) > t->limit))
         t->cancelled = 1;
@@ -142,10 +148,10 @@ static int result_within(struct tuner *t, const int *at, int scene, double limit
     struct tune_result *r = &t->points[index].results[scene];
     int status = 0;
     if (r->state == TUNE_UNKNOWN || (r->state == TUNE_OVER && r->cost < limit)) {
-        if (*t->stop || (t->deadline > 0 && seconds() > t->deadline))
+        if (told_to_stop(t))
             return 1;
         status = solve(t, at, scene, limit, r);
-        if (status == 1 && !*t->stop && !(t->deadline > 0 && seconds() > t->deadline)) {
+        if (status == 1 && !told_to_stop(t)) {
             *r = (struct tune_result){.state = TUNE_OVER, .cost = limit};
             status = 0;
         }

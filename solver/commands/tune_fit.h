@@ -7,7 +7,6 @@
 #ifndef TUNE_FIT_H
 #define TUNE_FIT_H
 
-#include <signal.h>
 #include "commands/tune_scene.h"
 #include "util/pattern_search.h"
 #include "util/progress.h"
@@ -47,7 +46,6 @@ struct tuner {
     double target; /* error, a share of the reflected light */
     int power;
     int evaluations; /* of one fit, at the most */
-    const volatile sig_atomic_t *stop;
 
     struct progress progress;
     double deadline; /* s, of the clock; 0: none */
@@ -77,7 +75,7 @@ void tuner_close(struct tuner *t);
  * message. */
 int tune_defaults(struct tuner *t);
 
-/* Fit to all scenes but `left_out` (-1: to all). Ended before its end, by `stop` or the deadline,
+/* Fit to all scenes but `left_out` (-1: to all). Ended before its end, by a signal or the deadline,
  * it holds the best so far. Returns 0, or -1 after a message. */
 int tune_fit(struct tuner *t, int left_out, struct tune_fit *fit);
 

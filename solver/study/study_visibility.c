@@ -13,7 +13,6 @@
  * exit status is 130 or 3.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,25 +24,9 @@
 #include "util/progress.h"
 #include "util/report.h"
 #include "util/solved.h"
+#include "util/stop_signal.h"
 
-enum { STOPPED = 130, OUT_OF_TIME = 3 }; /* exit statuses, as of reference and of solve */
-
-static volatile sig_atomic_t stop; /* the signal that asked for it */
-
-static void on_signal(int number)
-{
-    stop = number;
-}
-
-/* SIGINT and SIGTERM stop it after the round; a second one at once. */
-static void watch_signals(void (*handler)(int))
-{
-    struct sigaction action = {.sa_flags = (int)SA_RESETHAND};
-    action.sa_handler = handler;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
+enum { OUT_OF_TIME = 3 }; /* exit status, as of solve */
 
 struct study {
     const struct options *o;
@@ -123,7 +106,7 @@ static int after_round(void *user, const struct RadProgress *at)
     struct study *s = user;
     if (strcmp(at->phase, "refine") == 0 && draw_fewer(s) < 0)
         return -1;
-    if (stop)
+    if (stop_signal_came())
         s->status = STOPPED;
     else if (s->o->limit_seconds && seconds() - s->start > s->o->limit_seconds)
         s->status = OUT_OF_TIME;
@@ -190,11 +173,11 @@ int study_visibility(const struct options *o, const struct open_scene *scene)
     s->start = seconds();
     progress_start(&s->progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, after_round, s);
-    watch_signals(on_signal);
+    stop_signal_watch();
     int failed = 0;
     for (; s->first < o->threshold_count && !failed && !s->status; s->first += s->count)
         failed = run(s) < 0 && !s->status;
-    watch_signals(SIG_DFL);
+    stop_signal_unwatch();
     radSetDeviceProgressFunction(scene->device, NULL, NULL);
     int status = failed ? 1 : s->status;
     s->table.partial = s->status == STOPPED       ? "stopped"
