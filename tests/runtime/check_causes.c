@@ -154,6 +154,18 @@ static double share_of(const struct RadCausesReport *r, enum RadCauseKind a, enu
     return (r->cause[a].after_l1.value + (a == b ? 0 : r->cause[b].after_l1.value)) / sum;
 }
 
+/* The causes of a solution by `bf`, which add up. Frees the scene. */
+static struct RadCausesReport causes_by(struct scene *scene, char *const *settings)
+{
+    struct solve s;
+    solve_with(&s, scene, "bf", RELEASE_FLAT, settings, quick(2));
+    struct RadCausesReport r = causes_of(&s, MANY / 2);
+    check_sums(&r);
+    solve_close(&s);
+    scene_free(scene);
+    return r;
+}
+
 /* The room's walls, floor and ceiling of one material, 3 m high; a lamp that shines up, .1 m below
  * the ceiling: the spot above it is seen by hardly anything else. */
 static void room_of_lamp(struct scene *scene)
@@ -170,15 +182,10 @@ START_TEST(test_bright_spot)
 {
     char *settings[] = {"relative=0.5", NULL};
     struct scene scene;
-    struct solve s;
     room_of_lamp(&scene);
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, quick(2));
-    struct RadCausesReport r = causes_of(&s, MANY / 2);
-    check_sums(&r);
+    struct RadCausesReport r = causes_by(&scene, settings);
     ck_assert_double_gt(share_of(&r, RAD_CAUSE_OPEN_BRIGHT, RAD_CAUSE_HALF_BRIGHT), 0.6);
     ck_assert_double_gt(r.cause[RAD_CAUSE_OPEN_BRIGHT].power.low, 0);
-    solve_close(&s);
-    scene_free(&scene);
 }
 END_TEST
 
@@ -188,16 +195,11 @@ START_TEST(test_spread)
 {
     char *settings[] = {"relative=0.01", "min_share=0.1", NULL};
     struct scene scene;
-    struct solve s;
     room_of_lamp(&scene);
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, quick(2));
-    struct RadCausesReport r = causes_of(&s, MANY / 2);
-    check_sums(&r);
+    struct RadCausesReport r = causes_by(&scene, settings);
     ck_assert_double_gt(share_of(&r, RAD_CAUSE_OPEN_SPREAD, RAD_CAUSE_HALF_SPREAD), 0.6);
     ck_assert_double_gt(r.cause[RAD_CAUSE_OPEN_SPREAD].after.low, 0);
     ck_assert_double_lt(r.together.l1.value, 0.1 * r.together.after.value);
-    solve_close(&s);
-    scene_free(&scene);
 }
 END_TEST
 
@@ -207,7 +209,6 @@ START_TEST(test_slit)
 {
     char *settings[] = {"rays=4", "relative=100", NULL};
     struct scene scene;
-    struct solve s;
     const double wide[2] = {1.297, 0.697}; /* beside the slit */
     made_open(&scene);
     uint32_t dark = made_material(&scene, 0.5, 0), bright = made_material(&scene, 0, 1);
@@ -225,13 +226,9 @@ START_TEST(test_slit)
             made_quad(&scene, m, 2, side * 1.303, 0, 0, room ? wide[side] : 0, room ? 0 : 2, 0,
                       room ? 0 : wide[side], room ? 2 : 0);
     }
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, settings, quick(2));
-    struct RadCausesReport r = causes_of(&s, MANY / 2);
-    check_sums(&r);
+    struct RadCausesReport r = causes_by(&scene, settings);
     ck_assert_double_gt(share_of(&r, RAD_CAUSE_LOST, RAD_CAUSE_LOST), 0.9);
     ck_assert_double_lt(r.cause[RAD_CAUSE_LOST].power.high, 0);
-    solve_close(&s);
-    scene_free(&scene);
 }
 END_TEST
 

@@ -132,14 +132,21 @@ static void check_seams(const struct stage *s)
     ck_assert_int_gt(seams, 1000);
 }
 
-START_TEST(test_no_seams)
+/* Faces of all shapes, not solved yet. */
+static struct stage *stage_of_three(int rounds)
 {
     struct stage *s = stage_new(1);
     stage_face(s, 0, 4, SQUARE);
     stage_face(s, 0, 4, SKEW);
     stage_face(s, 0, 3, TRIANGLE);
     stage_build(s);
-    stage_split(s, 6);
+    stage_split(s, rounds);
+    return s;
+}
+
+START_TEST(test_no_seams)
+{
+    struct stage *s = stage_of_three(6);
     for (uint32_t i = 0; i < s->h.count; i++)
         s->b[i] = (double)(s->h.elements[i].id % 1000) / 100; /* as rough as can be */
     stage_solve(s);
@@ -153,12 +160,7 @@ END_TEST
 START_TEST(test_own_values)
 {
     const double g[3] = {3, -2, 0.5};
-    struct stage *s = stage_new(1);
-    stage_face(s, 0, 4, SQUARE);
-    stage_face(s, 0, 4, SKEW);
-    stage_face(s, 0, 3, TRIANGLE);
-    stage_build(s);
-    stage_split(s, 6);
+    struct stage *s = stage_of_three(6);
     stage_solve(s);
     int hanging = 0;
     for (uint32_t i = 0; i < s->values.count; i++)
@@ -236,12 +238,7 @@ END_TEST
 START_TEST(test_linear_leaves)
 {
     const double g[3] = {3, -2, 0.5}, square[3] = {0.5, 0.5, 0};
-    struct stage *s = stage_new(1);
-    stage_face(s, 0, 4, SQUARE);
-    stage_face(s, 0, 4, SKEW);
-    stage_face(s, 0, 3, TRIANGLE);
-    stage_build(s);
-    stage_split(s, 4);
+    struct stage *s = stage_of_three(4);
     s->gradient = calloc(3 * ELEMENTS_MAX, sizeof *s->gradient);
     for (uint32_t i = 0; i < s->h.count; i++) {
         s->b[i] = 100 + dot3(g, s->h.elements[i].centre);
