@@ -340,6 +340,14 @@ const struct command_row command_rows[COMMANDS] = {
          "meet the same radiosities: how far off, in all and per polygon, and by which\n"
          "cause: pairs given up, bright spots, form factors, visibility, row sums.\n",
          "radiosity study causes room.obj cornell.obj --set relative=0.1"},
+    [COMMAND_GREEDY] =
+        {"study greedy", "", "an oracle's links against the fewest there need be",
+         "Solve scenes without shadows whose light is known: an empty white cube, a lit\n"
+         "one, parallel plates, a lamp over a wall. Hold error and links, in L1 and L2, by\n"
+         "constants and linear elements, against greedy links: those of which each split\n"
+         "was the one that lowered the true error most. `times`: by how much the error\n"
+         "is larger with as many links; `links`: how many greedy links reach that error.\n",
+         "radiosity study greedy --oracle bf_guarded"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -360,9 +368,10 @@ enum {
     FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
     CAUSES = 1 << COMMAND_CAUSES,
+    GREEDY = 1 << COMMAND_GREEDY,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
-    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO,
+    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO | GREEDY,
     ALL = THREADED | ERROR
 };
 
@@ -390,8 +399,8 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
-    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES, "power", "the refinement oracle",
-     TEXT(oracle)},
+    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES | GREEDY, "power",
+     "the refinement oracle", TEXT(oracle)},
     /* Few links, of all sizes and distances, none of clusters. */
     {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
      TEXT(oracle)},
@@ -400,8 +409,8 @@ const struct option_row option_rows[] = {
     {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
      .rare = 1},
-    {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
-     .read = read_setting},
+    {"set", "PARAM=VALUE", SCENES | GREEDY, NULL, "a parameter of the oracle; may be repeated",
+     NULL, .read = read_setting},
     {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
      .read = read_setting},
     {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",
@@ -514,7 +523,7 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | TUNE, NULL,
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | GREEDY | TUNE, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };
