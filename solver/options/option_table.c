@@ -295,11 +295,11 @@ const struct command_row command_rows[COMMANDS] = {
     [COMMAND_TUNE] =
         {"tune", "ORACLE SCENE...", "fit an oracle's parameters to scenes",
          "Fit thresholds of an oracle, built in or FILE.dag, to scenes: least becomes the\n"
-         "mean over scenes of the logarithm of cost max(1, error/E)^P. The error is that\n"
-         "of links alone, face by face (L1), against particles traced first. Then each\n"
-         "scene is left out in turn, fitted without, and tried: exit status 3 where\n"
-         "cost max(1, error/E)^2, which is what it needs once particles mend it, is more\n"
-         "than 1.5 times that with fits that used it. Ctrl-C ends it with the best so far.\n",
+         "mean over scenes of log(cost (1 + (error/E)^2)^(P/2)), the error that of links\n"
+         "alone, by faces (L1), against particles. Then each scene is left out, fitted\n"
+         "without, and tried, which says how near the shipped values fits shall stay: so\n"
+         "that no scene left out needs more than 1.5 times what it needs where used, cost\n"
+         "max(1, error/E)^2. Exit status 3: no such fit. Ctrl-C: the best so far.\n",
          "radiosity tune mine.dag room.obj hall.obj shop.obj -o mine.dag"},
     [COMMAND_STABILITY] =
         {"study stability", "", "where methods fail, and by how much",
@@ -413,9 +413,9 @@ const struct option_row option_rows[] = {
      NULL, .read = read_setting},
     {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
      .read = read_setting},
-    {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",
+    {"error", "E%", TUNE, "1%", "the error worked for, of the reflected light",
      "a share such as 2% or 0.02, above 0 and below 1", .read = read_share, IN(noise), .low = 1},
-    {"power", "P", TUNE, "8", "twice the error E is as bad as 2^P times the cost",
+    {"power", "P", TUNE, "6", "how steeply errors above E count, see above",
      "a whole number from 1 to 64", WHOLE(power, 1, 64)},
     {"cost", "rays|links|time", TUNE, "rays", "rays + links, links, or rays + 40 per pair",
      WORD(read_cost, costs)},
@@ -462,6 +462,8 @@ const struct option_row option_rows[] = {
      .rare = 1},
     {"basis", "constant|linear", SOLVE, NULL, "elements of one value, or with slopes (linear)",
      WORD(read_basis, bases), .rare = 1},
+    {"basis", "constant|linear", TUNE, NULL, "elements of one value, or with slopes (linear)",
+     WORD(read_basis, bases)},
     {"repeats", "N", COMPARE, "3", "timed runs of each release", "a whole number from 1 to 1000",
      WHOLE(repeats, 1, 1000)},
     {"accuracy", "SHARE", REFERENCE, "0.2%", "the standard error to reach",
