@@ -338,7 +338,8 @@ const struct command_row command_rows[COMMANDS] = {
         {"study causes", "SCENE...", "which light links bring wrongly, and why",
          "Solve scenes by links alone, then hold what the links bring against rays that\n"
          "meet the same radiosities: how far off, in all and per polygon, and by which\n"
-         "cause: pairs given up, bright spots, form factors, visibility, row sums.\n",
+         "cause: pairs given up, bright spots, form factors, visibility, row sums. By\n"
+         "constants: with slopes a link is nine numbers, and causes mix in each of them.\n",
          "radiosity study causes room.obj cornell.obj --set relative=0.1"},
     [COMMAND_GREEDY] =
         {"study greedy", "", "an oracle's links against the fewest there need be",

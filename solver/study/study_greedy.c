@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "kernel/leaf_at.h"
 #include "output/json_file.h"
@@ -46,15 +47,16 @@ struct row {
 
 static int cube(struct greedy_face *f, int lit)
 {
-    const struct greedy_face faces[6] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 32, 0.5, 1},
-                                         {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 32, 0.5, 1},
-                                         {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 32, 0.5, 1},
-                                         {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 32, 0.5, 1},
-                                         {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 32, 0.5, 1},
-                                         {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}, 32, 0.5, 1}};
+    static const double side[6][3][3] = {
+        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+        {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+        {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
     for (int i = 0; i < 6; i++) {
-        f[i] = faces[i];
-        f[i].exitance = lit && i != 1 ? 0 : 1;
+        f[i] = (struct greedy_face){
+            .cells = lit ? 32 : 16, .rho = 0.5, .exitance = lit && i != 1 ? 0 : 1};
+        memcpy(f[i].corner, side[i][0], sizeof side[i][0]);
+        memcpy(f[i].a, side[i][1], sizeof side[i][1]);
+        memcpy(f[i].b, side[i][2], sizeof side[i][2]);
     }
     return 6;
 }

@@ -2,12 +2,15 @@
  * constants and planes over a wall below a lamp, and what is exact.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
+#include <jansson.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "study/arvo.h"
 #include "study/closed_forms.h"
 #include "study/greedy.h"
+#include "folder.h"
 #include "suite.h"
 
 enum { MOST = 1100 };
@@ -161,6 +164,37 @@ START_TEST(all_splits_leave_nothing)
 }
 END_TEST
 
+/* In L1, the norm in which the default oracle's thresholds are powers, its error is within twice
+ * that of as many greedy links, by constants and by linear elements; in the empty cube these are
+ * exact, and what it leaves is next to nothing. */
+START_TEST(the_default_is_within_twice_the_greedy_optimum)
+{
+    const char *program = getenv("RADIOSITY");
+    char command[1024];
+    if (!thorough())
+        return;
+    snprintf(command, sizeof command, "%.400s study greedy -q --json %s",
+             program ? program : "build/bin/radiosity", in_folder("greedy.json"));
+    ck_assert_int_eq(system(command), 0);
+    json_t *table = json_load_file(in_folder("greedy.json"), 0, NULL);
+    ck_assert_int_eq((int)json_array_size(table), 4);
+    for (size_t i = 0; i < 4; i++) {
+        const json_t *scene = json_array_get(table, i);
+        const json_t *rows = json_object_get(scene, "rows");
+        ck_assert_int_eq((int)json_array_size(rows), 8);
+        for (size_t k = 0; k < 8; k++) {
+            const json_t *row = json_array_get(rows, k);
+            double l1 = json_number_value(json_object_get(row, "l1"));
+            double greedy = json_number_value(json_object_get(row, "greedy_l1"));
+            double allowed = i == 0 ? 5e-5 : 2 * greedy;
+            ck_assert_msg(l1 > 0 && l1 <= allowed, "%s, row %zu: %g, not %g",
+                          json_string_value(json_object_get(scene, "scene")), k, l1, allowed);
+        }
+    }
+    json_decref(table);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("study greedy");
@@ -170,7 +204,12 @@ int main(void)
     tcase_add_test(t, constants_are_as_good_as_a_greedy_quadtree);
     tcase_add_test(t, planes_are_least_squares);
     tcase_add_test(t, all_splits_leave_nothing);
-    tcase_set_timeout(t, 60);
+    tcase_add_test(t, the_default_is_within_twice_the_greedy_optimum);
+    tcase_set_timeout(t, 600);
     suite_add_tcase(suite, t);
-    return suite_failures(suite) != 0;
+    if (folder_make("greedy") < 0)
+        return 1;
+    int failed = suite_failures(suite);
+    folder_remove();
+    return failed != 0;
 }
