@@ -35,6 +35,8 @@ all helpers are waited for | runtime/util/thread_pool.c | s/while (l->inside)/wh
 helpers spin | runtime/util/thread_pool.c | s/pthread_cond_wait(&pool.open, &pool.lock)/pthread_mutex_unlock(\&pool.lock), pthread_mutex_lock(\&pool.lock)/ | runtime/check_thread_pool
 children keep helpers | runtime/util/thread_pool.c | s/pool = nobody;/(void)nobody;/ | runtime/check_thread_pool
 moves not made again | solver/util/pattern_search.c | s/to->at\[i\] - from->at\[i\]/0 * (to->at[i] - from->at[i])/ | solver/check_tune
+held by nothing | solver/commands/tune_choice.c | s/hold \* far/0 * far/ | solver/check_tune
+all search at once no more | solver/util/pattern_search.c | s/(s->together \&\& s->count > 1)/0/ | solver/check_tune
 left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
 comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
 END

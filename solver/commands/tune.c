@@ -3,7 +3,8 @@
  *
  * First to all scenes, which gives the parameters; then, for each scene, to the others alone, from
  * the same start: what the scene fares with that fit, against what it fares with those that it had
- * a part in, tells whether parameters were found or scenes learnt by heart.
+ * a part in, tells whether parameters were found or scenes learnt by heart. It also tells how near
+ * to the start fits shall stay (tune_choice.c).
  * A limit of time is shared out evenly to these fits, so that it cuts all of them short rather than
  * leaving the last ones out. SIGINT ends them all; the best so far is told and written.
  * SPDX-License-Identifier: MIT */
@@ -14,6 +15,7 @@
 #include <string.h>
 
 #include "commands/commands.h"
+#include "commands/tune_choice.h"
 #include "commands/tune_parameters.h"
 #include "commands/tune_report.h"
 #include "output/json_file.h"
@@ -72,9 +74,9 @@ static int write_graph(const struct work *w)
     const char *missing;
     int count = 0;
     for (int i = 0; i < t->parameter_count; i++)
-        if (w->outcome.all.found.at[i])
+        if (w->outcome.all.at[i])
             defaults[count++] = (struct graph_default){
-                t->parameters[i].name, tune_value(&t->parameters[i], w->outcome.all.found.at[i])};
+                t->parameters[i].name, tune_value(&t->parameters[i], w->outcome.all.at[i])};
     char *text = graph_with_defaults(w->text, defaults, count, &missing);
     if (!text)
         return report_error(o->out, 0, "out of memory for the graph");
@@ -106,36 +108,6 @@ static int open_scenes(struct work *w)
             return -1;
         t->scene_count++;
         radSetDeviceProgressFunction(t->scenes[i].scene.device, tune_watch, t);
-    }
-    return 0;
-}
-
-/* Solve each scene with the fit that has not seen it. Returns 0, or -1 after a message. */
-static int judge(struct tuner *t, struct tune_fold *folds)
-{
-    int count = t->scene_count;
-    for (int s = 0; s < count; s++) {
-        struct tune_fold *f = &folds[s];
-        snprintf(t->doing, sizeof t->doing, "%.*s, which was left out", t->scenes[s].name_length,
-                 t->scenes[s].name);
-        for (int other = 0; other < count; other++) {
-            struct tune_result r;
-            int status = tune_result(t, folds[other].fit.found.at, s, &r);
-            if (status)
-                return status < 0 ? -1 : 0;
-            if (other == s) {
-                f->left = r;
-            } else {
-                f->used_cost += log(r.cost) / (count - 1);
-                f->used_needs += log(tune_needs(t, &r)) / (count - 1);
-                f->used_error += r.error / (count - 1);
-            }
-        }
-        f->used_cost = exp(f->used_cost);
-        f->used_needs = exp(f->used_needs);
-        f->ratio = tune_needs(t, &f->left) / f->used_needs;
-        /* a fit of which no more than its start was looked at says nothing */
-        f->known = f->fit.found.evaluations > 1 || f->fit.found.end == PATTERN_FOUND;
     }
     return 0;
 }
@@ -201,9 +173,9 @@ static int fit_all(struct work *w)
         tell(w, &out->folds[s].fit);
     }
     t->deadline = 0;
-    if (!stop_signal_came() && judge(t, out->folds) < 0)
+    snprintf(t->doing, sizeof t->doing, "scenes left out");
+    if (!stop_signal_came() && tune_choose(out) < 0)
         return -1;
-    tune_best(t, &out->all);
     return 0;
 }
 
@@ -219,7 +191,7 @@ static int finish(struct work *w)
         return 1;
     if (o->json && json_file_write(o->json, tune_json(&w->outcome)) < 0)
         return 1;
-    return stop_signal_came() ? STOPPED : tune_worst(&w->outcome) > TUNE_CARRIES ? CARRIES_NOT : 0;
+    return stop_signal_came() ? STOPPED : tune_fails(&w->outcome) ? CARRIES_NOT : 0;
 }
 
 /* Returns the exit status. */
@@ -247,6 +219,7 @@ int command_tune(const struct options *o, const struct open_scene *scene)
                      .start = seconds(),
                      .device = open_device(o->quiet ? NULL : o->oracle, o->threads)};
     w.tuner = (struct tuner){.cost = (enum tune_cost)o->cost,
+                             .basis = o->basis,
                              .target = o->noise,
                              .power = o->power,
                              .evaluations = o->evaluations,

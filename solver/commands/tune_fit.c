@@ -1,13 +1,14 @@
 /* tune_fit.c - see tune_fit.h.
  *
- * A scene's price is what it cost, as long as its error is below the target: a scene that is easier
- * than others shall not pay for them. Above, the cost is multiplied by a power of error over
- * target, which has to be steep: the first few rays of links buy most of what they ever buy, so
- * that by mild powers the best links are none at all. At the square, the rate of particles, cornell
- * by bf_guarded wants 8,500 rays and 5.4 %, not 7.5 million and 2.2; at the fourth power, the rate
- * at which links bring errors down themselves (their 2.5th to fourth root), panels still wants 48
- * %. At the eighth the target is kept where it can be. The fit makes the mean of the logarithms
- * least, which is the same whatever a scene costs by itself.
+ * A scene's price is what it cost, far below the target: a scene that is easier than others shall
+ * not pay for them. Far above, the cost is multiplied by a power of error over target, which has to
+ * be steep: the first few rays of links buy most of what they ever buy, so that by mild powers the
+ * best links are none at all. At the square, the rate of particles, cornell by bf_guarded wants
+ * 8,500 rays and 5.4 %, not 7.5 million and 2.2; at the fourth power, the rate at which links bring
+ * errors down themselves (their 2.5th to fourth root), panels still wants 48 %. Between, the price
+ * turns slowly, (1 + (error / target)^2)^(power / 2): with a corner at the target the fit is where
+ * the hardest scene meets it and no other has a say, and without that scene it is elsewhere. The
+ * fit makes the mean of the logarithms least, which is the same whatever a scene costs by itself.
  *
  * A place where any scene costs more than GUARD times what it costs at the best place so far is
  * given up, as soon as that is so: what is far too fine would take hours.
@@ -118,7 +119,8 @@ static int solve(struct tuner *t, const int *at, int scene, double limit, struct
     t->limit = limit;
     t->cancelled = 0;
     t->solves++;
-    RadSolution solution = radNewSolution(s->scene.scene, t->oracle, NULL);
+    const struct RadSolveOptions how = {.basis = t->basis};
+    RadSolution solution = radNewSolution(s->scene.scene, t->oracle, &how);
     int status = 0;
     if (!solution || radSolve(solution) < 0)
         status = report_unless_cancelled(s->scene.device, s->scene.path);
@@ -131,7 +133,7 @@ static int solve(struct tuner *t, const int *at, int scene, double limit, struct
         radGetReport(solution, &report);
         double cost = fmax(1, cost_of(t, report.rays, report.links, report.pairs));
         *r = (struct tune_result){TUNE_KNOWN, error, cost,
-                                  cost * pow(fmax(1, error / t->target), t->power)};
+                                  cost * pow(hypot(1, error / t->target), t->power)};
     }
     radReleaseSolution(solution);
     return status;
@@ -167,6 +169,11 @@ int tune_result(struct tuner *t, const int *at, int scene, struct tune_result *r
 
 /* ---- fitting */
 
+uint64_t tune_bit(int left_out)
+{
+    return UINT64_C(1) << (left_out < 62 ? left_out + 1 : 63);
+}
+
 int tune_defaults(struct tuner *t)
 {
     static const int defaults[PATTERN_NUMBERS];
@@ -198,6 +205,10 @@ static int mean_price(void *user, const int *at, double *value)
     struct tuner *t = f->tuner;
     int used = t->scene_count - (f->left_out >= 0);
     double sum = 0, *costs = f->costs + t->scene_count;
+    int index = point_at(t, at);
+    if (index < 0)
+        return t->failed = 1, -1;
+    t->points[index].fits |= tune_bit(f->left_out);
     f->looked++;
     for (int s = 0; s < t->scene_count; s++) {
         struct tune_result r;
@@ -238,6 +249,7 @@ int tune_fit(struct tuner *t, int left_out, struct tune_fit *fit)
         f->costs[s] = INFINITY;
     struct pattern_search search = {.count = t->parameter_count,
                                     .step = QUARTERS,
+                                    .together = 1,
                                     .evaluations = t->evaluations,
                                     .value = mean_price,
                                     .user = f};
@@ -248,25 +260,10 @@ int tune_fit(struct tuner *t, int left_out, struct tune_fit *fit)
         search.high[i] = p->high;
         start[i] = p->low > 0 ? p->low : p->high < 0 ? p->high : 0;
     }
-    *fit = (struct tune_fit){left_out, pattern_search(&search, start)};
+    *fit = (struct tune_fit){.left_out = left_out, .found = pattern_search(&search, start)};
+    memcpy(fit->at, fit->found.at, sizeof fit->at);
     free(f);
     if (fit->found.end == PATTERN_MEMORY)
         return report_error("tune", 0, "out of memory for the search");
     return t->failed ? -1 : 0;
-}
-
-void tune_best(const struct tuner *t, struct tune_fit *all)
-{
-    for (size_t i = 0; i < t->point_count; i++) {
-        double mean = 0;
-        for (int s = 0; s < t->scene_count; s++) {
-            const struct tune_result *r = &t->points[i].results[s];
-            mean +=
-                r->state == TUNE_KNOWN ? log(r->price / t->defaults[s]) / t->scene_count : INFINITY;
-        }
-        if (mean < all->found.value) {
-            all->found.value = mean;
-            memcpy(all->found.at, t->points[i].at, sizeof all->found.at);
-        }
-    }
 }

@@ -7,6 +7,7 @@
 #ifndef TUNE_FIT_H
 #define TUNE_FIT_H
 
+#include <stdint.h>
 #include "commands/tune_scene.h"
 #include "util/pattern_search.h"
 #include "util/progress.h"
@@ -28,12 +29,13 @@ struct tune_result {
     enum { TUNE_UNKNOWN, TUNE_KNOWN, TUNE_OVER } state; /* OVER: given up at that cost */
     double error;                                       /* L1 of faces, of the reflected light */
     double cost;
-    double price; /* cost max(1, error / target)^power */
+    double price; /* cost (1 + (error / target)^2)^(power / 2) */
 };
 
 struct tune_point {
     int at[PATTERN_NUMBERS];
     struct tune_result *results; /* [scene_count] */
+    uint64_t fits;               /* tune_bit of each fit that has looked here */
 };
 
 struct tuner {
@@ -43,6 +45,7 @@ struct tuner {
     struct tune_scene *scenes; /* [scene_count] */
     int scene_count;
     enum tune_cost cost;
+    enum RadBasis basis;
     double target; /* error, a share of the reflected light */
     int power;
     int evaluations; /* of one fit, at the most */
@@ -62,7 +65,11 @@ struct tuner {
 struct tune_fit {
     int left_out; /* scene, -1: none */
     struct pattern_found found;
+    int at[PATTERN_NUMBERS]; /* what it takes: where the search ended, or nearer to the start */
 };
+
+/* The bit of a fit; of more than 63 scenes the last ones share one. */
+uint64_t tune_bit(int left_out);
 
 /* The value that stands for a number of quarters of doublings; 0: the default. */
 double tune_value(const struct tune_parameter *p, int quarters);
@@ -78,10 +85,6 @@ int tune_defaults(struct tuner *t);
 /* Fit to all scenes but `left_out` (-1: to all). Ended before its end, by a signal or the deadline,
  * it holds the best so far. Returns 0, or -1 after a message. */
 int tune_fit(struct tuner *t, int left_out, struct tune_fit *fit);
-
-/* Where a fit without one scene has found what is better for all than `all`, a fit to all, make it
- * that. */
-void tune_best(const struct tuner *t, struct tune_fit *all);
 
 /* A scene with the parameters of a place, solved to its end where it was not yet. Returns 0, 1 when
  * it was stopped, -1 after a message. */

@@ -17,6 +17,13 @@ double tune_worst(const struct tune_outcome *o)
     return worst;
 }
 
+int tune_fails(const struct tune_outcome *o)
+{
+    return o->chosen
+           && (tune_worst(o) > TUNE_CARRIES
+               || (isinf(o->held[o->hold].hold) && o->all.found.value < 0));
+}
+
 double tune_needs(const struct tuner *t, const struct tune_result *r)
 {
     double above = fmax(1, r->error / t->target);
@@ -51,7 +58,7 @@ static void print_parameters(const struct tune_outcome *o)
     printf("  %-16s %10s %10s   within\n", "parameter", "default", "fitted");
     for (int i = 0; i < t->parameter_count; i++) {
         const struct tune_parameter *p = &t->parameters[i];
-        int at = o->all.found.at[i];
+        int at = o->all.at[i];
         printf("  %-16s %10.4g %10.4g   %.2g to %.2g%s\n", p->name, p->value, tune_value(p, at),
                tune_value(p, p->low), tune_value(p, p->high),
                p->low < p->high && (at == p->low || at == p->high) ? ": at an end" : "");
@@ -66,7 +73,7 @@ static void print_scenes(const struct tune_outcome *o)
     printf("\n  %-16s %17s %23s %9s\n  %-16s %8s %8s %11s %11s %9s\n", "scene", "error, %",
            cost_words[t->cost], "price,", "", "default", "fitted", "default", "fitted", "times");
     for (int s = 0; s < t->scene_count; s++) {
-        struct tune_result a = known(t, defaults, s), b = known(t, o->all.found.at, s);
+        struct tune_result a = known(t, defaults, s), b = known(t, o->all.at, s);
         if (a.state != TUNE_KNOWN || b.state != TUNE_KNOWN)
             continue;
         mean += log(b.price / a.price) / t->scene_count;
@@ -74,6 +81,25 @@ static void print_scenes(const struct tune_outcome *o)
                t->scenes[s].name, 100 * a.error, 100 * b.error, a.cost, b.cost, b.price / a.price);
     }
     printf("  %-16s %51.3f\n", "mean", exp(mean));
+}
+
+static void print_holds(const struct tune_outcome *o)
+{
+    if (!o->chosen)
+        return;
+    printf("\nhow near to the defaults fits stay\n  ");
+    for (int h = 0; h < TUNE_HOLDS; h++)
+        if (isfinite(o->held[h].hold))
+            printf(" %6.3g ", 100 * o->held[h].hold);
+        else
+            printf(" %6s ", "all");
+    printf("   each doubling has to save, %%\n  ");
+    for (int h = 0; h < TUNE_HOLDS; h++)
+        printf(" %6.3f%c", o->held[h].times, h == o->hold ? '*' : ' ');
+    printf("  price, scenes left out, times\n  ");
+    for (int h = 0; h < TUNE_HOLDS; h++)
+        printf(" %6.2f%c", o->held[h].worst, h == o->hold ? '*' : ' ');
+    printf("  needed left out over used, at most\n");
 }
 
 static void print_folds(const struct tune_outcome *o)
@@ -99,11 +125,14 @@ static void print_folds(const struct tune_outcome *o)
     double worst = tune_worst(o);
     if (isnan(worst))
         printf("cross-validation: not finished\n");
+    else if (tune_fails(o))
+        printf(
+            "cross-validation: FAILS: nothing that fits found carries over; the defaults stay\n");
     else
-        printf("cross-validation: %s: left out, a scene needs at most %.2f times as much as used; "
-               "%g is "
-               "allowed\n",
-               worst <= TUNE_CARRIES ? "holds" : "FAILS", worst, TUNE_CARRIES);
+        printf(
+            "cross-validation: holds: left out, a scene needs at most %.2f times as much as used; "
+            "%g is allowed\n",
+            worst, TUNE_CARRIES);
 }
 
 void tune_print(const struct tune_outcome *o)
@@ -114,6 +143,7 @@ void tune_print(const struct tune_outcome *o)
            o->all.found.evaluations, end_text(&o->all), t->solves, o->seconds);
     print_parameters(o);
     print_scenes(o);
+    print_holds(o);
     print_folds(o);
 }
 
@@ -145,16 +175,28 @@ static json_t *fold_json(const struct tuner *t, const struct tune_fold *f, int s
     json_t *name = name_json(&t->scenes[scene]);
     if (!f->known)
         return json_pack("{s:o, s:n}", "scene", name, "ratio");
-    return json_pack("{s:o, s:o, s:{s:f, s:f}, s:o, s:f}", "scene", name, "parameters",
-                     parameters_json(t, f->fit.found.at), "used", "error", f->used_error, "cost",
-                     f->used_cost, "left_out", result_json(f->left), "ratio", f->ratio);
+    return json_pack("{s:o, s:o, s:o, s:{s:f, s:f}, s:o, s:f}", "scene", name, "parameters",
+                     parameters_json(t, f->fit.at), "lowest", parameters_json(t, f->fit.found.at),
+                     "used", "error", f->used_error, "cost", f->used_cost, "left_out",
+                     result_json(f->left), "ratio", f->ratio);
+}
+
+/* Mean logarithm of what the scenes' prices are multiplied by. */
+static double price_of(const struct tune_outcome *o)
+{
+    static const int defaults[PATTERN_NUMBERS];
+    const struct tuner *t = o->tuner;
+    double mean = 0;
+    for (int s = 0; s < t->scene_count; s++)
+        mean += log(known(t, o->all.at, s).price / known(t, defaults, s).price) / t->scene_count;
+    return mean;
 }
 
 json_t *tune_json(const struct tune_outcome *o)
 {
     static const int defaults[PATTERN_NUMBERS];
     const struct tuner *t = o->tuner;
-    json_t *scenes = json_array(), *folds = json_array();
+    json_t *scenes = json_array(), *folds = json_array(), *holds = json_array();
     double worst = tune_worst(o);
     for (int s = 0; s < t->scene_count; s++)
         json_array_append_new(scenes, json_pack("{s:o, s:f, s:I, s:o, s:o}", "scene",
@@ -162,16 +204,25 @@ json_t *tune_json(const struct tune_outcome *o)
                                                 t->scenes[s].uncertain, "particles",
                                                 (json_int_t)t->scenes[s].particles, "default",
                                                 result_json(known(t, defaults, s)), "fitted",
-                                                result_json(known(t, o->all.found.at, s))));
+                                                result_json(known(t, o->all.at, s))));
     for (int i = 0; i < o->fold_count; i++)
         json_array_append_new(folds, fold_json(t, &o->folds[i], i));
-    return json_pack("{s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:i, s:f}",
-                     "oracle", o->oracle, "target", t->target, "power", t->power, "cost",
-                     cost_words[t->cost], "default", parameters_json(t, defaults), "fitted",
-                     parameters_json(t, o->all.found.at), "price_times", exp(o->all.found.value),
-                     "evaluations", o->all.found.evaluations, "ended", end_text(&o->all), "scenes",
-                     scenes, "folds", folds, "worst_ratio",
-                     isnan(worst) ? json_null() : json_real(worst), "carries_over",
-                     isnan(worst) ? json_null() : json_boolean(worst <= TUNE_CARRIES), "solves",
-                     t->solves, "seconds", o->seconds);
+    for (int h = 0; h < TUNE_HOLDS && o->chosen; h++)
+        json_array_append_new(
+            holds, json_pack("{s:o, s:f, s:o, s:b}", "hold",
+                             isfinite(o->held[h].hold) ? json_real(o->held[h].hold) : json_null(),
+                             "left_out_times", o->held[h].times, "worst_ratio",
+                             isnan(o->held[h].worst) ? json_null() : json_real(o->held[h].worst),
+                             "taken", h == o->hold));
+    return json_pack("{s:s, s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:o, "
+                     "s:i, s:f}",
+                     "oracle", o->oracle, "basis",
+                     t->basis == RAD_BASIS_LINEAR ? "linear" : "constant", "target", t->target,
+                     "power", t->power, "cost", cost_words[t->cost], "default",
+                     parameters_json(t, defaults), "fitted", parameters_json(t, o->all.at),
+                     "price_times", exp(price_of(o)), "evaluations", o->all.found.evaluations,
+                     "ended", end_text(&o->all), "scenes", scenes, "holds", holds, "folds", folds,
+                     "worst_ratio", isnan(worst) ? json_null() : json_real(worst), "carries_over",
+                     isnan(worst) ? json_null() : json_boolean(!tune_fails(o)), "solves", t->solves,
+                     "seconds", o->seconds);
 }

@@ -23,17 +23,29 @@ struct tune_fold {
 /* What would be cast for the target's error. */
 double tune_needs(const struct tuner *t, const struct tune_result *r);
 
+/* How scenes left out fare where fits are held to the start: price over that of the defaults. */
+enum { TUNE_HOLDS = 8 };
+struct tune_held {
+    double hold; /* mean logarithm of prices per squared doubling; INFINITY: the start */
+    double times;
+    double worst; /* the largest ratio of the folds */
+};
+
 struct tune_outcome {
     const char *oracle;
     struct tuner *tuner;
     struct tune_fit all;
     struct tune_fold *folds; /* [fold_count]; 0: one scene alone is not left out */
     int fold_count;
+    struct tune_held held[TUNE_HOLDS];
+    int hold, chosen; /* the one of them that fits take; 1: they do */
     double seconds;
 };
 
 /* The largest ratio of the folds. NAN: they are not all known. */
 double tune_worst(const struct tune_outcome *o);
+/* Fits moved, and nothing but the defaults carries over. */
+int tune_fails(const struct tune_outcome *o);
 /* How much worse scenes left out may be than those used. */
 #define TUNE_CARRIES 1.5
 

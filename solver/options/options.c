@@ -353,8 +353,9 @@ static int check_together(struct options *o)
                      o->no_errors ? "--no-errors" : "--no-correct");
     if (o->command == COMMAND_SOLVE && o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
-    if (o->command == COMMAND_SOLVE && !o->basis_given && o->projection == RAD_PROJECTION_GALERKIN
-        && o->solver != RAD_SOLVER_SOUTHWELL && o->solver != RAD_SOLVER_LU)
+    if ((o->command == COMMAND_SOLVE || o->command == COMMAND_TUNE) && !o->basis_given
+        && o->projection == RAD_PROJECTION_GALERKIN && o->solver != RAD_SOLVER_SOUTHWELL
+        && o->solver != RAD_SOLVER_LU)
         o->basis = RAD_BASIS_LINEAR;
     if (o->basis == RAD_BASIS_LINEAR
         && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL

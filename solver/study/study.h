@@ -12,6 +12,7 @@ int study_arvo(const struct options *options, const struct open_scene *scene);
 int study_clustering(const struct options *options, const struct open_scene *scene);
 int study_form_factors(const struct options *options, const struct open_scene *scene);
 int study_causes(const struct options *options, const struct open_scene *scene);
+int study_greedy(const struct options *options, const struct open_scene *scene);
 int study_visibility(const struct options *options, const struct open_scene *scene);
 
 #endif

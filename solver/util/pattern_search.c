@@ -3,8 +3,10 @@
  *
  * Each number is tried a step up and a step down, and what lowers the value is kept. If anything
  * did, the same move is made once more, all numbers at once, and tried around there: that is how
- * valleys are followed that lie along no axis. If nothing did, the step is halved. Places are whole
- * numbers, so that one comes back to places exactly, and each is evaluated once.
+ * valleys are followed that lie along no axis. If nothing did, the step is halved. Where one valley
+ * is known beforehand, that along which all numbers rise alike, it is a direction as each number
+ * is. Places are whole numbers, so that one comes back to places exactly, and each is evaluated
+ * once.
  * SPDX-License-Identifier: MIT */
 #include "util/pattern_search.h"
 
@@ -22,7 +24,8 @@ struct run {
     const struct pattern_search *search;
     struct place *seen; /* [found.evaluations] */
     struct pattern_found found;
-    int direction[PATTERN_NUMBERS]; /* 1 or -1: the one that lowered the value last */
+    /* 1 or -1: the one that lowered the value last, of each number and of all together */
+    int direction[PATTERN_NUMBERS + 1];
 };
 
 /* Value at a place. Returns 0, or -1: the search is at its end. */
@@ -49,16 +52,29 @@ static int look_at(struct run *r, struct place *p)
     return 0;
 }
 
-/* Go from `p`, whose value is known, to what is lower along each number in turn. Returns 0, or -1:
- * the search is at its end. */
+/* Move number i, or all where i is their count. Returns whether they stay in their ranges. */
+static int move(const struct pattern_search *s, struct place *p, int i, int by)
+{
+    int first = i < s->count ? i : 0, last = i < s->count ? i : s->count - 1;
+    for (int k = first; k <= last; k++) {
+        p->at[k] += by;
+        if (p->at[k] < s->low[k] || p->at[k] > s->high[k])
+            return 0;
+    }
+    return 1;
+}
+
+/* Go from `p`, whose value is known, to what is lower along each direction in turn. Returns 0, or
+ * -1: the search is at its end. */
 static int explore(struct run *r, struct place *p, int step)
 {
     const struct pattern_search *s = r->search;
-    for (int i = 0; i < s->count; i++)
+    int directions = s->count + (s->together && s->count > 1);
+    for (int k = 0; k < directions; k++) {
+        int i = directions > s->count ? (k + s->count) % directions : k; /* all, then each */
         for (int turn = 0; turn < 2; turn++) {
             struct place next = *p;
-            next.at[i] += step * r->direction[i];
-            if (next.at[i] >= s->low[i] && next.at[i] <= s->high[i]) {
+            if (move(s, &next, i, step * r->direction[i])) {
                 if (look_at(r, &next) < 0)
                     return -1;
                 if (next.value < p->value) {
@@ -68,6 +84,7 @@ static int explore(struct run *r, struct place *p, int step)
             }
             r->direction[i] = -r->direction[i];
         }
+    }
     return 0;
 }
 
@@ -109,10 +126,10 @@ struct pattern_found pattern_search(const struct pattern_search *search, const i
 {
     struct run r = {.search = search, .found = {.value = INFINITY}};
     struct place base = {.value = INFINITY};
-    for (int i = 0; i < search->count; i++) {
+    for (int i = 0; i < search->count; i++)
         base.at[i] = r.found.at[i] = start[i];
+    for (int i = 0; i <= search->count; i++)
         r.direction[i] = 1;
-    }
     r.seen = malloc(((size_t)search->evaluations + 1) * sizeof *r.seen);
     if (!r.seen)
         r.found.end = PATTERN_MEMORY;

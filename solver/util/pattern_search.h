@@ -10,7 +10,8 @@ struct pattern_search {
     int count;                                       /* of numbers, PATTERN_NUMBERS at the most */
     int low[PATTERN_NUMBERS], high[PATTERN_NUMBERS]; /* closed ranges */
     int step;                                        /* the first; the last is 1 */
-    int evaluations;                                 /* places looked at, at the most */
+    int together;    /* 1: all numbers at once are a direction, too, tried before each alone */
+    int evaluations; /* places looked at, at the most */
     /* The function; INFINITY: never the least. Asked once for each place. Returns 0, or -1: the
      * search shall stop. */
     int (*value)(void *user, const int *at, double *value);

@@ -44,6 +44,10 @@ says 2 "the oracle's name is empty" ""
 says 2 "a scene's name is empty" ff ""
 says 2 "$room is named twice" ff "$room" "$room"
 for value in 0 0% 1 100% x -1; do says 2 "--error takes a share" ff "$room" --error $value; done
+"$radiosity" tune ff "$room" --basis constant --error 20% --evaluations 1 --json b.json -q >out 2>err
+check "--basis constant" grep -q '"basis": "constant"' b.json
+rm -f b.json out err
+says 2 "--basis takes constant or linear, not square" ff "$room" --basis square
 for value in 0 65 x 1.5; do says 2 "--power takes a whole number from 1 to 64" ff "$room" --power $value; done
 for value in 0 10001 x; do says 2 "--evaluations takes a whole number from 1" ff "$room" --evaluations $value; done
 says 2 "--cost takes rays, links or time" ff "$room" --cost seconds
@@ -90,7 +94,7 @@ check "one scene" grep -q "^not cross-validated: that takes two scenes or more" 
 check "its table" grep -q "^  limit  *0.05 " out
 
 # ---- a furnace asks for no link, a shadow for many: what is found does not carry over; said, and told by the status
-"$radiosity" tune ff "$room" "$scenes/cornell.obj" --error 4% --power 8 --evaluations 9 --json t.json >out 2>err
+"$radiosity" tune bf "$room" "$scenes/cornell.obj" --error 8% --power 2 --evaluations 7 --json t.json >out 2>err
 check "status 3" [ $? = 3 ]
 check "the verdict" grep -q "^cross-validation: FAILS: " out
 check "in JSON" grep -q '"carries_over": false' t.json
