@@ -521,19 +521,23 @@ struct RadCorrectOptions {
      * reflected light; 0: RAD_CORRECT_NOISE */
     double noise;
     /* or until about so many rays are cast; 0: RAD_CORRECT_SHARE of what the solution has cast, and
-     * no fewer than RAD_CORRECT_LEAST */
+     * no fewer than RAD_CORRECT_LEAST. Then, where a few rays show that particles from as many rays
+     * as links took would have been nearer on places of 1e-4 of the area, RAD_CORRECT_MOST of them
+     * are cast whatever the noise is (engine/ray_split.c) */
     uint64_t rays;
 };
 #define RAD_CORRECT_NOISE 0.005
 #define RAD_CORRECT_SHARE 0.25
+#define RAD_CORRECT_MOST 0.5
 #define RAD_CORRECT_LEAST (1u << 18)
 
 /* Mend the solution: add to each element what particles see of its error, level by level from the
  * root down, as far as it stands out of their noise (engine/mend.c). From then on elements,
  * polygons and pictures show mended values, B = E + rho H in all of them; links stay as they are,
- * and radStep goes on from what they say. *alone, which may be NULL: the error of the links alone,
- * by the same particles; its rays are what mending took. NULL options: the defaults. Returns 0, or
- * -1. */
+ * and radStep goes on from what they say. Leaves of a linear solution on which many particles are
+ * to land are quartered (engine/detail.c): what radGetElements gave before is no longer valid.
+ * *alone, which may be NULL: the error of the links alone, by the same particles; its rays are what
+ * mending took. NULL options: the defaults. Returns 0, or -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
                        struct RadErrorReport *alone);
 /* ---- which light links bring wrongly, and why */

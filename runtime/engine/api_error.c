@@ -99,10 +99,12 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
     uint64_t rays =
         o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_SHARE, 0, RAD_CORRECT_LEAST);
+    uint64_t more =
+        o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_MOST, 0, RAD_CORRECT_LEAST);
     struct measured_error links;
     const char *cause;
     measured_error_free(&solution->measured);
-    if (measure_and_mend(&solution->solve, noise, rays, &links, &cause) < 0)
+    if (measure_and_mend(&solution->solve, noise, rays, more, &links, &cause) < 0)
         return api_give_up(solution, cause);
     solution->mending_rays = links.rays;
     if (alone)

@@ -6,12 +6,15 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/detail.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/ray_split.h"
 #include "engine/solve_tracer.h"
 #include "engine/surface_error.h"
 #include "engine/tail_error.h"
 #include "engine/transport.h"
+#include "kernel/constants.h"
 #include "util/clock.h"
 
 /* particles of each replicate in a first look, which tells how many rays one takes */
@@ -213,21 +216,52 @@ static int mend(struct solve *s, const struct tally *tally)
     return -1;
 }
 
-int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measured_error *alone,
-                     const char **cause)
+/* How many rays mend: `most`, or `more` where a few show that links were not worth theirs. What
+ * these cost is taken off, and added to *spent. Returns 0, or -1 when cancelled or out of memory.
+ */
+static int choose_rays(struct solve *s, const struct tracer *t, uint64_t *most, uint64_t more,
+                       uint64_t *spent, int *worth)
+{
+    uint64_t links = rays_count(s->problem.rays).rays;
+    struct tally look = {0};
+    struct ray_split split;
+    *worth = 1;
+    if (more <= *most || links == 0)
+        return 0;
+    int failed =
+        tally_open(&look, t, MEND_STREAM, 1) < 0
+        || trace_rays(s, t, &look, (uint64_t)(SPLIT_LOOK * (double)*most), (double)*most) < 0
+        || ray_split_measure(&s->operator, & look, s->state.irradiance, links, &split) < 0;
+    if (!failed) {
+        *worth = !(split.links > split.particles);
+        *most = *worth ? *most : more;
+        *most -= look.rays < *most ? look.rays : *most;
+        *spent += look.rays;
+    }
+    tally_close(&look);
+    return failed ? -1 : 0;
+}
+
+int measure_and_mend(struct solve *s, double noise, uint64_t most, uint64_t more,
+                     struct measured_error *alone, const char **cause)
 {
     double start = seconds();
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
+    uint64_t spent = 0;
+    int worth = 1;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
-    int failed = tracer_open(&t) < 0 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+    int failed = tracer_open(&t) < 0 || choose_rays(s, &t, &most, more, &spent, &worth) < 0
+                 || detail_leaves(s, (double)most) < 0 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
                  || trace_rays(s, &t, &tally, 1, (double)most) < 0;
+    noise = worth ? noise : 0;
     double left = t.lights.power > 0 ? INFINITY : 0;
     for (uint64_t goal = 0; !failed && left > noise && goal < most;) {
         goal = 2 * tally.rays < most ? 2 * tally.rays : most;
         /* noise falls with the root of the number, which doubles until it is enough */
-        double all = (double)tally.rays * exp2(ceil(2 * log2(left / noise)));
+        double all =
+            noise > 0 ? (double)tally.rays * exp2(ceil(2 * log2(left / noise))) : (double)most;
         failed = trace_rays(s, &t, &tally, goal, fmin(all, (double)most)) < 0
                  || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, &tally, &left) < 0;
     }
@@ -239,6 +273,7 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measur
         return give_up(s, cause);
     }
     solve_sum_power(s);
+    alone->rays += spent;
     alone->seconds = seconds() - start;
     return 0;
 }

@@ -28,9 +28,10 @@ void measured_error_free(struct measured_error *m);
 
 /* Mend the radiosities of the links, which a mended solution then shows: particles are traced until
  * their noise in the L1 error of polygons is below `noise`, a share of the reflected light, or
- * about `most` rays are cast. *alone: the links' error as the same particles measure it. Returns 0,
- * or -1 with *cause set. */
-int measure_and_mend(struct solve *s, double noise, uint64_t most, struct measured_error *alone,
-                     const char **cause);
+ * about `most` rays are cast. Where `more` is above `most`, a few rays first ask whether links were
+ * worth theirs (ray_split.h); if not, `more` are cast whatever the noise is. *alone: the links'
+ * error as the same particles measure it. Returns 0, or -1 with *cause set. */
+int measure_and_mend(struct solve *s, double noise, uint64_t most, uint64_t more,
+                     struct measured_error *alone, const char **cause);
 
 #endif

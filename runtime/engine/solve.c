@@ -37,9 +37,7 @@ static double largest(const double *v, uint32_t n)
     return most;
 }
 
-/* Room for all elements, and for elements made since the last call their parent's radiosity.
- * Returns 0 or -1. */
-static int make_room(struct solve *s)
+int solve_make_room(struct solve *s)
 {
     struct state *state = &s->state;
     struct light_operator *op = &s->operator;
@@ -174,7 +172,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
         return -1;
     s->report.seconds.clusters = seconds() - start;
     brightest = malloc(scene->face_count * sizeof *brightest);
-    if (!brightest || read_materials(p) < 0 || make_room(s) < 0)
+    if (!brightest || read_materials(p) < 0 || solve_make_room(s) < 0)
         goto fail;
     /* What emits nothing now or later may be left out of a row only while nobody asks what a row
      * sums to. */
@@ -273,7 +271,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
     if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0
-        || make_room(s) < 0)
+        || solve_make_room(s) < 0)
         return fail(s, refining, cause);
     if (collocation_update(&s->operator) < 0)
         return fail(s, "out of memory", cause);
@@ -351,7 +349,7 @@ static int64_t refine_again(struct solve *s)
     if (changed < 0
         || (changed > 0
             && (refinement_sort(&s->refinement) < 0 || collocation_update(&s->operator) < 0))
-        || make_room(s) < 0)
+        || solve_make_room(s) < 0)
         return -1;
     measure_contact(s->operator.uncovered, &s->hierarchy, &s->problem, first);
     return changed;

@@ -105,6 +105,10 @@ void solve_forget_mended(struct solve *s);
 /* The account of power in the report, of the solution that is shown. */
 void solve_sum_power(struct solve *s);
 
+/* Room for all elements, and for elements made since the last call their parent's radiosity.
+ * Returns 0, or -1 when out of memory. */
+int solve_make_room(struct solve *s);
+
 /* Tell the progress function which phase of the work goes on. Returns nonzero when it cancels. */
 int solve_tell(struct solve *s, const char *phase);
 /* Give the links other form factors, [link_count] in their order, and solve over them as they are

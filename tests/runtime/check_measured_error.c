@@ -7,10 +7,14 @@
 #include <stdio.h>
 #include "runtime/make_known.h"
 #include "runtime/make_solve.h"
+#include "engine/detail.h"
 #include "engine/element_light.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/ray_split.h"
 #include "engine/solve_tracer.h"
+#include "kernel/constants.h"
+#include "kernel/leaf_at.h"
 #include "suite.h"
 
 struct cover {
@@ -293,7 +297,7 @@ START_TEST(test_slopes)
     o.linear = 1;
     furnished(&scene, 1);
     solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
-    ck_assert_int_eq(measure_and_mend(&s, 0.01, 200000, &m[0], &cause), 0);
+    ck_assert_int_eq(measure_and_mend(&s, 0.01, 20000, 0, &m[0], &cause), 0);
     measured_error_free(&m[0]);
     const struct element_light light = element_light_shown(&s);
     ck_assert_ptr_eq(light.gradient, s.mended_gradient);
@@ -320,6 +324,112 @@ START_TEST(test_slopes)
 }
 END_TEST
 
+/* B of the leaf at a point of a face. */
+static double light_at(const struct solve *s, uint32_t face, const double p[3])
+{
+    const struct element_light light = element_light_shown(s);
+    double weight[4];
+    uint32_t leaf = leaf_at(s->hierarchy.elements, s->hierarchy.face_element[face], p, weight);
+    return element_light_at(&light, leaf, 0, p);
+}
+
+/* Leaves are quartered until few particles land on each, and links say what they said: at points
+ * of every face, and in all that it receives. */
+START_TEST(test_detail)
+{
+    enum { LANDINGS = 1000000 };
+    struct scene scene;
+    struct solve s;
+    struct solve_options o = quick(1);
+    o.linear = 1;
+    furnished(&scene, 1);
+    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    uint32_t faces = s.hierarchy.face_count, before = s.hierarchy.count;
+    double(*p)[3] = malloc(faces * sizeof *p), *light = malloc(faces * sizeof *light);
+    double power = s.report.absorbed, whole = 0, tilted = 0;
+    for (uint32_t f = 0; f < faces; f++) {
+        const struct element *e = &s.hierarchy.elements[s.hierarchy.face_element[f]];
+        for (int k = 0; k < 3; k++)
+            p[f][k] = 0.37 * e->vertex[0][k] + 0.41 * e->vertex[1][k] + 0.22 * e->vertex[2][k];
+        light[f] = light_at(&s, f, p[f]);
+        whole += s.state.irradiance[s.hierarchy.face_element[f]] * e->area;
+    }
+    ck_assert_int_eq(detail_leaves(&s, LANDINGS), 0);
+    ck_assert_uint_gt(s.hierarchy.count, before);
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
+        const struct element *e = &s.hierarchy.elements[i];
+        double here = s.state.irradiance[i] * e->area, parts = 0;
+        if (!e->vertices)
+            continue;
+        for (int c = 0; c < e->children; c++)
+            parts += s.state.irradiance[e->child + (uint32_t)c]
+                     * s.hierarchy.elements[e->child + (uint32_t)c].area;
+        if (e->children)
+            ck_assert_double_eq_tol(parts, here, 1e-9 * whole);
+        else if (!(s.problem.exitance[e->face] > 0) && s.operator.uncovered[i] >= 1 && !e->black)
+            ck_assert_double_le(here / whole * LANDINGS, MEND_DETAIL * 1.5); /* slopes tilt parts */
+        if (i >= before)
+            tilted = fmax(tilted, fabs(s.state.radiosity[i] - s.state.radiosity[e->parent]));
+    }
+    ck_assert_double_gt(tilted, 0);
+    for (uint32_t f = 0; f < faces; f++)
+        ck_assert_double_eq_tol(light_at(&s, f, p[f]), light[f], 1e-9 * fmax(light[f], 1e-3));
+    solve_sum_power(&s);
+    ck_assert_double_eq_tol(s.report.absorbed, power, 1e-12 * power);
+    uint32_t count = s.hierarchy.count;
+    ck_assert_int_eq(detail_leaves(&s, LANDINGS), 0);
+    ck_assert_uint_le(s.hierarchy.count, count + count / 10); /* those that slopes made brighter */
+    free(p);
+    free(light);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Links that are exact are worth any rays, and links that tell nothing of how light is spread are
+ * worth none; in between the two errors are equal where the truth says so. */
+START_TEST(test_split)
+{
+    struct chance chance = {11};
+    struct scene scene;
+    struct solve s;
+    struct tally look;
+    struct ray_split exact, wrong;
+    double *truth = known_open(&scene, KNOWN_FURNISHED, &chance), light = 0, off = 0;
+    open_known(&s, &scene);
+    struct tracer t = tracer_over(&s, 1);
+    traced(&look, &t, MEND_STREAM, 100000);
+    double *solved = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *solved);
+    spoil(&s, truth, solved, 0, &chance);
+    ck_assert_int_eq(ray_split_measure(&s.operator, & look, solved, look.rays, &exact), 0);
+    ck_assert_double_gt(exact.particles, 0);
+    ck_assert_double_lt(exact.links, 0.5 * exact.particles);
+    /* everything a quarter too bright in one half of the places, too dark in the other: the squares
+     * of shares are a sixteenth */
+    for (uint32_t e = 0; e < s.hierarchy.count; e++)
+        for (uint32_t k = 0; k < scene.bands; k++)
+            solved[(size_t)e * scene.bands + k] *= e % 2 ? 1.25 : 0.75;
+    ck_assert_int_eq(ray_split_measure(&s.operator, & look, solved, look.rays, &wrong), 0);
+    for (uint32_t e = 0; e < s.hierarchy.count; e++)
+        for (uint32_t k = 0; k < scene.bands && s.hierarchy.elements[e].vertices; k++) {
+            double linked = solved[(size_t)e * scene.bands + k] * s.hierarchy.elements[e].area;
+            double share = e % 2 ? 0.25 / 1.25 : 0.25 / 0.75;
+            light += linked;
+            off += linked * share * share;
+        }
+    ck_assert_double_eq_tol(wrong.links, off / light, 0.1 * off / light + exact.particles);
+    ck_assert_double_gt(wrong.links, wrong.particles);
+    ck_assert_int_eq(ray_split_measure(&s.operator, & look, solved, look.rays / 4, &exact), 0);
+    ck_assert_double_eq_tol(exact.particles, 4 * wrong.particles, 1e-3 * wrong.particles);
+    free(solved);
+    free(truth);
+    tally_close(&look);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Mended and measured: the same bits for any number of threads, and for any power of two of size.
  */
 START_TEST(test_same_bits)
@@ -337,7 +447,7 @@ START_TEST(test_same_bits)
         const char *cause;
         furnished_solve(&s, &scene, ways[i].threads, ways[i].size);
         size_t values = s.hierarchy.count;
-        ck_assert_int_eq(measure_and_mend(&s, 0.01, 40000, &alone, &cause), 0);
+        ck_assert_int_eq(measure_and_mend(&s, 0.01, 40000, 0, &alone, &cause), 0);
         ck_assert_int_eq(measure_error(&s, 20000, 3, 0, &m, &cause), 0);
         if (i == 0) {
             first = m;
@@ -452,7 +562,7 @@ START_TEST(test_bare)
     const char *cause;
     bare_scene(&scene, _i);
     solve_known(&s, &scene, "bf_guarded");
-    ck_assert_int_eq(measure_and_mend(&s, 0.01, 20000, &alone, &cause), 0);
+    ck_assert_int_eq(measure_and_mend(&s, 0.01, 20000, 0, &alone, &cause), 0);
     ck_assert_int_eq(measure_error(&s, 10000, 1, 0, &m, &cause), 0);
     ck_assert(m.faces.l1.value == 0 && m.faces.l1.low == 0 && m.faces.l1.high == 0);
     ck_assert(m.faces.power.value == 0 && m.faces.reflected == 0);
@@ -477,6 +587,8 @@ int main(void)
     tcase_add_test(tests, test_mended);
     tcase_add_test(tests, test_mends);
     tcase_add_test(tests, test_slopes);
+    tcase_add_test(tests, test_detail);
+    tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_streams);
     tcase_add_test(tests, test_cancel);

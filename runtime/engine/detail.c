@@ -1,0 +1,93 @@
+/* detail.c - see detail.h.
+ *
+ * A leaf of links is as large as links need it, which know light by its mean and slope there; a
+ * shadow's edge across it is lost, though hundreds of particles land on either side. Quarters of
+ * the leaf give particles places to be counted on. Which leaves these are is told by links and by
+ * how many particles are to come, never by where these have landed: quarters chosen by that would
+ * seem brighter than they are.
+ *
+ * Quarters start from their parent's light: mean B + g . (centre - parent's centre), and its slope.
+ * So links alone say what they said. Emitters and leaves that a solid covers in part stay whole:
+ * what is reflected there is no linear function. [Derived here]
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include "engine/detail.h"
+#include "kernel/constants.h"
+
+/* What a leaf receives, of all bands (W). */
+static double received(const struct solve *s, uint32_t leaf)
+{
+    double sum = 0;
+    for (uint32_t k = 0; k < s->problem.bands; k++)
+        sum += s->state.irradiance[(size_t)leaf * s->problem.bands + k];
+    return sum * s->hierarchy.elements[leaf].area;
+}
+
+static int may_split(const struct solve *s, uint32_t leaf)
+{
+    const struct element *e = &s->hierarchy.elements[leaf];
+    int dark = 1;
+    for (uint32_t k = 0; k < s->problem.bands; k++)
+        dark &= !(s->problem.exitance[(size_t)e->face * s->problem.bands + k] > 0);
+    return dark && !e->black && s->operator.uncovered[leaf] >= 1;
+}
+
+/* Split until a part has its share of `particles`. Returns 0, or -1 when out of memory. */
+static int split(struct hierarchy *h, uint32_t leaf, double particles)
+{
+    if (particles <= MEND_DETAIL || h->elements[leaf].depth == UINT8_MAX)
+        return 0;
+    if (hierarchy_split(h, leaf) < 0)
+        return -1;
+    uint32_t child = h->elements[leaf].child;
+    for (uint32_t c = 0; c < 4; c++)
+        if (split(h, child + c, particles * h->elements[child + c].area / h->elements[leaf].area)
+            < 0)
+            return -1;
+    return 0;
+}
+
+/* The light of a new element, from its parent's. */
+static void inherit(struct solve *s, uint32_t i)
+{
+    const struct element *e = &s->hierarchy.elements[i],
+                         *parent = &s->hierarchy.elements[e->parent];
+    double off[3];
+    sub3(off, e->centre, parent->centre);
+    for (uint32_t k = 0; k < s->problem.bands; k++) {
+        size_t at = (size_t)i * s->problem.bands + k,
+               above = (size_t)e->parent * s->problem.bands + k;
+        double rho = s->problem.reflectance[(size_t)e->face * s->problem.bands + k],
+               tilt = dot3(&s->linear.gradient[3 * above], off);
+        s->state.radiosity[at] = s->state.radiosity[above] + tilt;
+        s->state.irradiance[at] = s->state.irradiance[above] + (rho > 0 ? tilt / rho : 0);
+        for (size_t c = 0; c < 3; c++)
+            s->linear.gradient[3 * at + c] = s->linear.gradient[3 * above + c];
+    }
+}
+
+int detail_leaves(struct solve *s, double landings)
+{
+    struct hierarchy *h = &s->hierarchy;
+    uint32_t first = h->count;
+    double whole = 0;
+    if (!s->linear.gradient)
+        return 0;
+    for (uint32_t i = 0; i < first; i++)
+        whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
+    for (uint32_t i = 0; whole > 0 && i < first; i++)
+        if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
+            && split(h, i, landings * received(s, i) / whole) < 0)
+            return -1;
+    if (h->count == first)
+        return 0;
+    double *gradient =
+        realloc(s->linear.gradient, (size_t)h->count * s->problem.bands * 3 * sizeof *gradient);
+    if (gradient)
+        s->linear.gradient = gradient;
+    if (!gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0)
+        return -1;
+    for (uint32_t i = first; i < h->count; i++) /* children follow their parents */
+        inherit(s, i);
+    return 0;
+}
