@@ -424,13 +424,17 @@ int solve_step(struct solve *s, const char **cause)
         return fail(s, refining, cause);
     s->report.passes++;
     s->report.changing = (uint64_t)changed;
-    s->report.converged = s->report.converged && changed == 0 && !rough;
+    /* linear elements are solved for over the links as the last pass leaves them */
+    int done = !rough
+               && (changed == 0
+                   || (p->options.linear && (uint64_t)changed * SETTLED <= s->refinement.link_count
+                       && !(s->error.target > 0) && !s->ranking.asked));
+    s->report.converged = s->report.converged && done;
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
     solve_sum_power(s);
-    int more = changed > 0 || rough;
-    return !more && p->options.linear && solve_linear(s, cause) < 0 ? -1 : more;
+    return done && p->options.linear && solve_linear(s, cause) < 0 ? -1 : !done;
 }
 
 int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)
