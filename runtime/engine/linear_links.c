@@ -14,6 +14,16 @@
  * one number per link, take nothing from what that hides.
  *
  * Where a solid covers a part of a leaf the leaf is constant.
+ *
+ * Faint links. Most links of a crowded scene carry next to nothing, between slivers and the large
+ * faces beside them, whose couplings cost the most. The weakest, together LINEAR_FAINT of all that
+ * links carry, stay constant. With slopes such a link would bring the receiver light elsewhere, and
+ * of the part of the emitter that it sees best, which is at most three times as bright as the mean,
+ * for no linear function B >= 0 over a triangle or a parallelogram has more; so the irradiance is
+ * off by at most 4 times what the link carries (W, sum A |dH|), that by all of them by at most 4
+ * LINEAR_FAINT of it. What a link carries is taken of its receiver's radiosity and the mean beside
+ * the emitter's: rows have slopes, too, half of them perhaps from dark emitters, and they take off
+ * what the receiver has; and so a link is faint both ways round.
  * SPDX-License-Identifier: MIT */
 #include "engine/linear_links.h"
 
@@ -58,6 +68,32 @@ static void make_bases(const void *links, size_t from, size_t to)
             linear_basis_of(&l->basis[i], &h->elements[i]);
 }
 
+/* What a link carries of the radiosities of both its ends and the mean (W). */
+static double carried(const struct hierarchy *h, const struct link *l)
+{
+    const struct element *r = &h->elements[l->receiver], *s = &h->elements[l->emitter];
+    return r->area * (double)l->form_factor * (l->visibility * (1.0 / LINK_VISIBLE))
+           * (r->radiosity + s->radiosity + h->elements[0].radiosity);
+}
+
+/* What carries less (W) is LINEAR_FAINT of all at most, to the octave. */
+static double faintest(const struct hierarchy *h, const struct refinement *r)
+{
+    enum { OCTAVES = 64 };
+    double all = 0, octave[OCTAVES] = {0}, below = 0, least = 0;
+    for (size_t i = 0; i < r->link_count; i++)
+        all += between_surfaces(h, &r->links[i]) ? carried(h, &r->links[i]) : 0;
+    for (size_t i = 0; i < r->link_count && all > 0; i++)
+        if (between_surfaces(h, &r->links[i])) {
+            double share = carried(h, &r->links[i]) / all;
+            int exponent = share > 0x1p-64 ? -ilogb(share) : OCTAVES;
+            octave[exponent < OCTAVES ? exponent : OCTAVES - 1] += share;
+        }
+    for (int i = OCTAVES - 1; i > 0 && (below += octave[i]) <= LINEAR_FAINT; i--)
+        least = ldexp(all, 1 - i); /* octave[i]: shares from 2^-i on */
+    return least;
+}
+
 static void make_couplings(const void *links, size_t begin, size_t end)
 {
     const struct linear_links *l = links;
@@ -67,6 +103,10 @@ static void make_couplings(const void *links, size_t begin, size_t end)
         double c[3][3];
         if (!between_surfaces(h, link))
             continue;
+        if (carried(h, link) < l->faint) {
+            l->nonnegative[i] = 1;
+            continue;
+        }
         struct linear_side to = side_of(l, h, link->receiver), from = side_of(l, h, link->emitter);
         linear_coupling_integrate(c, to, from);
         linear_coupling_scale(c, (double)link->form_factor);
@@ -92,6 +132,7 @@ int linear_links_open(struct linear_links *l, const struct light_operator *op)
         linear_links_close(l);
         return -1;
     }
+    l->faint = faintest(h, r);
     thread_pool_run(threads, h->count, 256, make_bases, l);
     thread_pool_run(threads, r->link_count, 256, make_couplings, l);
     return 0;

@@ -22,9 +22,11 @@ struct linear_row {
 };
 
 struct linear_links {
-    struct linear_basis *basis;      /* [element], of surfaces */
-    float (*moment)[LINEAR_MOMENTS]; /* [link], in the refinement's order; 0 where a cluster is */
-    struct linear_row *row;          /* [element], of leaves */
+    struct linear_basis *basis; /* [element], of surfaces */
+    /* [link], in the refinement's order; 0 where a cluster is, and of faint links */
+    float (*moment)[LINEAR_MOMENTS];
+    double faint;           /* W: links that carry less stay constant */
+    struct linear_row *row; /* [element], of leaves */
     const struct light_operator *of;
     unsigned char *nonnegative; /* [link]: 1: the kernel has been made so */
     int limited;                /* 1: all have been */

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/linear_transport.h"
+#include "kernel/constants.h"
 #include "util/clock.h"
 
 /* Gradients of all surfaces from the slopes in their bases. */
@@ -48,6 +49,15 @@ static int make_gradients(struct linear_solution *s, const struct light_operator
     return 0;
 }
 
+/* Sweeps from what there is. Returns 0, -1, or 1 when changes grow. */
+static int sweep_more(struct linear_solution *s, const struct light_operator *op,
+                      const struct linear_links *l, struct linear_transport *x)
+{
+    int result = linear_transport_solve(op, l, x);
+    s->sweeps += x->means->sweeps;
+    return result;
+}
+
 /* Rows and sweeps from what there is. Returns 0, -1, or 1 when changes grow. */
 static int solve_once(struct linear_solution *s, struct light_operator *op, struct linear_links *l,
                       struct linear_transport *x, struct row_report *rows)
@@ -55,9 +65,7 @@ static int solve_once(struct linear_solution *s, struct light_operator *op, stru
     if (row_sums_renew(op, rows) < 0)
         return -1;
     linear_links_scale(l, op);
-    int result = linear_transport_solve(op, l, x);
-    s->sweeps += x->means->sweeps;
-    return result;
+    return sweep_more(s, op, l, x);
 }
 
 /* Limit the links that bring light to leaves whose irradiance is below 0. Returns how many were
@@ -84,16 +92,20 @@ static int64_t limit_negative(struct linear_links *l, const struct light_operato
 }
 
 /* Solve, and again while light is negative or sweeps do not converge, with links limited where
- * they must be. Returns 0 or -1. */
+ * they must be: roughly as long as some must, then to the tolerance. Returns 0 or -1. */
 static int solve_links(struct linear_solution *s, struct light_operator *op, struct linear_links *l,
                        struct linear_transport *x, struct row_report *rows)
 {
     size_t values = (size_t)op->hierarchy->count * x->means->bands * 3;
+    double tolerance = x->means->tolerance;
+    int limited = 1; /* links since the rows were summed; the first time all are new */
     linear_transport_start(op, l, x);
-    for (;;) {
-        int result = solve_once(s, op, l, x, rows);
+    for (int rough = tolerance < ROUGH_TOLERANCE;;) {
+        x->means->tolerance = rough ? ROUGH_TOLERANCE : tolerance;
+        int result = limited ? solve_once(s, op, l, x, rows) : sweep_more(s, op, l, x);
         if (result < 0)
             return -1;
+        limited = 1;
         if (result > 0) {
             memset(x->value, 0, values * sizeof *x->value);
             linear_transport_start(op, l, x);
@@ -101,9 +113,13 @@ static int solve_links(struct linear_solution *s, struct light_operator *op, str
             continue;
         }
         int64_t made = limit_negative(l, op, x->means);
-        if (made <= 0)
-            return (int)made;
+        if (made < 0)
+            return -1;
         s->limited += (uint64_t)made;
+        limited = made > 0;
+        if (!limited && !rough)
+            return 0;
+        rough = rough && limited;
     }
 }
 

@@ -27,6 +27,14 @@ static void side_open(const struct separable_links *c, struct separable_side *si
         separable_side_part(side, &h->elements[e], h->low, c->unit);
 }
 
+/* What face i of `faces` takes of the link's J. */
+static float taken_by(const struct separable_links *c, const struct separable_faces *faces,
+                      size_t i, const struct separable_link *b)
+{
+    return c->centres ? separable_kernel_at_centre(faces, i, &b->s)
+                      : separable_kernel(faces, i, &b->s);
+}
+
 static void separate_link(const struct separable_links *c, struct separable_link *b,
                           const struct link *l)
 {
@@ -40,6 +48,10 @@ static void separate_link(const struct separable_links *c, struct separable_link
         find_pivots(&b->r, &b->s, &elements[l->receiver], &elements[l->emitter], &of_r, &of_s);
     if (passes > 0)
         b->scale = (float)(l->visibility * (1.0 / LINK_VISIBLE) * INVERSE_PI / (double)passes);
+    if (elements[l->emitter].depth > 0)
+        b->sends = of_s.faces.area[0] * separable_kernel(&of_s.faces, 0, &b->r);
+    if (elements[l->receiver].depth > 0)
+        b->takes = taken_by(c, &of_r.faces, 0, b);
 }
 
 /* J of the link in each band; of a radiosity of 1 when there is none. */
@@ -48,14 +60,16 @@ static void send_link(const struct separable_links *c, const struct separable_li
 {
     struct separable_side side;
     float sum[3] = {0, 0, 0};
-    side_open(c, &side, b->emitter);
     if (c->hierarchy->elements[b->emitter].depth > 0) {
-        float value = side.faces.area[0] * separable_kernel(&side.faces, 0, &b->r);
         for (int k = 0; k < bands; k++)
-            sum[k] =
-                (float)(radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k] : 1)
-                * value;
-    } else if (bands == 1) {
+            to[k] = b->scale
+                    * ((float)(radiosity ? radiosity[(size_t)b->emitter * (size_t)bands + (size_t)k]
+                                         : 1)
+                       * b->sends);
+        return;
+    }
+    side_open(c, &side, b->emitter);
+    if (bands == 1) {
         const float *sent = radiosity ? side.faces.sent[0] : side.faces.area;
         float all = 0;
 #pragma omp simd reduction(+ : all)
@@ -265,14 +279,6 @@ void separable_links_send(const struct separable_links *c, int bands, const doub
     receive_all(&x);
 }
 
-/* What face i of `faces` takes of the link's J. */
-static float taken_by(const struct separable_links *c, const struct separable_faces *faces,
-                      size_t i, const struct separable_link *b)
-{
-    return c->centres ? separable_kernel_at_centre(faces, i, &b->s)
-                      : separable_kernel(faces, i, &b->s);
-}
-
 void separable_links_gather(const struct separable_links *c, int bands, uint32_t e, double *h)
 {
     const struct element *x = &c->hierarchy->elements[e];
@@ -284,15 +290,9 @@ void separable_links_gather(const struct separable_links *c, int bands, uint32_t
             h[k] += (double)c->received[k * c->hierarchy->face_count + c->place[x->face]];
         return;
     }
-    if (c->first[e] < c->first[e + 1]) {
-        struct separable_side side;
-        side_open(c, &side, e);
-        for (size_t b = c->first[e]; b < c->first[e + 1]; b++) {
-            double value = (double)taken_by(c, &side.faces, 0, &c->links[b]);
-            for (size_t k = 0; k < count; k++)
-                h[k] += (double)c->arrives[b * count + k] * value;
-        }
-    }
+    for (size_t b = c->first[e]; b < c->first[e + 1]; b++)
+        for (size_t k = 0; k < count; k++)
+            h[k] += (double)c->arrives[b * count + k] * (double)c->links[b].takes;
 }
 
 double separable_links_row(const struct separable_links *c, uint32_t e)

@@ -30,6 +30,9 @@
 struct separable_link {
     uint32_t emitter; /* element */
     float scale;      /* V / (pi k(r, s)), k in 1/unit^2 */
+    /* where the emitter, or the receiver, is a part of a face: its A k(r, y), and its k(x, s), pi
+     * times; for each sweep to take */
+    float sends, takes;
     struct pivot r, s;
 };
 

@@ -19,6 +19,7 @@
 #include "engine/dense.h"
 #include "engine/solve.h"
 #include "engine/transport.h"
+#include "engine/variation.h"
 #include "kernel/constants.h"
 #include "util/array.h"
 #include "util/clock.h"
@@ -384,13 +385,20 @@ static int64_t refine_worst(struct solve *s)
 static int solve_linear(struct solve *s, const char **cause)
 {
     double tolerance = s->problem.options.tolerance;
-    struct transport x = light(s, tolerance > 0 ? tolerance : SOLVE_TOLERANCE);
+    struct transport x = light(s, tolerance);
+    if (!(tolerance > 0)) {
+        s->report.variation = variation_of(&s->operator, & x);
+        x.tolerance =
+            fmin(fmax(SOLVE_SHARE * s->report.variation, SOLVE_TOLERANCE), SOLVE_TOLERANCE_MOST);
+    }
     x.watch = watch_light;
     x.watch_context = s;
     if (linear_solution_solve(&s->linear, &s->operator, & x, &s->report.rows) < 0)
         return fail(s, "out of memory for linear elements; a coarser oracle parameter needs less",
                     cause);
     s->report.converged &= x.converged;
+    s->report.tolerance = x.tolerance;
+    s->report.bound = x.bound;
     s->report.seconds.iterate += s->linear.seconds;
     solve_sum_power(s);
     return 0;
@@ -417,13 +425,15 @@ int solve_step(struct solve *s, const char **cause)
         return fail(s, refining, cause);
     s->report.passes++;
     s->report.changing = (uint64_t)changed;
-    s->report.converged = s->report.converged && changed == 0 && !rough;
+    int few = (uint64_t)changed * SETTLED <= s->refinement.link_count,
+        linear = p->options.linear && !(s->error.target > 0) && !s->ranking.asked,
+        done = linear ? few : changed == 0 && !rough;
+    s->report.converged = (s->report.converged || rough) && done;
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
     solve_sum_power(s);
-    int more = changed > 0 || rough;
-    return !more && p->options.linear && solve_linear(s, cause) < 0 ? -1 : more;
+    return done && p->options.linear && solve_linear(s, cause) < 0 ? -1 : !done;
 }
 
 int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)

@@ -346,6 +346,10 @@
  * the slopes of that leaf are made less. Above ROW_EXCESS, by which means may, and at most 1, so
  * that rho times the row is below 1; derived in linear_transport.c */
 #define LINEAR_ROW_EXCESS 0.75
+/* of what all links between surfaces carry. The weakest, so much together, stay constant: that
+ * moves at most four times as much light (linear_links.c), a thousandth, a tenth of the error that
+ * rays and shadows leave in the best scenes; of soda it is two thirds of the links */
+#define LINEAR_FAINT 2.5e-4
 /* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
  * change of a convergent one may rise in norms that are not its own, by a few times */
 #define LINEAR_GROWS 10.0

@@ -296,6 +296,50 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
                                                                               : RAY_MEETS_FRONT;
 }
 
+unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsigned which,
+                         const double direction[3])
+{
+    struct RTCRayHit16 query;
+    _Alignas(64) int valid[16];
+    unsigned backs = 0;
+    for (int i = 0; i < 16; i++) {
+        const struct RTCRay ray = ray_from(rays, from[i], direction, INFINITY);
+        valid[i] = which >> i & 1 ? -1 : 0;
+        query.ray.org_x[i] = ray.org_x;
+        query.ray.org_y[i] = ray.org_y;
+        query.ray.org_z[i] = ray.org_z;
+        query.ray.dir_x[i] = ray.dir_x;
+        query.ray.dir_y[i] = ray.dir_y;
+        query.ray.dir_z[i] = ray.dir_z;
+        query.ray.tnear[i] = 0;
+        query.ray.tfar[i] = ray.tfar;
+        query.ray.time[i] = 0;
+        query.ray.mask[i] = ray.mask;
+        query.ray.id[i] = query.ray.flags[i] = 0;
+        query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    {
+#if EMBREE == 4
+        struct RTCIntersectArguments arguments;
+        rtcInitIntersectArguments(&arguments);
+        rtcIntersect16(valid, rays->scene, &query, &arguments);
+#else
+        struct RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        rtcIntersect16(valid, rays->scene, &context, &query);
+#endif
+    }
+    for (int i = 0; i < 16; i++)
+        if (valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID
+            && query.hit.Ng_x[i] * query.ray.dir_x[i] + query.hit.Ng_y[i] * query.ray.dir_y[i]
+                       + query.hit.Ng_z[i] * query.ray.dir_z[i]
+                   > 0
+            && rays->behind[rays->face[query.hit.primID[i]]] == BLACK_BACK)
+            backs |= 1u << i;
+    return backs;
+}
+
 int64_t rays_meet(const struct rays *rays, const double from[3], const double direction[3],
                   double *distance)
 {

@@ -32,6 +32,11 @@ enum ray_fate { RAY_LEAVES, RAY_MEETS_FRONT, RAY_MEETS_BACK };
 enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3],
                          double at[3], double normal[3]);
 
+/* Of rays from 16 points into one direction, those whose bit is set in `which`: which meet first
+ * the back of a face, RAY_MEETS_BACK. Thread-safe. */
+unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsigned which,
+                         const double direction[3]);
+
 /* The face whose front the ray meets first: its index among the hierarchy's faces, the far side's
  * where it comes from behind a two-sided face; or RAY_MEETS_NO_FRONT when it leaves the scene or
  * meets a black back. *distance: in lengths of `direction`, as well as single precision knows.
