@@ -22,7 +22,8 @@ struct state {
 /* What became of it, for people; nothing is computed from it. */
 struct report {
     int passes, sweeps; /* solves, and sweeps of all of them */
-    /* the last solve reached the tolerance and no link changes any more */
+    /* the last solve reached the tolerance, and no link changes any more; with linear elements few
+     * do (SETTLED) */
     int converged;
     uint64_t changing; /* links that the last pass changed */
     /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
