@@ -440,6 +440,8 @@ struct dag {
     int imports_read; /* the first so many have been read */
     const char *const *folders;
     int folder_count; /* where to look for imports */
+    const char *const *replacements; /* [replacement_count], as in struct dag_options */
+    int replacement_count;
     char *reading;    /* a file's bytes on their way into sources */
     struct diagnostic *diagnostics;
     int diagnostic_count;
@@ -476,6 +478,11 @@ struct dag_options {
     int folder_count;
     const char *switches; /* as after `-W` on the command line, separated by spaces, such as
                              "all no-unused-parameter error"; NULL: errors alone */
+    /* [replacement_count] of nodes, one after the other, of every oracle that has such a node:
+     * "NODE = TOOL(...)", "NODE = TOOL(...) { rules }", or "NODE = ANSWER", which asks nothing
+     * (dagc/check/replace.c) */
+    const char *const *replacements;
+    int replacement_count;
 };
 struct dag *dag_load_with(const char *path, const struct dag_options *options, FILE *errors);
 

@@ -29,6 +29,7 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_ARVO] = study_arvo,
     [COMMAND_CAUSES] = study_causes,
     [COMMAND_ORACLES] = command_oracles,
+    [COMMAND_EXPLAIN] = command_explain,
 };
 
 /* Also where one is a link to the other. */

@@ -156,6 +156,31 @@ static int parse_node(struct parser *parser, struct oracle_graph *graph)
     return 1;
 }
 
+int dag_parse_replacement(struct dag *dag, int source, struct node *node)
+{
+    struct parser parser = {0};
+    parser.dag = dag;
+    parser.lexer = (struct lexer){dag, source, 0, 0};
+    parser.last = (struct where){source, 0, 0};
+    parser.content = CONTENT_ORACLES;
+    parser.token = dag_lex(&parser.lexer);
+    *node = (struct node){0};
+    node->written.first = -1;
+    if (!dag_expect_name(&parser, "the name of a node", &node->name, &node->where)
+        || !dag_expect(&parser, '=', "and a tool or an answer after the node's name")
+        || !dag_expect_name(&parser, "the name of a tool or of an answer", &node->tool_name,
+                            &node->tool_where))
+        return 0;
+    if (dag_at_mark(&parser, '(')
+        && (!parse_arguments(&parser, &node->written)
+            || (dag_at_mark(&parser, '{') && !parse_rules(&parser, &node->rules))))
+        return 0;
+    return parser.token.kind == TOKEN_END
+           || dag_expected(&parser, node->written.first < 0
+                                        ? "'(' and a tool's arguments, or no more"
+                                        : "'{' and rules, or no more");
+}
+
 /* start = "start" NAME ";" */
 static int parse_start(struct parser *parser, struct oracle_graph *graph)
 {

@@ -104,7 +104,7 @@ static int check_release(RadDevice device, enum RadRelease release)
 
 /* The graph `text`, or of the file `path` when it is NULL. */
 static RadOracle load(RadDevice device, const char *path, const char *text, const char *name,
-                      enum RadRelease release)
+                      enum RadRelease release, const char *const *replacements, int count)
 {
     static const enum RadError codes[] = {[MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY,
                                           [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
@@ -112,7 +112,9 @@ static RadOracle load(RadDevice device, const char *path, const char *text, cons
                                           [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
                                           [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY};
     const struct oracle_sources how = {.compiler = device->sources.compiler,
-                                       .temporary = device->sources.temporary};
+                                       .temporary = device->sources.temporary,
+                                       .replacements = replacements,
+                                       .replacement_count = count};
     struct messages messages = {0};
     if (check_release(device, release) < 0)
         return NULL;
@@ -161,7 +163,7 @@ RadOracle radLoadOracle(RadDevice device, const char *path, const char *name,
     if (!device)
         return NULL;
     if (path)
-        return load(device, path, NULL, name, release);
+        return load(device, path, NULL, name, release, NULL, 0);
     api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle's file needs a name");
     return NULL;
 }
@@ -172,8 +174,19 @@ RadOracle radParseOracle(RadDevice device, const char *path, const char *text, c
     if (!device)
         return NULL;
     if (path && text)
-        return load(device, path, text, name, release);
+        return load(device, path, text, name, release, NULL, 0);
     api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a graph needs a text, and a name for messages");
+    return NULL;
+}
+
+RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *text,
+                                enum RadRelease release, const char *const *replacements, int count)
+{
+    if (!device)
+        return NULL;
+    if (path && count >= 0 && (count == 0 || replacements))
+        return load(device, path, text, NULL, release, replacements, count);
+    api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle needs a name, and replacements a list");
     return NULL;
 }
 
@@ -206,6 +219,7 @@ void radReleaseOracle(RadOracle oracle)
     if (!oracle || atomic_fetch_sub(&oracle->holders, 1) != 1)
         return;
     forget_statistics(oracle);
+    explain_free(&oracle->explained);
     refiner_close(oracle->refiner);
     radReleaseDevice(oracle->device);
     free(oracle);

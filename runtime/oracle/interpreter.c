@@ -40,6 +40,7 @@ static void release_program(struct refiner *r)
     free(p->code);
     free(p->externs);
     free(p->reads);
+    free(p->ways);
     program_free_tallies(p);
     free(p);
 }
@@ -163,6 +164,8 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     options.folders = how->folders;
     options.folder_count = how->folder_count;
     options.switches = how->switches;
+    options.replacements = how->replacements;
+    options.replacement_count = how->replacement_count;
     int index;
     p->dag = load_graph(how->path, &options, how->oracle, &index, messages);
     if (!p->dag)

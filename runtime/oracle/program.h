@@ -54,6 +54,7 @@ struct program {
     int *reads; /* [read_count], enum catalog_fact */
     int read_count;
     int answer_count;     /* of all steps */
+    uint64_t *ways;       /* of all steps, as next: see follow.h; NULL: nobody follows */
     uint64_t counting;    /* which of all countings this is; 0: nothing is counted */
     struct program *self; /* so that a walk, which has a const one, can add its thread's counters */
     _Atomic(struct tally *) tallies; /* one per thread that has asked */

@@ -52,6 +52,9 @@ struct interpretation {
     int extern_count;
     /* of warnings, as in struct dag_options; NULL: errors alone */
     const char *switches;
+    /* nodes that are to be otherwise, as in struct dag_options */
+    const char *const *replacements;
+    int replacement_count;
 };
 
 /* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and

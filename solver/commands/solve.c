@@ -1,5 +1,6 @@
 /* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
+#include <stdio.h>
 #include <string.h>
 #include "commands/accuracy.h"
 #include "commands/commands.h"
@@ -10,6 +11,7 @@
 #include "output/image.h"
 #include "output/json_file.h"
 #include "output/statistics_file.h"
+#include "output/trace_file.h"
 #include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
@@ -87,18 +89,59 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     return status;
 }
 
-/* Solve, mend and measure as the options say. Returns 0, or -1 after a message. */
+/* Solve, and write every discussion where that is asked for. Returns 0, or the exit status after a
+ * message, with nothing to close. */
+static int solve_links(struct solved *s, const struct options *o, const struct open_scene *scene,
+                       RadOracle oracle, const struct RadSolveOptions *how)
+{
+    struct trace_file *trace = NULL;
+    struct trace_count count;
+    if (!o->trace)
+        return solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0;
+    if (solved_begin(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
+        return 1;
+    int status = trace_file_open(&trace, o->trace, o->where, scene->scene, s->solution, oracle);
+    if (status) {
+        solved_close(s);
+        return status < 0 ? report_device(scene->device, o->trace), 1 : status;
+    }
+    if (solved_finish(s, how) < 0) {
+        if (report_unless_cancelled(scene->device, o->scene) > 0)
+            (void)trace_file_close(trace, &count); /* which says what stopped it */
+        else
+            trace_file_discard(trace);
+        return 1;
+    }
+    if (trace_file_close(trace, &count) < 0) {
+        solved_close(s);
+        return 1;
+    }
+    if (count.written < count.matched)
+        report_warning(o->trace, 0,
+                       "holds the first %llu of %llu lines: that is %.0f MB, the most; --where "
+                       "picks those that are wanted",
+                       (unsigned long long)count.written, (unsigned long long)count.matched,
+                       1e-6 * (double)count.bytes);
+    else if (!o->quiet)
+        fprintf(stderr, "trace: %llu of %llu discussions, %.1f MB\n",
+                (unsigned long long)count.written, (unsigned long long)count.held,
+                1e-6 * (double)count.bytes);
+    return 0;
+}
+
+/* Solve, mend and measure as the options say. Returns 0, or the exit status after a message. */
 static int solve_once(struct solved *s, struct measured *measured, struct power_promise *promise,
                       const struct options *o, const struct open_scene *scene, RadOracle oracle,
                       const struct RadSolveOptions *how)
 {
-    if (solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
-        return -1;
+    const int status = solve_links(s, o, scene, oracle, how);
+    if (status)
+        return status;
     if (measured_take(measured, o, scene->device, s->solution) == 0
         && power_promise_hold(promise, measured, o, scene->device, s->solution) == 0)
         return 0;
     solved_close(s);
-    return -1;
+    return 1;
 }
 
 /* Solve by the oracle and write the outputs. Returns the exit status. */
@@ -136,8 +179,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
         status = -1;
     }
     progress_end(&progress);
-    if (status < 0)
-        return 1;
+    if (status != 0)
+        return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
     if (!s.report.converged && !o->quiet) {
         char cause[SUMMARY_CAUSE];
@@ -161,7 +204,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
 int command_solve(const struct options *o, const struct open_scene *scene)
 {
     RadOracle oracle =
-        open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
+        open_oracle_replaced(scene->device, o->oracle, o->release, o->settings, o->setting_count,
+                             o->replacements, o->replacement_count);
     int status = oracle ? solve_by(o, scene, oracle) : 1;
     radReleaseOracle(oracle);
     return status;

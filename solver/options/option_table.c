@@ -109,6 +109,17 @@ static int read_setting(struct options *o, const struct option_row *row, const c
     return 0;
 }
 
+static int read_replacement(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    if (array_reserve(&o->replacements, (size_t)o->replacement_count + 1, &o->replacement_capacity,
+                      sizeof *o->replacements)
+        < 0)
+        return -1;
+    o->replacements[o->replacement_count++] = (char *)(uintptr_t)value;
+    return 0;
+}
+
 /* The words that a choice is made of. */
 static const char *const *words_of(const struct option_row *row)
 {
@@ -343,6 +354,16 @@ const struct command_row command_rows[COMMANDS] = {
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
+    [COMMAND_EXPLAIN] =
+        {"explain", "SCENE", "one discussion of an oracle, node by node",
+         "Solve a scene by links, and watch what the oracle says of one pair: RECEIVER\n"
+         "gets light from EMITTER. Each node that was asked, with its arguments, the terms\n"
+         "it read and wrote, its answer, rays and time; then the decision, and what became\n"
+         "of the pair. Elements are 12 (face 12 of the file), 12.0 (a part that it was cut\n"
+         "into), 12b (its far side), 12/0/3 (of its quarter 0 the quarter 3), root/1 (a\n"
+         "cluster). By points: the pair in which what carries light from there to here was\n"
+         "decided. --step reads commands from standard input: help lists them.\n",
+         "radiosity explain room.obj --pair 12/0,3 --replace 'size=receiver'"},
 };
 
 /* ---- the options */
@@ -360,9 +381,10 @@ enum {
     FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
     CAUSES = 1 << COMMAND_CAUSES,
+    EXPLAIN = 1 << COMMAND_EXPLAIN,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
-    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO,
+    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO | EXPLAIN,
     ALL = THREADED | ERROR
 };
 
@@ -390,8 +412,8 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
-    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES, "power", "the refinement oracle",
-     TEXT(oracle)},
+    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES | EXPLAIN, "power",
+     "the refinement oracle", TEXT(oracle)},
     /* Few links, of all sizes and distances, none of clusters. */
     {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
      TEXT(oracle)},
@@ -400,8 +422,8 @@ const struct option_row option_rows[] = {
     {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
      .rare = 1},
-    {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
-     .read = read_setting},
+    {"set", "PARAM=VALUE", SCENES | EXPLAIN, NULL, "a parameter of the oracle; may be repeated",
+     NULL, .read = read_setting},
     {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
      .read = read_setting},
     {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",
@@ -482,7 +504,7 @@ const struct option_row option_rows[] = {
      "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX)},
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
-    {"two-sided", NULL, SCENES | REFERENCE | TUNE, NULL,
+    {"two-sided", NULL, SCENES | REFERENCE | TUNE | EXPLAIN, NULL,
      "faces have two sides, not only those *_2s", FLAG(two_sided)},
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
@@ -514,8 +536,22 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | TUNE, NULL,
+    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | TUNE | EXPLAIN, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
+    {"replace", "NODE=TOOL(...)", SOLVE | COMPARE, NULL,
+     "ask another tool there, or NODE=ANSWER: none; may be repeated", NULL,
+     .read = read_replacement, .rare = 1},
+    {"replace", "NODE=TOOL(...)", EXPLAIN, NULL,
+     "ask another tool, or NODE=ANSWER: none; may be repeated", NULL, .read = read_replacement},
+    {"trace", "FILE", SOLVE, NULL, "each discussion, one line: CSV, or .jsonl", OUTPUT(trace),
+     .rare = 1},
+    {"where", "CONDITION", SOLVE, NULL, "of --trace: \"decision == stop && depth > 2\"",
+     TEXT(where), .rare = 1},
+    {"pair", "RECEIVER,EMITTER", EXPLAIN, NULL, "two elements by name", TEXT(pair)},
+    {"at", "X,Y,Z:X,Y,Z", EXPLAIN, NULL, "a point on the receiver, one on the emitter", TEXT(at)},
+    {"pass", "N", EXPLAIN, NULL, "as discussed after N solves, 0: at the start (the last)",
+     "a whole number from 0 to 1000", WHOLE(pass, 0, 1000)},
+    {"step", NULL, EXPLAIN, NULL, "go through it by hand", FLAG(step)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };
 const int option_row_count = sizeof option_rows / sizeof *option_rows;

@@ -346,7 +346,25 @@ static int check_together(struct options *o)
         return wrong(
             c->name,
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
-    if (o->statistics)
+    if (o->trace && o->release_given && o->release != RAD_RELEASE_DAG)
+        return wrong(c->name,
+                     "--trace watches the interpreted graph: it takes no --release but dag");
+    if (o->trace && (o->statistics || o->accuracy > 0))
+        return wrong(c->name,
+                     "--trace is of one refinement, and nothing is counted meanwhile: it "
+                     "does not go with %s",
+                     o->statistics ? "--statistics" : "--accuracy");
+    if (o->where && !o->trace)
+        return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
+    if (o->replacement_count && o->release == RAD_RELEASE_HAND)
+        return wrong(c->name, "--replace is of a graph: it takes --release flat or dag");
+    if (o->command == COMMAND_EXPLAIN && !o->pair == !o->at)
+        return wrong(c->name, "%s",
+                     o->pair ? "--pair and --at both name a pair: give one"
+                             : "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z");
+    if (o->step && o->json)
+        return wrong(c->name, "--step and --json do not go together");
+    if (o->statistics || o->trace)
         o->release = RAD_RELEASE_DAG;
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
         return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
@@ -384,6 +402,7 @@ int options_parse(struct options *o, int count, char **arguments)
     memset(o, 0, sizeof *o);
     o->threads = omp_get_num_procs();
     o->gather = -1;
+    o->pass = -1;
     int words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
     if (!words)
         return without_command(count, arguments);
@@ -420,6 +439,8 @@ void options_free(struct options *o)
 {
     free(o->settings);
     free(o->scenes);
+    free(o->replacements);
+    o->replacements = NULL;
     o->settings = NULL;
     o->scenes = NULL;
 }
