@@ -76,7 +76,7 @@ static void print_outcome(const struct subject *s)
     if (o->receiver == s->element[0] && o->emitter == s->element[1])
         printf("in the solution: no link from %s to %s, nor below\n", s->name[1], s->name[0]);
     else
-        printf("in the solution: %s from %s was decided above, %s of %s from %s\n", s->name[0],
+        printf("in the solution: %s from %s was decided above: %s of %s from %s\n", s->name[0],
                s->name[1], o->decision, receiver, emitter);
 }
 
@@ -135,9 +135,10 @@ static void print_subject(const struct subject *s)
     print_element(s, 1, "emitter");
     printf("  distance  %.6g m between their centres\n", length3(between));
     print_history(s);
+    struct RadReport solved;
+    radGetReport(s->solution, &solved);
     if (s->made)
-        printf("never discussed; as it would be now, after pass %d:\n",
-               s->watch->count ? s->watch->occasions[s->watch->count - 1]->pass : 0);
+        printf("never discussed; as it would be now, after %d solves:\n", solved.passes);
     else
         printf("discussed in pass %d, round %llu:\n", o->pass, (unsigned long long)o->round);
 }

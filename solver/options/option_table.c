@@ -363,7 +363,7 @@ const struct command_row command_rows[COMMANDS] = {
          "into), 12b (its far side), 12/0/3 (of its quarter 0 the quarter 3), root/1 (a\n"
          "cluster). By points: the pair in which what carries light from there to here was\n"
          "decided. --step reads commands from standard input: help lists them.\n",
-         "radiosity explain room.obj --pair 12/0,3 --replace 'size=receiver'"},
+         "radiosity explain room.obj --pair 0/2,3 --replace 'pair__much=below'"},
 };
 
 /* ---- the options */
@@ -539,10 +539,10 @@ const struct option_row option_rows[] = {
     {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | TUNE | EXPLAIN, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
     {"replace", "NODE=TOOL(...)", SOLVE | COMPARE, NULL,
-     "ask another tool there, or NODE=ANSWER: none; may be repeated", NULL,
+     "ask another tool, or NODE=ANSWER: none; repeatable", NULL,
      .read = read_replacement, .rare = 1},
-    {"replace", "NODE=TOOL(...)", EXPLAIN, NULL,
-     "ask another tool, or NODE=ANSWER: none; may be repeated", NULL, .read = read_replacement},
+    {"replace", "NODE=TOOL(...)", EXPLAIN, NULL, "ask another tool, or NODE=ANSWER: none", NULL,
+     .read = read_replacement},
     {"trace", "FILE", SOLVE, NULL, "each discussion, one line: CSV, or .jsonl", OUTPUT(trace),
      .rare = 1},
     {"where", "CONDITION", SOLVE, NULL, "of --trace: \"decision == stop && depth > 2\"",
