@@ -439,10 +439,10 @@ struct dag {
     int import_count;
     int imports_read; /* the first so many have been read */
     const char *const *folders;
-    int folder_count; /* where to look for imports */
+    int folder_count;                /* where to look for imports */
     const char *const *replacements; /* [replacement_count], as in struct dag_options */
     int replacement_count;
-    char *reading;    /* a file's bytes on their way into sources */
+    char *reading; /* a file's bytes on their way into sources */
     struct diagnostic *diagnostics;
     int diagnostic_count;
     int error_count, warning_count;  /* all of them, also those not kept */

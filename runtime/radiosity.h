@@ -752,7 +752,7 @@ RAD_API int radTraceSolution(RadSolution solution, RadTraceFunction function, vo
 /* A value in the data manager. */
 struct RadTerm {
     const char *name, *doc, *unit;
-    const char *level; /* "" of terms without levels; NULL: not known */
+    const char *level;             /* "" of terms without levels; NULL: not known */
     int level_number, level_count; /* 1 the coarsest, level_count the most precise; 0: not known */
     int level_before;              /* of the node */
     int reads, writes;             /* by the catalog: the node, its arguments included */

@@ -123,7 +123,7 @@ says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol 7
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol=7
 says 2 "--s could be --set, --solver, --size, --statistics" solve "$scene" --s 7
-says 2 "--t could be --tolerance, --two-sided, --threads" solve "$scene" --t=7
+says 2 "--t could be --tolerance, --two-sided, --threads, --trace" solve "$scene" --t=7
 # Options may stand before and behind the scene, whatever POSIX says of others.
 count=$((count + 1))
 POSIXLY_CORRECT=1 "$radiosity" solve none.obj --tolerance 7 2>&1 | grep -q "tolerance takes" || { bad=$((bad + 1)); echo "failed: POSIXLY_CORRECT"; }
@@ -131,7 +131,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" oracles; do
+for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" oracles explain; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
