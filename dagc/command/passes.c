@@ -17,19 +17,18 @@ static const struct step on_catalog[] = {
     {dag_check_values, -1, 1},
 };
 
-static const struct step on_oracles[] =
-    {
-        {NULL, PASS_PARSE, 0},
-        {dag_resolve_catalog, -1, 0}, /* what the file declares itself */
-        {dag_check_names, -1, 0},
-        {dag_replace, -1, 0},
-        {dag_resolve, -1, 0},
-        {dag_check_values, -1, 0},
-        {dag_expand, PASS_RESOLVE, 0},
-        {dag_check_graph, PASS_CHECK, 1},
-        {dag_analyse, PASS_ANALYSE, 1},
-        {NULL, PASS_AVAILABILITY, 1}, /* the same graph, shown otherwise */
-        {dag_fingerprint, -1, 1},
+static const struct step on_oracles[] = {
+    {NULL, PASS_PARSE, 0},
+    {dag_resolve_catalog, -1, 0}, /* what the file declares itself */
+    {dag_check_names, -1, 0},
+    {dag_replace, -1, 0}, /* what somebody wants otherwise */
+    {dag_resolve, -1, 0},
+    {dag_check_values, -1, 0},
+    {dag_expand, PASS_RESOLVE, 0},
+    {dag_check_graph, PASS_CHECK, 1},
+    {dag_analyse, PASS_ANALYSE, 1},
+    {NULL, PASS_AVAILABILITY, 1}, /* the same graph, shown otherwise */
+    {dag_fingerprint, -1, 1},
 };
 
 /* Reads, parses and takes the steps: 1 when it came to the end of them. */

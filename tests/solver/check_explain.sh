@@ -95,6 +95,10 @@ for pick in '$5 == "link" && $6 == 0' '$5 == "subdivide_receiver"' '$5 == "subdi
     # shellcheck disable=SC2046 # three words
     agree $(awk -F, "NR > 1 && ($pick) && length(\$9) > most { most = length(\$9); best = \$1 \" \" \$3 \" \" \$4 } END { print best }" all.csv)
 done
+# The second way round of a pair begins with what the first has found.
+# shellcheck disable=SC2046 # three words
+agree $(awk -F, 'NR > 1 { if (!best && $5 == "link" && was == "link" && $3 == from && $4 == to && $6 == 0 && rays > 0) best = $1 " " $3 " " $4
+                          was = $5; from = $4; to = $3; rays = $6 } END { print best }' all.csv)
 
 # By points at the centres of a linked pair of surfaces: the same pair.
 pair=$(awk -F, '$5 == "link" && $3 ~ /^[0-9]+\// && $4 ~ /^[0-9]+\//' all.csv | tail -n 1 | cut -d, -f3,4)
@@ -137,6 +141,7 @@ check "a release by hand has no nodes to replace" [ "$(grep -c hand out)" = 0 ]
 printf 'where\nnext\n\nterms\nset energy=1\nagain\nset energy=1e-3\nagain\nreplace pair__much=below\nall\nwhere\n' |
     "$radiosity" explain "$room" "${coarse[@]}" --pair 0,3 --pass 0 --step >out 2>err
 check "--step says something else than no mistake" [ ! -s err ]
+check "--step holds another discussion" [ "$(grep -c 'another way' out)" = 0 ]
 check "--step asks two nodes" [ "$(grep -c '^  [12]  ' out)" -ge 2 ]
 check "a parameter that changes nothing" [ "$(sed -n 's/^again: //p' out | sort -u | wc -l)" = 2 ]
 check "a node that was replaced is asked" [ "$(grep -c 'pair__much asks' out)" = 0 ]
