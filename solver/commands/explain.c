@@ -138,7 +138,8 @@ static void print_subject(const struct subject *s)
     struct RadReport solved;
     radGetReport(s->solution, &solved);
     if (s->made)
-        printf("never discussed; as it would be now, after %d solves:\n", solved.passes);
+        printf("never discussed; as it would be now, after %d solve%s:\n", solved.passes,
+               solved.passes == 1 ? "" : "s");
     else
         printf("discussed in pass %d, round %llu:\n", o->pass, (unsigned long long)o->round);
 }

@@ -84,7 +84,8 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                                     seconds() - start};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)
+        && !(o->trace && strcmp(o->trace, "-") == 0))
         summary_print(&summary);
     return status;
 }

@@ -117,6 +117,10 @@ json_t *summary_json(const struct summary *s)
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
         "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
         (int)scene->parts, "elements", (int)r->elements, "leaves", (int)r->leaves);
+    json_t *replaced = json_array();
+    for (int i = 0; i < s->options->replacement_count; i++)
+        json_array_append_new(replaced, json_string(s->options->replacements[i]));
+    json_object_set_new(all, "replaced", replaced);
     json_t *links =
         json_pack("{s:I, s:I, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links, "pairs",
                   (json_int_t)r->pairs, "guard_hits", (json_int_t)r->marked[GUARDED], "marks",
@@ -219,6 +223,8 @@ void summary_print(const struct summary *s)
         printf("cut       %u faces, into %u, where others stand in them\n", scene->cut,
                scene->parts);
     printf("oracle    %s (%s release)\n", oracle.name, oracle.release);
+    for (int i = 0; i < s->options->replacement_count; i++)
+        printf("replaced  %s\n", s->options->replacements[i]);
     printf("mesh      %u elements, of which %u leaves\n", r->elements, r->leaves);
     printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n",
            (unsigned long long)r->links, (unsigned long long)r->pairs,
