@@ -94,8 +94,9 @@ void explanation_print_node(FILE *out, const struct RadExplanation *x, int i)
 
 void explanation_print_decision(FILE *out, const struct RadExplanation *x)
 {
-    fprintf(out, "  => %s: %s\n     after %d nodes, %llu rays, ", x->decision_name, x->decision_doc,
-            x->asked_count, (unsigned long long)x->rays);
+    fprintf(out, "  => %s: %s\n     after %d node%s, %llu rays, ", x->decision_name,
+            x->decision_doc, x->asked_count, x->asked_count == 1 ? "" : "s",
+            (unsigned long long)x->rays);
     print_time(out, x->seconds);
     fputc('\n', out);
 }
