@@ -152,6 +152,7 @@ struct parameter {
     const char *doc;       /* "" when none */
     double value;          /* the default, NAN when there is none (tools only) */
     double low, high;      /* closed range; -INFINITY, INFINITY when none was written */
+    unsigned char fixed;   /* of an oracle: its author's; else it is offered to the user */
     unsigned char given;   /* PARAMETER_VALUE | PARAMETER_RANGE: which of them were written */
     unsigned char bad;     /* an error was reported: say no more about its value or range */
 };

@@ -225,9 +225,9 @@ struct RadOracleReport {
     int reads_importance, reads_tolerance; /* facts that a solver must provide */
 };
 RAD_API void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report);
-/* Returns 0, or -1: no such parameter, or not in its range. A progress function may set them, and
- * ask for statistics, too: in phase "refine" it is called between rounds, when nobody asks the
- * oracle, and the next round goes by the new value. */
+/* Returns 0, or -1: no such parameter, fixed by the oracle's author, or not in its range. A
+ * progress function may set them, and ask for statistics, too: in phase "refine" it is called
+ * between rounds, when nobody asks the oracle, and the next round goes by the new value. */
 RAD_API int radSetOracleParameter(RadOracle oracle, const char *name, double value);
 /* NAN when there is no such parameter. */
 RAD_API double radGetOracleParameter(RadOracle oracle, const char *name);

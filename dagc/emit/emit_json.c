@@ -147,6 +147,8 @@ static void print_parameter(const struct dag *dag, struct text *out,
     print_number_field(out, "high", parameter->high);
     if (parameter->role >= 0)
         print_field(out, ", ", "role", dag->roles[parameter->role].name);
+    if (parameter->fixed)
+        dag_print(out, ", \"fixed\": true");
     print_field(out, ", ", "doc", parameter->doc);
     dag_print(out, "}");
 }

@@ -90,6 +90,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
         o->integer = dag->types[q->type].base == BASE_INTEGER;
         o->offset = (size_t)i * sizeof(double);
         o->role = q->role + 1; /* none: 0 */
+        o->fixed = q->fixed;
     }
     r->parameters = p->parameters;
     r->parameter_count = g->parameters.count;
