@@ -14,6 +14,7 @@
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
+#include "util/parameter_file.h"
 #include "util/report.h"
 
 /* Both pictures, of the error and of the light, through the same camera. */
@@ -160,9 +161,15 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
 
 int command_solve(const struct options *o, const struct open_scene *scene)
 {
-    RadOracle oracle =
-        open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
-    int status = oracle ? solve_by(o, scene, oracle) : 1;
+    RadOracle oracle = open_oracle(scene->device, o->oracle, o->release, NULL, 0);
+    int status = !oracle;
+    if (oracle && o->params
+        && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
+        status = 1;
+    if (status == 0 && set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)
+        status = 1;
+    if (status == 0)
+        status = solve_by(o, scene, oracle);
     radReleaseOracle(oracle);
     return status;
 }

@@ -402,6 +402,8 @@ const struct option_row option_rows[] = {
      .rare = 1},
     {"set", "PARAM=VALUE", SCENES, NULL, "a parameter of the oracle; may be repeated", NULL,
      .read = read_setting},
+    {"params", "FILE", SOLVE, NULL, "a file of them, as a panel gives it; --set goes before",
+     TEXT(params), .rare = 1},
     {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
      .read = read_setting},
     {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",

@@ -55,6 +55,7 @@ struct options {
     char **settings;
     int setting_count;
     size_t setting_capacity;
+    const char *params;   /* a file of them, which settings go before */
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     enum RadBasis basis;

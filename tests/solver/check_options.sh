@@ -34,7 +34,7 @@ says() {
 
 # ---- no value, or one that is none: wrong usage, exit 2
 scene=$scenes/furnace.obj
-for option in --oracle --release --set --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --image-error --size --view --faces --json; do
+for option in --oracle --release --set --params --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --image-error --size --view --faces --json; do
     says 2 "$option takes" solve "$scene" "$option" ""
 done
 for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
