@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/refine.h"
+#include "oracle/statistics.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
 
@@ -321,7 +322,7 @@ int refinement_start(struct refinement *r)
     if (array_reserve(&r->queue, 1, &r->queue_capacity, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
-    return drain(r);
+    return drain(r) < 0 ? -1 : statistics_end_pass(r->refiner);
 }
 
 /* Links to be discussed again, as far as an end has changed. */
@@ -374,7 +375,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
         if (end_round(r) < 0)
             return -1;
     }
-    return drain(r) < 0 ? -1 : moved;
+    return drain(r) < 0 || statistics_end_pass(r->refiner) < 0 ? -1 : moved;
 }
 
 /* Links to be sorted by receiver, in shares: a share's links of a receiver stand behind those of

@@ -19,6 +19,7 @@ struct term_entry {
     int level_count; /* 0: the term is absent or present */
     /* The term at this level (from 1) or a better one; 0 for a vector, which is only computed. */
     double (*read)(struct discussion *d, int level);
+    size_t level; /* where struct terms keeps its level, a byte; all terms' are one behind another */
 };
 
 struct fact_entry {

@@ -71,7 +71,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     double start = seconds();
     int status =
         write_solution(o, surfaces, scene->device, solved->solution, measured->measured) < 0;
-    if (o->statistics && statistics_write(o->statistics, oracle) < 0)
+    if (o->statistics && statistics_write(o->statistics, o->scene, oracle) < 0)
         status = 1;
     const struct summary summary = {o,
                                     scene,

@@ -50,15 +50,15 @@ START_TEST(test_statistics)
     ck_assert_int_eq(solve_run(&plain, other, &cause), 0);
     same_links(&s, &plain);
     ck_assert_int_eq(statistics_take(&counted, r), 0);
-    ck_assert_str_eq(counted.nodes[0].name, "level");
-    ck_assert_uint_eq(counted.nodes[0].calls, s.refinement.pairs);
-    for (int i = 0; i < counted.node_count; i++) {
-        const struct node_statistics *n = &counted.nodes[i];
+    ck_assert_str_eq(counted.shown.nodes[0].name, "level");
+    ck_assert_uint_eq(counted.shown.nodes[0].calls, s.refinement.pairs);
+    for (int i = 0; i < counted.shown.node_count; i++) {
+        const struct RadNodeCount *n = &counted.shown.nodes[i];
         uint64_t in = i == 0 ? s.refinement.pairs : 0, out = 0;
-        for (int j = 0; j < counted.node_count; j++)
-            for (int k = 0; k < counted.nodes[j].answer_count; k++)
-                in += strcmp(counted.nodes[j].answers[k].target, n->name) == 0
-                          ? counted.nodes[j].answers[k].count
+        for (int j = 0; j < counted.shown.node_count; j++)
+            for (int k = 0; k < counted.shown.nodes[j].answer_count; k++)
+                in += strcmp(counted.shown.nodes[j].answers[k].target, n->name) == 0
+                          ? counted.shown.nodes[j].answers[k].count
                           : 0;
         for (int k = 0; k < n->answer_count; k++) {
             out += n->answers[k].count;
@@ -74,7 +74,7 @@ START_TEST(test_statistics)
     }
     for (int j = 0; j < 5; j++)
         ck_assert_uint_eq(sum[j], s.refinement.decided[j]);
-    for (int i = 0; i < STATISTICS_COUNTS; i++)
+    for (int i = 0; i < RAD_COUNTS; i++)
         deep -= counted.counts[i];
     ck_assert_uint_eq(deep, 0);
     ck_assert_uint_gt(counted.counts[0], 0);
@@ -82,13 +82,13 @@ START_TEST(test_statistics)
     ck_assert_uint_eq(counted.counts[25], 0); /* can_split ends at 24 */
     ck_assert_uint_gt(noted, 100);
     /* 0.75 lies in [1/2, 1) */
-    ck_assert_uint_eq(counted.records[0].bins[-1 - STATISTICS_LOW], noted);
-    noted -= counted.records[3].zero;
+    ck_assert_uint_eq(counted.bins[0][-1 - STATISTICS_LOW], noted);
+    noted -= counted.zero[3];
     for (int i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
-        noted -= counted.records[3].bins[i];
+        noted -= counted.bins[3][i];
         /* no B is above 20 W/m2, and F <= 1 */
         if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.problem.rays)->irradiance)
-            ck_assert_uint_eq(counted.records[3].bins[i], 0);
+            ck_assert_uint_eq(counted.bins[3][i], 0);
     }
     ck_assert_uint_eq(noted, 0);
     statistics_free(&counted);
@@ -151,8 +151,8 @@ START_TEST(test_threads)
         for (int k = 0; k < 2; k++) {
             uint64_t sum = 0;
             ck_assert_int_eq(statistics_take(&counted, asked.refiners[k]), 0);
-            ck_assert_uint_eq(counted.nodes[0].calls, wanted[k]);
-            ck_assert_uint_eq(counted.nodes[1].calls, wanted[k]);
+            ck_assert_uint_eq(counted.shown.nodes[0].calls, wanted[k]);
+            ck_assert_uint_eq(counted.shown.nodes[1].calls, wanted[k]);
             for (int i = 0; i < 4; i++)
                 sum += counted.counts[i];
             ck_assert_uint_eq(sum, wanted[k]);
