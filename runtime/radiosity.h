@@ -274,7 +274,7 @@ struct RadPass {
     double seconds;
     const struct RadNodeCount *nodes; /* [RadStatistics.node_count] */
 };
-enum { RAD_COUNTS = 256, RAD_RECORDS = 8, RAD_BINS = 128, RAD_PATHS = 16, RAD_TIMED_EVERY = 64 };
+enum { RAD_COUNTS = 256, RAD_RECORDS = 8, RAD_BINS = 128, RAD_PATHS = 16, RAD_TIMED_EVERY = 128 };
 struct RadStatistics {
     const struct RadNodeCount *nodes; /* [node_count], the start first */
     int node_count;

@@ -8,7 +8,8 @@
  * everything on; terms by the bytes that say their levels, before and after each node. Two readings
  * of the clock cost as much as a cheap node, so one discussion of RAD_TIMED_EVERY is timed, after
  * gaps drawn at random: a fixed step would meet the same half of the pairs, which come in twos and
- * sixteens.
+ * sixteens. A timed discussion during which the thread was off its processor is not told as timed:
+ * one such pause lasts longer than the discussions of a second that are timed.
  *
  * A path is counted under its number, to which each arc adds what arcs before it leave free: no two
  * paths have the same sum. [Ball & Larus, Efficient path profiling, MICRO 1996]
@@ -30,10 +31,10 @@ static _Thread_local struct {
 
 static atomic_uint_fast64_t countings;
 
-static uint64_t nanoseconds(void)
+static uint64_t nanoseconds(clockid_t which)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(which, &t);
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
@@ -86,6 +87,7 @@ static void free_tally(struct tally *t)
         return;
     free(t->levels);
     free(t->paths);
+    free(t->spans);
     free(t);
 }
 
@@ -103,8 +105,9 @@ static struct tally *find_tally(struct program *p)
             t->levels = calloc(((size_t)term_table_count + 7) / 8 + 1, sizeof *t->levels);
             t->path_capacity = 256;
             t->paths = calloc(t->path_capacity, sizeof *t->paths);
+            t->spans = calloc((size_t)p->graph->order.count, sizeof *t->spans);
         }
-        if (!t || !t->levels || !t->paths) {
+        if (!t || !t->levels || !t->paths || !t->spans) {
             free_tally(t);
             atomic_store(&p->lost, 1);
             return NULL;
@@ -181,8 +184,8 @@ static void note_levels(struct tally *t, const struct discussion *d)
         memcpy(&t->levels[i / 8], levels_of(d) + i, sizeof *t->levels);
 }
 
-/* Count the terms that are better known than when they were noted. */
-static void count_levels(const struct tally *t, const struct discussion *d, uint64_t *computed)
+/* Count the terms that are better known than when they were noted, and note them anew. */
+static void count_levels(struct tally *t, const struct discussion *d, uint64_t *computed)
 {
     for (int i = 0; i < term_table_count; i += 8) {
         uint64_t now;
@@ -193,6 +196,7 @@ static void count_levels(const struct tally *t, const struct discussion *d, uint
                             *is = (const unsigned char *)&now;
         for (int k = 0; k < 8 && i + k < term_table_count; k++)
             computed[i + k] += is[k] > was[k];
+        t->levels[i / 8] = now;
     }
 }
 
@@ -286,41 +290,57 @@ static int draw_gap(struct tally *t)
     return 1 + (int)(x % (2 * RAD_TIMED_EVERY - 1));
 }
 
-/* Inlined twice, so that what is not timed does not ask whether it is. */
+/* Inlined twice, so that what is not timed does not ask whether it is. Times go to t->spans. */
 static inline enum decision walk(const struct program *p, struct tally *t, struct discussion *d,
                                  const int timed)
 {
     const struct step *step = p->steps;
-    uint64_t path = 0, all = 0, start = 0, stride = program_stride();
+    uint64_t start = 0, stride = program_stride();
+    t->path = 0;
+    t->span_count = 0;
+    note_levels(t, d);
     for (;;) {
         uint64_t *numbers =
             t->numbers + (size_t)p->answer_count + (size_t)(step - p->steps) * stride;
         uint64_t rays = t->rays;
-        note_levels(t, d);
         if (timed)
-            start = nanoseconds();
+            start = nanoseconds(CLOCK_MONOTONIC);
         size_t at = (size_t)(step->next - p->next) + (size_t)step->call(d, step->arguments);
         if (timed) {
-            uint64_t spent = nanoseconds() - start;
-            spent = spent > p->clock ? spent - p->clock : 0;
-            all += spent;
-            numbers[NUMBER_TIMED]++;
-            numbers[NUMBER_NANOSECONDS] += spent;
+            uint64_t spent = nanoseconds(CLOCK_MONOTONIC) - start;
+            t->spans[t->span_count++] =
+                (struct span_of_step){numbers, spent > p->clock ? spent - p->clock : 0};
         }
         t->numbers[at]++;
         numbers[NUMBER_RAYS] += t->rays - rays;
         count_levels(t, d, numbers + NUMBER_TERMS);
         if (p->gains)
-            path += p->gains[at];
+            t->path += p->gains[at];
         if (step->keeps != KEEPS_NOTHING)
             keep_arguments(t, step, d);
-        if (p->next[at] < 0) {
-            if (p->gains)
-                count_path(p, t, path, timed, all);
+        if (p->next[at] < 0)
             return (enum decision) ~p->next[at];
-        }
         step = &p->steps[p->next[at]];
     }
+}
+
+/* The same with the clock running. *spent gets all nodes' time (ns). Returns in *timed whether it
+ * can be told: the thread's own clock, read before and after, has seen as much as the wall's. */
+static enum decision walk_timed(const struct program *p, struct tally *t, struct discussion *d,
+                                int *timed, uint64_t *spent)
+{
+    uint64_t own = nanoseconds(CLOCK_THREAD_CPUTIME_ID), wall = nanoseconds(CLOCK_MONOTONIC);
+    enum decision decision = walk(p, t, d, 1);
+    wall = nanoseconds(CLOCK_MONOTONIC) - wall;
+    own = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - own;
+    *spent = 0;
+    *timed = wall <= own;
+    for (size_t i = 0; *timed && i < t->span_count; i++) {
+        *spent += t->spans[i].nanoseconds;
+        t->spans[i].numbers[NUMBER_TIMED]++;
+        t->spans[i].numbers[NUMBER_NANOSECONDS] += t->spans[i].nanoseconds;
+    }
+    return decision;
 }
 
 enum decision program_walk_counted(const void *state, struct discussion *d)
@@ -335,12 +355,16 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
         d->host = &t->before.host;
     }
     enum decision decision;
+    uint64_t spent = 0;
+    int timed = 0;
     if (--t->wait > 0) {
         decision = walk(p, t, d, 0);
     } else {
         t->wait = draw_gap(t);
-        decision = walk(p, t, d, 1);
+        decision = walk_timed(p, t, d, &timed, &spent);
     }
+    if (p->gains)
+        count_path(p, t, t->path, timed, spent);
     d->host = host;
     return decision;
 }
@@ -353,7 +377,8 @@ static uint64_t clock_cost(void)
 {
     uint64_t least = UINT64_MAX;
     for (int i = 0; i < 1000; i++) {
-        uint64_t start = nanoseconds(), between = nanoseconds() - start;
+        uint64_t start = nanoseconds(CLOCK_MONOTONIC),
+                 between = nanoseconds(CLOCK_MONOTONIC) - start;
         least = between < least ? between : least;
     }
     return least;

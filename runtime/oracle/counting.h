@@ -21,6 +21,11 @@ struct path_count {
     uint64_t timed, nanoseconds;
 };
 
+/* What a step of a timed discussion took: where its numbers are, and how long. */
+struct span_of_step {
+    uint64_t *numbers, nanoseconds;
+};
+
 /* One thread's counters of one program. */
 struct tally {
     const void *owner;  /* address of the thread's `mine`: no two living threads have the same */
@@ -30,6 +35,9 @@ struct tally {
     uint64_t *levels; /* of all terms before the node, eight in each */
     int wait;         /* this many discussions on, one is timed */
     uint32_t random;
+    uint64_t path;              /* of the discussion that goes on */
+    struct span_of_step *spans; /* [span_count], of a timed one: at most one per step */
+    size_t span_count;
     struct path_count *paths; /* [path_capacity], a power of 2: by a hash of the number */
     size_t path_count, path_capacity;
     uint64_t counts[RAD_COUNTS], bins[RAD_RECORDS][RAD_BINS], zero[RAD_RECORDS];

@@ -340,6 +340,13 @@ const struct command_row command_rows[COMMANDS] = {
          "meet the same radiosities: how far off, in all and per polygon, and by which\n"
          "cause: pairs given up, bright spots, form factors, visibility, row sums.\n",
          "radiosity study causes room.obj cornell.obj --set relative=0.1"},
+    [COMMAND_DRAW] =
+        {"draw", "ORACLE", "an oracle's graph as a picture, with a solve's heat",
+         "Draw the graph of an oracle, built in or FILE.dag: nodes by what they do, arcs\n"
+         "by how far an answer can be trusted, branches as boxes. With the statistics\n"
+         "of a solve: nodes coloured by time, arcs as wide as they were used, what was\n"
+         "never used grey. Graphviz places things (package graphviz).\n",
+         "radiosity draw power --statistics room.json -o power.svg"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -360,6 +367,7 @@ enum {
     FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
     CAUSES = 1 << COMMAND_CAUSES,
+    DRAW = 1 << COMMAND_DRAW,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
     THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO,
@@ -378,6 +386,7 @@ static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
+static const char *const svg[] = {".svg", NULL};
 static const char *const csv[] = {".csv", NULL};
 static const char *const drawings[] = {".svg", ".png", NULL};
 
@@ -496,6 +505,8 @@ const struct option_row option_rows[] = {
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"o", "FILE.dag", TUNE, NULL, "the oracle with these defaults; may be ORACLE itself",
      NAMED(out, graphs)},
+    {"o", "FILE.svg", DRAW, NULL, "the drawing; must be given", NAMED(out, svg)},
+    {"statistics", "FILE.json", DRAW, NULL, "what solve --statistics wrote", TEXT(statistics)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
