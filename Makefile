@@ -53,7 +53,7 @@ ORACLES   = $(filter-out common,$(notdir $(basename $(wildcard examples/oracles/
 FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,$(ROOMS:%=runtime/%)) $(BUILD)/gen/catalog.o $(FLAT) $(BUILD)/gen/builtin.o
-SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(call objects,tests/hand)
+SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(BUILD)/gen/panel_text.o $(call objects,tests/hand)
 # What tests of the engine's insides read scenes and name oracles with.
 SUPPORT   = $(call objects,$(wildcard tests/support/*/))
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
@@ -102,6 +102,10 @@ $(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(B
 $(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	sh runtime/oracle/builtin.sh $(ORACLES) > $@
+PANEL     = $(addprefix solver/panel/panel.,html css js)
+$(BUILD)/gen/panel_text.c: $(PANEL) dagc/emit/embed.sh
+	@mkdir -p $(@D)
+	for file in $(PANEL); do sh dagc/emit/embed.sh $$(basename $$file | tr . _) $$file || exit 1; done > $@
 
 # One object in which only radiosity.h's functions are global: a program's own libdagc, or its own `link`, meets none of ours.
 $(ARCHIVE): $(RUNTIME) $(LIBDAGC)

@@ -347,6 +347,13 @@ const struct command_row command_rows[COMMANDS] = {
          "of a solve: nodes coloured by time, arcs as wide as they were used, what was\n"
          "never used grey. Graphviz places things (package graphviz).\n",
          "radiosity draw power --statistics room.json -o power.svg"},
+    [COMMAND_PANEL] =
+        {"panel", "ORACLE", "an oracle's drawing and parameters as a web page",
+         "Write one page that needs no network: the graph of an oracle, built in or\n"
+         "FILE.dag, and a control for every parameter that its author offers. It gives\n"
+         "back the command line, and a parameter file for solve --params. With the\n"
+         "statistics of a solve it tells what each node was asked and answered.\n",
+         "radiosity panel power -o panel.html"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -368,6 +375,7 @@ enum {
     ARVO = 1 << COMMAND_ARVO,
     CAUSES = 1 << COMMAND_CAUSES,
     DRAW = 1 << COMMAND_DRAW,
+    PANEL = 1 << COMMAND_PANEL,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
     THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO,
@@ -387,6 +395,7 @@ static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
 static const char *const svg[] = {".svg", NULL};
+static const char *const pages[] = {".html", NULL};
 static const char *const csv[] = {".csv", NULL};
 static const char *const drawings[] = {".svg", ".png", NULL};
 
@@ -506,7 +515,9 @@ const struct option_row option_rows[] = {
     {"o", "FILE.dag", TUNE, NULL, "the oracle with these defaults; may be ORACLE itself",
      NAMED(out, graphs)},
     {"o", "FILE.svg", DRAW, NULL, "the drawing; must be given", NAMED(out, svg)},
-    {"statistics", "FILE.json", DRAW, NULL, "what solve --statistics wrote", TEXT(statistics)},
+    {"o", "FILE.html", PANEL, NULL, "the page; must be given", NAMED(out, pages)},
+    {"statistics", "FILE.json", DRAW | PANEL, NULL, "what solve --statistics wrote",
+     TEXT(statistics)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},

@@ -41,7 +41,7 @@ static int print_help(void)
            "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
     print_lines(0);
-    printf("  study NAME [SCENE]      experiments: see radiosity study --help\n"
+    printf("  study NAME [SCENE]       experiments: see radiosity study --help\n"
            "\n"
            "    radiosity solve room.obj --image room.png\n"
            "\n"
@@ -49,8 +49,7 @@ static int print_help(void)
            "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
            "Faces have one side unless the material's name ends in _2s.\n"
            "\n"
-           "  --help, --version       this, or of a command: its options; the version\n"
-           "\n"
+           "--help tells this, or of a command its options; --version tells the version.\n"
            "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
            "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;
@@ -278,7 +277,7 @@ static int add_oracle_or_scene(struct options *o, const char *path)
     return add_scene(o, path);
 }
 
-/* The argument of draw. Returns -1 to go on, or the exit status. */
+/* The argument of draw and panel. Returns -1 to go on, or the exit status. */
 static int set_oracle_argument(struct options *o, const char *path)
 {
     const char *command = command_rows[o->command].name;
@@ -355,6 +354,8 @@ static int check_together(struct options *o)
         return wrong(c->name, "no oracle is given");
     if (o->command == COMMAND_DRAW && !o->out)
         return wrong(c->name, "the drawing's name is missing: -o FILE.svg");
+    if (o->command == COMMAND_PANEL && !o->out)
+        return wrong(c->name, "the page's name is missing: -o FILE.html");
     if (*c->argument && strcmp(c->argument, "ORACLE") != 0 && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->command == COMMAND_REFERENCE && !o->out)

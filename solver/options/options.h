@@ -21,6 +21,7 @@ enum command {
     COMMAND_ARVO,
     COMMAND_CAUSES,
     COMMAND_DRAW,
+    COMMAND_PANEL,
     COMMAND_ORACLES,
     COMMANDS
 };

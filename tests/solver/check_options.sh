@@ -131,7 +131,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" oracles; do
+for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" panel oracles; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -145,12 +145,12 @@ for command in "" solve compare viewfactors reference error tune study "study st
     example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/; s/mine\.dag/bf/; s/-o bf/-o x.dag/')
     # shellcheck disable=SC2086
     case $command in
-    study | "study stability" | "study arvo" | oracles) ;;
+    study | "study stability" | "study arvo" | panel | oracles) ;;
     *) "$radiosity" $example >out 2>err; grep -q "^none.obj: error" err || { bad=$((bad + 1)); echo "failed: $example"; cat err; } ;;
     esac
     rm -f out err
 done
-for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes"; do
+for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" panel; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
