@@ -38,47 +38,6 @@ static uint64_t nanoseconds(clockid_t which)
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-/* ---- the host that counts rays */
-
-static const struct host *behind(const struct host *host)
-{
-    return ((const struct counting_host *)(const void *)host)->behind;
-}
-
-static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
-{
-    const struct counting_host *h = (const struct counting_host *)(const void *)host;
-    *h->rays += (uint64_t)count;
-    return h->behind->occluded(h->behind, count, segments);
-}
-
-static int candidates(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces)
-{
-    return behind(host)->candidates(behind(host), shaft, most, faces);
-}
-
-static void corners(const struct host *host, uint32_t face, struct polygon *polygon)
-{
-    behind(host)->corners(behind(host), face, polygon);
-}
-
-static double optical_depth(const struct host *host, const struct segment *segment,
-                            uint32_t receiver, uint32_t emitter)
-{
-    return behind(host)->optical_depth(behind(host), segment, receiver, emitter);
-}
-
-/* Stand before the discussion's host, which may lack what is optional. */
-static void stand_before(struct counting_host *h, const struct host *host)
-{
-    h->host = *host;
-    h->behind = host;
-    h->host.occluded = host->occluded ? occluded : NULL;
-    h->host.candidates = host->candidates ? candidates : NULL;
-    h->host.corners = host->corners ? corners : NULL;
-    h->host.optical_depth = host->optical_depth ? optical_depth : NULL;
-}
-
 /* ---- tallies */
 
 static void free_tally(struct tally *t)
@@ -113,7 +72,6 @@ static struct tally *find_tally(struct program *p)
             return NULL;
         }
         t->owner = &mine;
-        t->before.rays = &t->rays;
         t->wait = 1;
         do
             t->next = first;
@@ -302,7 +260,7 @@ static inline enum decision walk(const struct program *p, struct tally *t, struc
     for (;;) {
         uint64_t *numbers =
             t->numbers + (size_t)p->answer_count + (size_t)(step - p->steps) * stride;
-        uint64_t rays = t->rays;
+        uint64_t rays = t->host.rays;
         if (timed)
             start = nanoseconds(CLOCK_MONOTONIC);
         size_t at = (size_t)(step->next - p->next) + (size_t)step->call(d, step->arguments);
@@ -312,7 +270,7 @@ static inline enum decision walk(const struct program *p, struct tally *t, struc
                 (struct span_of_step){numbers, spent > p->clock ? spent - p->clock : 0};
         }
         t->numbers[at]++;
-        numbers[NUMBER_RAYS] += t->rays - rays;
+        numbers[NUMBER_RAYS] += t->host.rays - rays;
         count_levels(t, d, numbers + NUMBER_TERMS);
         if (p->gains)
             t->path += p->gains[at];
@@ -351,8 +309,8 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
         return program_walk(p->steps, d);
     const struct host *host = d->host;
     if (host) {
-        stand_before(&t->before, host);
-        d->host = &t->before.host;
+        counted_host_make(&t->host, host, host);
+        d->host = &t->host.host;
     }
     enum decision decision;
     uint64_t spent = 0;

@@ -4,16 +4,10 @@
 #ifndef COUNTING_H
 #define COUNTING_H
 
+#include "oracle/counted_host.h"
 #include "oracle/program.h"
 #include "oracle/tool_table.h"
 #include "radiosity.h"
-
-/* A host that counts the rays which the one behind it is asked for. */
-struct counting_host {
-    struct host host; /* first, so that a host is it */
-    const struct host *behind;
-    uint64_t *rays;
-};
 
 /* Discussions that went one way through the graph. */
 struct path_count {
@@ -30,8 +24,7 @@ struct span_of_step {
 struct tally {
     const void *owner;  /* address of the thread's `mine`: no two living threads have the same */
     struct tally *next; /* of the program */
-    struct counting_host before;
-    uint64_t rays;
+    struct counted_host host;
     uint64_t *levels; /* of all terms before the node, eight in each */
     int wait;         /* this many discussions on, one is timed */
     uint32_t random;

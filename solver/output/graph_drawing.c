@@ -102,6 +102,13 @@ static int heat_of(double share)
     return heat;
 }
 
+/* A share in percent with two digits, without an exponent. */
+static const char *percent(struct drawing *p, double share)
+{
+    double x = 100 * share;
+    return x >= 9.95 ? say(p, "%.0f %%", x) : say(p, "%.*f %%", x >= 0.995 || x == 0 ? 1 : 2, x);
+}
+
 /* ---- branches */
 
 static void read_branches(struct drawing *p, const json_t *branches)
@@ -127,8 +134,19 @@ static void add_line(struct drawing_node *n, const char *line)
         n->lines[n->line_count++] = line;
 }
 
-/* A line per argument that says more than its name. */
-static void read_arguments(struct drawing *p, struct drawing_node *n, const json_t *node)
+/* Does the argument say what the tool does anyway? */
+static int is_default(const json_t *tool, const char *name, const json_t *value)
+{
+    const json_t *usual = json_object_get(find(json_object_get(tool, "parameters"), "name", name),
+                                          "default"),
+                 *number = json_object_get(value, "number");
+    return json_is_number(usual) && json_is_number(number)
+           && json_number_value(usual) == json_number_value(number);
+}
+
+/* A line per argument that the node gives a value of its own. */
+static void read_arguments(struct drawing *p, struct drawing_node *n, const json_t *node,
+                           const json_t *tool)
 {
     size_t i;
     json_t *argument;
@@ -142,7 +160,8 @@ static void read_arguments(struct drawing *p, struct drawing_node *n, const json
         n->title = say(p, "%s\n%s = %s", n->title, name, value);
         if (strlen(line) > ARGUMENT_LETTERS)
             line = say(p, "%.*s...", ARGUMENT_LETTERS - 3, line);
-        if (n->line_count < DRAWING_LINES - 1)
+        if (n->line_count < DRAWING_LINES - 1
+            && !is_default(tool, name, json_object_get(argument, "value")))
             add_line(n, line);
     }
 }
@@ -159,7 +178,7 @@ static void read_counted(struct drawing *p, struct drawing_node *n, const json_t
         n->title = say(p, "%s\nnever asked", n->title);
         return;
     }
-    add_line(n, say(p, "%.3g %% asked, %.2g %% of time", 100 * share, 100 * time));
+    add_line(n, say(p, "%s asked, %s of time", percent(p, share), percent(p, time)));
     n->title = say(p, "%s\nasked %.0f times (%.3g %%), %.3g %% of the time, %.3g us each", n->title,
                    n->discussed, 100 * share, 100 * time, 1e6 * number_of(counted, "mean_seconds"));
     if (number_of(counted, "rays") > 0)
@@ -183,7 +202,7 @@ static void read_node(struct drawing *p, struct drawing_node *n, const json_t *n
     n->title = say(p, "%s = %s\n%s", n->name, text_of(tool, "name"), text_of(tool, "doc"));
     add_line(n, short_name(n->name, text_of(node, "branch")));
     add_line(n, text_of(tool, "name"));
-    read_arguments(p, n, node);
+    read_arguments(p, n, node, tool);
     if (statistics)
         read_counted(p, n, find(json_object_get(statistics, "nodes"), "node", n->name));
     n->width = drawing_text_width(n->lines[0], DRAWING_NAME);
@@ -287,7 +306,7 @@ static int read_arcs(struct drawing *p, int from, const json_t *node, const json
         }
         if (to->line_count < DRAWING_LINES)
             to->lines[to->line_count++] =
-                counted && !a.dead ? say(p, "%s %.2g %%", answer, 100 * count / n->discussed)
+                counted && !a.dead ? say(p, "%s %s", answer, percent(p, count / n->discussed))
                                    : answer;
         to->label_width = fmax(
             to->label_width, drawing_text_width(to->lines[to->line_count - 1], DRAWING_SMALL) + 6);

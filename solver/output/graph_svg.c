@@ -77,7 +77,8 @@ static void put_rules(FILE *out, int dark)
                 dark ? heats[i].dark_ink : heats[i].ink);
     fprintf(out,
             ".graph .unused .shape{fill:none;stroke:%s;stroke-dasharray:4 3}"
-            ".graph .unused text,.graph .dead text{fill:%s}.graph .unused rect{fill:none}"
+            ".graph .unused text,.graph .dead text{fill:%s}.graph .leaf.unused "
+            "rect{fill:none;stroke-dasharray:4 3}"
             ".graph .dead path{stroke:%s}.graph .dead polygon{fill:%s}\n",
             grey, dark ? "#9aa0aa" : "#757575", grey, grey);
 }
