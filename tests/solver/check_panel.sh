@@ -32,16 +32,17 @@ mkdir "it's mine"
 cat >"it's mine/o.dag" <<'DAG'
 oracle mine "</script><script>document.title = 'x'</script> \"quoted\" & <!-- <b>bold</b> @@DATA@@ \\ 'one'" {
   param constructor : flux = 0 in [0, inf] "</script><img src=x onerror='document.title = 1'> &amp; `code`";
-  param relative : ratio = 0.05 in [0, inf] role link_threshold "\"a\" > b & c";
+  param relative : ratio = 0.0537 in [0, inf] role link_threshold "\"a\" > b & c";
   param min_share : ratio = 2e-3 in [0, 1] role smallest_part "";
   param split : count = 1 in [0, 1] "yes or no";
   param rays : count = 4 in [4, 7] "few";
+  param many : count = 300 in [0, 1000000000] "so many";
   param shift : ratio = 0.25 in [-1, 1] "even";
   fixed param toString : count = 16 in [4, 64] "the author's <i>own</i>";
   start level;
   node level = clusters() { surfaces -> planes; apart -> stop; receiver -> subdivide_receiver; emitter -> subdivide_emitter; }
   node planes = support_planes() { away -> stop; otherwise -> energy; }
-  node energy = transfer(absolute = constructor, relative = relative * (1 + 0 * (split + shift))) { dark -> stop; below -> seen; above -> guard; }
+  node energy = transfer(absolute = constructor, relative = relative * (1 + 0 * (split + shift + many))) { dark -> stop; below -> seen; above -> guard; }
   node guard = can_split(min_share = min_share) { neither -> seen; receiver -> subdivide_receiver; both | emitter -> subdivide_emitter; }
   node seen = visibility(rays = max(rays, toString)) { none -> stop; partial | all -> form; }
   node form = form_factor() { done -> link; }
@@ -100,9 +101,9 @@ shows "the title" "mine: oracle panel" "document.title"
 shows "no element from texts" 0 "document.querySelectorAll('main b, main i, img').length"
 shows "the oracle's text" "</script><script>document.title = 'x'</script> \"quoted\" & <!-- <b>bold</b> @@DATA@@ \\ 'one'" "$(at doc).textContent"
 shows "a parameter's text" "</script><img src=x onerror='document.title = 1'> &amp; code" "$(at p-constructor-doc).textContent"
-shows "what is offered, in the oracle's order" "constructor relative min_share split rays shift" "[...document.querySelectorAll('#offered label')].map(l => l.textContent).join(' ')"
+shows "what is offered, in the oracle's order" "constructor relative min_share split rays many shift" "[...document.querySelectorAll('#offered label')].map(l => l.textContent).join(' ')"
 shows "what is fixed" "toString 16" "[...document.querySelectorAll('#fixed dt, #fixed dd')].slice(0, 2).map(e => e.firstChild.textContent).join(' ')"
-shows "controls that fit" "text,range+text,range+text,checkbox,select-one,range+text" \
+shows "controls that fit" "text,range+text,range+text,checkbox,select-one,range+text,range+text" \
     "[...document.querySelectorAll('#offered .control')].map(c => [...c.querySelectorAll('input, select')].map(e => e.type).join('+')).join()"
 shows "each control has a name" "" "[...document.querySelectorAll('input, select, button, output')].filter(e => !(e.labels?.length || e.ariaLabel || e.textContent.trim() || e.getAttribute('aria-labelledby'))).map(e => e.outerHTML).join()"
 shows "each id once" "" "[...document.querySelectorAll('[id]')].map(e => e.id).filter((id, i, all) => all.indexOf(id) !== i).join()"
@@ -115,19 +116,19 @@ for ((i = 0; i < 40; i++)); do
     [ -n "$value" ] || break # past the last
     stops="$stops$value; "
 done
-is "stops of the tab key" "to the parameters; smaller; fit; larger; node-level; scene; p-constructor; relative, slider; p-relative; min_share, slider; p-min_share; p-split; p-rays; shift, slider; p-shift; Fixed by the author; command; copy; save; load; " "$stops"
+is "stops of the tab key" "to the parameters; smaller; fit; larger; node-level; scene; p-constructor; relative, slider; p-relative; min_share, slider; p-min_share; p-split; p-rays; many, slider; p-many; shift, slider; p-shift; Fixed by the author; command; copy; save; load; " "$stops"
 line "the command before anything is changed" ""
 
 # A slider: 20 steps are ten times as much, and 20 back are the default.
 evaluate "document.querySelector('[aria-label=\"relative, slider\"]').focus()"
 for ((i = 0; i < 20; i++)); do press ArrowRight 39; done
-line "a slider up" " --set relative=0.5"
-shows "what a slider says" "0.5" "document.activeElement.getAttribute('aria-valuetext')"
-shows "the box beside it" "0.5" "$(at p-relative).value"
+line "a slider up" " --set relative=0.54"
+shows "what a slider says" "0.54" "document.activeElement.getAttribute('aria-valuetext')"
+shows "the box beside it" "0.54" "$(at p-relative).value"
 for ((i = 0; i < 20; i++)); do press ArrowLeft 37; done
 line "a slider back" ""
 press Home 36
-line "a slider's low end" " --set relative=5e-5"
+line "a slider's low end" " --set relative=5.4e-5"
 press Tab 9
 type_text 1e-3
 line "a number" " --set relative=0.001"
@@ -144,7 +145,7 @@ press Tab 9
 press Enter 13 $'\r'
 line "reset" ""
 shows "the mark is gone" null "$(at p-relative).ariaInvalid"
-shows "the box after it" 0.05 "$(at p-relative).value"
+shows "the box after it" 0.0537 "$(at p-relative).value"
 focus p-split
 press " " 32 " "
 line "a box to tick" " --set split=0"
@@ -153,6 +154,14 @@ line "and back" ""
 focus p-rays
 press ArrowDown 40
 line "a list" " --set rays=5"
+evaluate "document.querySelector('[aria-label=\"many, slider\"]').focus()"
+press ArrowRight 39
+line "a slider of whole numbers" " --set rays=5 --set many=340"
+press Tab 9
+type_text 1.5
+shows "no whole number" "many takes whole numbers from 0 to 1e9" "$(at p-many-wrong).textContent"
+type_text 300
+line "the default, typed" " --set rays=5"
 focus p-min_share
 type_text 0.01
 focus p-constructor
@@ -221,7 +230,7 @@ press Enter 13 $'\r'
 shows "a node's name" energy "document.querySelector('#node h3').textContent"
 calls=$(tr -d '\n ' <s.json | sed 's/.*"node":"energy"[^[]*"calls":\([0-9]*\).*/\1/')
 shows "a node's calls" "$calls" "[...document.querySelectorAll('#node dt')].find(e => e.textContent === 'calls').nextSibling.textContent.replace(/,/g, '')"
-shows "its argument" "relative × (1 + 0 × (split + shift))" "[...document.querySelectorAll('#node dt')].find(e => e.textContent === 'relative').nextSibling.querySelector('code').textContent"
+shows "its argument" "relative × (1 + 0 × (split + shift + many))" "[...document.querySelectorAll('#node dt')].find(e => e.textContent === 'relative').nextSibling.querySelector('code').textContent"
 shows "its answers" "dark stop below seen above guard" "[...document.querySelectorAll('#node tbody tr')].map(r => r.cells[0].textContent + ' ' + r.cells[2].textContent).join(' ')"
 evaluate "document.querySelectorAll('#node tbody .link')[1].focus()"
 press Enter 13 $'\r'
@@ -240,6 +249,7 @@ for page in page.html all_power.html all_tester.html all_viewfactors.html; do
     open_page $page 360
     shows "$page on a phone" true "document.documentElement.scrollWidth <= 360"
     shows "$page: no control sticks out of a phone" "" "[...document.querySelectorAll('main :is(input, select, button), #result :not(h2)')].filter(e => e.offsetParent && (e.getBoundingClientRect().right > 360 || e.getBoundingClientRect().left < 0)).map(e => e.id).join()"
+    shows "$page: nothing that has the focus is hidden" "" "[...document.querySelectorAll('main :is(input, select, button:enabled)')].filter(e => { e.focus(); return e.offsetParent && e.getBoundingClientRect().bottom > $(at result).getBoundingClientRect().top + 1; }).map(e => e.id || e.ariaLabel).join()"
     for scheme in light dark; do
         ask Emulation.setEmulatedMedia "{\"features\": [{\"name\": \"prefers-color-scheme\", \"value\": \"$scheme\"}]}"
         evaluate "document.querySelector('#drawing .node').dispatchEvent(new MouseEvent('click', {bubbles: true}))"

@@ -3,7 +3,7 @@
 # Source: the Chrome DevTools Protocol, version 1.3. SPDX-License-Identifier: MIT
 # shellcheck shell=bash
 
-browser_command() { command -v chromium || command -v chromium-browser || command -v google-chrome; }
+browser_command() { command -v chromium || command -v google-chrome; }
 
 browser_begin() {
     mkfifo to from
