@@ -37,7 +37,6 @@ static void print_lines(int studies)
 static int print_help(void)
 {
     printf("usage: radiosity COMMAND [SCENE] [options]\n"
-           "\n"
            "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
     print_lines(0);
@@ -48,8 +47,7 @@ static int print_help(void)
            "SCENE is OBJ+MTL, PLY, glTF, Collada or what else Assimp reads, in metres. The\n"
            "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
            "Faces have one side unless the material's name ends in _2s.\n"
-           "\n"
-           "--help tells this, or of a command its options; --version tells the version.\n"
+           "--help after a command tells its options; radiosity --version the version.\n"
            "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
            "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;
