@@ -1,7 +1,5 @@
 /* draw.c - `radiosity draw`: the graph of an oracle as SVG, with what a solve counted in it.
  * SPDX-License-Identifier: MIT */
-#include <string.h>
-
 #include "commands/commands.h"
 #include "output/graph_svg.h"
 #include "output/statistics_read.h"
@@ -12,8 +10,6 @@
 static int write_drawing(const char *path, RadOracle oracle, const json_t *statistics)
 {
     struct atomic_file file;
-    if (strcmp(path, "-") == 0)
-        return graph_svg_write(stdout, oracle, statistics);
     if (atomic_open(&file, path) < 0)
         return -1;
     if (graph_svg_write(file.stream, oracle, statistics) == 0)
