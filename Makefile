@@ -8,6 +8,7 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
+# make heat     the graph of the default oracle with what it did in room.obj (needs Graphviz)
 # make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
@@ -217,6 +218,11 @@ drawings: commands
 	    $(BUILD)/bin/dagc --emit=svg -Wno-all -o $(BUILD)/$$name.svg examples/oracles/$$name.dag && \
 	    sed -e '/^<!--.*-->$$/d' -e '/^<!--/,/-->$$/d' -e '/^<title>/d' $(BUILD)/$$name.svg > examples/oracles/drawings/$$name.svg || exit 1; \
 	done
+
+.PHONY: heat
+heat: commands
+	$(BUILD)/bin/radiosity solve examples/scenes/room.obj -q --no-errors --statistics $(BUILD)/power_room.json
+	$(BUILD)/bin/radiosity draw power --statistics $(BUILD)/power_room.json -o examples/oracles/drawings/power_room.svg
 
 clean:
 	rm -rf $(BUILD)

@@ -499,8 +499,8 @@ struct dag_compiler {
 void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
                           size_t size);
 
-/* The oracles, and what they use of the catalog, as --emit=json gives them; for free(). NULL: out of
- * memory. */
+/* The oracles, and what they use of the catalog, as --emit=json gives them; for free(). NULL: out
+ * of memory. */
 char *dag_json(struct dag *dag);
 
 /* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or

@@ -225,9 +225,9 @@ struct RadOracleReport {
     int reads_importance, reads_tolerance; /* facts that a solver must provide */
 };
 RAD_API void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report);
-/* The graph of an interpreted oracle as JSON, schema dagc/1 (dagc --emit=json, dagc(1)): nodes, tools,
- * answers, branches, parameters with their defaults. Constant until the oracle is released. NULL on
- * error: RAD_RELEASE_DAG only. */
+/* The graph of an interpreted oracle as JSON, schema dagc/1 (dagc --emit=json, dagc(1)): nodes,
+ * tools, answers, branches, parameters with their defaults. The oracle's own. NULL on error:
+ * RAD_RELEASE_DAG only. */
 RAD_API const char *radGetOracleGraph(RadOracle oracle);
 /* Returns 0, or -1: no such parameter, fixed by the oracle's author, or not in its range. A
  * progress function may set them, and ask for statistics, too: in phase "refine" it is called

@@ -353,7 +353,7 @@ const struct command_row command_rows[COMMANDS] = {
          "FILE.dag, and a control for every parameter that its author offers. It gives\n"
          "back the command line, and a parameter file for solve --params. With the\n"
          "statistics of a solve it tells what each node was asked and answered.\n",
-         "radiosity panel power -o panel.html"},
+         "radiosity panel power --statistics room.json -o panel.html"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
