@@ -152,6 +152,7 @@ struct parameter {
     const char *doc;       /* "" when none */
     double value;          /* the default, NAN when there is none (tools only) */
     double low, high;      /* closed range; -INFINITY, INFINITY when none was written */
+    unsigned char fixed;   /* of an oracle: its author's; else it is offered to the user */
     unsigned char given;   /* PARAMETER_VALUE | PARAMETER_RANGE: which of them were written */
     unsigned char bad;     /* an error was reported: say no more about its value or range */
 };
@@ -504,6 +505,10 @@ struct dag_compiler {
  * at least. */
 void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
                           size_t size);
+
+/* The oracles, and what they use of the catalog, as --emit=json gives them; for free(). NULL: out
+ * of memory. */
+char *dag_json(struct dag *dag);
 
 /* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or
  * many. */

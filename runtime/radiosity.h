@@ -233,28 +233,56 @@ struct RadOracleReport {
     int reads_importance, reads_tolerance; /* facts that a solver must provide */
 };
 RAD_API void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report);
-/* Returns 0, or -1: no such parameter, or not in its range. A progress function may set them, and
- * ask for statistics, too: in phase "refine" it is called between rounds, when nobody asks the
- * oracle, and the next round goes by the new value. */
+/* The graph of an interpreted oracle as JSON, schema dagc/1 (dagc --emit=json, dagc(1)): nodes,
+ * tools, answers, branches, parameters with their defaults. The oracle's own. NULL on error:
+ * RAD_RELEASE_DAG only. */
+RAD_API const char *radGetOracleGraph(RadOracle oracle);
+/* Returns 0, or -1: no such parameter, fixed by the oracle's author, or not in its range. A
+ * progress function may set them, and ask for statistics, too: in phase "refine" it is called
+ * between rounds, when nobody asks the oracle, and the next round goes by the new value. */
 RAD_API int radSetOracleParameter(RadOracle oracle, const char *name, double value);
 /* NAN when there is no such parameter. */
 RAD_API double radGetOracleParameter(RadOracle oracle, const char *name);
 /* Ask it once; safe from many threads while no parameter is set. */
 RAD_API enum decision radAskOracle(RadOracle oracle, struct discussion *discussion);
 
-/* How often each node was asked and each answer given, on all threads. RAD_RELEASE_DAG only. */
+/* What was counted of an interpreted graph, on all threads. Counts are exact. Time is measured in
+ * one discussion of RAD_TIMED_EVERY, chosen at random, and scaled by the calls: an estimate.
+ * [Turbet & Sillion, section 4.3] */
 struct RadAnswerCount {
     const char *name, *kind; /* kind: "precise", "approximate", "other", "command" */
     const char *target;      /* node or decision */
     uint64_t count;
+};
+struct RadTermCount {
+    const char *name;
+    uint64_t count; /* how often the node brought the term to a better level than it had */
 };
 struct RadNodeCount {
     const char *name, *tool;
     uint64_t calls;
     const struct RadAnswerCount *answers; /* [answer_count] */
     int answer_count;
+    uint64_t timed; /* calls whose time was measured */
+    double seconds; /* of all calls, arguments included, in all threads together; 0: none timed */
+    uint64_t rays;  /* segments that it asked the host's `occluded` for */
+    const struct RadTermCount *terms; /* [term_count], those that it computed at least once */
+    int term_count;
 };
-enum { RAD_COUNTS = 256, RAD_RECORDS = 8, RAD_BINS = 128 };
+/* A way through the graph that discussions went: nodes[i] gave answers[i]. */
+struct RadPath {
+    const int *nodes, *answers; /* [length], in RadStatistics.nodes and their answers */
+    int length;
+    uint64_t count, timed; /* discussions that went it; of them, timed */
+    double seconds;        /* of all of them; 0: none timed */
+};
+/* Rounds between two solves: what was counted in them. */
+struct RadPass {
+    uint64_t discussions, rays;
+    double seconds;
+    const struct RadNodeCount *nodes; /* [RadStatistics.node_count] */
+};
+enum { RAD_COUNTS = 256, RAD_RECORDS = 8, RAD_BINS = 128, RAD_PATHS = 16, RAD_TIMED_EVERY = 128 };
 struct RadStatistics {
     const struct RadNodeCount *nodes; /* [node_count], the start first */
     int node_count;
@@ -263,6 +291,13 @@ struct RadStatistics {
      * above 0. */
     const uint64_t (*bins)[RAD_BINS]; /* [RAD_RECORDS] */
     const uint64_t *zero;             /* [RAD_RECORDS] */
+    const struct RadPass *passes;     /* [pass_count], those that are over */
+    int pass_count;
+    /* The paths that took most time, at most RAD_PATHS, the longest first; how many were gone at
+     * all. A graph of 2^63 paths or more has none told. */
+    const struct RadPath *paths;
+    int path_count;
+    uint64_t distinct_paths;
 };
 /* From now on count. Returns 0, or -1. */
 RAD_API int radCountOracle(RadOracle oracle);

@@ -28,6 +28,8 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_FORM_FACTORS] = study_form_factors,
     [COMMAND_ARVO] = study_arvo,
     [COMMAND_CAUSES] = study_causes,
+    [COMMAND_DRAW] = command_draw,
+    [COMMAND_PANEL] = command_panel,
     [COMMAND_ORACLES] = command_oracles,
     [COMMAND_EXPLAIN] = command_explain,
 };

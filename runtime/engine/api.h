@@ -52,11 +52,7 @@ struct RadOracleObject {
     RadDevice device;
     struct refiner *refiner;
     int counting;
-    /* what radGetOracleStatistics shows, in the engine's form and the caller's */
-    struct statistics counted;
-    struct RadNodeCount *nodes;
-    struct RadAnswerCount *answers;
-    uint64_t (*bins)[RAD_BINS], zero[RAD_RECORDS];
+    struct statistics counted; /* what radGetOracleStatistics shows */
     struct explanation explained; /* what radExplain shows */
 };
 

@@ -203,22 +203,11 @@ void radRetainOracle(RadOracle oracle)
         atomic_fetch_add(&oracle->holders, 1);
 }
 
-static void forget_statistics(RadOracle oracle)
-{
-    statistics_free(&oracle->counted);
-    free(oracle->nodes);
-    free(oracle->answers);
-    free(oracle->bins);
-    oracle->nodes = NULL;
-    oracle->answers = NULL;
-    oracle->bins = NULL;
-}
-
 void radReleaseOracle(RadOracle oracle)
 {
     if (!oracle || atomic_fetch_sub(&oracle->holders, 1) != 1)
         return;
-    forget_statistics(oracle);
+    statistics_free(&oracle->counted);
     explain_free(&oracle->explained);
     refiner_close(oracle->refiner);
     radReleaseDevice(oracle->device);
@@ -281,53 +270,32 @@ int radCountOracle(RadOracle oracle)
     return 0;
 }
 
-_Static_assert((int)RAD_COUNTS == (int)STATISTICS_COUNTS
-                   && (int)RAD_RECORDS == (int)STATISTICS_SLOTS
-                   && (int)RAD_BINS == STATISTICS_HIGH - STATISTICS_LOW,
-               "statistics have one size");
-
-/* The engine's statistics in the caller's form. Returns 0, or -1 when out of memory. */
-static int show_statistics(RadOracle oracle)
-{
-    const struct statistics *s = &oracle->counted;
-    size_t answers = 0;
-    for (int i = 0; i < s->node_count; i++)
-        answers += (size_t)s->nodes[i].answer_count;
-    oracle->nodes = malloc(((size_t)s->node_count + 1) * sizeof *oracle->nodes);
-    oracle->answers = malloc((answers + 1) * sizeof *oracle->answers);
-    oracle->bins = malloc(RAD_RECORDS * sizeof *oracle->bins);
-    if (!oracle->nodes || !oracle->answers || !oracle->bins)
-        return -1;
-    struct RadAnswerCount *to = oracle->answers;
-    for (int i = 0; i < s->node_count; i++) {
-        const struct node_statistics *n = &s->nodes[i];
-        oracle->nodes[i] = (struct RadNodeCount){n->name, n->tool, n->calls, to, n->answer_count};
-        for (int k = 0; k < n->answer_count; k++)
-            *to++ = (struct RadAnswerCount){n->answers[k].name, n->answers[k].kind,
-                                            n->answers[k].target, n->answers[k].count};
-    }
-    for (int i = 0; i < RAD_RECORDS; i++) {
-        oracle->zero[i] = s->records[i].zero;
-        memcpy(oracle->bins[i], s->records[i].bins, sizeof oracle->bins[i]);
-    }
-    return 0;
-}
-
 int radGetOracleStatistics(RadOracle oracle, struct RadStatistics *statistics)
 {
     if (!oracle || !statistics)
         return -1;
-    forget_statistics(oracle);
+    statistics_free(&oracle->counted);
     if (!oracle->counting)
         return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION,
                         "nothing is counted; radCountOracle comes first");
-    if (statistics_take(&oracle->counted, oracle->refiner) < 0 || show_statistics(oracle) < 0) {
-        forget_statistics(oracle);
+    if (statistics_take(&oracle->counted, oracle->refiner) < 0)
         return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY,
                         "out of memory for the statistics");
-    }
-    *statistics =
-        (struct RadStatistics){oracle->nodes, oracle->counted.node_count, oracle->counted.counts,
-                               (const uint64_t(*)[RAD_BINS])oracle->bins, oracle->zero};
+    *statistics = oracle->counted.shown;
     return 0;
+}
+
+const char *radGetOracleGraph(RadOracle oracle)
+{
+    if (!oracle)
+        return NULL;
+    struct messages messages = {0};
+    const char *graph = refiner_graph(oracle->refiner, &messages);
+    if (!graph)
+        api_fail(oracle->device,
+                 messages.cause == MESSAGE_MEMORY ? RAD_ERROR_OUT_OF_MEMORY
+                                                  : RAD_ERROR_INVALID_OPERATION,
+                 "%s", messages_text(&messages));
+    messages_free(&messages);
+    return graph;
 }

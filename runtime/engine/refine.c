@@ -19,6 +19,7 @@
 #include <string.h>
 #include "engine/refine.h"
 #include "engine/trace.h"
+#include "oracle/statistics.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
 
@@ -363,7 +364,7 @@ int refinement_start(struct refinement *r)
     if (array_reserve(&r->queue, 1, &r->queue_capacity, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
-    return drain(r);
+    return drain(r) < 0 ? -1 : statistics_end_pass(r->refiner);
 }
 
 /* Links to be discussed again, as far as an end has changed. */
@@ -418,7 +419,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
         if (end_round(r) < 0)
             return -1;
     }
-    return drain(r) < 0 ? -1 : moved;
+    return drain(r) < 0 || statistics_end_pass(r->refiner) < 0 ? -1 : moved;
 }
 
 /* Links to be sorted by receiver, in shares: a share's links of a receiver stand behind those of

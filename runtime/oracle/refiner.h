@@ -76,6 +76,10 @@ int refiner_find_role(const struct refiner *refiner, int role, int after);
  * it? */
 int refiner_reads(const struct refiner *refiner, int fact);
 
+/* The graph of an interpreted oracle as dagc --emit=json gives it, the refiner's own. NULL after a
+ * message. Not from two threads at once. */
+const char *refiner_graph(const struct refiner *refiner, struct messages *messages);
+
 void refiner_close(struct refiner *refiner); /* NULL is fine */
 
 #endif

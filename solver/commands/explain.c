@@ -16,6 +16,7 @@
 #include "output/json_file.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
+#include "util/parameter_file.h"
 #include "util/progress.h"
 #include "util/report.h"
 
@@ -307,8 +308,14 @@ int command_explain(const struct options *o, const struct open_scene *scene)
 {
     const struct RadSolveOptions how = solve_options(o);
     RadOracle oracle =
-        open_oracle_replaced(scene->device, o->oracle, RAD_RELEASE_DAG, o->settings,
-                             o->setting_count, o->replacements, o->replacement_count);
+        open_oracle_replaced(scene->device, o->oracle, RAD_RELEASE_DAG, NULL, 0, o->replacements,
+                             o->replacement_count);
+    if (oracle
+        && ((o->params && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
+            || set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)) {
+        radReleaseOracle(oracle);
+        return 1;
+    }
     RadSolution solution = oracle ? radNewSolution(scene->scene, oracle, &how) : NULL;
     if (oracle && !solution)
         report_device(scene->device, o->scene);

@@ -16,6 +16,7 @@
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
+#include "util/parameter_file.h"
 #include "util/report.h"
 
 /* Both pictures, of the error and of the light, through the same camera. */
@@ -72,7 +73,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     double start = seconds();
     int status =
         write_solution(o, surfaces, scene->device, solved->solution, measured->measured) < 0;
-    if (o->statistics && statistics_write(o->statistics, oracle) < 0)
+    if (o->statistics && statistics_write(o->statistics, o->scene, oracle) < 0)
         status = 1;
     const struct summary summary = {o,
                                     scene,
@@ -204,10 +205,16 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
 
 int command_solve(const struct options *o, const struct open_scene *scene)
 {
-    RadOracle oracle =
-        open_oracle_replaced(scene->device, o->oracle, o->release, o->settings, o->setting_count,
-                             o->replacements, o->replacement_count);
-    int status = oracle ? solve_by(o, scene, oracle) : 1;
+    RadOracle oracle = open_oracle_replaced(scene->device, o->oracle, o->release, NULL, 0,
+                                            o->replacements, o->replacement_count);
+    int status = !oracle;
+    if (oracle && o->params
+        && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
+        status = 1;
+    if (status == 0 && set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)
+        status = 1;
+    if (status == 0)
+        status = solve_by(o, scene, oracle);
     radReleaseOracle(oracle);
     return status;
 }

@@ -105,6 +105,22 @@ static json_t *basis_json(const struct RadReport *r)
                      r->linear.seconds);
 }
 
+/* How often each decision was taken; without those that never were. */
+static json_t *decisions_json(const struct RadReport *r)
+{
+    static const char *const names[] = {[DECISION_LINK] = "link",
+                                        [DECISION_LINK_CLUSTERS] = "link_clusters",
+                                        [DECISION_STOP] = "stop",
+                                        [DECISION_SUBDIVIDE_RECEIVER] = "subdivide_receiver",
+                                        [DECISION_SUBDIVIDE_EMITTER] = "subdivide_emitter",
+                                        [DECISION_SUBDIVIDE_BOTH] = "subdivide_both"};
+    json_t *decisions = json_object();
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (r->decided[i])
+            json_object_set_new(decisions, names[i], json_integer((json_int_t)r->decided[i]));
+    return decisions;
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -121,10 +137,10 @@ json_t *summary_json(const struct summary *s)
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));
     json_object_set_new(all, "replaced", replaced);
-    json_t *links =
-        json_pack("{s:I, s:I, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links, "pairs",
-                  (json_int_t)r->pairs, "guard_hits", (json_int_t)r->marked[GUARDED], "marks",
-                  marks_json(r), "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
+    json_t *links = json_pack("{s:I, s:I, s:o, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links,
+                              "pairs", (json_int_t)r->pairs, "decisions", decisions_json(r),
+                              "guard_hits", (json_int_t)r->marked[GUARDED], "marks", marks_json(r),
+                              "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
     json_t *solution =
         json_pack("{s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f}", "passes", r->passes,
                   "iterations", r->iterations, "converged", r->converged, "links_changing",

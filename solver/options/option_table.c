@@ -351,6 +351,20 @@ const struct command_row command_rows[COMMANDS] = {
          "meet the same radiosities: how far off, in all and per polygon, and by which\n"
          "cause: pairs given up, bright spots, form factors, visibility, row sums.\n",
          "radiosity study causes room.obj cornell.obj --set relative=0.1"},
+    [COMMAND_DRAW] =
+        {"draw", "ORACLE", "an oracle's graph as a picture, with a solve's heat",
+         "Draw the graph of an oracle, built in or FILE.dag: nodes by what they do, arcs\n"
+         "by how far an answer can be trusted, branches as boxes. With the statistics\n"
+         "of a solve: nodes coloured by time, arcs as wide as they were used, what was\n"
+         "never used grey. Graphviz places things (package graphviz).\n",
+         "radiosity draw power --statistics room.json -o power.svg"},
+    [COMMAND_PANEL] =
+        {"panel", "ORACLE", "an oracle's drawing and parameters as a web page",
+         "Write one page that needs no network: the graph of an oracle, built in or\n"
+         "FILE.dag, and a control for every parameter that its author offers. It gives\n"
+         "back the command line, and a parameter file for solve --params. With the\n"
+         "statistics of a solve it tells what each node was asked and answered.\n",
+         "radiosity panel power --statistics room.json -o panel.html"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
@@ -381,6 +395,8 @@ enum {
     FORM_FACTORS = 1 << COMMAND_FORM_FACTORS,
     ARVO = 1 << COMMAND_ARVO,
     CAUSES = 1 << COMMAND_CAUSES,
+    DRAW = 1 << COMMAND_DRAW,
+    PANEL = 1 << COMMAND_PANEL,
     EXPLAIN = 1 << COMMAND_EXPLAIN,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
@@ -400,6 +416,8 @@ static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
+static const char *const svg[] = {".svg", NULL};
+static const char *const pages[] = {".html", NULL};
 static const char *const csv[] = {".csv", NULL};
 static const char *const drawings[] = {".svg", ".png", NULL};
 
@@ -424,6 +442,8 @@ const struct option_row option_rows[] = {
      .rare = 1},
     {"set", "PARAM=VALUE", SCENES | EXPLAIN, NULL, "a parameter of the oracle; may be repeated",
      NULL, .read = read_setting},
+    {"params", "FILE", SOLVE | EXPLAIN, NULL, "a file of them, as a panel gives it; --set goes before",
+     TEXT(params), .rare = 1},
     {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
      .read = read_setting},
     {"error", "E%", TUNE, "2%", "the error worked for, of the reflected light",
@@ -516,6 +536,10 @@ const struct option_row option_rows[] = {
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"o", "FILE.dag", TUNE, NULL, "the oracle with these defaults; may be ORACLE itself",
      NAMED(out, graphs)},
+    {"o", "FILE.svg", DRAW, NULL, "the drawing; must be given", NAMED(out, svg)},
+    {"o", "FILE.html", PANEL, NULL, "the page; must be given", NAMED(out, pages)},
+    {"statistics", "FILE.json", DRAW | PANEL, NULL, "what solve --statistics wrote",
+     TEXT(statistics)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},

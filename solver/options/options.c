@@ -40,7 +40,7 @@ static int print_help(void)
            "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
     print_lines(0);
-    printf("  study NAME [SCENE]      experiments: see radiosity study --help\n"
+    printf("  study NAME [SCENE]       experiments: see radiosity study --help\n"
            "\n"
            "    radiosity solve room.obj --image room.png\n"
            "\n"
@@ -275,11 +275,25 @@ static int add_oracle_or_scene(struct options *o, const char *path)
     return add_scene(o, path);
 }
 
+/* The argument of draw and panel. Returns -1 to go on, or the exit status. */
+static int set_oracle_argument(struct options *o, const char *path)
+{
+    const char *command = command_rows[o->command].name;
+    if (!*path)
+        return wrong(command, "the oracle's name is empty");
+    if (o->oracle)
+        return wrong(command, "more than one oracle: %s", path);
+    o->oracle = path;
+    return -1;
+}
+
 static int set_scene(struct options *o, const char *path)
 {
     if (o->command == COMMAND_TUNE)
         return add_oracle_or_scene(o, path);
     const struct command_row *c = &command_rows[o->command];
+    if (strcmp(c->argument, "ORACLE") == 0)
+        return set_oracle_argument(o, path);
     if (!*c->argument)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
                      *path ? path : "an empty name");
@@ -334,7 +348,13 @@ static int check_together(struct options *o)
     if (o->command == COMMAND_TUNE && !o->scene_count)
         return wrong(c->name, "%s",
                      o->oracle ? "no scene is given" : "an oracle and scenes are needed");
-    if (*c->argument && !o->scene)
+    if (strcmp(c->argument, "ORACLE") == 0 && !o->oracle)
+        return wrong(c->name, "no oracle is given");
+    if (o->command == COMMAND_DRAW && !o->out)
+        return wrong(c->name, "the drawing's name is missing: -o FILE.svg");
+    if (o->command == COMMAND_PANEL && !o->out)
+        return wrong(c->name, "the page's name is missing: -o FILE.html");
+    if (*c->argument && strcmp(c->argument, "ORACLE") != 0 && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->command == COMMAND_REFERENCE && !o->out)
         return wrong(c->name, "the table's name is missing: -o FILE.csv");

@@ -20,6 +20,8 @@ enum command {
     COMMAND_FORM_FACTORS,
     COMMAND_ARVO,
     COMMAND_CAUSES,
+    COMMAND_DRAW,
+    COMMAND_PANEL,
     COMMAND_ORACLES,
     COMMAND_EXPLAIN,
     COMMANDS
@@ -59,6 +61,7 @@ struct options {
     char **replacements; /* [replacement_count] "NODE=TOOL(...)" or "NODE=ANSWER"; owned */
     int replacement_count;
     size_t replacement_capacity;
+    const char *params;   /* a file of them, which settings go before */
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     enum RadBasis basis;
