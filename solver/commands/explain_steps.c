@@ -34,10 +34,10 @@ struct steps {
     const struct discussion *discussion; /* what each is held from */
     char name[2][RAD_NAME];
     struct RadExplanation now;
-    int at;                          /* nodes that were asked of now.asked */
-    char **replacements, **settings; /* the options', then those given here */
-    int replacement_count, setting_count;
-    size_t replacement_capacity, setting_capacity;
+    int at;              /* nodes that were asked of now.asked */
+    char **replacements; /* the options', then those given here; owned */
+    int replacement_count;
+    size_t replacement_capacity;
     int quitting;
 };
 
@@ -81,15 +81,18 @@ static int ask_rest(struct steps *s, const char *argument)
     return 0;
 }
 
-/* A copy of `text` at the end of a list. Returns 0, or -1 after a message. */
-static int append(char ***list, int *count, size_t *capacity, const char *text)
+/* A copy of `text` at the end of the replacements. Returns 0, or -1 after a message. */
+static int append(struct steps *s, const char *text)
 {
     char *copy = strdup(text);
-    if (!copy || array_reserve(list, (size_t)*count + 1, capacity, sizeof **list) < 0) {
+    if (!copy
+        || array_reserve(&s->replacements, (size_t)s->replacement_count + 1,
+                         &s->replacement_capacity, sizeof *s->replacements)
+               < 0) {
         free(copy);
         return report_error("explain", 0, "out of memory");
     }
-    (*list)[(*count)++] = copy;
+    s->replacements[s->replacement_count++] = copy;
     return 0;
 }
 
@@ -105,24 +108,26 @@ static int set(struct steps *s, const char *argument)
     if (!*argument)
         return 0;
     char *setting = (char *)(uintptr_t)argument;
-    return set_oracle(s->device, s->oracle, &setting, 1) < 0
-                   || append(&s->settings, &s->setting_count, &s->setting_capacity, argument) < 0
-               ? -1
-               : hold(s);
+    return set_oracle(s->device, s->oracle, &setting, 1) < 0 ? -1 : hold(s);
 }
 
 static int replace(struct steps *s, const char *argument)
 {
     if (!*argument)
         return report_error("replace", 0, "write NODE=TOOL(...) or NODE=ANSWER");
-    if (append(&s->replacements, &s->replacement_count, &s->replacement_capacity, argument) < 0)
+    if (append(s, argument) < 0)
         return -1;
-    RadOracle oracle =
-        open_oracle_replaced(s->device, s->options->oracle, RAD_RELEASE_DAG, s->settings,
-                             s->setting_count, s->replacements, s->replacement_count);
+    RadOracle oracle = open_oracle_replaced(s->device, s->options->oracle, RAD_RELEASE_DAG, NULL, 0,
+                                            s->replacements, s->replacement_count);
     if (!oracle) {
         free(s->replacements[--s->replacement_count]);
         return -1;
+    }
+    struct RadOracleReport report;
+    radGetOracleReport(s->oracle, &report);
+    for (int i = 0; i < report.parameter_count; i++) {
+        const char *name = report.parameters[i].name;
+        (void)radSetOracleParameter(oracle, name, radGetOracleParameter(s->oracle, name));
     }
     radReleaseOracle(s->oracle);
     s->oracle = oracle;
@@ -256,12 +261,8 @@ int explain_steps(const struct options *o, RadDevice device, RadSolution solutio
     int status = 0, refused = 0, prompt = isatty(STDIN_FILENO);
     char line[LINE];
     radRetainOracle(oracle);
-    for (int i = 0; i < o->setting_count; i++)
-        status |= append(&s.settings, &s.setting_count, &s.setting_capacity, o->settings[i]) < 0;
     for (int i = 0; i < o->replacement_count; i++)
-        status |= append(&s.replacements, &s.replacement_count, &s.replacement_capacity,
-                         o->replacements[i])
-                  < 0;
+        status |= append(&s, o->replacements[i]) < 0;
     status |= radGetElementName(solution, first->receiver, s.name[0]) < 0
               || radGetElementName(solution, first->emitter, s.name[1]) < 0 || hold(&s) < 0;
     if (!status && s.now.way != first->way)
@@ -278,11 +279,8 @@ int explain_steps(const struct options *o, RadDevice device, RadSolution solutio
         fflush(stdout);
         refused |= obey(&s, line) < 0; /* the commands behind it are obeyed, too */
     }
-    for (int i = 0; i < s.setting_count; i++)
-        free(s.settings[i]);
     for (int i = 0; i < s.replacement_count; i++)
         free(s.replacements[i]);
-    free(s.settings);
     free(s.replacements);
     occasion_free(s.other);
     radReleaseOracle(s.oracle);
