@@ -307,9 +307,8 @@ static int explain_pair(const struct options *o, const struct open_scene *scene,
 int command_explain(const struct options *o, const struct open_scene *scene)
 {
     const struct RadSolveOptions how = solve_options(o);
-    RadOracle oracle =
-        open_oracle_replaced(scene->device, o->oracle, RAD_RELEASE_DAG, NULL, 0, o->replacements,
-                             o->replacement_count);
+    RadOracle oracle = open_oracle_replaced(scene->device, o->oracle, RAD_RELEASE_DAG, NULL, 0,
+                                            o->replacements, o->replacement_count);
     if (oracle
         && ((o->params && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
             || set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)) {

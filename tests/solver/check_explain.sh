@@ -48,12 +48,12 @@ check "a trace of $lines lines is too short to judge by" [ $lines -gt 20000 ]
 check "lines are not the discussions of the summary" [ $lines = "$(field pairs s.json)" ]
 check "rays are not those of the summary" [ "$(awk -F, 'NR > 1 { s += $6 } END { print s }' all.csv)" = "$(field rays s.json)" ]
 # Answers by node, told by another walk: node,answer,count.
-awk -F, 'NR > 1 && $6 { print $1 "," $3 "," $6 }' s.csv | sort >counted
+awk -F, '$1 == "answer" && $2 == 0 && $8 { print $3 "," $5 "," $8 }' s.csv | sort >counted
 awk -F, 'NR > 1 { n = split($9, step, " "); for (i = 1; i <= n; i++) { sub(":", ",", step[i]); c[step[i]]++ } }
          END { for (k in c) print k "," c[k] }' all.csv | sort >traced
 check "ways do not sum to the statistics" cmp -s counted traced
 # Decisions are the targets that are no nodes.
-awk -F, 'NR > 1 { node[$1] = 1; c[$5] += $6 } END { for (k in c) if (!(k in node) && c[k]) print k, c[k] }' s.csv | sort >counted
+awk -F, '$1 == "answer" && $2 == 0 { node[$3] = 1; c[$7] += $8 } END { for (k in c) if (!(k in node) && c[k]) print k, c[k] }' s.csv | sort >counted
 awk -F, 'NR > 1 { c[$5]++ } END { for (k in c) print k, c[k] }' all.csv | sort >traced
 check "decisions do not sum to the statistics" cmp -s counted traced
 
