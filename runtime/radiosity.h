@@ -764,7 +764,7 @@ RAD_API int radGetOracleWay(RadOracle oracle, uint64_t way, struct RadAnswer *ou
 
 /* One discussion of a refinement. */
 struct RadTraced {
-    int pass;                   /* solves before it: 0 at the start */
+    int pass;                   /* 1: before the first solve */
     uint64_t round;             /* from 1, over all passes */
     uint32_t receiver, emitter; /* elements */
     /* The pair as the oracle saw it, with what was known already. Good until the function returns;

@@ -274,6 +274,8 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
     s->refinement.trace = s->trace;
+    if (s->trace)
+        s->trace->pass = 1;
     if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0
         || make_room(s) < 0)
         return fail(s, refining, cause);
@@ -421,7 +423,7 @@ int solve_step(struct solve *s, const char **cause)
     double middle = seconds();
     s->refinement.trace = s->trace;
     if (s->trace)
-        s->trace->pass = s->report.passes + 1;
+        s->trace->pass = s->report.passes + 2;
     int64_t changed = s->error.target > 0 ? refine_for_error(s)
                       : s->ranking.asked  ? refine_worst(s)
                                           : refine_again(s);

@@ -22,7 +22,7 @@ struct traced_pair {
 struct trace {
     RadTraceFunction tell;
     void *user;
-    int pass;                  /* solves before this refinement */
+    int pass;                  /* from 1: before the first solve */
     int stopped;               /* the function wanted no more */
     struct traced_pair *pairs; /* [of the round] */
 };

@@ -109,9 +109,8 @@ static void print_history(const struct subject *s)
                     == 0
                 && strlen(name) > longest[k])
                 longest[k] = strlen(name);
-    printf(
-        "the way to it (pass: solves before):\n  pass  round  %-*s  %-*s  nodes  rays  decision\n",
-        (int)longest[0], "receiver", (int)longest[1], "emitter");
+    printf("the way to it:\n  pass  round  %-*s  %-*s  nodes  rays  decision\n", (int)longest[0],
+           "receiver", (int)longest[1], "emitter");
     for (size_t i = 0; i < w->count; i++) {
         const struct occasion *o = w->occasions[i];
         char receiver[RAD_NAME] = "", emitter[RAD_NAME] = "";
@@ -200,7 +199,7 @@ static const struct occasion *find_last(const struct subject *s, int by_points)
     const struct occasion *found = NULL;
     for (size_t i = 0; i < s->watch->count; i++) {
         const struct occasion *o = s->watch->occasions[i];
-        if ((s->options->pass < 0 || o->pass == s->options->pass)
+        if ((s->options->pass == 0 || o->pass == s->options->pass)
             && (by_points || (o->receiver == s->element[0] && o->emitter == s->element[1])))
             found = o;
     }
@@ -238,7 +237,7 @@ static int choose(struct subject *s, struct watch *w)
     for (size_t i = 0; i < w->count; i++)
         if (settles(w->occasions[i]))
             s->settled = w->occasions[i];
-    if (!s->occasion && s->options->pass >= 0)
+    if (!s->occasion && s->options->pass > 0)
         return report_error("--pass", 0,
                             "nothing was said of this pair in pass %d; without --pass the last "
                             "discussion is shown, and the passes of all",
@@ -274,8 +273,8 @@ static int tell(const struct subject *s)
 static int solve(const struct options *o, RadDevice device, RadSolution solution,
                  const struct watch *w)
 {
-    int more = 1, status = o->pass < 0 ? radSolve(solution) : radRefine(solution);
-    for (int i = 0; i < o->pass && status == 0 && more > 0; i++) {
+    int more = 1, status = o->pass == 0 ? radSolve(solution) : radRefine(solution);
+    for (int i = 1; i < o->pass && status == 0 && more > 0; i++) {
         more = radStep(solution);
         status = more < 0 ? -1 : 0;
     }

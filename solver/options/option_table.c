@@ -573,8 +573,8 @@ const struct option_row option_rows[] = {
      TEXT(where), .rare = 1},
     {"pair", "RECEIVER,EMITTER", EXPLAIN, NULL, "two elements by name", TEXT(pair)},
     {"at", "X,Y,Z:X,Y,Z", EXPLAIN, NULL, "a point on the receiver, one on the emitter", TEXT(at)},
-    {"pass", "N", EXPLAIN, NULL, "as discussed after N solves; 0: at the start",
-     "a whole number from 0 to 1000", WHOLE(pass, 0, 1000)},
+    {"pass", "N", EXPLAIN, NULL, "as discussed in pass N; 1: before the first solve",
+     "a whole number from 1 to 1000", WHOLE(pass, 1, 1000)},
     {"step", NULL, EXPLAIN, NULL, "go through it by hand", FLAG(step)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };

@@ -418,7 +418,6 @@ int options_parse(struct options *o, int count, char **arguments)
     memset(o, 0, sizeof *o);
     o->threads = omp_get_num_procs();
     o->gather = -1;
-    o->pass = -1;
     int words = count > 1 ? command_of(count - 1, arguments + 1, &o->command) : 0;
     if (!words)
         return without_command(count, arguments);

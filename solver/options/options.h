@@ -103,7 +103,7 @@ struct options {
     int samples;                  /* arvo: across the receiver; 0: exactly */
     const char *trace, *where;    /* solve: the file, and which discussions go into it */
     const char *pair, *at;        /* explain: receiver and emitter, by names or points */
-    int pass;                     /* explain: as discussed in this one; -1: whenever it was last */
+    int pass;                     /* explain: as discussed in this one; 0: whenever it was last */
     int step;                     /* explain: by hand */
     int cause_rays;               /* causes: about how many */
 };

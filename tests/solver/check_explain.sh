@@ -47,6 +47,7 @@ lines=$(($(wc -l <all.csv) - 1))
 check "a trace of $lines lines is too short to judge by" [ $lines -gt 20000 ]
 check "lines are not the discussions of the summary" [ $lines = "$(field pairs s.json)" ]
 check "rays are not those of the summary" [ "$(awk -F, 'NR > 1 { s += $6 } END { print s }' all.csv)" = "$(field rays s.json)" ]
+check "pass 1 does not begin with the root" [ "$(sed -n 2p all.csv | cut -d, -f1-4)" = 1,1,root,root ]
 # Answers by node, told by another walk: node,answer,count.
 awk -F, '$1 == "answer" && $2 == 0 && $8 { print $3 "," $5 "," $8 }' s.csv | sort >counted
 awk -F, 'NR > 1 { n = split($9, step, " "); for (i = 1; i <= n; i++) { sub(":", ",", step[i]); c[step[i]]++ } }
@@ -65,7 +66,7 @@ where() { # CONDITION AWK
     check "--where $1 picks nothing" [ "$(wc -l <wanted)" -gt 1 ]
 }
 where 'decision == subdivide_receiver && rays > 4' '$5 == "subdivide_receiver" && $6 > 4'
-where '(pass == 1 || round < 6) && !(decision != link)' '($1 == 1 || $2 < 6) && $5 == "link"'
+where '(pass == 2 || round < 6) && !(decision != link)' '($1 == 2 || $2 < 6) && $5 == "link"'
 where 'pair__four == partial || level == apart' '" " $9 " " ~ / (pair__four:partial|level:apart) /'
 where 'visibility * 2 - 1 >= 0 && form_factor < 0.01 / 4' '$8 != "" && $7 != "" && $8 * 2 - 1 >= 0 && $7 < 0.0025'
 where 'receiver == "0/2" || emitter.face == 3' '$3 == "0/2" || $4 ~ /^3(\/|$)/'
@@ -90,8 +91,8 @@ agree() { # PASS RECEIVER EMITTER: explained, it is the trace's last line of thi
     fi
     rm -f x.json
 }
-# The line with the most nodes of each decision, one of pass 1, one of groups.
-for pick in '$5 == "link" && $6 == 0' '$5 == "subdivide_receiver"' '$5 == "subdivide_emitter" && $6 > 0' '$5 == "stop" && $6 > 0' '$5 == "link_clusters" && $6 > 0' '$1 == 1 && $6 > 0'; do
+# The line with the most nodes of each decision, one of pass 2, one of groups.
+for pick in '$5 == "link" && $6 == 0' '$5 == "subdivide_receiver"' '$5 == "subdivide_emitter" && $6 > 0' '$5 == "stop" && $6 > 0' '$5 == "link_clusters" && $6 > 0' '$1 == 2 && $6 > 0'; do
     # shellcheck disable=SC2046 # three words
     agree $(awk -F, "NR > 1 && ($pick) && length(\$9) > most { most = length(\$9); best = \$1 \" \" \$3 \" \" \$4 } END { print best }" all.csv)
 done
@@ -139,13 +140,13 @@ check "a release by hand has no nodes to replace" [ "$(grep -c hand out)" = 0 ]
 
 # ---- by hand
 printf 'where\nnext\n\nterms\nset energy=1\nagain\nset energy=1e-3\nagain\nreplace pair__much=below\nall\nwhere\n' |
-    "$radiosity" explain "$room" "${coarse[@]}" --pair 0,3 --pass 0 --step >out 2>err
+    "$radiosity" explain "$room" "${coarse[@]}" --pair 0,3 --pass 1 --step >out 2>err
 check "--step says something else than no mistake" [ ! -s err ]
 check "--step holds another discussion" [ "$(grep -c 'another way' out)" = 0 ]
 check "--step asks two nodes" [ "$(grep -c '^  [12]  ' out)" -ge 2 ]
 check "a parameter that changes nothing" [ "$(sed -n 's/^again: //p' out | sort -u | wc -l)" = 2 ]
 check "a node that was replaced is asked" [ "$(grep -c 'pair__much asks' out)" = 0 ]
-printf 'nix\nset nope=1\npair 7\npair 0,1\nreplace x=y\nwhere now\nq\nnext\n' | "$radiosity" explain "$room" "${coarse[@]}" --pair 0,3 --pass 0 --step >out 2>err
+printf 'nix\nset nope=1\npair 7\npair 0,1\nreplace x=y\nwhere now\nq\nnext\n' | "$radiosity" explain "$room" "${coarse[@]}" --pair 0,3 --pass 1 --step >out 2>err
 status=$?
 check "mistakes by hand end with $status" [ $status = 1 ]
 for text in "there is no command 'nix'" "no parameter 'nope'" "'7' is no pair" "polygon 1 became 4 faces; write 1.0 to 1.3" "there is no node 'x'" "takes nothing, not 'now'"; do
@@ -166,7 +167,7 @@ says 1 "the parts of 0 are numbered from 0 to 3" explain "$room" "${coarse[@]}" 
 says 1 "has not been split" explain "$room" "${coarse[@]}" --pair 0/0/0/0/0/0/0/0/0,3
 for value in 1,2,3 1,2,3:4,5 1,2,3:4,5,x 1,2,3:4,5,inf 1,2,3:4,5,6:; do says 2 "is not two points" explain "$small" --at "$value"; done
 says 1 "nothing was said of this pair in pass 99" explain "$room" "${coarse[@]}" --pair 0,3 --pass 99
-for value in -1 1001 x; do says 2 "--pass takes a whole number" explain "$small" --pair 0,3 --pass "$value"; done
+for value in 0 -1 1001 x; do says 2 "--pass takes a whole number" explain "$small" --pair 0,3 --pass "$value"; done
 says 1 "there is no node 'nix'" explain "$small" --pair 0,1 --replace nix=stop
 says 1 "its answers are: none, partial, all" explain "$small" --pair 0,1 --replace pair__four=nix
 says 1 "unknown tool 'nix'" explain "$small" --pair 0,1 --replace 'pair__four=nix()'
