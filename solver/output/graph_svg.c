@@ -182,8 +182,13 @@ static void put_arrow(FILE *out, const double from[2], const double tip[2], doub
 static void put_arc(FILE *out, const struct drawing *p, const struct drawing_arc *a)
 {
     const double width = a->dead ? 0.7 : width_of(a->share);
-    fprintf(out, "<g class=\"arc %s%s\" id=\"arc-%s-%s\">", a->kind, a->dead ? " dead" : "",
-            p->nodes[a->from].name, a->answer);
+    fprintf(out, "<g class=\"arc %s%s\" id=\"arc-%s-%s\" data-from=\"node-%s\"", a->kind,
+            a->dead ? " dead" : "", p->nodes[a->from].name, a->answer, p->nodes[a->from].name);
+    if (a->leaf >= 0)
+        fprintf(out, " data-to=\"leaf-%s-%s\">", p->nodes[p->leaves[a->leaf].node].name,
+                p->leaves[a->leaf].decision);
+    else
+        fprintf(out, " data-to=\"node-%s\">", p->nodes[a->node].name);
     put_title(out, a->title);
     fprintf(out, "<path stroke-width=\"%.2f\" d=\"M%.1f,%.1f", width, a->points[0], a->points[1]);
     for (size_t i = 1; i < a->point_count; i++)
