@@ -103,7 +103,7 @@ $(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(B
 $(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	sh runtime/oracle/builtin.sh $(ORACLES) > $@
-PANEL     = $(addprefix solver/panel/panel.,html css js)
+PANEL     = $(addprefix solver/panel/,panel.html panel.css page.js parameters.js result.js graph.js)
 $(BUILD)/gen/panel_text.c: $(PANEL) dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	for file in $(PANEL); do sh dagc/emit/embed.sh $$(basename $$file | tr . _) $$file || exit 1; done > $@

@@ -37,6 +37,13 @@ children keep helpers | runtime/util/thread_pool.c | s/pool = nobody;/(void)nobo
 moves not made again | solver/util/pattern_search.c | s/to->at\[i\] - from->at\[i\]/0 * (to->at[i] - from->at[i])/ | solver/check_tune
 left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
 comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
+paths of like numbers | runtime/oracle/counting.c | s/p->gains\[at\] = paths\[i\];/p->gains[at] = 0;/ | runtime/check_statistics
+terms noted once | runtime/oracle/counting.c | s/        t->levels\[i \/ 8\] = now;/        (void)t;/ | runtime/check_statistics
+passes from the beginning | runtime/oracle/statistics.c | s/i > 0 ? numbers - p->number_count : NULL/NULL/ | runtime/check_statistics solver/check_draw
+times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)timed : 0/* (double)(calls > 0) : 0/ | runtime/check_statistics
+rays of all nodes before | runtime/oracle/counting.c | s/t->host.rays - rays/t->host.rays + 0 * rays/ | runtime/check_instrumented
+dead arcs alive | solver/output/graph_drawing.c | s/.dead = counted \&\& count == 0/.dead = 0/ | solver/check_draw
+arcs to the first leaf | solver/output/graph_drawing.c | s/            a->leaf = (int)i;/            a->leaf = 0;/ | solver/check_draw
 END
 }
 

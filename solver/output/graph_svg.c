@@ -12,7 +12,7 @@
 #include "output/graph_drawing.h"
 #include "util/report.h"
 
-static const double MARGIN = 16, HEAD = 62, LEGEND = 118;
+static const double MARGIN = 16, HEAD = 30, SAID = 15, LEGEND = 118;
 
 static void put_text(FILE *out, const char *text)
 {
@@ -182,8 +182,13 @@ static void put_arrow(FILE *out, const double from[2], const double tip[2], doub
 static void put_arc(FILE *out, const struct drawing *p, const struct drawing_arc *a)
 {
     const double width = a->dead ? 0.7 : width_of(a->share);
-    fprintf(out, "<g class=\"arc %s%s\" id=\"arc-%s-%s\">", a->kind, a->dead ? " dead" : "",
-            p->nodes[a->from].name, a->answer);
+    fprintf(out, "<g class=\"arc %s%s\" id=\"arc-%s-%s\" data-from=\"node-%s\"", a->kind,
+            a->dead ? " dead" : "", p->nodes[a->from].name, a->answer, p->nodes[a->from].name);
+    if (a->leaf >= 0)
+        fprintf(out, " data-to=\"leaf-%s-%s\">", p->nodes[p->leaves[a->leaf].node].name,
+                p->leaves[a->leaf].decision);
+    else
+        fprintf(out, " data-to=\"node-%s\">", p->nodes[a->node].name);
     put_title(out, a->title);
     fprintf(out, "<path stroke-width=\"%.2f\" d=\"M%.1f,%.1f", width, a->points[0], a->points[1]);
     for (size_t i = 1; i < a->point_count; i++)
@@ -285,13 +290,44 @@ static void put_legend(FILE *out, double y, int counted)
     fputs("</g>\n", out);
 }
 
+/* ---- the whole */
+
+/* A text in lines as wide as that, from `y` down; out NULL: none is written. Returns the line
+ * behind the last. */
+static double put_wrapped(FILE *out, const char *class, double width, double y, const char *text)
+{
+    const size_t letters = (size_t)(width / drawing_text_width("x", 11));
+    char line[512];
+    while (*text) {
+        size_t length = strlen(text), most = letters < sizeof line ? letters : sizeof line - 1;
+        if (length > most) {
+            for (length = most; length > 0 && text[length] != ' ';)
+                length--;
+            length = length ? length : most;
+            while ((text[length] & 0xc0) == 0x80) /* within a letter of UTF-8 */
+                length--;
+        }
+        memcpy(line, text, length);
+        line[length] = 0;
+        if (out)
+            put_line(out, class, "start", MARGIN, y, line);
+        y += SAID;
+        text += length + (text[length] == ' ');
+    }
+    return y;
+}
+
+static double put_head(FILE *out, const struct drawing *p, double width)
+{
+    double y = MARGIN + HEAD + 3;
+    y = put_wrapped(out, "said", width, y, p->doc);
+    return p->summary ? put_wrapped(out, "said soft", width, y, p->summary) : y;
+}
+
 static void put_drawing(FILE *out, const struct drawing *p)
 {
-    const double least = p->summary ? 690 : 480;
-    double width = fmax(fmax(p->width, least), drawing_text_width(p->doc, 11));
-    width = p->summary ? fmax(width, drawing_text_width(p->summary, 11)) : width;
-    width += 2 * MARGIN;
-    double height = HEAD + p->height + LEGEND + 2 * MARGIN;
+    const double inside = fmax(p->width, p->summary ? 690 : 480), width = inside + 2 * MARGIN,
+                 top = put_head(NULL, p, inside), height = top + p->height + LEGEND + MARGIN;
     fprintf(out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"graph\" role=\"img\" "
             "aria-labelledby=\"graph-title graph-doc\" width=\"%.0f\" height=\"%.0f\" "
@@ -304,10 +340,8 @@ static void put_drawing(FILE *out, const struct drawing *p)
     put_style(out);
     fprintf(out, "<rect class=\"ground\" width=\"%.0f\" height=\"%.0f\"/>\n", width, height);
     put_line(out, "head", "start", MARGIN, MARGIN + 16, p->oracle);
-    put_line(out, "said", "start", MARGIN, MARGIN + 33, p->doc);
-    if (p->summary)
-        put_line(out, "said soft", "start", MARGIN, MARGIN + 49, p->summary);
-    fprintf(out, "\n<g transform=\"translate(%.1f,%.1f)\">\n", MARGIN, MARGIN + HEAD);
+    (void)put_head(out, p, inside);
+    fprintf(out, "\n<g transform=\"translate(%.1f,%.1f)\">\n", MARGIN, top);
     for (size_t i = 0; i < p->branch_count; i++)
         put_branch(out, &p->branches[i]);
     for (size_t i = 0; i < p->arc_count; i++)
@@ -326,10 +360,11 @@ int graph_svg_write(FILE *out, RadOracle oracle, const json_t *statistics)
     radGetOracleReport(oracle, &report);
     const char *text = radGetOracleGraph(oracle);
     json_t *graph = text ? json_loads(text, 0, NULL) : NULL;
+    if (!text)
+        return report_error(report.name, 0, "out of memory for its drawing");
     if (!graph)
         return report_error(report.name, 0,
-                            "only an interpreted oracle that fits the memory has "
-                            "its graph drawn");
+                            "its texts are not UTF-8; save the .dag file in that encoding");
     struct drawing drawing;
     int status = drawing_open(&drawing, graph, report.name, statistics);
     if (status == 0)

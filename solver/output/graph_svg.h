@@ -14,10 +14,13 @@
  * same bytes.
  *
  * A node is <g class="node CLASS" id="node-NAME" data-node="NAME">, CLASS one of question, term (a
- * question that may compute terms), command; with statistics also `heat0` to `heat6` (share of the
- * time) or `unused`. An arc is <g class="arc KIND" id="arc-NAME-ANSWER">, KIND precise,
- * approximate, other or command; a leaf <g class="leaf DECISION">; a branch <g class="branch"
- * id="branch-NAME">. Each has a <title>. Returns 0, or -1 after a message. */
+ * question that may compute terms), command; where it guards subdivision also `guards`, with
+ * statistics also `heat0` to `heat6` (share of the time) or `unused`. A leaf is <g class="leaf
+ * LINKS DECISION" id="leaf-NODE-DECISION">, LINKS one of links, subdivides, stops. An arc, which
+ * stands for all answers of one kind to one place, is <g class="arc KIND" id="arc-NODE-ANSWER"
+ * data-from="ID" data-to="ID">, KIND one of precise, approximate, other, command, with `dead`
+ * where statistics know that it was never taken. A branch is <g class="branch" id="branch-NAME">.
+ * Each has a <title>. Returns 0, or -1 after a message. */
 int graph_svg_write(FILE *out, RadOracle oracle, const json_t *statistics);
 
 #endif

@@ -15,7 +15,8 @@
 #include "util/atomic_file.h"
 #include "util/report.h"
 
-extern const char panel_html[], panel_css[], panel_js[]; /* the build makes them: embed.sh */
+/* The files, as the build turns them into C (embed.sh). */
+extern const char panel_html[], panel_css[], page_js[], parameters_js[], result_js[], graph_js[];
 
 struct page {
     const char *path;
@@ -47,7 +48,9 @@ static int write_style(const struct page *p)
 
 static int write_script(const struct page *p)
 {
-    fputs(panel_js, p->out);
+    const char *const files[] = {page_js, parameters_js, result_js, graph_js};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        fputs(files[i], p->out);
     return 0;
 }
 

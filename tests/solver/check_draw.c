@@ -315,6 +315,37 @@ static void check_xml(const char *path)
     ck_assert_int_eq(system(command), 0);
 }
 
+/* To each place that a node's answers lead to, a line for each kind of answer, which ends at a
+ * thing that is drawn; with statistics dead answers may have their own. */
+static void check_ways(const char *svg, const json_t *node, int counted)
+{
+    const json_t *arcs = json_object_get(node, "arcs");
+    char to[256], way[512];
+    int lines = 0;
+    for (size_t i = 0; i < json_array_size(arcs); i++) {
+        const json_t *arc = json_array_get(arcs, i);
+        const char *key = json_object_get(arc, "node") ? "node" : "decision";
+        if (*key == 'n')
+            snprintf(to, sizeof to, "\"node-%s\"", word(arc, key));
+        else
+            snprintf(to, sizeof to, "\"leaf-%s-%s\"", word(node, "name"), word(arc, key));
+        snprintf(way, sizeof way, " data-from=\"node-%s\" data-to=%s>", word(node, "name"), to);
+        ck_assert_msg(strstr(svg, way) != NULL, "no line%s", way);
+        snprintf(way, sizeof way, " id=%s", to);
+        ck_assert_int_eq(count_of(svg, way), 1);
+        int first = 1;
+        for (size_t k = 0; k < i; k++) {
+            const json_t *other = json_array_get(arcs, k);
+            first &= !json_equal(json_object_get(arc, key), json_object_get(other, key))
+                     || !json_equal(json_object_get(arc, "kind"), json_object_get(other, "kind"));
+        }
+        lines += first;
+    }
+    snprintf(way, sizeof way, " data-from=\"node-%s\"", word(node, "name"));
+    ck_assert_int_ge(count_of(svg, way), lines);
+    ck_assert_int_le(count_of(svg, way), counted ? (int)json_array_size(arcs) : lines);
+}
+
 /* A group for each node, branch and leaf; what the statistics call unused is grey, and nothing
  * else; twice the same bytes. */
 START_TEST(test_drawing)
@@ -353,6 +384,7 @@ START_TEST(test_drawing)
         char id[128];
         snprintf(id, sizeof id, " id=\"node-%s\"", word(node, "name"));
         ck_assert_int_eq(count_of(a, id), 1);
+        check_ways(a, node, s != NULL);
     }
     /* drawn without a place, things would stand in the corner */
     ck_assert_int_eq(count_of(a, "M0.0,0.0"), 0);

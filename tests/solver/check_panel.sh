@@ -134,6 +134,7 @@ type_text 1e-3
 line "a number" " --set relative=0.001"
 type_text inf
 line "no limit" " --set relative=inf"
+shows "the slider then" "inf at its end" "(e => e.ariaValueText + (e.value === e.max ? ' at its end' : ''))(document.querySelector('[aria-label=\"relative, slider\"]'))"
 type_text 0,5
 line "what is no number is not taken" ""
 shows "and said" "'0,5' is not a number; write a point, not a comma" "$(at p-relative-wrong).textContent"
