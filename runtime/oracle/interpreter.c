@@ -40,7 +40,8 @@ static void release_program(struct refiner *r)
     free(p->code);
     free(p->externs);
     free(p->reads);
-    program_free_tallies(p);
+    if (p->forget)
+        p->forget(p);
     free(p->graph_json);
     free(p);
 }
