@@ -82,7 +82,7 @@ static struct tally *find_tally(struct program *p)
     return t;
 }
 
-void program_free_tallies(struct program *p)
+static void forget_counts(struct program *p)
 {
     struct tally *t = atomic_exchange(&p->tallies, NULL), *next;
     for (; t; t = next) {
@@ -347,7 +347,8 @@ int refiner_count(struct refiner *r)
     struct program *p = r->own;
     if (strcmp(r->release, "dag") != 0)
         return -1;
-    program_free_tallies(p);
+    forget_counts(p);
+    p->forget = forget_counts;
     p->number_count =
         (size_t)p->answer_count + (size_t)p->graph->order.count * (size_t)program_stride();
     if (number_paths(p) < 0)

@@ -41,7 +41,8 @@ static void release_program(struct refiner *r)
     free(p->externs);
     free(p->reads);
     free(p->ways);
-    program_free_tallies(p);
+    if (p->forget)
+        p->forget(p);
     free(p->graph_json);
     free(p);
 }

@@ -58,8 +58,9 @@ struct program {
     char *graph_json;     /* made when asked for; NULL: not yet */
     uint64_t counting;    /* which of all countings this is; 0: nothing is counted */
     struct program *self; /* so that a walk, which has a const one, can add its thread's counters */
-    _Atomic(struct tally *) tallies; /* one per thread that has asked */
-    atomic_int lost;                 /* there was no memory for one */
+    void (*forget)(struct program *p); /* frees what counting made; NULL: nothing was counted */
+    _Atomic(struct tally *) tallies;   /* one per thread that has asked */
+    atomic_int lost;                   /* there was no memory for one */
     /* [answer_count]: added up along a path they give its number; NULL: too many paths */
     uint64_t *gains;
     uint64_t clock; /* what reading the clock takes, ns */
@@ -82,8 +83,7 @@ void program_prepare(struct refiner *r);
 /* interpreter.c. `state` is the steps. */
 enum decision program_walk(const void *state, struct discussion *d);
 
-/* counting.c. The walk that counts, and the end of its counters. `state` is the program. */
+/* counting.c. The walk that counts. `state` is the program. */
 enum decision program_walk_counted(const void *state, struct discussion *d);
-void program_free_tallies(struct program *p);
 
 #endif

@@ -88,6 +88,20 @@ static void print_paths(FILE *out, const struct RadStatistics *s)
     }
 }
 
+static void print_unused(FILE *out, const struct RadStatistics *s)
+{
+    fputs("never asked:", out);
+    for (int i = 0; i < s->node_count; i++)
+        if (!s->nodes[i].calls)
+            fprintf(out, " %s", s->nodes[i].name);
+    fputs("\nnever answered:", out);
+    for (int i = 0; i < s->node_count; i++)
+        for (int k = 0; s->nodes[i].calls && k < s->nodes[i].answer_count; k++)
+            if (!s->nodes[i].answers[k].count)
+                fprintf(out, " %s:%s", s->nodes[i].name, s->nodes[i].answers[k].name);
+    fputc('\n', out);
+}
+
 static void print_passes(FILE *out, const struct RadStatistics *s)
 {
     fprintf(out, "pass  discussions         rays      seconds\n");
@@ -104,6 +118,7 @@ static void print_text(FILE *out, const char *oracle, const struct RadStatistics
             statistics_seconds(s), RAD_TIMED_EVERY);
     for (int i = 0; i < s->node_count; i++)
         print_node(out, &s->nodes[i], s);
+    print_unused(out, s);
     print_paths(out, s);
     print_passes(out, s);
     print_records(out, s);

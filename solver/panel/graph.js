@@ -183,9 +183,15 @@ function keys(event) {
 function tellCounted() {
   const s = data.statistics,
     unused = [...drawn.keys()].filter(name => counted.has(name) && !counted.get(name).calls);
+  const used = new Map(Object.entries(s.parameters ?? {})); // infinite ones are no numbers in JSON
+  const set = offered.filter(
+    p => Number.isFinite(used.get(p.name)) && used.get(p.name) !== p.preset,
+  );
+  const values = set.map(p => `${p.name} = ${written(used.get(p.name))}`).join(", ");
   at("counted").hidden = false;
   at("counted").append(
-    `Counted in a solve of ${s.scene}: ${count(s.discussions)} discussions, ` +
+    `Counted in a solve of ${s.scene}${values ? ` with ${values}` : ""}: ` +
+      `${count(s.discussions)} discussions, ` +
       `${count(s.rays)} rays, ${seconds(s.seconds)} in the nodes.`,
     unused.length ? ` Never asked: ${unused.join(", ")}.` : "",
   );

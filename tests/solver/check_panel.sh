@@ -61,7 +61,7 @@ refused 2 "-o takes a file named .html, not x" bf -o x
 refused 1 "nix: error: no such oracle" nix -o x.html
 refused 1 "no/x.html: error" bf -o no/x.html
 refused 1 "none.json" bf --statistics none.json -o x.html
-check "statistics of a solve" solve --oracle "$mine" --statistics s.json
+check "statistics of a solve" solve --oracle "$mine" --set rays=5 --set shift=0.5 --statistics s.json
 refused 1 "they are of the oracle mine, not of bf" bf --statistics s.json -o x.html
 check "a page" "$radiosity" panel "$mine" --statistics s.json -o page.html
 check "the same bytes again" sh -c '"$1" panel "$2" --statistics s.json -o again.html && cmp page.html again.html' - "$radiosity" "$mine"
@@ -107,6 +107,8 @@ shows "controls that fit" "text,range+text,range+text,checkbox,select-one,range+
     "[...document.querySelectorAll('#offered .control')].map(c => [...c.querySelectorAll('input, select')].map(e => e.type).join('+')).join()"
 shows "each control has a name" "" "[...document.querySelectorAll('input, select, button, output')].filter(e => !(e.labels?.length || e.ariaLabel || e.textContent.trim() || e.getAttribute('aria-labelledby'))).map(e => e.outerHTML).join()"
 shows "each id once" "" "[...document.querySelectorAll('[id]')].map(e => e.id).filter((id, i, all) => all.indexOf(id) !== i).join()"
+
+shows "what was counted" "Counted in a solve of $scene with rays = 5, shift = 0.5" "$(at counted).textContent.split(':')[0]"
 
 # ---- keyboard alone: the tab key comes to all, and to one node
 stops=
