@@ -36,7 +36,7 @@ solve() { "$radiosity" solve "$@" --no-errors --no-correct -q >out 2>err; }
 field() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$2" | head -n 1; } # NAME FILE
 
 room=$scenes/room.obj small=$scenes/furnace.obj
-coarse=(--set energy=1e-3 --set bend=3e-4 --set shadow=1e-3 --set noise=4e-4 --set spot=1e-5 --set product=1e-3)
+coarse=(--set energy=3e-3 --set bend=1e-3 --set shadow=3e-3 --set noise=1e-3 --set spot=3e-5 --set product=3e-3)
 
 # ---- a trace has each discussion once, whatever the threads
 solve "$room" "${coarse[@]}" --trace all.csv --json s.json --threads 2
@@ -44,7 +44,7 @@ solve "$room" "${coarse[@]}" --trace one.csv --threads 1
 solve "$room" "${coarse[@]}" --statistics s.csv
 check "a trace depends on threads" cmp -s all.csv one.csv
 lines=$(($(wc -l <all.csv) - 1))
-check "a trace of $lines lines is too short to judge by" [ $lines -gt 20000 ]
+check "a trace of $lines lines is too short to judge by" [ $lines -gt 8000 ]
 check "lines are not the discussions of the summary" [ $lines = "$(field pairs s.json)" ]
 check "rays are not those of the summary" [ "$(awk -F, 'NR > 1 { s += $6 } END { print s }' all.csv)" = "$(field rays s.json)" ]
 check "pass 1 does not begin with the root" [ "$(sed -n 2p all.csv | cut -d, -f1-4)" = 1,1,root,root ]
