@@ -8,6 +8,7 @@
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
+# make heat     the graph of the default oracle with what it did in room.obj (needs Graphviz)
 # make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
@@ -53,7 +54,7 @@ ORACLES   = $(filter-out common,$(notdir $(basename $(wildcard examples/oracles/
 FLAT      = $(ORACLES:%=$(BUILD)/gen/oracles/%.o)
 LIBDAGC   = $(BUILD)/libdagc.a
 RUNTIME   = $(call objects,$(ROOMS:%=runtime/%)) $(BUILD)/gen/catalog.o $(FLAT) $(BUILD)/gen/builtin.o
-SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(call objects,tests/hand)
+SOLVER    = $(call objects,solver $(wildcard solver/*/)) $(BUILD)/gen/panel_text.o $(call objects,tests/hand)
 # What tests of the engine's insides read scenes and name oracles with.
 SUPPORT   = $(call objects,$(wildcard tests/support/*/))
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
@@ -102,6 +103,10 @@ $(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(B
 $(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	sh runtime/oracle/builtin.sh $(ORACLES) > $@
+PANEL     = $(addprefix solver/panel/,panel.html panel.css page.js parameters.js result.js graph.js)
+$(BUILD)/gen/panel_text.c: $(PANEL) dagc/emit/embed.sh
+	@mkdir -p $(@D)
+	for file in $(PANEL); do sh dagc/emit/embed.sh $$(basename $$file | tr . _) $$file || exit 1; done > $@
 
 # One object in which only radiosity.h's functions are global: a program's own libdagc, or its own `link`, meets none of ours.
 $(ARCHIVE): $(RUNTIME) $(LIBDAGC)
@@ -213,6 +218,11 @@ drawings: commands
 	    $(BUILD)/bin/dagc --emit=svg -Wno-all -o $(BUILD)/$$name.svg examples/oracles/$$name.dag && \
 	    sed -e '/^<!--.*-->$$/d' -e '/^<!--/,/-->$$/d' -e '/^<title>/d' $(BUILD)/$$name.svg > examples/oracles/drawings/$$name.svg || exit 1; \
 	done
+
+.PHONY: heat
+heat: commands
+	$(BUILD)/bin/radiosity solve examples/scenes/room.obj -q --no-errors --statistics $(BUILD)/power_room.json
+	$(BUILD)/bin/radiosity draw power --statistics $(BUILD)/power_room.json -o examples/oracles/drawings/power_room.svg
 
 clean:
 	rm -rf $(BUILD)

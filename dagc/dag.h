@@ -152,6 +152,7 @@ struct parameter {
     const char *doc;       /* "" when none */
     double value;          /* the default, NAN when there is none (tools only) */
     double low, high;      /* closed range; -INFINITY, INFINITY when none was written */
+    unsigned char fixed;   /* of an oracle: its author's; else it is offered to the user */
     unsigned char given;   /* PARAMETER_VALUE | PARAMETER_RANGE: which of them were written */
     unsigned char bad;     /* an error was reported: say no more about its value or range */
 };
@@ -439,8 +440,10 @@ struct dag {
     int import_count;
     int imports_read; /* the first so many have been read */
     const char *const *folders;
-    int folder_count; /* where to look for imports */
-    char *reading;    /* a file's bytes on their way into sources */
+    int folder_count;                /* where to look for imports */
+    const char *const *replacements; /* [replacement_count], as in struct dag_options */
+    int replacement_count;
+    char *reading; /* a file's bytes on their way into sources */
     struct diagnostic *diagnostics;
     int diagnostic_count;
     int error_count, warning_count;  /* all of them, also those not kept */
@@ -476,6 +479,11 @@ struct dag_options {
     int folder_count;
     const char *switches; /* as after `-W` on the command line, separated by spaces, such as
                              "all no-unused-parameter error"; NULL: errors alone */
+    /* [replacement_count] of nodes, one after the other, of every oracle that has such a node:
+     * "NODE = TOOL(...)", "NODE = TOOL(...) { rules }", or "NODE = ANSWER", which asks nothing
+     * (dagc/check/replace.c) */
+    const char *const *replacements;
+    int replacement_count;
 };
 struct dag *dag_load_with(const char *path, const struct dag_options *options, FILE *errors);
 
@@ -497,6 +505,10 @@ struct dag_compiler {
  * at least. */
 void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
                           size_t size);
+
+/* The oracles, and what they use of the catalog, as --emit=json gives them; for free(). NULL: out
+ * of memory. */
+char *dag_json(struct dag *dag);
 
 /* Index in oracles of the oracle `name`, or of the only one when name is NULL; -1: none, or
  * many. */

@@ -19,6 +19,7 @@ struct oracle_parameter {
     int integer;             /* the field is an int, not a double */
     size_t offset;           /* of the field in the parameter structure */
     int role;                /* enum catalog_role: what it is to a program, whatever its name */
+    int fixed;               /* by the oracle's author: it is not to be set */
 };
 
 struct oracle {

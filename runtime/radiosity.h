@@ -206,6 +206,14 @@ RAD_API RadOracle radLoadOracle(RadDevice device, const char *path, const char *
                                 enum RadRelease release);
 RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text,
                                  const char *oracle, enum RadRelease release);
+/* One of the same with nodes that are otherwise than written, for once: `replacements` are
+ * [count] texts "NODE = TOOL(...)", which keeps the answers that both tools have, "NODE = TOOL(...)
+ * { rules }", or "NODE = ANSWER", which asks nothing and goes where this answer leads. NODE is
+ * called as statistics call it, USE__NAME within a branch. `text` NULL: `path` names a file.
+ * Messages about replacements name "--replace" as their source. Returns NULL on error. */
+RAD_API RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *text,
+                                        enum RadRelease release, const char *const *replacements,
+                                        int count);
 /* A refiner that dagc generated and that the program is linked with, or one written by hand.
  * Borrowed. */
 RAD_API RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *oracle,
@@ -225,28 +233,56 @@ struct RadOracleReport {
     int reads_importance, reads_tolerance; /* facts that a solver must provide */
 };
 RAD_API void radGetOracleReport(RadOracle oracle, struct RadOracleReport *report);
-/* Returns 0, or -1: no such parameter, or not in its range. A progress function may set them, and
- * ask for statistics, too: in phase "refine" it is called between rounds, when nobody asks the
- * oracle, and the next round goes by the new value. */
+/* The graph of an interpreted oracle as JSON, schema dagc/1 (dagc --emit=json, dagc(1)): nodes,
+ * tools, answers, branches, parameters with their defaults. The oracle's own. NULL on error:
+ * RAD_RELEASE_DAG only. */
+RAD_API const char *radGetOracleGraph(RadOracle oracle);
+/* Returns 0, or -1: no such parameter, fixed by the oracle's author, or not in its range. A
+ * progress function may set them, and ask for statistics, too: in phase "refine" it is called
+ * between rounds, when nobody asks the oracle, and the next round goes by the new value. */
 RAD_API int radSetOracleParameter(RadOracle oracle, const char *name, double value);
 /* NAN when there is no such parameter. */
 RAD_API double radGetOracleParameter(RadOracle oracle, const char *name);
 /* Ask it once; safe from many threads while no parameter is set. */
 RAD_API enum decision radAskOracle(RadOracle oracle, struct discussion *discussion);
 
-/* How often each node was asked and each answer given, on all threads. RAD_RELEASE_DAG only. */
+/* What was counted of an interpreted graph, on all threads. Counts are exact. Time is measured in
+ * one discussion of RAD_TIMED_EVERY, chosen at random, and scaled by the calls: an estimate.
+ * [Turbet & Sillion, section 4.3] */
 struct RadAnswerCount {
     const char *name, *kind; /* kind: "precise", "approximate", "other", "command" */
     const char *target;      /* node or decision */
     uint64_t count;
+};
+struct RadTermCount {
+    const char *name;
+    uint64_t count; /* how often the node brought the term to a better level than it had */
 };
 struct RadNodeCount {
     const char *name, *tool;
     uint64_t calls;
     const struct RadAnswerCount *answers; /* [answer_count] */
     int answer_count;
+    uint64_t timed; /* calls whose time was measured */
+    double seconds; /* of all calls, arguments included, in all threads together; 0: none timed */
+    uint64_t rays;  /* segments that it asked the host's `occluded` for */
+    const struct RadTermCount *terms; /* [term_count], those that it computed at least once */
+    int term_count;
 };
-enum { RAD_COUNTS = 256, RAD_RECORDS = 8, RAD_BINS = 128 };
+/* A way through the graph that discussions went: nodes[i] gave answers[i]. */
+struct RadPath {
+    const int *nodes, *answers; /* [length], in RadStatistics.nodes and their answers */
+    int length;
+    uint64_t count, timed; /* discussions that went it; of them, timed */
+    double seconds;        /* of all of them; 0: none timed */
+};
+/* Rounds between two solves: what was counted in them. */
+struct RadPass {
+    uint64_t discussions, rays;
+    double seconds;
+    const struct RadNodeCount *nodes; /* [RadStatistics.node_count] */
+};
+enum { RAD_COUNTS = 256, RAD_RECORDS = 8, RAD_BINS = 128, RAD_PATHS = 16, RAD_TIMED_EVERY = 128 };
 struct RadStatistics {
     const struct RadNodeCount *nodes; /* [node_count], the start first */
     int node_count;
@@ -255,6 +291,13 @@ struct RadStatistics {
      * above 0. */
     const uint64_t (*bins)[RAD_BINS]; /* [RAD_RECORDS] */
     const uint64_t *zero;             /* [RAD_RECORDS] */
+    const struct RadPass *passes;     /* [pass_count], those that are over */
+    int pass_count;
+    /* The paths that took most time, at most RAD_PATHS, the longest first; how many were gone at
+     * all. A graph of 2^63 paths or more has none told. */
+    const struct RadPath *paths;
+    int path_count;
+    uint64_t distinct_paths;
 };
 /* From now on count. Returns 0, or -1. */
 RAD_API int radCountOracle(RadOracle oracle);
@@ -709,6 +752,97 @@ struct RadAccountReport {
 RAD_API int radAccountErrors(RadSolution solution, const struct RadAccountOptions *options,
                              struct RadAccountReport *report);
 
+/* ---- watching an oracle think: RAD_RELEASE_DAG only */
+
+/* An answer that a node of the graph may give. Names are the oracle's. */
+struct RadAnswer {
+    int node_number, answer_number; /* from 0: nodes in topological order, the start first */
+    const char *node, *tool, *doc;  /* doc: what the tool asks */
+    const char *answer, *kind;      /* as in struct RadAnswerCount */
+    const char *target;             /* node or decision */
+};
+/* Returns 0; -1: there is none of that number, or the oracle is no interpreted graph. */
+RAD_API int radGetOracleAnswer(RadOracle oracle, int node, int answer, struct RadAnswer *out);
+/* The answers on a way through the graph, at most `most` of them. Returns how many there are, or
+ * -1: there is no such way. */
+RAD_API int radGetOracleWay(RadOracle oracle, uint64_t way, struct RadAnswer *out, int most);
+
+/* One discussion of a refinement. */
+struct RadTraced {
+    int pass;                   /* 1: before the first solve */
+    uint64_t round;             /* from 1, over all passes */
+    uint32_t receiver, emitter; /* elements */
+    /* The pair as the oracle saw it, with what was known already. Good until the function returns;
+     * a copy of it and of what it points to can be held again by radExplain */
+    const struct discussion *before;
+    enum decision decision;
+    uint64_t way;  /* through the graph, for radGetOracleWay */
+    uint32_t rays; /* that it cast */
+    /* at its end; levels as the catalog counts them, 0: not known */
+    double form_factor, visibility;
+    unsigned char form_factor_level, visibility_level;
+};
+/* Called from the thread that called in, in the order of the pairs, which is the same for any
+ * number of threads. Return 0 to go on, anything else to cancel. */
+typedef int (*RadTraceFunction)(void *user, const struct RadTraced *traced);
+/* Be told of every discussion from now on; NULL: no more. Before radRefine, radStep or radSolve.
+ * Answers are not counted meanwhile (radCountOracle). Returns 0, or -1. */
+RAD_API int radTraceSolution(RadSolution solution, RadTraceFunction function, void *user);
+
+/* A value in the data manager. */
+struct RadTerm {
+    const char *name, *doc, *unit;
+    const char *level;             /* "" of terms without levels; NULL: not known */
+    int level_number, level_count; /* 1 the coarsest, level_count the most precise; 0: not known */
+    int level_before;              /* of the node */
+    int reads, writes;             /* by the catalog: the node, its arguments included */
+    int changed;                   /* the node has changed it */
+    int size;                      /* numbers in value */
+    double value[3];
+};
+struct RadArgument {
+    const char *name, *unit, *doc;
+    double value;
+    int computed; /* from this pair; else it is the same in all discussions */
+};
+/* A node that was asked. */
+struct RadAsked {
+    const char *node, *tool, *doc, *answer, *kind, *target; /* as in struct RadAnswer */
+    const struct RadArgument *arguments;                    /* [argument_count] */
+    int argument_count;
+    const struct RadTerm *terms; /* [term_count]: those it reads, writes or has changed */
+    int term_count;
+    uint64_t rays;
+    double seconds; /* the shortest of some times that it was asked */
+};
+struct RadExplanation {
+    const struct RadAsked *asked; /* [asked_count], the start first */
+    int asked_count;
+    enum decision decision;
+    const char *decision_name, *decision_doc;
+    uint64_t way, rays;
+    double seconds;              /* sum over the nodes */
+    const struct RadTerm *terms; /* [term_count]: what is known at the end */
+    int term_count;
+};
+/* Hold a discussion, node by node, by any interpreted oracle: that of the solution or another. Its
+ * elements, terms, list and the numbers of its host are those of `before`, rays and shafts are of
+ * the solution's scene; what clusters hold is looked at as it is now. Nothing is changed. The
+ * explanation is good until the next call with this oracle. Returns 0, or -1. */
+RAD_API int radExplain(RadSolution solution, RadOracle oracle, const struct discussion *before,
+                       struct RadExplanation *explanation);
+
+/* Elements by their ways down the tree. "12": polygon 12, where it is one face; "12.0", "12.1": the
+ * faces that it became; "12b": the far side of a two-sided one; "12/0/3": of its part 0 the part 3;
+ * "root", "root/1": clusters. Of a scene that is grouped in the same way a name means the same
+ * place in every run. */
+enum { RAD_NAME = 256 }; /* room for any name */
+RAD_API int radGetElementName(RadSolution solution, uint32_t element, char name[RAD_NAME]);
+/* Returns 0, or -1 with a message that says what there is. */
+RAD_API int radFindElement(RadSolution solution, const char *name, uint32_t *element);
+/* The face that is nearest to a point (m), of two-sided ones the front; of faces at the same
+ * distance the first. Returns 0, or -1. */
+RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t *element);
 /* ---- exchange areas */
 
 struct RadExchangeOptions {

@@ -29,7 +29,10 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_ARVO] = study_arvo,
     [COMMAND_CAUSES] = study_causes,
     [COMMAND_GREEDY] = study_greedy,
+    [COMMAND_DRAW] = command_draw,
+    [COMMAND_PANEL] = command_panel,
     [COMMAND_ORACLES] = command_oracles,
+    [COMMAND_EXPLAIN] = command_explain,
 };
 
 /* Also where one is a link to the other. */

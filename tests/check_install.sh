@@ -257,7 +257,7 @@ done
 
 # Every option of every command is in radiosity(1) with its argument, and the page has no other.
 page=$prefix/share/man/man1/radiosity.1
-for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy"; do
+for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy" explain; do
     # shellcheck disable=SC2086
     radiosity $command --help=all | sed -n 's/^  \(-[-a-zA-Z]* [^ ][^ ]*\) .*/\1/p; s/^  \(-[-a-zA-Z]*\(\[=[a-z]*\]\)*\)  .*/\1/p' >options
     awk -v command="radiosity $command" '/^\.S[sh] / { on = $0 == ".Ss " command || $0 == ".Ss " command " scene" }

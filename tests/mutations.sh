@@ -39,6 +39,19 @@ held by nothing | solver/commands/tune_choice.c | s/hold \* far/0 * far/ | solve
 all search at once no more | solver/util/pattern_search.c | s/(s->together \&\& s->count > 1)/0/ | solver/check_tune
 left out and yet seen | solver/commands/tune_fit.c | s/if (s == f->left_out)/if (0)/ | solver/check_tune
 comments are read | solver/util/graph_defaults.c | s/if (\*at != '#')/if (1)/ | solver/check_tune
+paths of like numbers | runtime/oracle/counting.c | s/p->gains\[at\] = paths\[i\];/p->gains[at] = 0;/ | runtime/check_statistics
+terms noted once | runtime/oracle/counting.c | s/        t->levels\[i \/ 8\] = now;/        (void)t;/ | runtime/check_statistics
+passes from the beginning | runtime/oracle/statistics.c | s/i > 0 ? numbers - p->number_count : NULL/NULL/ | runtime/check_statistics solver/check_draw
+times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)timed : 0/* (double)(calls > 0) : 0/ | runtime/check_statistics
+rays of all nodes before | runtime/oracle/counting.c | s/t->host.rays - rays/t->host.rays + 0 * rays/ | runtime/check_instrumented
+dead arcs alive | solver/output/graph_drawing.c | s/.dead = counted \&\& count == 0/.dead = 0/ | solver/check_draw
+arcs to the first leaf | solver/output/graph_drawing.c | s/            a->leaf = (int)i;/            a->leaf = 0;/ | solver/check_draw
+fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
+parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
+panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/strchr("\&", *at)/ | solver/check_panel
+panel: wrong files taken | solver/panel/result.js | s/if (wrong.length) throw/if (false) throw/ | solver/check_panel
+panel: all nodes are stops | solver/panel/graph.js | s/i ? "-1" : "0"/"0"/ | solver/check_panel
+panel: words unquoted | solver/panel/result.js | s/words.map(quoted)/words/ | solver/check_panel
 END
 }
 
@@ -56,9 +69,10 @@ while IFS='|' read -r name file change suites; do
     [ $# = 0 ] || case $name in "$1"*) ;; *) continue ;; esac
     tried=$((tried + 1))
     verdict=survived
-    programs=
+    programs= scripts=
     for suite in $suites; do
         [ -e "tests/$suite.c" ] && programs="$programs build/tests/$suite"
+        [ -e "tests/$suite.sh" ] && scripts="$scripts tests/$suite.sh"
     done
     cp -p "$file" "$work/kept" && sed -i "$change" "$file"
     if cmp -s "$file" "$work/kept"; then
@@ -66,9 +80,9 @@ while IFS='|' read -r name file change suites; do
     elif ! build commands $programs; then
         verdict="NOT BUILT: $(grep -m 1 " error: " "$work/said")"
     else
-        for program in $programs; do
+        for program in $programs $scripts; do
             if ! "$program" >"$work/said" 2>&1; then
-                verdict="killed by $(basename "$program"): $(grep -m 1 -E ':[FE]:' "$work/said" | sed 's/.*:[FE]:[^:]*:\([^:]*\):.*/\1/')"
+                verdict="killed by $(basename "$program"): $(grep -m 1 -E -e ':[FE]:' -e '^failed: ' "$work/said" | sed 's/.*:[FE]:[^:]*:\([^:]*\):.*/\1/; s/^failed: //')"
                 break
             fi
         done

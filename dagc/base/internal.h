@@ -171,6 +171,7 @@ enum content { CONTENT_CATALOG, CONTENT_ORACLES };
 void dag_parse(struct dag *dag, int source, enum content content); /* and what it imports */
 void dag_resolve_catalog(struct dag *dag); /* what was declared since the last time */
 void dag_check_names(struct dag *dag);     /* the catalog's names as C names */
+void dag_replace(struct dag *dag);         /* nodes, as dag_options.replacements say */
 void dag_resolve(struct dag *dag);         /* the oracles: names to indices, rules to arcs */
 void dag_check_values(struct dag *dag);    /* types, units, ranges */
 void dag_expand(struct dag *dag);          /* branches to plain nodes */

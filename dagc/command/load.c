@@ -8,6 +8,8 @@ struct request {
     struct input catalog, file;
     const char *const *folders;
     int folder_count;
+    const char *const *replacements;
+    int replacement_count;
     struct warnings warnings;
 };
 
@@ -17,6 +19,8 @@ static void load(struct dag *dag, void *context)
     dag->warnings = &request->warnings;
     dag->folders = request->folders;
     dag->folder_count = request->folder_count;
+    dag->replacements = request->replacements;
+    dag->replacement_count = request->replacement_count;
     dag_run_passes(dag, &request->catalog, &request->file, PASSES);
 }
 
@@ -41,6 +45,8 @@ struct dag *dag_load_with(const char *path, const struct dag_options *options, F
     struct request request = {0};
     request.folders = options->folders;
     request.folder_count = options->folder_count;
+    request.replacements = options->replacements;
+    request.replacement_count = options->replacement_count;
     dag_warnings_quiet(&request.warnings);
     if (options->switches != NULL && !obey(&request.warnings, options->switches, errors))
         return NULL;
@@ -71,6 +77,8 @@ struct dag *dag_load_with(const char *path, const struct dag_options *options, F
         dag->warnings = NULL; /* they end with this function */
         dag->folders = NULL;  /* the caller's */
         dag->folder_count = 0;
+        dag->replacements = NULL;
+        dag->replacement_count = 0;
     }
     dag_input_close(&request.catalog);
     dag_input_close(&request.file);

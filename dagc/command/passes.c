@@ -21,6 +21,7 @@ static const struct step on_oracles[] = {
     {NULL, PASS_PARSE, 0},
     {dag_resolve_catalog, -1, 0}, /* what the file declares itself */
     {dag_check_names, -1, 0},
+    {dag_replace, -1, 0}, /* what somebody wants otherwise */
     {dag_resolve, -1, 0},
     {dag_check_values, -1, 0},
     {dag_expand, PASS_RESOLVE, 0},

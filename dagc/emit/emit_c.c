@@ -227,7 +227,7 @@ static void print_parameter_table(const struct dag *dag, struct text *out,
         dag_print(out, ", %d, offsetof(struct %s_parameters, %s), ROLE_",
                   is_integer(dag, parameter), oracle->name, parameter->name);
         dag_print_upper(out, parameter->role < 0 ? "none" : dag->roles[parameter->role].name);
-        dag_print(out, "},\n");
+        dag_print(out, ", %d},\n", parameter->fixed);
     }
     dag_print(out, "};\n");
 }

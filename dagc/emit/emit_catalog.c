@@ -232,10 +232,13 @@ static void print_readers(const struct dag *dag, struct text *out)
     }
     dag_print(out, "\nconst struct term_entry term_table[] = {\n");
     for (int i = 0; i < dag->term_count; i++)
-        dag_print(out, "    {\"%s\", %d, read_%s},\n", dag->terms[i].name,
-                  dag->terms[i].levels.count, dag->terms[i].name);
+        dag_print(out,
+                  "    {\"%s\", %d, read_%s, offsetof(struct terms, %s), "
+                  "offsetof(struct terms, %s_level)},\n",
+                  dag->terms[i].name, dag->terms[i].levels.count, dag->terms[i].name,
+                  dag->terms[i].name, dag->terms[i].name);
     if (dag->term_count == 0)
-        dag_print(out, "    {\"\", 0, 0},\n");
+        dag_print(out, "    {\"\", 0, 0, 0, 0},\n");
     dag_print(out, "};\nconst int term_table_count = %d;\n", dag->term_count);
     dag_print(out, "\nconst struct fact_entry fact_table[] = {\n");
     for (int i = 0; i < dag->fact_count; i++) {
@@ -253,7 +256,7 @@ void dag_emit_catalog_c(const struct dag *dag, struct text *out)
     print_banner(dag, out,
                  "The interpreter's way to the tools: one call each, by the tool's number.");
     dag_print(out, "#include \"%s\"\n", dag->runtime_header);
-    dag_print(out, "#include \"tool_table.h\"\n");
+    dag_print(out, "#include <stddef.h>\n#include \"tool_table.h\"\n");
     print_headers(dag, out);
     print_term_headers(dag, out);
     for (int i = 0; i < dag->tool_count; i++)

@@ -147,6 +147,8 @@ static void print_parameter(const struct dag *dag, struct text *out,
     print_number_field(out, "high", parameter->high);
     if (parameter->role >= 0)
         print_field(out, ", ", "role", dag->roles[parameter->role].name);
+    if (parameter->fixed)
+        dag_print(out, ", \"fixed\": true");
     print_field(out, ", ", "doc", parameter->doc);
     dag_print(out, "}");
 }
@@ -331,11 +333,43 @@ static void print_expression(struct dag *dag, struct text *out, int expression)
     dag_print(out, "}");
 }
 
+/* Is some node that the oracle reaches a part of it, or of a branch in it? */
+static int holds_nodes(const struct dag *dag, const struct oracle_graph *oracle, int use)
+{
+    for (int i = 0; i < oracle->order.count; i++)
+        for (int u = dag_node_at(dag, oracle, i)->use; u >= 0; u = dag->uses[u].outer)
+            if (u == use)
+                return 1;
+    return 0;
+}
+
+/* The places where branches are used, as far as their nodes are reached; outer ones first. */
+static void print_branches(struct dag *dag, struct text *out, const struct oracle_graph *oracle)
+{
+    int count = 0;
+    for (int u = 0; u < dag->use_count; u++) {
+        if (!holds_nodes(dag, oracle, u))
+            continue;
+        const struct oracle_graph *branch = &dag->branches[dag->uses[u].branch];
+        dag_print(out, "%s", count == 0 ? ",\n     \"branches\": [" : "");
+        dag_print(out, "%s      {", comma(&count));
+        print_field(out, "", "name", dag->uses[u].node);
+        print_field(out, ", ", "graph", branch->name);
+        if (dag->uses[u].outer >= 0)
+            print_field(out, ", ", "outer", dag->uses[dag->uses[u].outer].node);
+        print_field(out, ", ", "doc", branch->doc);
+        dag_print(out, "}");
+    }
+    dag_print(out, "%s", count == 0 ? "" : "\n     ]");
+}
+
 static void print_node(struct dag *dag, struct text *out, const struct node *node)
 {
     const struct source *source = &dag->sources[node->where.source];
     print_field(out, "      {", "name", node->name);
     print_field(out, ", ", "tool", dag->tools[node->tool].name);
+    if (node->use >= 0)
+        print_field(out, ", ", "branch", dag->uses[node->use].node);
     dag_print(out, ", \"line\": %d,\n       \"arguments\": [",
               dag_line(source, node->where.offset));
     for (int i = 0; i < node->arguments.count; i++) {
@@ -370,7 +404,9 @@ static void print_oracle(struct dag *dag, struct text *out, const struct oracle_
         dag_print(out, "%s\n      ", i > 0 ? "," : "");
         print_parameter(dag, out, &dag->parameters[oracle->parameters.first + i]);
     }
-    print_field(out, "],\n     ", "start", oracle->start.name);
+    dag_print(out, "]");
+    print_branches(dag, out, oracle);
+    print_field(out, ",\n     ", "start", oracle->start.name);
     dag_print(out, ",\n     \"nodes\": [");
     for (int i = 0; i < oracle->order.count; i++) {
         dag_print(out, "%s", i > 0 ? ",\n" : "\n");
@@ -393,4 +429,19 @@ void dag_emit_json(struct dag *dag, struct text *out)
         print_oracle(dag, out, &dag->oracles[i]);
     }
     dag_print(out, "\n  ]\n}\n");
+}
+
+static void emit_json(struct dag *dag, void *text)
+{
+    dag_emit_json(dag, text);
+}
+
+char *dag_json(struct dag *dag)
+{
+    struct text text = {0};
+    int status = dag_protect(dag, emit_json, &text);
+    if (status == 0 && !text.failed)
+        return text.bytes;
+    dag_text_free(&text);
+    return NULL;
 }

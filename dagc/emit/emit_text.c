@@ -109,7 +109,7 @@ static void print_declared(const struct listing *listing, const struct parameter
 
 static void print_parameter(const struct listing *listing, const struct parameter *parameter)
 {
-    dag_print(listing->out, "  param ");
+    dag_print(listing->out, "  %sparam ", parameter->fixed ? "fixed " : "");
     print_declared(listing, parameter);
     dag_print(listing->out, ";");
     if (listing->pass >= PASS_RESOLVE)

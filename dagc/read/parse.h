@@ -50,5 +50,8 @@ int dag_parse_expression(struct parser *parser, int *expression); /* parse_expre
 int dag_parse_catalog_item(struct parser *parser);                /* parse_catalog.c */
 int dag_parse_oracle(struct parser *parser);                      /* parse_oracle.c */
 int dag_parse_branch(struct parser *parser);
+/* replacement = NAME "=" NAME [ arguments [ rules ] ], all of a source. node->written.first is -1
+ * where there are no arguments: the second name is an answer. 0: an error was reported. */
+int dag_parse_replacement(struct dag *dag, int source, struct node *node);
 
 #endif

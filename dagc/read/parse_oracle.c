@@ -6,12 +6,12 @@
 
 static int at_oracle_word(const struct parser *parser)
 {
-    return dag_at_word(parser, "param") || dag_at_word(parser, "start")
-           || dag_at_word(parser, "node");
+    return dag_at_word(parser, "fixed") || dag_at_word(parser, "param")
+           || dag_at_word(parser, "start") || dag_at_word(parser, "node");
 }
 
-/* `node NAME`, `param NAME`, `start NAME` or the next graph: never the inside of a node, where
- * a name is followed by '|', '->', '=' or ';'. */
+/* `node NAME`, `param NAME`, `fixed param`, `start NAME` or the next graph: never the inside of a
+ * node, where a name is followed by '|', '->', '=' or ';'. */
 static int at_item(const struct parser *parser)
 {
     return (at_oracle_word(parser) || dag_at_word(parser, "oracle") || dag_at_word(parser, "graph"))
@@ -156,6 +156,31 @@ static int parse_node(struct parser *parser, struct oracle_graph *graph)
     return 1;
 }
 
+int dag_parse_replacement(struct dag *dag, int source, struct node *node)
+{
+    struct parser parser = {0};
+    parser.dag = dag;
+    parser.lexer = (struct lexer){dag, source, 0, 0};
+    parser.last = (struct where){source, 0, 0};
+    parser.content = CONTENT_ORACLES;
+    parser.token = dag_lex(&parser.lexer);
+    *node = (struct node){0};
+    node->written.first = -1;
+    if (!dag_expect_name(&parser, "the name of a node", &node->name, &node->where)
+        || !dag_expect(&parser, '=', "and a tool or an answer after the node's name")
+        || !dag_expect_name(&parser, "the name of a tool or of an answer", &node->tool_name,
+                            &node->tool_where))
+        return 0;
+    if (dag_at_mark(&parser, '(')
+        && (!parse_arguments(&parser, &node->written)
+            || (dag_at_mark(&parser, '{') && !parse_rules(&parser, &node->rules))))
+        return 0;
+    return parser.token.kind == TOKEN_END
+           || dag_expected(&parser, node->written.first < 0
+                                        ? "'(' and a tool's arguments, or no more"
+                                        : "'{' and rules, or no more");
+}
+
 /* start = "start" NAME ";" */
 static int parse_start(struct parser *parser, struct oracle_graph *graph)
 {
@@ -197,10 +222,15 @@ static void skip_item(struct parser *parser)
     }
 }
 
-/* item = "param" parameter ";" | start | node */
+/* item = [ "fixed" ] "param" parameter ";" | start | node */
 static int parse_item(struct parser *parser, struct oracle_graph *graph)
 {
     struct dag *dag = parser->dag;
+    int fixed = dag_take_word(parser, "fixed");
+    if (fixed && !dag_at_word(parser, "param")) {
+        graph->bad = 1;
+        return dag_expected(parser, "'param' after 'fixed'");
+    }
     if (graph->branch && dag_at_word(parser, "param")) {
         dag_error(dag, parser->token.where, "the parameters of a graph stand in parentheses");
         dag_note(dag, dag_nowhere, "write: graph %s(NAME : TYPE) exits (...)", graph->name);
@@ -214,6 +244,8 @@ static int parse_item(struct parser *parser, struct oracle_graph *graph)
         int count = dag->parameter_count - span->first;
         if (!ok && count == span->count)
             graph->bad = 1;
+        else
+            dag->parameters[dag->parameter_count - 1].fixed = fixed != 0;
         span->count = count;
         if (!ok)
             return 0;
@@ -229,11 +261,12 @@ static int parse_item(struct parser *parser, struct oracle_graph *graph)
         graph->drafts.count = dag->draft_count - graph->drafts.first;
         return ok;
     }
-    dag_expected(parser, "param, start, node or '}'");
+    dag_expected(parser, "fixed, param, start, node or '}'");
     if (dag_take(parser, ';'))
         return 1;
     if (parser->token.kind == TOKEN_NAME) {
         struct suggestion suggestion = {parser->token.text, NULL, 0};
+        dag_suggest(&suggestion, "fixed");
         dag_suggest(&suggestion, "param");
         dag_suggest(&suggestion, "start");
         dag_suggest(&suggestion, "node");

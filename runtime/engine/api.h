@@ -10,7 +10,9 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include "engine/measured_error.h"
+#include "engine/trace.h"
 #include "hierarchy/scene.h"
+#include "oracle/explain.h"
 #include "oracle/oracles.h"
 #include "oracle/refiner.h"
 #include "oracle/statistics.h"
@@ -50,11 +52,8 @@ struct RadOracleObject {
     RadDevice device;
     struct refiner *refiner;
     int counting;
-    /* what radGetOracleStatistics shows, in the engine's form and the caller's */
-    struct statistics counted;
-    struct RadNodeCount *nodes;
-    struct RadAnswerCount *answers;
-    uint64_t (*bins)[RAD_BINS], zero[RAD_RECORDS];
+    struct statistics counted; /* what radGetOracleStatistics shows */
+    struct explanation explained; /* what radExplain shows */
 };
 
 struct RadSolutionObject {
@@ -65,6 +64,8 @@ struct RadSolutionObject {
     struct solve solve;
     uint64_t mending_rays;          /* of the last radCorrect */
     struct measured_error measured; /* .element NULL: nothing has been, or not what is shown */
+    struct trace trace;             /* of radTraceSolution */
+    uint32_t *part;                 /* per face: see engine/element_names.h; NULL: not yet asked */
     int done;                       /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };

@@ -104,7 +104,7 @@ static int check_release(RadDevice device, enum RadRelease release)
 
 /* The graph `text`, or of the file `path` when it is NULL. */
 static RadOracle load(RadDevice device, const char *path, const char *text, const char *name,
-                      enum RadRelease release)
+                      enum RadRelease release, const char *const *replacements, int count)
 {
     static const enum RadError codes[] = {[MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY,
                                           [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
@@ -112,7 +112,9 @@ static RadOracle load(RadDevice device, const char *path, const char *text, cons
                                           [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
                                           [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY};
     const struct oracle_sources how = {.compiler = device->sources.compiler,
-                                       .temporary = device->sources.temporary};
+                                       .temporary = device->sources.temporary,
+                                       .replacements = replacements,
+                                       .replacement_count = count};
     struct messages messages = {0};
     if (check_release(device, release) < 0)
         return NULL;
@@ -161,7 +163,7 @@ RadOracle radLoadOracle(RadDevice device, const char *path, const char *name,
     if (!device)
         return NULL;
     if (path)
-        return load(device, path, NULL, name, release);
+        return load(device, path, NULL, name, release, NULL, 0);
     api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle's file needs a name");
     return NULL;
 }
@@ -172,8 +174,19 @@ RadOracle radParseOracle(RadDevice device, const char *path, const char *text, c
     if (!device)
         return NULL;
     if (path && text)
-        return load(device, path, text, name, release);
+        return load(device, path, text, name, release, NULL, 0);
     api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a graph needs a text, and a name for messages");
+    return NULL;
+}
+
+RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *text,
+                                enum RadRelease release, const char *const *replacements, int count)
+{
+    if (!device)
+        return NULL;
+    if (path && count >= 0 && (count == 0 || replacements))
+        return load(device, path, text, NULL, release, replacements, count);
+    api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "an oracle needs a name, and replacements a list");
     return NULL;
 }
 
@@ -190,22 +203,12 @@ void radRetainOracle(RadOracle oracle)
         atomic_fetch_add(&oracle->holders, 1);
 }
 
-static void forget_statistics(RadOracle oracle)
-{
-    statistics_free(&oracle->counted);
-    free(oracle->nodes);
-    free(oracle->answers);
-    free(oracle->bins);
-    oracle->nodes = NULL;
-    oracle->answers = NULL;
-    oracle->bins = NULL;
-}
-
 void radReleaseOracle(RadOracle oracle)
 {
     if (!oracle || atomic_fetch_sub(&oracle->holders, 1) != 1)
         return;
-    forget_statistics(oracle);
+    statistics_free(&oracle->counted);
+    explain_free(&oracle->explained);
     refiner_close(oracle->refiner);
     radReleaseDevice(oracle->device);
     free(oracle);
@@ -267,53 +270,32 @@ int radCountOracle(RadOracle oracle)
     return 0;
 }
 
-_Static_assert((int)RAD_COUNTS == (int)STATISTICS_COUNTS
-                   && (int)RAD_RECORDS == (int)STATISTICS_SLOTS
-                   && (int)RAD_BINS == STATISTICS_HIGH - STATISTICS_LOW,
-               "statistics have one size");
-
-/* The engine's statistics in the caller's form. Returns 0, or -1 when out of memory. */
-static int show_statistics(RadOracle oracle)
-{
-    const struct statistics *s = &oracle->counted;
-    size_t answers = 0;
-    for (int i = 0; i < s->node_count; i++)
-        answers += (size_t)s->nodes[i].answer_count;
-    oracle->nodes = malloc(((size_t)s->node_count + 1) * sizeof *oracle->nodes);
-    oracle->answers = malloc((answers + 1) * sizeof *oracle->answers);
-    oracle->bins = malloc(RAD_RECORDS * sizeof *oracle->bins);
-    if (!oracle->nodes || !oracle->answers || !oracle->bins)
-        return -1;
-    struct RadAnswerCount *to = oracle->answers;
-    for (int i = 0; i < s->node_count; i++) {
-        const struct node_statistics *n = &s->nodes[i];
-        oracle->nodes[i] = (struct RadNodeCount){n->name, n->tool, n->calls, to, n->answer_count};
-        for (int k = 0; k < n->answer_count; k++)
-            *to++ = (struct RadAnswerCount){n->answers[k].name, n->answers[k].kind,
-                                            n->answers[k].target, n->answers[k].count};
-    }
-    for (int i = 0; i < RAD_RECORDS; i++) {
-        oracle->zero[i] = s->records[i].zero;
-        memcpy(oracle->bins[i], s->records[i].bins, sizeof oracle->bins[i]);
-    }
-    return 0;
-}
-
 int radGetOracleStatistics(RadOracle oracle, struct RadStatistics *statistics)
 {
     if (!oracle || !statistics)
         return -1;
-    forget_statistics(oracle);
+    statistics_free(&oracle->counted);
     if (!oracle->counting)
         return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION,
                         "nothing is counted; radCountOracle comes first");
-    if (statistics_take(&oracle->counted, oracle->refiner) < 0 || show_statistics(oracle) < 0) {
-        forget_statistics(oracle);
+    if (statistics_take(&oracle->counted, oracle->refiner) < 0)
         return api_fail(oracle->device, RAD_ERROR_OUT_OF_MEMORY,
                         "out of memory for the statistics");
-    }
-    *statistics =
-        (struct RadStatistics){oracle->nodes, oracle->counted.node_count, oracle->counted.counts,
-                               (const uint64_t(*)[RAD_BINS])oracle->bins, oracle->zero};
+    *statistics = oracle->counted.shown;
     return 0;
+}
+
+const char *radGetOracleGraph(RadOracle oracle)
+{
+    if (!oracle)
+        return NULL;
+    struct messages messages = {0};
+    const char *graph = refiner_graph(oracle->refiner, &messages);
+    if (!graph)
+        api_fail(oracle->device,
+                 messages.cause == MESSAGE_MEMORY ? RAD_ERROR_OUT_OF_MEMORY
+                                                  : RAD_ERROR_INVALID_OPERATION,
+                 "%s", messages_text(&messages));
+    messages_free(&messages);
+    return graph;
 }

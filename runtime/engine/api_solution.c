@@ -199,6 +199,8 @@ void radReleaseSolution(RadSolution solution)
     if (!solution || atomic_fetch_sub(&solution->holders, 1) != 1)
         return;
     measured_error_free(&solution->measured);
+    free(solution->trace.pairs);
+    free(solution->part);
     solve_close(&solution->solve);
     radReleaseOracle(solution->oracle);
     radReleaseScene(solution->scene);
@@ -209,6 +211,8 @@ int api_give_up(RadSolution solution, const char *cause)
 {
     RadDevice device = solution->scene->device;
     solution->dead = 1;
+    if (solution->trace.stopped)
+        return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the trace function");
     if (solution->solve.report.cancelled)
         return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
     return api_fail(device, api_cause(cause), "%s", cause);

@@ -18,10 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/refine.h"
+#include "engine/trace.h"
+#include "oracle/statistics.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-enum { ROUND = 1 << 17, CHUNK = 64, SORT_SHARES = 8 };
+enum { ROUND = REFINEMENT_ROUND, CHUNK = 64, SORT_SHARES = 8 };
 
 int decision_links(enum decision decision)
 {
@@ -119,8 +121,10 @@ static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 
 /* ---- discussions */
 
-/* One discussion; the link's values go in and come out, and so does the pair's list. */
-static unsigned char discuss(const struct refinement *r, struct link *link, struct blockers *list)
+/* One discussion, `turned` the second of pair i; the link's values go in and come out, and so does
+ * the pair's list. */
+static unsigned char discuss(const struct refinement *r, size_t i, int turned, struct link *link,
+                             struct blockers *list)
 {
     const struct element *elements = r->hierarchy->elements;
     struct discussion d;
@@ -129,7 +133,8 @@ static unsigned char discuss(const struct refinement *r, struct link *link, stru
     d.host = r->host;
     d.blockers = list;
     link_recall(link, &d.terms);
-    enum decision decision = r->refiner->refine(r->refiner->state, &d);
+    enum decision decision = r->trace ? trace_ask(&r->trace->pairs[i], turned, r->refiner, &d)
+                                      : r->refiner->refine(r->refiner->state, &d);
     if (decision_links(decision))
         link_store(link, &d.terms);
     return (unsigned char)decision;
@@ -175,12 +180,14 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
         if (p->list)
             list = r->pool[p->list].list;
         o->link[0] = there;
-        o->decision[0] = discuss(r, &o->link[0], &list);
+        o->decision[0] = discuss(r, i, 0, &o->link[0], &list);
         if (p->both) {
+            if (r->trace)
+                r->trace->pairs[i].between = list;
             if (decision_links((enum decision)o->decision[0]))
                 reverse_link(&back, &o->link[0], r->hierarchy->elements);
             o->link[1] = back;
-            o->decision[1] = discuss(r, &o->link[1], &list);
+            o->decision[1] = discuss(r, i, 1, &o->link[1], &list);
         }
         note_list(r, i, &list, divides(o->decision[0]) || (p->both && divides(o->decision[1])));
     }
@@ -282,6 +289,40 @@ static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_
     return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
 }
 
+/* Tell whoever traces of the round's discussions. Returns 0, or -1: no more. */
+static int tell_round(const struct refinement *r, int count)
+{
+    for (int i = 0; r->trace && i < count; i++) {
+        const struct pair *p = &r->round[i];
+        const struct outcome *o = &r->outcomes[i];
+        struct link there = {p->receiver, p->emitter, 0, 0, 0, 0},
+                    back = {p->emitter, p->receiver, 0, 0, 0, 0};
+        struct blockers list = {.known = BLOCKERS_UNKNOWN};
+        if (p->list)
+            list = r->pool[p->list].list;
+        if (trace_tell(r->trace, r, (size_t)i, 0, &there, &list) < 0)
+            return -1;
+        if (!p->both)
+            continue;
+        if (decision_links((enum decision)o->decision[0]))
+            reverse_link(&back, &o->link[0], r->hierarchy->elements);
+        if (trace_tell(r->trace, r, (size_t)i, 1, &back, &r->trace->pairs[i].between) < 0)
+            return -1;
+    }
+    return 0;
+}
+
+/* The same of links discussed again. */
+static int tell_again(const struct refinement *r, const struct link *links, int count)
+{
+    static const struct blockers unknown = {.known = BLOCKERS_UNKNOWN};
+    for (int i = 0; r->trace && i < count; i++)
+        if (r->outcomes[i].decision[1]
+            && trace_tell(r->trace, r, (size_t)i, 0, &links[i], &unknown) < 0)
+            return -1;
+    return 0;
+}
+
 /* Returns 0, or -1 when whoever watches wants no more. */
 static int end_round(struct refinement *r)
 {
@@ -297,6 +338,8 @@ static int drain(struct refinement *r)
         r->queue_count -= (size_t)count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
         thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_pairs, r);
+        if (tell_round(r, count) < 0)
+            return -1;
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             int both = (int)r->round[i].both;
@@ -321,7 +364,7 @@ int refinement_start(struct refinement *r)
     if (array_reserve(&r->queue, 1, &r->queue_capacity, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
-    return drain(r);
+    return drain(r) < 0 ? -1 : statistics_end_pass(r->refiner);
 }
 
 /* Links to be discussed again, as far as an end has changed. */
@@ -341,7 +384,7 @@ static void discuss_again(const void *again, size_t from, size_t to)
         list.known = BLOCKERS_UNKNOWN;
         o->link[0] = *l;
         o->decision[1] = !a->changed || a->changed[l->receiver] || a->changed[l->emitter];
-        o->decision[0] = o->decision[1] ? discuss(a->refinement, &o->link[0], &list)
+        o->decision[0] = o->decision[1] ? discuss(a->refinement, i, 0, &o->link[0], &list)
                                         : (unsigned char)DECISION_LINK;
         note_list(a->refinement, i, &list, divides(o->decision[0]));
     }
@@ -357,6 +400,8 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
         int count = (int)(all - from < ROUND ? all - from : ROUND);
         const struct again a = {r, r->links + from, changed};
         thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_again, &a);
+        if (tell_again(r, a.links, count) < 0)
+            return -1;
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             if (!o->decision[1]) {
@@ -374,7 +419,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
         if (end_round(r) < 0)
             return -1;
     }
-    return drain(r) < 0 ? -1 : moved;
+    return drain(r) < 0 || statistics_end_pass(r->refiner) < 0 ? -1 : moved;
 }
 
 /* Links to be sorted by receiver, in shares: a share's links of a receiver stand behind those of

@@ -46,6 +46,7 @@ struct pooled {
 };
 
 struct refinement;
+struct trace;
 
 /* Called after each round, from the calling thread; nonzero stops. */
 typedef int refinement_watch(void *context, const struct refinement *refinement);
@@ -57,6 +58,9 @@ struct refinement {
     int threads;
     refinement_watch *watch; /* may be NULL */
     void *watch_context;
+    /* who is told of each discussion, with room for REFINEMENT_ROUND pairs; NULL: nobody. Borrowed
+     */
+    struct trace *trace;
 
     struct link *links; /* [link_count]; sorted by receiver after refinement_sort */
     size_t link_count, link_capacity;
@@ -80,6 +84,8 @@ struct refinement {
     uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
     int failed;                  /* out of memory: the links are incomplete */
 };
+
+enum { REFINEMENT_ROUND = 1 << 17 }; /* pairs of a round, at the most */
 
 /* Prepare an empty refinement. Returns 0, or -1 when out of memory. */
 int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,

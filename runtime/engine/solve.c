@@ -18,6 +18,7 @@
 #include "engine/collocation.h"
 #include "engine/dense.h"
 #include "engine/solve.h"
+#include "engine/trace.h"
 #include "engine/transport.h"
 #include "engine/variation.h"
 #include "kernel/constants.h"
@@ -271,6 +272,9 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
         return fail(s, refining, cause);
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
+    s->refinement.trace = s->trace;
+    if (s->trace)
+        s->trace->pass = 1;
     if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0
         || solve_make_room(s) < 0)
         return fail(s, refining, cause);
@@ -418,6 +422,9 @@ int solve_step(struct solve *s, const char **cause)
     if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance, rough) < 0)
         return fail(s, "out of memory", cause);
     double middle = seconds();
+    s->refinement.trace = s->trace;
+    if (s->trace)
+        s->trace->pass = s->report.passes + 2;
     int64_t changed = s->error.target > 0 ? refine_for_error(s)
                       : s->ranking.asked  ? refine_worst(s)
                                           : refine_again(s);

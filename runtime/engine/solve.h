@@ -65,6 +65,7 @@ struct solve {
     struct ranking ranking;
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
+    struct trace *trace;             /* whoever is told of discussions, borrowed; NULL: nobody */
     const struct counting *counting; /* NULL: no particles are traced now */
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;

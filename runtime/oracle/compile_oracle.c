@@ -45,10 +45,12 @@ static struct refiner *open_library(void *library, const char *name, struct mess
 }
 
 struct refiner *compile_oracle(const char *path, const char *text, const char *name,
-                               const char *compiler, const char *temporary,
-                               struct messages *messages)
+                               const struct oracle_sources *how, struct messages *messages)
 {
-    struct dag_options options = {.text = text, .length = text ? strlen(text) : 0};
+    struct dag_options options = {.text = text,
+                                  .length = text ? strlen(text) : 0,
+                                  .replacements = how->replacements,
+                                  .replacement_count = how->replacement_count};
     struct refiner *r = NULL;
     int index;
     struct dag *dag = load_graph(path, &options, name, &index, messages);
@@ -59,9 +61,9 @@ struct refiner *compile_oracle(const char *path, const char *text, const char *n
                            "the graph's catalog declares terms that this program was built "
                            "without; leave them out, or build a program with that catalog");
     } else {
-        const struct dag_compiler how = {compiler, temporary};
+        const struct dag_compiler compiler = {how->compiler, how->temporary};
         char message[4096];
-        void *library = dag_compile_oracles(dag, &how, message, sizeof message);
+        void *library = dag_compile_oracles(dag, &compiler, message, sizeof message);
         if (!library)
             (void)messages_say(messages, MESSAGE_COMPILER, "%s", message);
         else

@@ -6,7 +6,7 @@
  * [Turbet & Sillion, section 4 and figure 3]
  *
  * What the tools are given is worked out in arguments.c, what a counting walk counts in
- * statistics.c.
+ * counting.c.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,10 @@ static void release_program(struct refiner *r)
     free(p->code);
     free(p->externs);
     free(p->reads);
-    program_free_tallies(p);
+    free(p->ways);
+    if (p->forget)
+        p->forget(p);
+    free(p->graph_json);
     free(p);
 }
 
@@ -90,6 +93,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
         o->integer = dag->types[q->type].base == BASE_INTEGER;
         o->offset = (size_t)i * sizeof(double);
         o->role = q->role + 1; /* none: 0 */
+        o->fixed = q->fixed;
     }
     r->parameters = p->parameters;
     r->parameter_count = g->parameters.count;
@@ -163,6 +167,8 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
     options.folders = how->folders;
     options.folder_count = how->folder_count;
     options.switches = how->switches;
+    options.replacements = how->replacements;
+    options.replacement_count = how->replacement_count;
     int index;
     p->dag = load_graph(how->path, &options, how->oracle, &index, messages);
     if (!p->dag)
@@ -194,4 +200,19 @@ struct refiner *refiner_interpret(const struct interpretation *how, struct messa
 fail:
     refiner_close(r);
     return NULL;
+}
+
+const char *refiner_graph(const struct refiner *r, struct messages *messages)
+{
+    struct program *p = r->own;
+    if (strcmp(r->release, "dag") != 0) {
+        (void)messages_say(messages, MESSAGE_ARGUMENT,
+                           "only interpreted oracles keep their graph; make oracle %s with "
+                           "RAD_RELEASE_DAG",
+                           r->oracle);
+        return NULL;
+    }
+    if (!p->graph_json && !(p->graph_json = dag_json(p->dag)))
+        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
+    return p->graph_json;
 }

@@ -114,9 +114,15 @@ struct refiner *oracle_load(const struct oracle_sources *sources, const char *pa
     if (!sources)
         sources = &nothing;
     if (release == RELEASE_DAG)
-        return refiner_interpreted(path, text, name, messages);
+        return refiner_interpret(
+            &(struct interpretation){.path = path,
+                                     .text = text,
+                                     .oracle = name,
+                                     .replacements = sources->replacements,
+                                     .replacement_count = sources->replacement_count},
+            messages);
     if (release == RELEASE_FLAT)
-        return compile_oracle(path, text, name, sources->compiler, sources->temporary, messages);
+        return compile_oracle(path, text, name, sources, messages);
     (void)messages_say(messages, MESSAGE_ARGUMENT,
                        "a file has no hand-written release; use --release flat or dag");
     return NULL;

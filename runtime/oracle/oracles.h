@@ -21,6 +21,9 @@ struct oracle_sources {
     int hand_count;
     size_t hand_capacity;
     const char *compiler, *temporary; /* for the flat release of files; NULL: "cc", "/tmp" */
+    /* [replacement_count] of nodes of what oracle_load loads, as in struct dag_options */
+    const char *const *replacements;
+    int replacement_count;
 };
 
 /* Registers a release under its own name; it is borrowed. Returns 0, or -1: out of memory, or of

@@ -1,5 +1,5 @@
 /* program.h - an oracle ready to be interpreted: what interpreter.c builds and walks, arguments.c
- * evaluates, and statistics.c counts.
+ * evaluates, counting.c counts and statistics.c adds up.
  * SPDX-License-Identifier: MIT */
 #ifndef PROGRAM_H
 #define PROGRAM_H
@@ -54,10 +54,19 @@ struct program {
     int *reads; /* [read_count], enum catalog_fact */
     int read_count;
     int answer_count;     /* of all steps */
+    uint64_t *ways;       /* of all steps, as next: see follow.h; NULL: nobody follows */
+    char *graph_json;     /* made when asked for; NULL: not yet */
     uint64_t counting;    /* which of all countings this is; 0: nothing is counted */
     struct program *self; /* so that a walk, which has a const one, can add its thread's counters */
-    _Atomic(struct tally *) tallies; /* one per thread that has asked */
-    atomic_int lost;                 /* there was no memory for one */
+    void (*forget)(struct program *p); /* frees what counting made; NULL: nothing was counted */
+    _Atomic(struct tally *) tallies;   /* one per thread that has asked */
+    atomic_int lost;                   /* there was no memory for one */
+    /* [answer_count]: added up along a path they give its number; NULL: too many paths */
+    uint64_t *gains;
+    uint64_t clock; /* what reading the clock takes, ns */
+    /* [pass_count][number_count]: all tallies' numbers together at the end of each pass */
+    uint64_t *passes;
+    size_t pass_count, pass_capacity, number_count;
 };
 
 /* arguments.c. The call of a step with computed arguments, and those arguments alone, on a stack
@@ -74,8 +83,7 @@ void program_prepare(struct refiner *r);
 /* interpreter.c. `state` is the steps. */
 enum decision program_walk(const void *state, struct discussion *d);
 
-/* statistics.c. The walk that counts, and the end of its counters. `state` is the program. */
+/* counting.c. The walk that counts. `state` is the program. */
 enum decision program_walk_counted(const void *state, struct discussion *d);
-void program_free_tallies(struct program *p);
 
 #endif

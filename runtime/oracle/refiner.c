@@ -98,6 +98,11 @@ int refiner_set(struct refiner *r, const char *name, double value, struct messag
         return say_none_such(r, name, messages);
     const struct oracle_parameter *p = &r->parameters[i];
     const char *cause = NULL;
+    if (p->fixed)
+        return messages_say(messages, MESSAGE_ARGUMENT,
+                            "%s is fixed by the author of oracle %s, at %g: only its file can "
+                            "change that",
+                            name, r->oracle, p->value);
     if (!(value >= p->low && value <= p->high))
         cause = "out of range";
     else if (p->integer && value != floor(value))

@@ -52,6 +52,9 @@ struct interpretation {
     int extern_count;
     /* of warnings, as in struct dag_options; NULL: errors alone */
     const char *switches;
+    /* nodes that are to be otherwise, as in struct dag_options */
+    const char *const *replacements;
+    int replacement_count;
 };
 
 /* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and
@@ -72,6 +75,10 @@ int refiner_find_role(const struct refiner *refiner, int role, int after);
 /* Does some argument of it read that fact (enum catalog_fact), so that whoever asks must provide
  * it? */
 int refiner_reads(const struct refiner *refiner, int fact);
+
+/* The graph of an interpreted oracle as dagc --emit=json gives it, the refiner's own. NULL after a
+ * message. Not from two threads at once. */
+const char *refiner_graph(const struct refiner *refiner, struct messages *messages);
 
 void refiner_close(struct refiner *refiner); /* NULL is fine */
 

@@ -1,156 +1,219 @@
-/* statistics.c - the walk that counts.
+/* statistics.c - see statistics.h: from the numbers that threads counted to what a program is
+ * shown.
  *
- * It takes the place of the walk in interpreter.c only when counts are wanted, so that they cost
- * nothing otherwise. Every thread that asks has counters of its own, whoever made the thread; sums
- * are made when asked for. What is counted never reaches a tool, so decisions are the same.
+ * All numbers are whole, so their sums are the same for any number of threads; only times differ.
  * SPDX-License-Identifier: MIT */
-#include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include "oracle/program.h"
+#include "oracle/counting.h"
 #include "oracle/statistics.h"
+#include "util/array.h"
 
-/* One thread's counters of one program. */
-struct tally {
-    const void *owner;  /* address of the thread's `mine`: no two living threads have the same */
-    struct tally *next; /* of the program */
-    uint64_t counts[STATISTICS_COUNTS];
-    struct record_statistics records[STATISTICS_SLOTS];
-    uint64_t taken[]; /* [program.answer_count], as program.next */
-};
-
-/* The tally that the thread used last, and of which counting: a number that is never given
- * twice. */
-static _Thread_local struct {
-    uint64_t counting;
-    struct tally *tally;
-} mine;
-
-static atomic_uint_fast64_t countings;
-
-/* The thread's tally of the program, made when it asks for the first time. NULL: out of memory,
- * which statistics_take tells. */
-static struct tally *find_tally(struct program *p)
+static void sum_numbers(const struct program *p, uint64_t *sum)
 {
-    struct tally *first = atomic_load(&p->tallies), *t = first;
-    while (t && t->owner != &mine)
-        t = t->next;
-    if (!t) {
-        /* no line shared */
-        t = calloc(1, sizeof *t + (size_t)p->answer_count * sizeof(uint64_t) + 64);
-        if (!t) {
-            atomic_store(&p->lost, 1);
-            return NULL;
-        }
-        t->owner = &mine;
-        do
-            t->next = first;
-        while (!atomic_compare_exchange_weak(&p->tallies, &first, t));
-    }
-    mine.counting = p->counting;
-    mine.tally = t;
-    return t;
+    memset(sum, 0, p->number_count * sizeof *sum);
+    for (const struct tally *t = p->tallies; t; t = t->next)
+        for (size_t i = 0; i < p->number_count; i++)
+            sum[i] += t->numbers[i];
 }
 
-static void keep(struct tally *t, enum keeps what, const double *values)
+int statistics_end_pass(const struct refiner *r)
 {
-    if (what == KEEPS_COUNT) {
-        t->counts[values[0] > 0
-                      ? values[0] < STATISTICS_COUNTS ? (int)values[0] : STATISTICS_COUNTS - 1
-                      : 0]++;
-    } else {
-        struct record_statistics *r =
-            &t->records[values[1] > 0
-                            ? values[1] < STATISTICS_SLOTS ? (int)values[1] : STATISTICS_SLOTS - 1
-                            : 0];
-        if (!(values[0] > 0)) {
-            r->zero++;
-            return;
-        }
-        int e;
-        e = isinf(values[0]) ? STATISTICS_HIGH : (frexp(values[0], &e), e - 1);
-        e = e < STATISTICS_LOW ? STATISTICS_LOW : e >= STATISTICS_HIGH ? STATISTICS_HIGH - 1 : e;
-        r->bins[e - STATISTICS_LOW]++;
-    }
-}
-
-enum decision program_walk_counted(const void *state, struct discussion *d)
-{
-    const struct program *p = state;
-    struct tally *t = mine.counting == p->counting ? mine.tally : find_tally(p->self);
-    const struct step *step = p->steps;
-    if (!t)
-        return program_walk(p->steps, d);
-    for (;;) {
-        int answer = step->call(d, step->arguments), next = step->next[answer];
-        t->taken[&step->next[answer] - p->next]++;
-        if (step->keeps != KEEPS_NOTHING) {
-            if (step->call == program_compute) {
-                double values[STACK_MAX];
-                program_evaluate(d, (const struct computed *)(const void *)step->arguments, values);
-                keep(t, step->keeps, values);
-            } else {
-                keep(t, step->keeps, step->arguments);
-            }
-        }
-        if (next < 0)
-            return (enum decision) ~next;
-        step = &p->steps[next];
-    }
-}
-
-void program_free_tallies(struct program *p)
-{
-    struct tally *t = atomic_exchange(&p->tallies, NULL), *next;
-    for (; t; t = next) {
-        next = t->next;
-        free(t);
-    }
-}
-
-int refiner_count(struct refiner *r)
-{
-    struct program *p = r->own;
-    if (strcmp(r->release, "dag") != 0)
+    if (r->refine != program_walk_counted)
+        return 0;
+    struct program *p = ((const struct program *)r->own)->self;
+    if (array_reserve(&p->passes, (p->pass_count + 1) * p->number_count, &p->pass_capacity,
+                      sizeof *p->passes)
+        < 0)
         return -1;
-    program_free_tallies(p);
-    p->self = p;
-    p->counting = atomic_fetch_add(&countings, 1) + 1;
-    atomic_store(&p->lost, 0);
-    r->refine = program_walk_counted;
-    r->state = p;
+    sum_numbers(p, p->passes + p->pass_count++ * p->number_count);
     return 0;
 }
 
-static uint64_t sum_taken(const struct program *p, int answer)
+static double scaled_seconds(uint64_t nanoseconds, uint64_t timed, uint64_t calls)
 {
-    uint64_t sum = 0;
-    for (const struct tally *t = p->tallies; t; t = t->next)
-        sum += t->taken[answer];
-    return sum;
+    return timed ? 1e-9 * (double)nanoseconds * (double)calls / (double)timed : 0;
 }
 
-static void sum_nodes(struct statistics *s, const struct program *p)
+/* ---- nodes */
+
+/* The nodes from `numbers`, counted since `since` (NULL: since the beginning), as the view `view`:
+ * 0, or one more than the pass. */
+static void show_nodes(struct statistics *s, const struct program *p, size_t view,
+                       const uint64_t *numbers, const uint64_t *since)
 {
     static const char *const kinds[] = {"precise", "approximate", "other"};
     const struct dag *dag = p->dag;
-    int at = 0;
-    for (int i = 0; i < s->node_count; i++) {
-        const struct node *n = &dag->nodes[dag->order[p->graph->order.first + i]];
-        struct node_statistics *x = &s->nodes[i];
-        x->name = n->name;
-        x->tool = dag->tools[n->tool].name;
-        x->answers = &s->answers[at];
-        x->answer_count = n->arcs.count;
-        for (int k = 0; k < n->arcs.count; k++, at++) {
-            const struct answer *a = &dag->answers[dag->tools[n->tool].answers.first + k];
-            s->answers[at].name = a->name;
-            s->answers[at].kind =
-                dag->tools[n->tool].kind == TOOL_COMMAND ? "command" : kinds[a->kind];
-            s->answers[at].target = dag->arcs[n->arcs.first + k].target.name;
-            s->answers[at].count = sum_taken(p, at);
-            x->calls += s->answers[at].count;
+    const size_t steps = (size_t)p->graph->order.count, stride = (size_t)program_stride();
+    struct RadAnswerCount *answer = s->answers + view * (size_t)p->answer_count;
+    struct RadTermCount *term = s->terms + view * steps * (size_t)term_table_count;
+    size_t arc = 0;
+    for (size_t i = 0; i < steps; i++) {
+        const struct node *n = &dag->nodes[dag->order[p->graph->order.first + (int)i]];
+        const struct tool *tool = &dag->tools[n->tool];
+        struct RadNodeCount *x = &s->nodes[view * steps + i];
+        const size_t own = (size_t)p->answer_count + i * stride;
+        *x = (struct RadNodeCount){.name = n->name,
+                                   .tool = tool->name,
+                                   .answers = answer,
+                                   .answer_count = n->arcs.count,
+                                   .terms = term};
+        for (int k = 0; k < n->arcs.count; k++, arc++, answer++) {
+            const struct answer *a = &dag->answers[tool->answers.first + k];
+            *answer = (struct RadAnswerCount){
+                a->name, tool->kind == TOOL_COMMAND ? "command" : kinds[a->kind],
+                dag->arcs[n->arcs.first + k].target.name, numbers[arc] - (since ? since[arc] : 0)};
+            x->calls += answer->count;
+        }
+        uint64_t at[NUMBER_TERMS];
+        for (size_t k = 0; k < NUMBER_TERMS; k++)
+            at[k] = numbers[own + k] - (since ? since[own + k] : 0);
+        x->timed = at[NUMBER_TIMED];
+        x->seconds = scaled_seconds(at[NUMBER_NANOSECONDS], x->timed, x->calls);
+        x->rays = at[NUMBER_RAYS];
+        for (size_t k = 0; k < (size_t)term_table_count; k++) {
+            size_t of = own + NUMBER_TERMS + k;
+            uint64_t count = numbers[of] - (since ? since[of] : 0);
+            if (count)
+                *term++ = (struct RadTermCount){term_table[k].name, count};
+        }
+        x->term_count = (int)(term - x->terms);
+    }
+}
+
+static void show_passes(struct statistics *s, const struct program *p)
+{
+    const size_t steps = (size_t)p->graph->order.count;
+    for (size_t i = 0; i < p->pass_count; i++) {
+        struct RadPass *pass = &s->passes[i];
+        const uint64_t *numbers = p->passes + i * p->number_count;
+        show_nodes(s, p, i + 1, numbers, i > 0 ? numbers - p->number_count : NULL);
+        *pass = (struct RadPass){.nodes = s->nodes + (i + 1) * steps};
+        pass->discussions = pass->nodes[0].calls;
+        for (size_t k = 0; k < steps; k++) {
+            pass->rays += pass->nodes[k].rays;
+            pass->seconds += pass->nodes[k].seconds;
+        }
+    }
+}
+
+/* ---- paths */
+
+static double path_seconds(const struct path_count *path)
+{
+    return scaled_seconds(path->nanoseconds, path->timed, path->count);
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const struct path_count *x = a, *y = b;
+    return (x->number > y->number) - (x->number < y->number);
+}
+
+static int by_cost(const void *a, const void *b)
+{
+    const struct path_count *x = a, *y = b;
+    double left = path_seconds(x), right = path_seconds(y);
+    if (left != right)
+        return left < right ? 1 : -1;
+    return x->count != y->count ? (x->count < y->count ? 1 : -1) : by_number(a, b);
+}
+
+/* The paths of all tallies, each once, in *paths. Returns how many, or -1 when out of memory. */
+static long gather_paths(const struct program *p, struct path_count **paths)
+{
+    size_t all = 0, distinct = 0;
+    for (const struct tally *t = p->tallies; t; t = t->next)
+        all += t->path_count;
+    struct path_count *to = malloc((all + 1) * sizeof *to);
+    if (!to)
+        return -1;
+    all = 0;
+    for (const struct tally *t = p->tallies; t; t = t->next)
+        for (size_t i = 0; i < t->path_capacity; i++)
+            if (t->paths[i].count)
+                to[all++] = t->paths[i];
+    qsort(to, all, sizeof *to, by_number);
+    for (size_t i = 0; i < all; i++)
+        if (distinct > 0 && to[distinct - 1].number == to[i].number) {
+            to[distinct - 1].count += to[i].count;
+            to[distinct - 1].timed += to[i].timed;
+            to[distinct - 1].nanoseconds += to[i].nanoseconds;
+        } else
+            to[distinct++] = to[i];
+    qsort(to, distinct, sizeof *to, by_cost);
+    *paths = to;
+    return (long)distinct;
+}
+
+/* The way that a number stands for: nodes in steps[0..], answers in answers[0..]. Returns how many
+ * of each. */
+static int follow(const struct program *p, uint64_t number, int *steps, int *answers)
+{
+    int length = 0;
+    for (int at = 0; at >= 0; length++) {
+        const uint64_t *gains = p->gains + (p->steps[at].next - p->next);
+        const struct node *n = &p->dag->nodes[p->dag->order[p->graph->order.first + at]];
+        int answer = n->arcs.count - 1;
+        while (gains[answer] > number)
+            answer--;
+        number -= gains[answer];
+        steps[length] = at;
+        answers[length] = answer;
+        at = p->steps[at].next[answer];
+    }
+    return length;
+}
+
+/* Returns 0, or -1 when out of memory. */
+static int show_paths(struct statistics *s, const struct program *p)
+{
+    const size_t steps = (size_t)p->graph->order.count;
+    struct path_count *paths;
+    long distinct = gather_paths(p, &paths);
+    if (distinct < 0)
+        return -1;
+    int count = distinct < RAD_PATHS ? (int)distinct : RAD_PATHS;
+    for (int i = 0; i < count; i++) {
+        int *at = s->steps + (size_t)i * 2 * steps;
+        s->paths[i] = (struct RadPath){.nodes = at,
+                                       .answers = at + steps,
+                                       .length = follow(p, paths[i].number, at, at + steps),
+                                       .count = paths[i].count,
+                                       .timed = paths[i].timed,
+                                       .seconds = path_seconds(&paths[i])};
+    }
+    free(paths);
+    s->shown.paths = s->paths;
+    s->shown.path_count = count;
+    s->shown.distinct_paths = (uint64_t)distinct;
+    return 0;
+}
+
+/* ---- all together */
+
+/* Room for it all. Returns 0, or -1. */
+static int make_room(struct statistics *s, const struct program *p)
+{
+    const size_t views = p->pass_count + 1, steps = (size_t)p->graph->order.count;
+    s->nodes = calloc(views * steps, sizeof *s->nodes);
+    s->answers = calloc(views * (size_t)p->answer_count + 1, sizeof *s->answers);
+    s->terms = calloc(views * steps * (size_t)term_table_count + 1, sizeof *s->terms);
+    s->passes = calloc(views, sizeof *s->passes);
+    s->paths = calloc(RAD_PATHS, sizeof *s->paths);
+    s->steps = calloc(RAD_PATHS * 2 * steps, sizeof *s->steps);
+    return s->nodes && s->answers && s->terms && s->passes && s->paths && s->steps ? 0 : -1;
+}
+
+static void sum_kept(struct statistics *s, const struct program *p)
+{
+    for (const struct tally *t = p->tallies; t; t = t->next) {
+        for (int k = 0; k < RAD_COUNTS; k++)
+            s->counts[k] += t->counts[k];
+        for (int k = 0; k < RAD_RECORDS; k++) {
+            s->zero[k] += t->zero[k];
+            for (int m = 0; m < RAD_BINS; m++)
+                s->bins[k][m] += t->bins[k][m];
         }
     }
 }
@@ -159,25 +222,26 @@ int statistics_take(struct statistics *s, const struct refiner *r)
 {
     const struct program *p = r->own;
     memset(s, 0, sizeof *s);
-    if (strcmp(r->release, "dag") != 0 || !p->counting || p->lost)
+    if (r->refine != program_walk_counted || p->lost)
         return -1;
-    s->node_count = p->graph->order.count;
-    s->nodes = calloc((size_t)s->node_count, sizeof *s->nodes);
-    s->answers = calloc((size_t)p->answer_count + 1, sizeof *s->answers);
-    if (!s->nodes || !s->answers) {
+    uint64_t *numbers = calloc(p->number_count + 1, sizeof *numbers);
+    if (!numbers || make_room(s, p) < 0 || show_paths(s, p) < 0) {
+        free(numbers);
         statistics_free(s);
         return -1;
     }
-    sum_nodes(s, p);
-    for (const struct tally *t = p->tallies; t; t = t->next) {
-        for (int k = 0; k < STATISTICS_COUNTS; k++)
-            s->counts[k] += t->counts[k];
-        for (int k = 0; k < STATISTICS_SLOTS; k++) {
-            s->records[k].zero += t->records[k].zero;
-            for (int m = 0; m < STATISTICS_HIGH - STATISTICS_LOW; m++)
-                s->records[k].bins[m] += t->records[k].bins[m];
-        }
-    }
+    sum_numbers(p, numbers);
+    show_nodes(s, p, 0, numbers, NULL);
+    free(numbers);
+    show_passes(s, p);
+    sum_kept(s, p);
+    s->shown.nodes = s->nodes;
+    s->shown.node_count = p->graph->order.count;
+    s->shown.counts = s->counts;
+    s->shown.bins = (const uint64_t(*)[RAD_BINS])s->bins;
+    s->shown.zero = s->zero;
+    s->shown.passes = s->passes;
+    s->shown.pass_count = (int)p->pass_count;
     return 0;
 }
 
@@ -185,5 +249,9 @@ void statistics_free(struct statistics *s)
 {
     free(s->nodes);
     free(s->answers);
+    free(s->terms);
+    free(s->passes);
+    free(s->paths);
+    free(s->steps);
     memset(s, 0, sizeof *s);
 }

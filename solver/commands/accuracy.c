@@ -43,6 +43,8 @@ static void thresholds_of(struct thresholds *t, RadOracle oracle)
     *t = (struct thresholds){.oracle = oracle};
     for (int i = 0; i < report.parameter_count && t->count < PARAMETERS; i++) {
         const struct oracle_parameter *p = &report.parameters[i];
+        if (p->fixed)
+            continue;
         if (p->role != ROLE_LINK_THRESHOLD && p->role != ROLE_SMALLEST_PART
             && p->role != ROLE_RELATIVE_ERROR_TOLERANCE && p->role != ROLE_RELATIVE_POWER_TOLERANCE)
             continue;

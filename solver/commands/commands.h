@@ -13,6 +13,9 @@ int command_viewfactors(const struct options *options, const struct open_scene *
 int command_error(const struct options *options, const struct open_scene *scene);
 int command_reference(const struct options *options, const struct open_scene *scene);
 int command_tune(const struct options *options, const struct open_scene *scene);
+int command_draw(const struct options *options, const struct open_scene *scene);
+int command_panel(const struct options *options, const struct open_scene *scene);
+int command_explain(const struct options *options, const struct open_scene *scene);
 int command_oracles(const struct options *options, const struct open_scene *scene);
 
 #endif

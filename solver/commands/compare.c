@@ -236,10 +236,15 @@ static json_t *compare_json(const struct panel *p, uint64_t link_count,
 static RadOracle open_panel(RadDevice device, const struct options *o, struct oracle *all)
 {
     panel = (struct panel){
-        .count = radHasOracle(device, o->oracle, RAD_RELEASE_HAND) ? RELEASES : RELEASES - 1};
+        /* what is written by hand has no nodes to replace */
+        .count = !o->replacement_count && radHasOracle(device, o->oracle, RAD_RELEASE_HAND)
+                     ? RELEASES
+                     : RELEASES - 1};
     for (int k = 0; k < panel.count; k++) {
         enum RadRelease release = order[RELEASES - panel.count + k];
-        panel.releases[k] = open_oracle(device, o->oracle, release, o->settings, o->setting_count);
+        panel.releases[k] =
+            open_oracle_replaced(device, o->oracle, release, o->settings, o->setting_count,
+                                 o->replacements, o->replacement_count);
         if (!panel.releases[k])
             return NULL;
     }

@@ -17,7 +17,8 @@ static int print_oracle(RadDevice device, const char *name)
            report.doc);
     for (int i = 0; i < report.parameter_count; i++) {
         const struct oracle_parameter *p = &report.parameters[i];
-        printf("  %-10s %8g %-5s %s\n", p->name, p->value, p->unit, p->doc);
+        printf("  %-10s %8g %-5s %s%s\n", p->name, p->value, p->unit, p->doc,
+               p->fixed ? " (fixed by its author)" : "");
     }
     radReleaseOracle(oracle);
     return 0;

@@ -1,5 +1,6 @@
 /* solve.c - `radiosity solve`: solve, then write whatever was asked for.
  * SPDX-License-Identifier: MIT */
+#include <stdio.h>
 #include <string.h>
 #include "commands/accuracy.h"
 #include "commands/commands.h"
@@ -10,10 +11,12 @@
 #include "output/image.h"
 #include "output/json_file.h"
 #include "output/statistics_file.h"
+#include "output/trace_file.h"
 #include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
+#include "util/parameter_file.h"
 #include "util/report.h"
 
 /* Both pictures, of the error and of the light, through the same camera. */
@@ -70,7 +73,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     double start = seconds();
     int status =
         write_solution(o, surfaces, scene->device, solved->solution, measured->measured) < 0;
-    if (o->statistics && statistics_write(o->statistics, oracle) < 0)
+    if (o->statistics && statistics_write(o->statistics, o->scene, oracle) < 0)
         status = 1;
     const struct summary summary = {o,
                                     scene,
@@ -82,23 +85,65 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                                     seconds() - start};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)
+        && !(o->trace && strcmp(o->trace, "-") == 0))
         summary_print(&summary);
     return status;
 }
 
-/* Solve, mend and measure as the options say. Returns 0, or -1 after a message. */
+/* Solve, and write every discussion where that is asked for. Returns 0, or the exit status after a
+ * message, with nothing to close. */
+static int solve_links(struct solved *s, const struct options *o, const struct open_scene *scene,
+                       RadOracle oracle, const struct RadSolveOptions *how)
+{
+    struct trace_file *trace = NULL;
+    struct trace_count count;
+    if (!o->trace)
+        return solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0;
+    if (solved_begin(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
+        return 1;
+    int status = trace_file_open(&trace, o->trace, o->where, scene->scene, s->solution, oracle);
+    if (status) {
+        solved_close(s);
+        return status < 0 ? report_device(scene->device, o->trace), 1 : status;
+    }
+    if (solved_finish(s, how) < 0) {
+        if (report_unless_cancelled(scene->device, o->scene) > 0)
+            (void)trace_file_close(trace, &count); /* which says what stopped it */
+        else
+            trace_file_discard(trace);
+        return 1;
+    }
+    if (trace_file_close(trace, &count) < 0) {
+        solved_close(s);
+        return 1;
+    }
+    if (count.written < count.matched)
+        report_warning(o->trace, 0,
+                       "holds the first %llu of %llu lines: that is %.0f MB, the most; --where "
+                       "picks those that are wanted",
+                       (unsigned long long)count.written, (unsigned long long)count.matched,
+                       1e-6 * (double)count.bytes);
+    else if (!o->quiet)
+        fprintf(stderr, "trace: %llu of %llu discussions, %.1f MB\n",
+                (unsigned long long)count.written, (unsigned long long)count.held,
+                1e-6 * (double)count.bytes);
+    return 0;
+}
+
+/* Solve, mend and measure as the options say. Returns 0, or the exit status after a message. */
 static int solve_once(struct solved *s, struct measured *measured, struct power_promise *promise,
                       const struct options *o, const struct open_scene *scene, RadOracle oracle,
                       const struct RadSolveOptions *how)
 {
-    if (solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
-        return -1;
+    const int status = solve_links(s, o, scene, oracle, how);
+    if (status)
+        return status;
     if (measured_take(measured, o, scene->device, s->solution) == 0
         && power_promise_hold(promise, measured, o, scene->device, s->solution) == 0)
         return 0;
     solved_close(s);
-    return -1;
+    return 1;
 }
 
 /* Solve by the oracle and write the outputs. Returns the exit status. */
@@ -136,8 +181,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
         status = -1;
     }
     progress_end(&progress);
-    if (status < 0)
-        return 1;
+    if (status != 0)
+        return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
     if (!s.report.converged && !o->quiet) {
         char cause[SUMMARY_CAUSE];
@@ -160,9 +205,16 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
 
 int command_solve(const struct options *o, const struct open_scene *scene)
 {
-    RadOracle oracle =
-        open_oracle(scene->device, o->oracle, o->release, o->settings, o->setting_count);
-    int status = oracle ? solve_by(o, scene, oracle) : 1;
+    RadOracle oracle = open_oracle_replaced(scene->device, o->oracle, o->release, NULL, 0,
+                                            o->replacements, o->replacement_count);
+    int status = !oracle;
+    if (oracle && o->params
+        && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
+        status = 1;
+    if (status == 0 && set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)
+        status = 1;
+    if (status == 0)
+        status = solve_by(o, scene, oracle);
     radReleaseOracle(oracle);
     return status;
 }

@@ -105,6 +105,22 @@ static json_t *basis_json(const struct RadReport *r)
                      r->linear.seconds);
 }
 
+/* How often each decision was taken; without those that never were. */
+static json_t *decisions_json(const struct RadReport *r)
+{
+    static const char *const names[] = {[DECISION_LINK] = "link",
+                                        [DECISION_LINK_CLUSTERS] = "link_clusters",
+                                        [DECISION_STOP] = "stop",
+                                        [DECISION_SUBDIVIDE_RECEIVER] = "subdivide_receiver",
+                                        [DECISION_SUBDIVIDE_EMITTER] = "subdivide_emitter",
+                                        [DECISION_SUBDIVIDE_BOTH] = "subdivide_both"};
+    json_t *decisions = json_object();
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (r->decided[i])
+            json_object_set_new(decisions, names[i], json_integer((json_int_t)r->decided[i]));
+    return decisions;
+}
+
 json_t *summary_json(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -117,10 +133,14 @@ json_t *summary_json(const struct summary *s)
         parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
         "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
         (int)scene->parts, "elements", (int)r->elements, "leaves", (int)r->leaves);
-    json_t *links =
-        json_pack("{s:I, s:I, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links, "pairs",
-                  (json_int_t)r->pairs, "guard_hits", (json_int_t)r->marked[GUARDED], "marks",
-                  marks_json(r), "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
+    json_t *replaced = json_array();
+    for (int i = 0; i < s->options->replacement_count; i++)
+        json_array_append_new(replaced, json_string(s->options->replacements[i]));
+    json_object_set_new(all, "replaced", replaced);
+    json_t *links = json_pack("{s:I, s:I, s:o, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links,
+                              "pairs", (json_int_t)r->pairs, "decisions", decisions_json(r),
+                              "guard_hits", (json_int_t)r->marked[GUARDED], "marks", marks_json(r),
+                              "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
     json_t *solution =
         json_pack("{s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f}", "passes", r->passes,
                   "iterations", r->iterations, "converged", r->converged, "links_changing",
@@ -219,6 +239,8 @@ void summary_print(const struct summary *s)
         printf("cut       %u faces, into %u, where others stand in them\n", scene->cut,
                scene->parts);
     printf("oracle    %s (%s release)\n", oracle.name, oracle.release);
+    for (int i = 0; i < s->options->replacement_count; i++)
+        printf("replaced  %s\n", s->options->replacements[i]);
     printf("mesh      %u elements, of which %u leaves\n", r->elements, r->leaves);
     printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n",
            (unsigned long long)r->links, (unsigned long long)r->pairs,

@@ -13,10 +13,10 @@
  * given: 64 times as much, or as little. */
 enum { FARTHEST = 24 };
 
-/* Only what is a real number above 0 has a logarithm to step along. */
+/* Only what is a real number above 0 has a logarithm to step along; what its author fixed stays. */
 static int can_fit(const struct oracle_parameter *p)
 {
-    return !p->integer && p->value > 0 && isfinite(p->value);
+    return !p->fixed && !p->integer && p->value > 0 && isfinite(p->value);
 }
 
 /* The names of those that can be fitted, or of all, for a message. */
@@ -75,6 +75,10 @@ static int add_wanted(struct tuner *t, const struct RadOracleReport *report, con
     if (!p)
         return report_error("--param", 0, "%s has no parameter %.*s; it has %s", oracle,
                             (int)length, text, names_of(report, 1, names));
+    if (p->fixed)
+        return report_error("--param", 0,
+                            "%s is fixed by its author; take `fixed` away in a .dag file to fit it",
+                            p->name);
     if (p->integer)
         return report_error("--param", 0, "%s is a whole number, which is not fitted", p->name);
     if (!can_fit(p))

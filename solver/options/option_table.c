@@ -109,6 +109,17 @@ static int read_setting(struct options *o, const struct option_row *row, const c
     return 0;
 }
 
+static int read_replacement(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    if (array_reserve(&o->replacements, (size_t)o->replacement_count + 1, &o->replacement_capacity,
+                      sizeof *o->replacements)
+        < 0)
+        return -1;
+    o->replacements[o->replacement_count++] = (char *)(uintptr_t)value;
+    return 0;
+}
+
 /* The words that a choice is made of. */
 static const char *const *words_of(const struct option_row *row)
 {
@@ -349,9 +360,33 @@ const struct command_row command_rows[COMMANDS] = {
          "was the one that lowered the true error most. `times`: by how much the error\n"
          "is larger with as many links; `links`: how many greedy links reach that error.\n",
          "radiosity study greedy --oracle bf_guarded"},
+    [COMMAND_DRAW] =
+        {"draw", "ORACLE", "an oracle's graph as a picture, with a solve's heat",
+         "Draw the graph of an oracle, built in or FILE.dag: nodes by what they do, arcs\n"
+         "by how far an answer can be trusted, branches as boxes. With the statistics\n"
+         "of a solve: nodes coloured by time, arcs as wide as they were used, what was\n"
+         "never used grey. Graphviz places things (package graphviz).\n",
+         "radiosity draw power --statistics room.json -o power.svg"},
+    [COMMAND_PANEL] =
+        {"panel", "ORACLE", "an oracle's drawing and parameters as a web page",
+         "Write one page that needs no network: the graph of an oracle, built in or\n"
+         "FILE.dag, and a control for every parameter that its author offers. It gives\n"
+         "back the command line, and a parameter file for solve --params. With the\n"
+         "statistics of a solve it tells what each node was asked and answered.\n",
+         "radiosity panel power --statistics room.json -o panel.html"},
     [COMMAND_ORACLES] = {"oracles", "", "the built-in oracles and their parameters",
                          "List the built-in oracles and the parameters that --set gives them.\n",
                          "radiosity oracles"},
+    [COMMAND_EXPLAIN] =
+        {"explain", "SCENE", "one discussion of an oracle, node by node",
+         "Solve a scene by links, and watch what the oracle says of one pair: RECEIVER\n"
+         "gets light from EMITTER. Each node that was asked, with its arguments, the terms\n"
+         "it read and wrote, its answer, rays and time; then the decision, and what became\n"
+         "of the pair. Elements are 12 (face 12 of the file), 12.0 (a part that it was cut\n"
+         "into), 12b (its far side), 12/0/3 (of its quarter 0 the quarter 3), root/1 (a\n"
+         "cluster). By points: the pair in which what carries light from there to here was\n"
+         "decided. --step reads commands from standard input: help lists them.\n",
+         "radiosity explain room.obj --pair 0/2,3 --replace 'pair__much=below'"},
 };
 
 /* ---- the options */
@@ -370,9 +405,12 @@ enum {
     ARVO = 1 << COMMAND_ARVO,
     CAUSES = 1 << COMMAND_CAUSES,
     GREEDY = 1 << COMMAND_GREEDY,
+    DRAW = 1 << COMMAND_DRAW,
+    PANEL = 1 << COMMAND_PANEL,
+    EXPLAIN = 1 << COMMAND_EXPLAIN,
     MATRICES = SOLVE | COMPARE | CLUSTERING | CAUSES,        /* they solve for radiosities */
     SCENES = MATRICES | FACTORS | VISIBILITY | FORM_FACTORS, /* with an oracle */
-    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO | GREEDY,
+    THREADED = SCENES | REFERENCE | TUNE | STABILITY | ARVO | GREEDY | EXPLAIN,
     ALL = THREADED | ERROR
 };
 
@@ -388,6 +426,8 @@ static const char *const formats[] = {"csv", "coo", "mtx", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
+static const char *const svg[] = {".svg", NULL};
+static const char *const pages[] = {".html", NULL};
 static const char *const csv[] = {".csv", NULL};
 static const char *const drawings[] = {".svg", ".png", NULL};
 
@@ -400,7 +440,7 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
-    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES | GREEDY, "power",
+    {"oracle", "NAME|FILE.dag", SOLVE | CLUSTERING | CAUSES | GREEDY | EXPLAIN, "power",
      "the refinement oracle", TEXT(oracle)},
     /* Few links, of all sizes and distances, none of clusters. */
     {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
@@ -410,8 +450,10 @@ const struct option_row option_rows[] = {
     {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
      .rare = 1},
-    {"set", "PARAM=VALUE", SCENES | GREEDY, NULL, "a parameter of the oracle; may be repeated",
-     NULL, .read = read_setting},
+    {"set", "PARAM=VALUE", SCENES | GREEDY | EXPLAIN, NULL,
+     "a parameter of the oracle; may be repeated", NULL, .read = read_setting},
+    {"params", "FILE", SOLVE | EXPLAIN, NULL,
+     "a file of them, as a panel gives it; --set goes before", TEXT(params), .rare = 1},
     {"param", "NAME[=LOW:HIGH]", TUNE, NULL, "one to fit; or all of role link_threshold", NULL,
      .read = read_setting},
     {"error", "E%", TUNE, "1%", "the error worked for, of the reflected light",
@@ -494,7 +536,7 @@ const struct option_row option_rows[] = {
      "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX)},
     {"samples", "N", ARVO, NULL, "L1 and L2 by midpoints, N across the wall, not exactly",
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
-    {"two-sided", NULL, SCENES | REFERENCE | TUNE, NULL,
+    {"two-sided", NULL, SCENES | REFERENCE | TUNE | EXPLAIN, NULL,
      "faces have two sides, not only those *_2s", FLAG(two_sided)},
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
@@ -506,6 +548,10 @@ const struct option_row option_rows[] = {
     {"o", "FILE.csv", VISIBILITY, NULL, "the table", NAMED(out, csv)},
     {"o", "FILE.dag", TUNE, NULL, "the oracle with these defaults; may be ORACLE itself",
      NAMED(out, graphs)},
+    {"o", "FILE.svg", DRAW, NULL, "the drawing; must be given", NAMED(out, svg)},
+    {"o", "FILE.html", PANEL, NULL, "the page; must be given", NAMED(out, pages)},
+    {"statistics", "FILE.json", DRAW | PANEL, NULL, "what solve --statistics wrote",
+     TEXT(statistics)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
@@ -526,8 +572,23 @@ const struct option_row option_rows[] = {
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
      OUTPUT(statistics), .rare = 1},
-    {"json", "FILE", SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | GREEDY | TUNE, NULL,
+    {"json", "FILE",
+     SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | GREEDY | TUNE | EXPLAIN, NULL,
      "what the summary says; - is standard output", OUTPUT(json)},
+    {"replace", "NODE=TOOL(...)", SOLVE | COMPARE, NULL,
+     "ask another tool, or NODE=ANSWER: none; repeatable", NULL, .read = read_replacement,
+     .rare = 1},
+    {"replace", "NODE=TOOL(...)", EXPLAIN, NULL, "ask another tool, or NODE=ANSWER: none", NULL,
+     .read = read_replacement},
+    {"trace", "FILE", SOLVE, NULL, "each discussion, one line: CSV, or .jsonl", OUTPUT(trace),
+     .rare = 1},
+    {"where", "CONDITION", SOLVE, NULL, "of --trace: \"decision == stop && depth > 2\"",
+     TEXT(where), .rare = 1},
+    {"pair", "RECEIVER,EMITTER", EXPLAIN, NULL, "two elements by name", TEXT(pair)},
+    {"at", "X,Y,Z:X,Y,Z", EXPLAIN, NULL, "a point on the receiver, one on the emitter", TEXT(at)},
+    {"pass", "N", EXPLAIN, NULL, "as discussed in pass N; 1: before the first solve",
+     "a whole number from 1 to 1000", WHOLE(pass, 1, 1000)},
+    {"step", NULL, EXPLAIN, NULL, "go through it by hand", FLAG(step)},
     {"q", NULL, ALL, NULL, "no progress, no summary, no warnings", FLAG(quiet)},
 };
 const int option_row_count = sizeof option_rows / sizeof *option_rows;

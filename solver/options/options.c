@@ -37,21 +37,17 @@ static void print_lines(int studies)
 static int print_help(void)
 {
     printf("usage: radiosity COMMAND [SCENE] [options]\n"
-           "\n"
            "Light in a scene of diffuse surfaces, by hierarchical radiosity.\n"
            "\n");
     print_lines(0);
-    printf("  study NAME [SCENE]      experiments: see radiosity study --help\n"
+    printf("  study NAME [SCENE]       experiments: see radiosity study --help\n"
            "\n"
            "    radiosity solve room.obj --image room.png\n"
            "\n"
            "SCENE is OBJ+MTL, PLY, glTF, Collada or what else Assimp reads, in metres. The\n"
            "diffuse colour is the reflectance, the emissive colour the exitance in W/m2.\n"
            "Faces have one side unless the material's name ends in _2s.\n"
-           "\n"
-           "  --help                  this, or of a command: its options\n"
-           "  --version               the version\n"
-           "\n"
+           "--help after a command tells its options; radiosity --version the version.\n"
            "Messages go to standard error. Exit status: 0 done; 1 scene, oracle or file at\n"
            "fault, nothing half-written is left; 2 wrong usage; 3 short of what was asked.\n");
     return 0;
@@ -279,11 +275,25 @@ static int add_oracle_or_scene(struct options *o, const char *path)
     return add_scene(o, path);
 }
 
+/* The argument of draw and panel. Returns -1 to go on, or the exit status. */
+static int set_oracle_argument(struct options *o, const char *path)
+{
+    const char *command = command_rows[o->command].name;
+    if (!*path)
+        return wrong(command, "the oracle's name is empty");
+    if (o->oracle)
+        return wrong(command, "more than one oracle: %s", path);
+    o->oracle = path;
+    return -1;
+}
+
 static int set_scene(struct options *o, const char *path)
 {
     if (o->command == COMMAND_TUNE)
         return add_oracle_or_scene(o, path);
     const struct command_row *c = &command_rows[o->command];
+    if (strcmp(c->argument, "ORACLE") == 0)
+        return set_oracle_argument(o, path);
     if (!*c->argument)
         return wrong(c->name, "%s takes no scene, but got %s", c->name,
                      *path ? path : "an empty name");
@@ -338,7 +348,13 @@ static int check_together(struct options *o)
     if (o->command == COMMAND_TUNE && !o->scene_count)
         return wrong(c->name, "%s",
                      o->oracle ? "no scene is given" : "an oracle and scenes are needed");
-    if (*c->argument && !o->scene)
+    if (strcmp(c->argument, "ORACLE") == 0 && !o->oracle)
+        return wrong(c->name, "no oracle is given");
+    if (o->command == COMMAND_DRAW && !o->out)
+        return wrong(c->name, "the drawing's name is missing: -o FILE.svg");
+    if (o->command == COMMAND_PANEL && !o->out)
+        return wrong(c->name, "the page's name is missing: -o FILE.html");
+    if (*c->argument && strcmp(c->argument, "ORACLE") != 0 && !o->scene)
         return wrong(c->name, "no scene is given");
     if (o->command == COMMAND_REFERENCE && !o->out)
         return wrong(c->name, "the table's name is missing: -o FILE.csv");
@@ -346,7 +362,25 @@ static int check_together(struct options *o)
         return wrong(
             c->name,
             "--statistics counts what the interpreted graph does: it takes no --release but dag");
-    if (o->statistics)
+    if (o->trace && o->release_given && o->release != RAD_RELEASE_DAG)
+        return wrong(c->name,
+                     "--trace watches the interpreted graph: it takes no --release but dag");
+    if (o->trace && (o->statistics || o->accuracy > 0))
+        return wrong(c->name,
+                     "--trace is of one refinement, and nothing is counted meanwhile: it "
+                     "does not go with %s",
+                     o->statistics ? "--statistics" : "--accuracy");
+    if (o->where && !o->trace)
+        return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
+    if (o->replacement_count && o->release == RAD_RELEASE_HAND)
+        return wrong(c->name, "--replace is of a graph: it takes --release flat or dag");
+    if (o->command == COMMAND_EXPLAIN && !o->pair == !o->at)
+        return wrong(c->name, "%s",
+                     o->pair ? "--pair and --at both name a pair: give one"
+                             : "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z");
+    if (o->step && o->json)
+        return wrong(c->name, "--step and --json do not go together");
+    if (o->statistics || o->trace)
         o->release = RAD_RELEASE_DAG;
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
         return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
@@ -421,6 +455,8 @@ void options_free(struct options *o)
 {
     free(o->settings);
     free(o->scenes);
+    free(o->replacements);
+    o->replacements = NULL;
     o->settings = NULL;
     o->scenes = NULL;
 }

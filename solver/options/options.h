@@ -21,7 +21,10 @@ enum command {
     COMMAND_ARVO,
     COMMAND_CAUSES,
     COMMAND_GREEDY,
+    COMMAND_DRAW,
+    COMMAND_PANEL,
     COMMAND_ORACLES,
+    COMMAND_EXPLAIN,
     COMMANDS
 };
 
@@ -56,6 +59,10 @@ struct options {
     char **settings;
     int setting_count;
     size_t setting_capacity;
+    char **replacements; /* [replacement_count] "NODE=TOOL(...)" or "NODE=ANSWER"; owned */
+    int replacement_count;
+    size_t replacement_capacity;
+    const char *params;   /* a file of them, which settings go before */
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;
     enum RadBasis basis;
@@ -95,6 +102,10 @@ struct options {
     int keep;                     /* reference: its state file stays */
     int worst;                    /* error: how many faces to name */
     int samples;                  /* arvo: across the receiver; 0: exactly */
+    const char *trace, *where;    /* solve: the file, and which discussions go into it */
+    const char *pair, *at;        /* explain: receiver and emitter, by names or points */
+    int pass;                     /* explain: as discussed in this one; 0: whenever it was last */
+    int step;                     /* explain: by hand */
     int cause_rays;               /* causes: about how many */
 };
 

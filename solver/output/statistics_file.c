@@ -9,14 +9,17 @@
 #include "output/json_file.h"
 #include "util/report.h"
 #include "output/statistics_file.h"
+#include "output/statistics_json.h"
 
 /* Bin 0 of a histogram holds what is below twice this power of 2. */
 enum { LOWEST = -64 };
 
-static double share(uint64_t part, uint64_t whole)
+static double percent(uint64_t part, uint64_t whole)
 {
-    return whole ? 100 * (double)part / (double)whole : 0;
+    return 100 * share_of((double)part, (double)whole);
 }
+
+/* ---- text */
 
 static void print_records(FILE *out, const struct RadStatistics *s)
 {
@@ -33,94 +36,149 @@ static void print_records(FILE *out, const struct RadStatistics *s)
         fprintf(out, "record %d, %llu values\n", slot, (unsigned long long)all);
         if (s->zero[slot])
             fprintf(out, "  %-24s %12llu %6.2f %%\n", "0", (unsigned long long)s->zero[slot],
-                    share(s->zero[slot], all));
+                    percent(s->zero[slot], all));
         for (int i = 0; i < RAD_BINS; i++)
             if (bins[i])
                 fprintf(out, "  %.4g to %-*.4g %12llu %6.2f %%\n", ldexp(1, LOWEST + i), 12,
-                        ldexp(1, LOWEST + i + 1), (unsigned long long)bins[i], share(bins[i], all));
+                        ldexp(1, LOWEST + i + 1), (unsigned long long)bins[i],
+                        percent(bins[i], all));
     }
+}
+
+static void print_node(FILE *out, const struct RadNodeCount *n, const struct RadStatistics *s)
+{
+    fprintf(out, "%-24s %-20s %12llu %6.2f %%", n->name, n->tool, (unsigned long long)n->calls,
+            percent(n->calls, s->nodes[0].calls));
+    if (!n->calls)
+        fprintf(out, "  never asked");
+    if (n->timed)
+        fprintf(out, "  %5.1f %% of the time, %.3g us each",
+                100 * share_of(n->seconds, statistics_seconds(s)),
+                1e6 * n->seconds / (double)n->calls);
+    if (n->rays)
+        fprintf(out, ", %llu rays", (unsigned long long)n->rays);
+    fputc('\n', out);
+    for (int k = 0; k < n->answer_count && n->calls; k++)
+        fprintf(out, "  %-22s %-11s -> %-18s %12llu %6.2f %%\n", n->answers[k].name,
+                n->answers[k].kind, n->answers[k].target, (unsigned long long)n->answers[k].count,
+                percent(n->answers[k].count, n->calls));
+    for (int k = 0; k < n->term_count; k++)
+        fprintf(out, "  term %-17s %-11s    %-18s %12llu\n", n->terms[k].name, "computed", "",
+                (unsigned long long)n->terms[k].count);
+}
+
+/* The way of each, a step after the other. */
+static void print_paths(FILE *out, const struct RadStatistics *s)
+{
+    const double all = statistics_seconds(s);
+    enum { SHOWN = 3 };
+    fprintf(out, "%llu paths were gone; those that took most time:\n",
+            (unsigned long long)s->distinct_paths);
+    for (int i = 0; i < s->path_count && i < SHOWN; i++) {
+        const struct RadPath *p = &s->paths[i];
+        fprintf(out, "%d. %llu discussions, %.1f %% of the time\n  ", i + 1,
+                (unsigned long long)p->count, 100 * share_of(p->seconds, all));
+        for (int k = 0; k < p->length; k++) {
+            const struct RadNodeCount *n = &s->nodes[p->nodes[k]];
+            const struct RadAnswerCount *a = &n->answers[p->answers[k]];
+            fprintf(out, " %s: %s%s", n->name, a->name, k + 1 < p->length ? ";" : "");
+            if (k + 1 == p->length)
+                fprintf(out, " -> %s\n", a->target);
+        }
+    }
+}
+
+static void print_unused(FILE *out, const struct RadStatistics *s)
+{
+    fputs("never asked:", out);
+    for (int i = 0; i < s->node_count; i++)
+        if (!s->nodes[i].calls)
+            fprintf(out, " %s", s->nodes[i].name);
+    fputs("\nnever answered:", out);
+    for (int i = 0; i < s->node_count; i++)
+        for (int k = 0; s->nodes[i].calls && k < s->nodes[i].answer_count; k++)
+            if (!s->nodes[i].answers[k].count)
+                fprintf(out, " %s:%s", s->nodes[i].name, s->nodes[i].answers[k].name);
+    fputc('\n', out);
+}
+
+static void print_passes(FILE *out, const struct RadStatistics *s)
+{
+    fprintf(out, "pass  discussions         rays      seconds\n");
+    for (int i = 0; i < s->pass_count; i++)
+        fprintf(out, "%4d %12llu %12llu %12.4g\n", i + 1,
+                (unsigned long long)s->passes[i].discussions, (unsigned long long)s->passes[i].rays,
+                s->passes[i].seconds);
 }
 
 static void print_text(FILE *out, const char *oracle, const struct RadStatistics *s)
 {
-    fprintf(out, "oracle %s: %llu discussions\n", oracle,
-            (unsigned long long)(s->node_count ? s->nodes[0].calls : 0));
-    for (int i = 0; i < s->node_count; i++) {
-        const struct RadNodeCount *n = &s->nodes[i];
-        fprintf(out, "%-24s %-20s %12llu%s\n", n->name, n->tool, (unsigned long long)n->calls,
-                n->calls ? "" : "  never asked");
-        for (int k = 0; k < n->answer_count && n->calls; k++)
-            fprintf(out, "  %-22s %-11s -> %-18s %12llu %6.2f %%\n", n->answers[k].name,
-                    n->answers[k].kind, n->answers[k].target,
-                    (unsigned long long)n->answers[k].count, share(n->answers[k].count, n->calls));
-    }
+    fprintf(out, "oracle %s: %llu discussions, %llu rays, %.4g s in its nodes (one in %d timed)\n",
+            oracle, (unsigned long long)s->nodes[0].calls, (unsigned long long)statistics_rays(s),
+            statistics_seconds(s), RAD_TIMED_EVERY);
+    for (int i = 0; i < s->node_count; i++)
+        print_node(out, &s->nodes[i], s);
+    print_unused(out, s);
+    print_paths(out, s);
+    print_passes(out, s);
     print_records(out, s);
 }
 
-/* A line per answer; counts and histograms follow in the same columns. */
+/* ---- CSV: a line per node, answer and term, of all passes together (0) and of each; then paths */
+
+static void print_csv_node(FILE *out, int pass, const struct RadNodeCount *n, uint64_t discussions)
+{
+    fprintf(out, "node,%d,%s,%s,,,,%llu,%.6g,%.9g,%.9g,%llu\n", pass, n->name, n->tool,
+            (unsigned long long)n->calls, share_of((double)n->calls, (double)discussions),
+            n->seconds, share_of(n->seconds, (double)n->calls), (unsigned long long)n->rays);
+    for (int k = 0; k < n->answer_count; k++) {
+        const struct RadAnswerCount *a = &n->answers[k];
+        fprintf(out, "answer,%d,%s,%s,%s,%s,%s,%llu,%.6g,,,\n", pass, n->name, n->tool, a->name,
+                a->kind, a->target, (unsigned long long)a->count,
+                share_of((double)a->count, (double)n->calls));
+    }
+    for (int k = 0; k < n->term_count; k++)
+        fprintf(out, "term,%d,%s,%s,%s,,,%llu,%.6g,,,\n", pass, n->name, n->tool, n->terms[k].name,
+                (unsigned long long)n->terms[k].count,
+                share_of((double)n->terms[k].count, (double)n->calls));
+}
+
+static void print_csv_path(FILE *out, const struct RadPath *p, const struct RadStatistics *s)
+{
+    const char *decision = "";
+    fputs("path,0,", out);
+    for (int k = 0; k < p->length; k++) {
+        const struct RadNodeCount *n = &s->nodes[p->nodes[k]];
+        fprintf(out, "%s%s:%s", k ? " " : "", n->name, n->answers[p->answers[k]].name);
+        decision = n->answers[p->answers[k]].target;
+    }
+    fprintf(out, ",,,,%s,%llu,%.6g,%.9g,%.9g,\n", decision, (unsigned long long)p->count,
+            share_of((double)p->count, (double)s->nodes[0].calls), p->seconds,
+            share_of(p->seconds, (double)p->count));
+}
+
 static void print_csv(FILE *out, const struct RadStatistics *s)
 {
-    fputs("node,tool,answer,kind,target,count\n", out);
+    fputs("what,pass,node,tool,answer,kind,target,count,share,seconds,mean_seconds,rays\n", out);
     for (int i = 0; i < s->node_count; i++)
-        for (int k = 0; k < s->nodes[i].answer_count; k++) {
-            const struct RadAnswerCount *a = &s->nodes[i].answers[k];
-            fprintf(out, "%s,%s,%s,%s,%s,%llu\n", s->nodes[i].name, s->nodes[i].tool, a->name,
-                    a->kind, a->target, (unsigned long long)a->count);
-        }
+        print_csv_node(out, 0, &s->nodes[i], s->nodes[0].calls);
+    for (int p = 0; p < s->pass_count; p++)
+        for (int i = 0; i < s->node_count; i++)
+            if (s->passes[p].nodes[i].calls)
+                print_csv_node(out, p + 1, &s->passes[p].nodes[i], s->passes[p].discussions);
+    for (int i = 0; i < s->path_count; i++)
+        print_csv_path(out, &s->paths[i], s);
     for (int i = 0; i < RAD_COUNTS; i++)
         if (s->counts[i])
-            fprintf(out, "count %d,count,,,,%llu\n", i, (unsigned long long)s->counts[i]);
+            fprintf(out, "count,0,%d,count,,,,%llu,,,,\n", i, (unsigned long long)s->counts[i]);
     for (int i = 0; i < RAD_RECORDS; i++) {
         if (s->zero[i])
-            fprintf(out, "record %d,record,0,,,%llu\n", i, (unsigned long long)s->zero[i]);
+            fprintf(out, "record,0,%d,record,0,,,%llu,,,,\n", i, (unsigned long long)s->zero[i]);
         for (int k = 0; k < RAD_BINS; k++)
             if (s->bins[i][k])
-                fprintf(out, "record %d,record,from %.17g,,,%llu\n", i, ldexp(1, LOWEST + k),
+                fprintf(out, "record,0,%d,record,from %.17g,,,%llu,,,,\n", i, ldexp(1, LOWEST + k),
                         (unsigned long long)s->bins[i][k]);
     }
-}
-
-static json_t *records_json(const struct RadStatistics *s)
-{
-    json_t *all = json_array();
-    for (int slot = 0; slot < RAD_RECORDS; slot++) {
-        json_t *bins = json_array();
-        for (int i = 0; i < RAD_BINS; i++)
-            if (s->bins[slot][i])
-                json_array_append_new(bins, json_pack("{s:f, s:I}", "from", ldexp(1, LOWEST + i),
-                                                      "count", (json_int_t)s->bins[slot][i]));
-        if (s->zero[slot] || json_array_size(bins))
-            json_array_append_new(all, json_pack("{s:i, s:I, s:o}", "slot", slot, "zero",
-                                                 (json_int_t)s->zero[slot], "bins", bins));
-        else
-            json_decref(bins);
-    }
-    return all;
-}
-
-static json_t *statistics_json(const char *oracle, const struct RadStatistics *s)
-{
-    json_t *nodes = json_array(), *counts = json_object();
-    for (int i = 0; i < s->node_count; i++) {
-        const struct RadNodeCount *n = &s->nodes[i];
-        json_t *answers = json_array();
-        for (int k = 0; k < n->answer_count; k++)
-            json_array_append_new(answers, json_pack("{s:s, s:s, s:s, s:I}", "answer",
-                                                     n->answers[k].name, "kind", n->answers[k].kind,
-                                                     "target", n->answers[k].target, "count",
-                                                     (json_int_t)n->answers[k].count));
-        json_array_append_new(nodes,
-                              json_pack("{s:s, s:s, s:I, s:o}", "node", n->name, "tool", n->tool,
-                                        "calls", (json_int_t)n->calls, "answers", answers));
-    }
-    for (int i = 0; i < RAD_COUNTS; i++)
-        if (s->counts[i]) {
-            char name[16];
-            snprintf(name, sizeof name, "%d", i);
-            json_object_set_new(counts, name, json_integer((json_int_t)s->counts[i]));
-        }
-    return json_pack("{s:s, s:o, s:o, s:o}", "oracle", oracle, "nodes", nodes, "counts", counts,
-                     "records", records_json(s));
 }
 
 static int print_file(const char *path, const char *oracle, const struct RadStatistics *s)
@@ -135,7 +193,7 @@ static int print_file(const char *path, const char *oracle, const struct RadStat
     return atomic_commit(&file);
 }
 
-int statistics_write(const char *path, RadOracle oracle)
+int statistics_write(const char *path, const char *scene, RadOracle oracle)
 {
     struct RadOracleReport report;
     radGetOracleReport(oracle, &report);
@@ -146,6 +204,6 @@ int statistics_write(const char *path, RadOracle oracle)
         print_text(stdout, report.name, &s);
         return 0;
     }
-    return ends_with(path, ".json") ? json_file_write(path, statistics_json(report.name, &s))
+    return ends_with(path, ".json") ? json_file_write(path, statistics_json(scene, oracle, &s))
                                     : print_file(path, report.name, &s);
 }

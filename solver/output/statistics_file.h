@@ -7,6 +7,6 @@
 
 /* Write what the oracle has counted (radCountOracle) to `path`: text, or CSV or JSON by the name's
  * end; "-" is standard output, as text. Returns 0, or -1 after a message. */
-int statistics_write(const char *path, RadOracle oracle);
+int statistics_write(const char *path, const char *scene, RadOracle oracle);
 
 #endif

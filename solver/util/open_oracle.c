@@ -84,8 +84,20 @@ int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int co
 RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release,
                       char *const *settings, int count)
 {
+    return open_oracle_replaced(device, oracle, release, settings, count, NULL, 0);
+}
+
+RadOracle open_oracle_replaced(RadDevice device, const char *oracle, enum RadRelease release,
+                               char *const *settings, int count, char *const *replacements,
+                               int replacement_count)
+{
     RadOracle opened;
-    if (release == RAD_RELEASE_HAND || !is_file(oracle)) {
+    if (replacement_count > 0 && release != RAD_RELEASE_HAND
+        && (is_file(oracle) || radGetOracleText(oracle))) {
+        opened =
+            radLoadOracleReplaced(device, oracle, is_file(oracle) ? NULL : radGetOracleText(oracle),
+                                  release, (const char *const *)replacements, replacement_count);
+    } else if (release == RAD_RELEASE_HAND || !is_file(oracle)) {
         if (!radHasOracle(device, oracle, release))
             return refuse_oracle(device, oracle, release);
         opened = radNewOracle(device, oracle, release);

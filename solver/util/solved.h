@@ -18,6 +18,10 @@ struct solved {
 int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene,
                  RadOracle oracle, const struct RadSolveOptions *how);
 
+/* Solve it; with how->unit, refine it alone. Returns 0, or -1 after an error of the device, with
+ * nothing to close. */
+int solved_finish(struct solved *s, const struct RadSolveOptions *how);
+
 /* Make a solution over a committed scene and solve it; with how->unit, refine it alone.
  * Returns 0, or -1 after a message that names `where`, with nothing to close. */
 int solved_open(struct solved *s, RadDevice device, const char *where, RadScene scene,

@@ -186,7 +186,8 @@ static uint64_t fingerprint(const char *text)
 START_TEST(same_fingerprint)
 {
     static const char other[] =
-        "oracle renamed {param limit:flux=25e-1 in[0,10];param n:count=3.0 in[1,9] \"doc\";start "
+        "oracle renamed {fixed param limit:flux=25e-1 in[0,10];param n:count=3.0 in[1,9] "
+        "\"doc\";start "
         "first;"
         "node first=look(){neither->drop;right->last;left->second;}# comment\n"
         "node second=weigh(most=limit,share=0.250){otherwise->split;light->last;}"

@@ -401,7 +401,7 @@ START_TEST(same_bits)
     run("mkdir %s/oracle %s/util && cp runtime/util/messages.[ch] %s/util", place, place, place);
     run("cp runtime/oracle/tool_table.h runtime/oracle/program.h runtime/oracle/refiner.[ch] "
         "runtime/oracle/interpreter.c "
-        "runtime/oracle/arguments.c runtime/oracle/statistics.[ch] runtime/oracle/load_graph.[ch] "
+        "runtime/oracle/arguments.c runtime/oracle/load_graph.[ch] "
         "%s/oracle%s%s",
         place, "", "");
     run("%s --emit=catalog-h -o %s/catalog.h %s", dagc, place, catalog);

@@ -108,11 +108,11 @@ static void defaults(void *at)
 }
 
 static const struct oracle_parameter table[] = {
-    {"epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon), ROLE_NONE},
-    {"relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative), ROLE_NONE},
-    {"min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area), ROLE_NONE},
-    {"min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share), ROLE_NONE},
-    {"rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays), ROLE_NONE},
+    {"epsilon", "W/m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, epsilon), ROLE_NONE, 0},
+    {"relative", "", "", 0.05, 0, INFINITY, 0, offsetof(struct parameters, relative), ROLE_NONE, 0},
+    {"min_area", "m2", "", 0, 0, INFINITY, 0, offsetof(struct parameters, min_area), ROLE_NONE, 0},
+    {"min_share", "", "", 2e-5, 0, 1, 0, offsetof(struct parameters, min_share), ROLE_NONE, 0},
+    {"rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays), ROLE_NONE, 0},
 };
 
 const struct oracle hand_bf = {

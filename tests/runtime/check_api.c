@@ -562,13 +562,18 @@ START_TEST(test_oracles)
         radParseOracle(device, "mine", "oracle a { start b; }", NULL, RAD_RELEASE_DAG));
     expect_error(device, RAD_ERROR_INVALID_ORACLE, "mine:1:");
     RadOracle own = radParseOracle(device, "mine",
-                                   "oracle a \"one\" { param x : ratio = 0.25 in [0, 1]; start t;"
-                                   " node t = transfer(relative = x) { otherwise -> stop; } }",
+                                   "oracle a \"one\" { param x : ratio = 0.25 in [0, 1];"
+                                   " fixed param z : ratio = 3 in [0, 9]; start t; node t = "
+                                   "transfer(relative = z * x) { otherwise -> stop; } }",
                                    NULL, RAD_RELEASE_DAG);
     ck_assert_msg(own != NULL, "%s", radGetDeviceErrorMessage(device));
     radGetOracleReport(own, &r);
     ck_assert_str_eq(r.doc, "one");
-    ck_assert_int_eq(r.parameter_count, 1);
+    ck_assert_int_eq(r.parameter_count, 2);
+    ck_assert_int_eq(r.parameters[0].fixed, 0);
+    ck_assert_int_eq(r.parameters[1].fixed, 1);
+    ck_assert_int_eq(radSetOracleParameter(own, "z", 3), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "z is fixed by the author of oracle a, at 3");
     ck_assert_double_eq(radGetOracleParameter(own, "x"), 0.25);
     ck_assert_int_eq(radSetOracleParameter(own, "x", 0.5), 0);
     ck_assert_double_eq(radGetOracleParameter(own, "x"), 0.5);
@@ -577,16 +582,19 @@ START_TEST(test_oracles)
     ck_assert_int_eq(radSetOracleParameter(own, "x", (double)NAN), -1);
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "x takes 0 to 1");
     ck_assert_int_eq(radSetOracleParameter(own, "y", 1), -1);
-    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no parameter 'y'; it has x");
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "no parameter 'y'; it has x, z");
     ck_assert_double_nan(radGetOracleParameter(own, "y"));
     radReleaseOracle(own);
-    RadOracle flat = radParseOracle(
-        device, "mine",
-        "oracle a { start t; node t = transfer(relative = 1) { otherwise -> stop; } }", NULL,
-        RAD_RELEASE_FLAT);
+    RadOracle flat = radParseOracle(device, "mine",
+                                    "oracle a { fixed param z : ratio = 3 in [0, 4]; start t;"
+                                    " node t = transfer(relative = z) { otherwise -> stop; } }",
+                                    NULL, RAD_RELEASE_FLAT);
     ck_assert_msg(flat != NULL, "%s", radGetDeviceErrorMessage(device));
     radGetOracleReport(flat, &r);
     ck_assert_str_eq(r.release, "flat");
+    ck_assert_int_eq(r.parameters[0].fixed, 1);
+    ck_assert_int_eq(radSetOracleParameter(flat, "z", 2), -1);
+    ck_assert_double_eq(radGetOracleParameter(flat, "z"), 3);
     ck_assert_int_gt((int)strlen(r.fingerprint), 0);
     radReleaseOracle(flat);
     radReleaseDevice(device);

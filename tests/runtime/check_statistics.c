@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include <pthread.h>
 #include <stdio.h>
+#include <time.h>
 #include "runtime/make_solve.h"
 #include "oracle/statistics.h"
 #include "oracles.h"
@@ -50,15 +51,15 @@ START_TEST(test_statistics)
     ck_assert_int_eq(solve_run(&plain, other, &cause), 0);
     same_links(&s, &plain);
     ck_assert_int_eq(statistics_take(&counted, r), 0);
-    ck_assert_str_eq(counted.nodes[0].name, "level");
-    ck_assert_uint_eq(counted.nodes[0].calls, s.refinement.pairs);
-    for (int i = 0; i < counted.node_count; i++) {
-        const struct node_statistics *n = &counted.nodes[i];
+    ck_assert_str_eq(counted.shown.nodes[0].name, "level");
+    ck_assert_uint_eq(counted.shown.nodes[0].calls, s.refinement.pairs);
+    for (int i = 0; i < counted.shown.node_count; i++) {
+        const struct RadNodeCount *n = &counted.shown.nodes[i];
         uint64_t in = i == 0 ? s.refinement.pairs : 0, out = 0;
-        for (int j = 0; j < counted.node_count; j++)
-            for (int k = 0; k < counted.nodes[j].answer_count; k++)
-                in += strcmp(counted.nodes[j].answers[k].target, n->name) == 0
-                          ? counted.nodes[j].answers[k].count
+        for (int j = 0; j < counted.shown.node_count; j++)
+            for (int k = 0; k < counted.shown.nodes[j].answer_count; k++)
+                in += strcmp(counted.shown.nodes[j].answers[k].target, n->name) == 0
+                          ? counted.shown.nodes[j].answers[k].count
                           : 0;
         for (int k = 0; k < n->answer_count; k++) {
             out += n->answers[k].count;
@@ -74,7 +75,7 @@ START_TEST(test_statistics)
     }
     for (int j = 0; j < 5; j++)
         ck_assert_uint_eq(sum[j], s.refinement.decided[j]);
-    for (int i = 0; i < STATISTICS_COUNTS; i++)
+    for (int i = 0; i < RAD_COUNTS; i++)
         deep -= counted.counts[i];
     ck_assert_uint_eq(deep, 0);
     ck_assert_uint_gt(counted.counts[0], 0);
@@ -82,13 +83,13 @@ START_TEST(test_statistics)
     ck_assert_uint_eq(counted.counts[25], 0); /* can_split ends at 24 */
     ck_assert_uint_gt(noted, 100);
     /* 0.75 lies in [1/2, 1) */
-    ck_assert_uint_eq(counted.records[0].bins[-1 - STATISTICS_LOW], noted);
-    noted -= counted.records[3].zero;
+    ck_assert_uint_eq(counted.bins[0][-1 - STATISTICS_LOW], noted);
+    noted -= counted.zero[3];
     for (int i = 0; i < STATISTICS_HIGH - STATISTICS_LOW; i++) {
-        noted -= counted.records[3].bins[i];
+        noted -= counted.bins[3][i];
         /* no B is above 20 W/m2, and F <= 1 */
         if (ldexp(1, STATISTICS_LOW + i) > 20 / rays_host(s.problem.rays)->irradiance)
-            ck_assert_uint_eq(counted.records[3].bins[i], 0);
+            ck_assert_uint_eq(counted.bins[3][i], 0);
     }
     ck_assert_uint_eq(noted, 0);
     statistics_free(&counted);
@@ -151,8 +152,8 @@ START_TEST(test_threads)
         for (int k = 0; k < 2; k++) {
             uint64_t sum = 0;
             ck_assert_int_eq(statistics_take(&counted, asked.refiners[k]), 0);
-            ck_assert_uint_eq(counted.nodes[0].calls, wanted[k]);
-            ck_assert_uint_eq(counted.nodes[1].calls, wanted[k]);
+            ck_assert_uint_eq(counted.shown.nodes[0].calls, wanted[k]);
+            ck_assert_uint_eq(counted.shown.nodes[1].calls, wanted[k]);
             for (int i = 0; i < 4; i++)
                 sum += counted.counts[i];
             ck_assert_uint_eq(sum, wanted[k]);
@@ -165,12 +166,129 @@ START_TEST(test_threads)
 }
 END_TEST
 
+/* Ways through a graph of few, each by what it must be; and the arcs between, by their sums. */
+START_TEST(test_paths)
+{
+    static const char text[] = "oracle ways { start which;\n"
+                               "  node which = larger() { receiver | emitter -> deep; }\n"
+                               "  node deep = can_split(min_area = 2) { both -> stop;\n"
+                               "    receiver | emitter -> form;  neither -> note; }\n"
+                               "  node note = mark(as = 1) { done -> form; }\n"
+                               "  node form = mark(as = 2) { done -> stop; } }\n";
+    static const struct {
+        double receiver, emitter; /* areas: which is larger, who may be split */
+        int count, length;
+        const char *way[4];
+    } cases[] = {{9, 9, 7, 2, {"receiver", "both"}},
+                 {1, 9, 5, 3, {"emitter", "emitter", "done"}},
+                 {9, 1, 3, 3, {"receiver", "receiver", "done"}},
+                 {1, 2, 2, 4, {"emitter", "neither", "done", "done"}}};
+    enum { CASES = sizeof cases / sizeof *cases };
+    struct refiner *r = interpreted("ways.dag", text, NULL);
+    ck_assert_int_eq(refiner_count(r), 0);
+    const struct host host = {.area = 1};
+    for (int c = 0; c < CASES; c++)
+        for (int i = 0; i < cases[c].count; i++) {
+            struct element receiver = {.area = cases[c].receiver, .vertices = 4},
+                           emitter = {.area = cases[c].emitter, .vertices = 4};
+            struct discussion d = {.receiver = &receiver, .emitter = &emitter, .host = &host};
+            (void)r->refine(r->state, &d);
+            ck_assert_ptr_eq(d.host, &host);
+            if (c == 1 && i == 0) /* the first seven and one are the first pass */
+                ck_assert_int_eq(statistics_end_pass(r), 0);
+        }
+    ck_assert_int_eq(statistics_end_pass(r), 0);
+    struct statistics counted;
+    ck_assert_int_eq(statistics_take(&counted, r), 0);
+    const struct RadStatistics *s = &counted.shown;
+    ck_assert_uint_eq(s->distinct_paths, CASES);
+    ck_assert_int_eq(s->path_count, CASES);
+    int found = 0;
+    for (int p = 0; p < s->path_count; p++)
+        for (int c = 0; c < CASES; c++) {
+            int same = s->paths[p].length == cases[c].length;
+            for (int k = 0; same && k < cases[c].length; k++) {
+                const struct RadNodeCount *n = &s->nodes[s->paths[p].nodes[k]];
+                same = strcmp(n->answers[s->paths[p].answers[k]].name, cases[c].way[k]) == 0;
+            }
+            if (same)
+                ck_assert_uint_eq(s->paths[p].count, (uint64_t)cases[c].count);
+            found += same;
+        }
+    ck_assert_int_eq(found, CASES);
+    ck_assert_int_eq(s->pass_count, 2);
+    ck_assert_uint_eq(s->passes[0].discussions, 8);
+    ck_assert_uint_eq(s->passes[1].discussions, 9);
+    /* mark is a term: note makes it, form finds it as good as it will be */
+    for (int i = 0; i < s->node_count; i++) {
+        const struct RadNodeCount *n = &s->nodes[i];
+        uint64_t made = strcmp(n->name, "note") == 0 ? 2 : strcmp(n->name, "form") == 0 ? 8 : 0;
+        ck_assert_uint_eq(n->term_count ? n->terms[0].count : 0, made);
+        if (made)
+            ck_assert_str_eq(n->terms[0].name, "mark");
+    }
+    statistics_free(&counted);
+    refiner_close(r);
+}
+END_TEST
+
+/* A node that takes a hundred times as long as another has a hundred times its time, about; all
+ * nodes together take most of the thread's own time. */
+START_TEST(test_times)
+{
+    static const char text[] = "oracle slow { start form;\n"
+                               "  node form = exact_form_factor() { done -> side; }\n"
+                               "  node side = larger() { receiver | emitter -> stop; } }\n";
+    struct refiner *r = interpreted("slow.dag", text, NULL);
+    ck_assert_ptr_nonnull(r);
+    ck_assert_int_eq(refiner_count(r), 0);
+    struct element low = {.area = 1,
+                          .vertices = 4,
+                          .normal = {0, 0, 1},
+                          .radius = 0.71,
+                          .centre = {.5, .5, 0},
+                          .vertex = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}},
+                   high = {.area = 1,
+                           .vertices = 4,
+                           .normal = {0, 0, -1},
+                           .radius = 0.71,
+                           .centre = {.5, .5, 1},
+                           .vertex = {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}};
+    const struct host host = {.area = 6, .extent = 1};
+    enum { ASKS = 20000 };
+    struct timespec from, to;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+    for (int i = 0; i < ASKS; i++) {
+        struct discussion d = {.receiver = &low, .emitter = &high, .host = &host};
+        (void)r->refine(r->state, &d);
+    }
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
+    double own = difftime(to.tv_sec, from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
+    struct statistics counted;
+    ck_assert_int_eq(statistics_take(&counted, r), 0);
+    const struct RadNodeCount *form = &counted.nodes[0], *side = &counted.nodes[1];
+    printf("%.3g s, of them %.3g and %.3g in the nodes; %llu of %d timed\n", own, form->seconds,
+           side->seconds, (unsigned long long)form->timed, ASKS);
+    ck_assert_uint_eq(form->timed, side->timed);
+    /* 156 expected; by chance, or because the machine is busy, fewer */
+    ck_assert_uint_gt(form->timed, ASKS / RAD_TIMED_EVERY / 8);
+    ck_assert_uint_lt(form->timed, ASKS / RAD_TIMED_EVERY * 3 / 2);
+    ck_assert_double_gt(form->seconds, 5 * side->seconds);
+    ck_assert_double_lt(form->seconds + side->seconds, 3 * own);
+    ck_assert_double_gt(form->seconds + side->seconds, own / 3);
+    statistics_free(&counted);
+    refiner_close(r);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("statistics");
     TCase *c = tcase_create("statistics");
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_statistics);
+    tcase_add_test(c, test_paths);
+    tcase_add_test(c, test_times);
     tcase_add_test(c, test_threads);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;

@@ -34,7 +34,7 @@ says() {
 
 # ---- no value, or one that is none: wrong usage, exit 2
 scene=$scenes/furnace.obj
-for option in --oracle --release --set --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --image-error --size --view --faces --json; do
+for option in --oracle --release --set --params --tolerance --iterations --solver --projection --closure --statistics --threads -o --image --image-error --size --view --faces --json; do
     says 2 "$option takes" solve "$scene" "$option" ""
 done
 for option in --only -o --threads; do says 2 "$option takes" study stability "$option" ""; done
@@ -123,7 +123,7 @@ says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol 7
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol=7
 says 2 "--s could be --set, --solver, --size, --statistics" solve "$scene" --s 7
-says 2 "--t could be --tolerance, --two-sided, --threads" solve "$scene" --t=7
+says 2 "--t could be --tolerance, --two-sided, --threads, --trace" solve "$scene" --t=7
 # Options may stand before and behind the scene, whatever POSIX says of others.
 count=$((count + 1))
 POSIXLY_CORRECT=1 "$radiosity" solve none.obj --tolerance 7 2>&1 | grep -q "tolerance takes" || { bad=$((bad + 1)); echo "failed: POSIXLY_CORRECT"; }
@@ -131,7 +131,7 @@ says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
 # ---- help: of 24 lines of 80 columns, on standard output, with an example that the parser takes
-for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy" oracles; do
+for command in "" solve compare viewfactors reference error tune study "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy" draw panel oracles explain; do
     for help in --help -h; do
         count=$((count + 1))
         # shellcheck disable=SC2086
@@ -142,7 +142,7 @@ for command in "" solve compare viewfactors reference error tune study "study st
         fi
     done
     count=$((count + 1))
-    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/; s/mine\.dag/bf/; s/-o bf/-o x.dag/')
+    example=$(sed -n 's/^    radiosity \(.*\)/\1/p' out | sed 's/\([a-z]*\)\.obj/none.obj/; s/faces\.csv/none.obj/; s/room\.json/none.obj/; s/mine\.dag/bf/; s/-o bf/-o x.dag/')
     # shellcheck disable=SC2086
     case $command in
     study | "study stability" | "study arvo" | "study greedy" | oracles) ;;
@@ -150,7 +150,7 @@ for command in "" solve compare viewfactors reference error tune study "study st
     esac
     rm -f out err
 done
-for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy"; do
+for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy" draw panel; do
     # shellcheck disable=SC2086
     "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
 done
@@ -186,6 +186,10 @@ says 1 "make the folder first" study arvo --csv nowhere/x.csv
 says 1 "make the folder first" study visibility none.obj -o nowhere/x.csv
 says 1 "make the folder first" study causes none.obj --json nowhere/x.json
 says 1 "make the folder first" study visibility none.obj --chart nowhere/x.svg
+says 1 "make the folder first" draw bf -o nowhere/x.svg
+says 2 "draw has no option --threads" draw bf -o x.svg --threads 2
+says 2 "-o takes a file named .svg, not x.png" draw bf -o x.png
+says 2 "more than one oracle: gap" draw bf gap -o x.svg
 says 2 "two outputs would go there" solve none.obj --faces x --json x
 says 2 "two outputs would go there" viewfactors none.obj -o x --names x
 says 2 "standard output: error: two outputs would go there" solve none.obj --statistics - --json -

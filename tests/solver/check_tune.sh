@@ -62,6 +62,9 @@ says 1 "none.obj: error" ff none.obj
 says 1 "ff has no parameter nix; it has limit, min_area, min_share, rays" ff "$room" --param nix
 says 1 "rays is a whole number" ff "$room" --param rays
 says 1 "min_area is 0" ff "$room" --param min_area
+sed 's/param limit /fixed &/' mine.dag >fixed.dag
+says 1 "limit is fixed by its author" fixed.dag "$room" --param limit
+says 1 "say which to fit by --param NAME: min_share" fixed.dag "$room"
 says 1 "limit is named twice" ff "$room" --param limit --param limit=1:2
 for range in 1:0.5 0:1 1 :1 1: 1:2:3 x:y -1:1 nan:1 1:inf ''; do
     says 1 "write NAME=LOW:HIGH with numbers 0 < LOW <= HIGH" ff "$room" --param limit=$range

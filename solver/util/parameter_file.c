@@ -1,0 +1,170 @@
+/* parameter_file.c - see parameter_file.h.
+ * SPDX-License-Identifier: MIT */
+#include "util/parameter_file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "util/device.h"
+#include "util/report.h"
+#include "util/text_file.h"
+
+#define BLANKS " \t\r\f\v"
+enum { NAME_SIZE = 64 }; /* a name in a graph has at most 63 characters */
+
+struct parameter_file {
+    const char *path, *named;
+    RadDevice device;
+    RadOracle oracle;
+    struct RadOracleReport report;
+    uint32_t line, *lines; /* [report.parameter_count]: which line set it; 0: none */
+    int named_oracle;      /* a line has said which oracle it is about */
+};
+
+/* Changes of one character that make `a` of `b`: insert, leave out, replace. [Levenshtein 1966] */
+static size_t distance(const char *a, const char *b)
+{
+    size_t row[NAME_SIZE + 1], length = strlen(b);
+    for (size_t j = 0; j <= length; j++)
+        row[j] = j;
+    for (size_t i = 0; a[i]; i++) {
+        size_t before = row[0]++;
+        for (size_t j = 0; j < length; j++) {
+            size_t replaced = before + (a[i] != b[j]);
+            before = row[j + 1];
+            size_t shorter = (before < row[j] ? before : row[j]) + 1;
+            row[j + 1] = replaced < shorter ? replaced : shorter;
+        }
+    }
+    return row[length];
+}
+
+/* The parameter whose name is nearest, when that is near enough to be a slip of the fingers. */
+static const char *nearest(const struct RadOracleReport *report, const char *name)
+{
+    const char *found = NULL;
+    size_t least = strlen(name) / 3 + 2;
+    for (int i = 0; i < report->parameter_count; i++) {
+        size_t d = distance(name, report->parameters[i].name);
+        if (d < least) {
+            least = d;
+            found = report->parameters[i].name;
+        }
+    }
+    return found;
+}
+
+static int unknown(const struct parameter_file *f, const char *name)
+{
+    const char *near = nearest(&f->report, name);
+    char names[1000] = "none";
+    int length = 0;
+    for (int i = 0; i < f->report.parameter_count && length < (int)sizeof names; i++)
+        length += snprintf(names + length, sizeof names - (size_t)length, "%s%s", i ? ", " : "",
+                           f->report.parameters[i].name);
+    return report_error(f->path, f->line, "oracle %s has no parameter %s; %s%s%s", f->report.name,
+                        name, near ? "did you mean " : "it has ", near ? near : names,
+                        near ? "?" : "");
+}
+
+static int set(struct parameter_file *f, const char *name, const char *text)
+{
+    int i = 0;
+    while (i < f->report.parameter_count && strcmp(f->report.parameters[i].name, name) != 0)
+        i++;
+    if (i == f->report.parameter_count)
+        return unknown(f, name);
+    if (f->lines[i])
+        return report_error(f->path, f->line, "%s is set twice, first in line %u; keep one of them",
+                            name, (unsigned)f->lines[i]);
+    f->lines[i] = f->line;
+    char *end;
+    double value = strtod(text, &end);
+    if (!*text)
+        return report_error(f->path, f->line, "%s has no value; write %s = NUMBER", name, name);
+    if (end == text || *end || isnan(value))
+        return report_error(f->path, f->line, "'%s' is not a number; write %s = NUMBER", text,
+                            name);
+    if (isinf(value) && strpbrk(text, "0123456789"))
+        return report_error(f->path, f->line, "%s: too large to be a number here; inf is one",
+                            text);
+    if (radSetOracleParameter(f->oracle, name, value) == 0)
+        return 0;
+    char message[512];
+    snprintf(message, sizeof message, "%s", radGetDeviceErrorMessage(f->device));
+    (void)radGetDeviceError(f->device);
+    return report_error(f->path, f->line, "%s", message);
+}
+
+/* "oracle NAME" */
+static int name_oracle(struct parameter_file *f, char *text)
+{
+    size_t word = strcspn(text, BLANKS);
+    char *name = text + word + strspn(text + word, BLANKS);
+    if (strncmp(text, "oracle", word) != 0 || word != 6 || !*name || strpbrk(name, BLANKS "="))
+        return report_error(f->path, f->line,
+                            "the first line says whose parameters these are; write oracle %s",
+                            f->report.name);
+    if (strcmp(name, f->report.name) != 0)
+        return report_error(f->path, f->line,
+                            "these are parameters of oracle %s, but --oracle is %s; give %s, or "
+                            "its file, by --oracle",
+                            name, f->named, name);
+    f->named_oracle = 1;
+    return 0;
+}
+
+/* One line, its end a 0, which it may change. */
+static int read_line(struct parameter_file *f, char *text)
+{
+    text[strcspn(text, "#")] = 0;
+    text += strspn(text, BLANKS);
+    size_t length = strlen(text);
+    while (length && strchr(BLANKS, text[length - 1]))
+        text[--length] = 0;
+    if (!*text)
+        return 0;
+    if (!f->named_oracle)
+        return name_oracle(f, text);
+    char *equals = strchr(text, '='), name[NAME_SIZE];
+    size_t end = equals ? (size_t)(equals - text) : 0;
+    while (end && strchr(BLANKS, text[end - 1]))
+        end--;
+    if (!end)
+        return report_error(f->path, f->line, "'%s' sets nothing; write NAME = VALUE", text);
+    if (end >= sizeof name)
+        return report_error(f->path, f->line, "'%.*s' is too long for a name", (int)end, text);
+    memcpy(name, text, end);
+    name[end] = 0;
+    return set(f, name, equals + 1 + strspn(equals + 1, BLANKS));
+}
+
+int parameter_file_apply(const char *path, RadDevice device, RadOracle oracle, const char *named)
+{
+    struct parameter_file f = {.path = path, .named = named, .device = device, .oracle = oracle};
+    radGetOracleReport(oracle, &f.report);
+    size_t size;
+    char *text = text_file_read(path, &size);
+    if (!text)
+        return report_error(path, 0, "cannot read it: %s", strerror(errno));
+    f.lines = calloc((size_t)f.report.parameter_count + 1, sizeof *f.lines);
+    int status = f.lines ? 0 : report_error(path, 0, "out of memory");
+    if (status == 0 && strlen(text) != size)
+        status = report_error(path, 0, "not a text: it has a byte 0");
+    for (char *at = text, *end = at + size; status == 0 && at < end;) {
+        char *next = at + strcspn(at, "\n");
+        *next = 0;
+        f.line++;
+        status = read_line(&f, at);
+        at = next + 1;
+    }
+    if (status == 0 && !f.named_oracle)
+        status = report_error(path, 0, "no line says whose parameters these are; write oracle %s",
+                              f.report.name);
+    free(f.lines);
+    free(text);
+    return status;
+}
