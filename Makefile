@@ -196,7 +196,7 @@ demo: all
 	@sh examples/demo.sh $(BUILD)
 
 # A study is tests/studies/NAME.sh; what has been run stays in BUILD/studies. BUDGET: processor seconds for each scene.
-STUDIES   = releases accuracy need growth
+STUDIES   = releases accuracy need growth bounds
 bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance
 	@set -e; for study in $(STUDIES); do \
 	    [ -f tests/studies/$$study.sh ] || { echo "make bench: error: there is no study $$study; there are: $(filter-out lib accuracy_page check_studies,$(notdir $(basename $(wildcard tests/studies/*.sh))))" >&2; exit 1; }; \

@@ -29,14 +29,14 @@ function time_for(name, wanted, i, best, k, t) {
     t = log(e[k] / wanted) / log(e[k] / e[best])
     return exp(log(s[k]) + t * (log(s[best]) - log(s[k])))
 }
-function least(name, i, x) {
-    x = ""
-    for (i = 1; i <= m; i++) if (by[i] == name && (x == "" || e[i] < x)) x = e[i]
-    return x
+function best_of(name, i, best) {
+    for (i = 1; i <= m; i++) if (by[i] == name && (!best || e[i] < e[best])) best = i
+    return best
 }
-function beside(name, wanted, t) {
+function beside(name, wanted, t, best) {
+    best = best_of(name)
     t = time_for(name, wanted)
-    return called(name) (t == "" ? (least(name) == "" ? " not run" : sprintf(" got no further than %.2g %%", least(name))) \
+    return called(name) (t == "" ? (best ? sprintf(" %.2g %% at best (%.2g s)", e[best], s[best]) : " not run") \
         : sprintf(" %.2g s", t))
 }
 function add(errors, at) {
