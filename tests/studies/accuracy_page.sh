@@ -24,7 +24,7 @@ chart() { # FILE X Y NOISE X-LABEL Y-LABEL
     height=$((90 + 300 * ((count + columns - 1) / columns)))
     local width=$((columns < 2 ? 720 : 80 + 320 * columns))
     {
-        echo "set multiplot layout $(((count + columns - 1) / columns)),$columns margins $((75000 / width))e-3,.985,$((50000 / height))e-3,$((1000 - 80000 / height))e-3 spacing .05,$((40000 / height))e-3"
+        echo "set multiplot layout $(((count + columns - 1) / columns)),$columns margins $((75000 / width))e-3,.985,$((50000 / height))e-3,$((1000 - 80000 / height))e-3 spacing .05,$((62000 / height))e-3"
         echo "set logscale xy; set grid lc rgb '#888888' dt 3; set format y '%g'; set format x '%g'"
         local i=0
         for name in $names; do
