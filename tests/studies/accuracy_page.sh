@@ -73,6 +73,8 @@ chart "$pages/accuracy.svg" seconds l1_faces noise_faces 's of one processor' 'e
 chart "$pages/accuracy_cells.svg" seconds_cells l1_cells noise_cells 's of one processor' 'error of cells, %'
 chart "$pages/accuracy_l2.svg" seconds_cells l2_cells noise_l2_cells 's of one processor' 'L2 error of cells, %'
 chart "$pages/accuracy_rays.svg" rays l1_faces noise_faces 'rays' 'error of faces, %'
+chart "$pages/accuracy_worst.svg" seconds worst noise_faces 's of one processor' 'worst large face, %'
+chart "$pages/accuracy_links.svg" links l1_cells noise_cells 'links' 'error of cells, %'
 chart "$pages/accuracy_memory.svg" memory_mb l1_faces noise_faces 'MB at the peak' 'error of faces, %'
 {
     page_head "Speed against accuracy" "What does an error cost, and would particles alone, or path tracing alone, be the better choice? Every built-in oracle
@@ -96,7 +98,7 @@ of cells of 1e-4 of the area, which show shadows. Seconds are of one processor, 
         front_table "$name" seconds_cells l1_cells noise_cells
         echo
     done
-    printf '## In other measures\n\n![L2 error of cells over seconds](accuracy_l2.svg)\n\n![Error of faces over rays](accuracy_rays.svg)\n\n![Error of faces over memory](accuracy_memory.svg)\n'
+    printf '## In other measures\n\n![L2 error of cells over seconds](accuracy_l2.svg)\n\n![The face above a hundredth of the area that is off most, over seconds](accuracy_worst.svg)\n\n![Error of faces over rays](accuracy_rays.svg)\n\n![Error of cells over links](accuracy_links.svg)\n\n![Error of faces over memory](accuracy_memory.svg)\n'
 } >"$tmp/page.md"
 mv "$tmp/page.md" "$pages/accuracy.md"
 say "$pages/accuracy.md"
