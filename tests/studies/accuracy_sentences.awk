@@ -39,10 +39,8 @@ function beside(name, wanted, t, best) {
     return called(name) (t == "" ? (best ? sprintf(" %.2g %% at best (%.2g s)", e[best], s[best]) : " not run") \
         : sprintf(" %.2g s", t))
 }
-function add(from, to, at) {
-    if (at)
-        text = text (text == "" ? "" : "; ") (from == to ? to " %" : from " to " to " %") " " called(method[at]) \
-            sprintf(from == to ? " (%.2g s)" : " (%.2g s for the last)", time[at])
+function add(to, at) {
+    if (at) text = text (text == "" ? "" : ", ") "down to " to " % " called(method[at]) sprintf(" (%.2g s)", time[at])
 }
 END {
     if (!n || !m) exit
@@ -51,16 +49,12 @@ END {
     for (k = 1; k <= targets; k++) {
         for (i = 1; i <= n && error[i] > target[k]; i++);
         if (i > n) break
-        if (k > 1 && method[i] != method[was]) {
-            add(from, to, was)
-            from = ""
-        }
-        from = from == "" ? target[k] + 0 : from
+        if (k > 1 && method[i] != method[was]) add(to, was)
         to = target[k] + 0
         was = i
     }
-    add(from, to, was)
-    printf "The fastest to an error of %s of: %s; the least of all, %.2g %%, is by %s in %.2g s.\n", what, text, error[n],
+    add(to, was)
+    printf "The fastest, by the error of %s: %s; the least of all, %.2g %%, is by %s in %.2g s.\n", what, text, error[n],
         called(method[n]), time[n]
     for (i = 1; i <= m; i++)
         if (by[i] == own "_mended" && run[i] == "thresholds_x_1") {
