@@ -5,13 +5,14 @@
 # Seconds are of the processor, one thread, without reading and writing. An error is of faces or of cells of 1e-4 of the
 # area, as cell_error says. Coarse runs come first, of all methods; BUDGET seconds (100, of the
 # processor) go to a scene, LIMIT (60) to a run.
-# SCENES_OF_STUDIES: names of scenes (those here of cornell room panels maze_8 td soda).
+# SCENES_OF_STUDIES: names of scenes (those here of cornell room panels maze_8 td soda). ORACLES: those to run beside the
+# default (all that ship).
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 export LIMIT=${LIMIT:-60}
 default=$("$radiosity" oracles | sed -n 's/^\([a-z_]*\) (default).*/\1/p')
 # viewfactors and tester are for other ends; importance cares for a view alone
-oracles="$default $("$radiosity" oracles | sed -n '/^[a-z]/s/^\([a-z_]*\).*/\1/p' | grep -vxE "$default|viewfactors|tester|importance" | tr '\n' ' ')"
+oracles="$default ${ORACLES:-$("$radiosity" oracles | sed -n '/^[a-z]/s/^\([a-z_]*\).*/\1/p' | grep -vxE "$default|viewfactors|tester|importance" | tr '\n' ' ')}"
 mended="$default bf_guarded"
 COLUMNS=seconds,seconds_cells,rays,elements,links,memory_mb,l1_faces,l2_faces,worst,power,l1_cells,l2_cells,noise_faces,noise_l2_faces,noise_cells,noise_l2_cells
 rows_open accuracy scene,method,run,binary $COLUMNS

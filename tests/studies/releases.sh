@@ -105,12 +105,12 @@ awk -F , '
     }' "$pages/releases.csv" | sort -k 2,2n -s >"$tmp/ratios"
 {
     echo "set multiplot layout 1,3 margins .07,.99,.2,.86 spacing .07,.1"
-    echo "set grid ytics lc rgb '#888888' dt 3; set xtics rotate by 35 right; set yrange [.8:1.25]; set format y '%.2f'"
+    echo "set grid ytics lc rgb '#888888' dt 3; set xtics rotate by 35 right noenhanced; set yrange [.8:1.25]; set format y '%.2f'"
     first=1
     for oracle in bf bf_guarded "$default"; do
         grep " $oracle " "$tmp/ratios" >"$tmp/ratios.$oracle" || continue
         base=$(awk '{ print $5; exit }' "$tmp/ratios.$oracle")
-        awk '{ $1 = $1 "\\n" $2; print }' "$tmp/ratios.$oracle" >"$tmp/named.$oracle"
+        awk '{ $1 = $1 "," $2; print }' "$tmp/ratios.$oracle" >"$tmp/named.$oracle"
         [ $first = 1 ] && echo "set ylabel 'seconds of refinement over hand' offset 1.5,0; set key at screen .99,.995 right top maxrows 1" ||
             echo "unset key; set ylabel 'over $base' offset 1.5,0"
         first=0
