@@ -37,11 +37,23 @@ solve() { # SCENE FOLDER OPTION...
         }'
 }
 
+# The scene turned in space, each face from its next corner on: the same light by other particles than those of the
+# reference, which would else be among what they are judged by. To $tmp/turned.obj.
+turn() { # SCENE
+    cp "$(dirname "$1")/$(awk '$1 == "mtllib" { print $2; exit }' "$1")" "$tmp/turned.mtl"
+    awk '$1 == "mtllib" { print "mtllib turned.mtl"; next }
+        $1 == "v" { print "v", $3, $4, $2; next }
+        $1 == "f" { printf "f"; for (i = 3; i <= NF; i++) printf " %s", $i; print " " $2; next }
+        { print }' "$1" >"$tmp/turned.obj"
+}
+
 # Faces by a run on the scene, cells by one on its cells, each with its own time.
 by_chance() { # SCENE FOLDER METHOD COUNT
-    timed "$build/bin/by_chance" "$2/cut.obj" "$3" "$4" "$tmp/cells.csv" || return
+    turn "$2/cut.obj"
+    timed "$build/bin/by_chance" "$tmp/turned.obj" "$3" "$4" "$tmp/cells.csv" || return
     sed -n 's/^seconds /seconds_cells /p' "$tmp/timed.out"
-    timed "$build/bin/by_chance" "$1" "$3" "$4" "$tmp/faces.csv" || return
+    turn "$1"
+    timed "$build/bin/by_chance" "$tmp/turned.obj" "$3" "$4" "$tmp/faces.csv" || return
     cat "$tmp/timed.out"
     "$build/bin/cell_error" compare "$1" "$2/cells.csv" "$tmp/faces.csv" "$tmp/cells.csv"
 }
