@@ -60,16 +60,17 @@ by_chance() { # SCENE FOLDER METHOD COUNT
 
 # ---- the sweep
 
-# Left out: a method's run after one that was too long, or took so long that four times that is too long.
-worth() { # KEY OF THE RUN BEFORE
+# Left out: a method's run after one that was too long, or took so long that TIMES that is too long.
+worth() { # KEY OF THE RUN BEFORE, TIMES
     have_row "$1" || return 0
-    awk -v took="$(value_of "$1" seconds)" -v limit="$LIMIT" 'BEGIN { exit !(took != "-" && 4 * took < limit) }'
+    awk -v took="$(value_of "$1" seconds)" -v limit="$LIMIT" -v times="$2" 'BEGIN { exit !(took != "-" && times * took < limit) }'
 }
 declare -A before
 run() { # NAME METHOD RUN COMMAND...
-    local name=$1 method=$2 key=$1,$2,$3,$binary
+    local name=$1 method=$2 key=$1,$2,$3,$binary times=4
+    case $method in particles | paths) times=16 ;; esac
     shift 3
-    if [ -z "${before[$name,$method]:-}" ] || worth "${before[$name,$method]}"; then
+    if [ -z "${before[$name,$method]:-}" ] || worth "${before[$name,$method]}" $times; then
         if have_row "$key" || in_budget "${BUDGET:-100}"; then
             measure "$key" "$@"
         else
