@@ -2,16 +2,19 @@
  *
  *     cell_error cut SCENE OUT [SHARE]             OUT.obj, OUT.mtl: the scene cut into cells
  *     cell_error faces SCENE REF.csv [SHARE]        REF.csv summed up: a reference of the faces
- *     cell_error compare SCENE REF.csv FACES.csv MESH.ply [SHARE]
+ *     cell_error compare SCENE REF.csv FACES.csv MESH.ply|CELLS.csv [SHARE]
  *
  * A cell has about SHARE (1e-4) of the scene's area. REF.csv: what `radiosity reference` says of
  * OUT.obj, from which a face's light is summed up, too; FACES.csv and MESH.ply: what `radiosity
- * solve` says of SCENE, by `--faces` and `-o`. The last prints names and values, line by line,
+ * solve` says of SCENE, by `--faces` and `-o`; CELLS.csv, instead of a mesh: a table of faces of
+ * OUT.obj, of a method that knows cells alone. The last prints names and values, line by line,
  * errors as shares of the reflected light:
  *
  *     faces, cells, area (m2), reflected (W)
  *     l1_faces, power, l1_cells    sum of moduli over faces; with signs; of moduli over cells
- *     noise_faces, noise_power, noise_cells    what the reference's own noise makes of them, about
+ *     l2_faces, l2_cells    root mean squares by area, over that of what is reflected
+ *     noise_faces, noise_power, noise_cells, noise_l2_faces, noise_l2_cells    what the reference's
+ *         own noise makes of them, about
  *     worst, worst_face, worst_noise, worst_light    of faces above a hundredth of the area the one
  *         that is off most, as a share of what it reflects itself; which; the reference's noise
  *         there; its share of all reflected light
@@ -28,6 +31,7 @@
 #include "output/faces_table.h"
 #include "tables/cells.h"
 #include "tables/leaves.h"
+#include "util/ends_with.h"
 #include "util/report.h"
 
 enum { POINTS = 4 };
@@ -37,6 +41,9 @@ struct sums {
     double light, signed_error, faces, variance, noise_faces; /* of faces: W; variance W^2 */
     double worst, worst_noise, worst_light;                   /* shares of its light; W */
     double light_known, cells, noise_cells, missed;           /* of cells: W; missed m2 */
+    struct squares {
+        double error, variance, light; /* W^2/m2: integrals of squares of W/m2 over area */
+    } square_faces, square_cells;
     uint32_t worst_face;
 };
 
@@ -91,7 +98,8 @@ struct inputs {
     struct cells cells;
     struct faces_table reference, solution; /* of cells; of faces */
     struct leaves mesh;
-    double area; /* m2 */
+    struct faces_table solution_cells; /* instead of the mesh; count 0: none */
+    double area;                       /* m2 */
 };
 
 static int unfit(const char *path, const char *other)
@@ -101,6 +109,26 @@ static int unfit(const char *path, const char *other)
 
 /* ---- sums */
 
+static void add_squares(struct squares *q, double area, double error, double variance, double light)
+{
+    q->error += area * error * error;
+    q->variance += area * variance;
+    q->light += area * light * light;
+}
+
+/* Returns whether there is a value. */
+static int solution_at(const struct inputs *in, uint32_t i, double value[3])
+{
+    const struct cell *c = &in->cells.cell[i];
+    uint32_t bands = in->reference.bands;
+    if (in->solution_cells.count) {
+        memcpy(value, in->solution_cells.radiosity + (size_t)i * bands, bands * sizeof *value);
+        return 1;
+    }
+    int two_sided = in->file.materials[in->file.polygon_materials[c->polygon]].two_sided;
+    return c->corners && cell_value(&in->mesh, c, two_sided, value) == 0;
+}
+
 static void add_cells(const struct inputs *in, struct sums *s, struct total *totals)
 {
     uint32_t bands = in->reference.bands;
@@ -108,8 +136,7 @@ static void add_cells(const struct inputs *in, struct sums *s, struct total *tot
         const struct cell *c = &in->cells.cell[i];
         struct total *t = &totals[c->polygon];
         double area = in->reference.area[i], value[3], off = 0, light = 0;
-        int two_sided = in->file.materials[in->file.polygon_materials[c->polygon]].two_sided;
-        int known = area > 0 && c->corners && cell_value(&in->mesh, c, two_sided, value) == 0;
+        int known = area > 0 && solution_at(in, i, value);
         t->area += area;
         for (uint32_t k = 0; k < bands && area > 0; k++) {
             size_t at = (size_t)i * bands + k;
@@ -119,6 +146,9 @@ static void add_cells(const struct inputs *in, struct sums *s, struct total *tot
             t->variance[k] += deviation * deviation;
             light += power;
             off += area * (known ? fabs(value[k] - b) : 0);
+            if (known)
+                add_squares(&s->square_cells, area, value[k] - b,
+                            deviation * deviation / (area * area), power / area);
             s->noise_cells += deviation * sqrt(2 / M_PI);
         }
         s->light_known += known ? light : 0;
@@ -143,6 +173,9 @@ static void add_faces(const struct inputs *in, struct sums *s, const struct tota
             off += fabs(error);
             light += t->power[k];
             noise += sqrt(t->variance[k] * 2 / M_PI);
+            if (t->area > 0)
+                add_squares(&s->square_faces, t->area, error / t->area,
+                            t->variance[k] / (t->area * t->area), t->power[k] / t->area);
         }
         s->light += light;
         s->faces += off;
@@ -171,6 +204,10 @@ static int compare(const struct inputs *in)
            s.signed_error / s.light, s.cells / s.light_known);
     printf("noise_faces %.6g\nnoise_power %.6g\nnoise_cells %.6g\n", s.noise_faces / s.light,
            sqrt(s.variance) / s.light, s.noise_cells / s.light);
+    const struct squares *f = &s.square_faces, *c = &s.square_cells;
+    printf("l2_faces %.6g\nl2_cells %.6g\nnoise_l2_faces %.6g\nnoise_l2_cells %.6g\n",
+           sqrt(f->error / f->light), sqrt(c->error / c->light), sqrt(f->variance / f->light),
+           sqrt(c->variance / c->light));
     printf("worst %.6g\nworst_face %u\nworst_noise %.6g\nworst_light %.6g\nmissed %.6g\n", s.worst,
            (unsigned)s.worst_face, s.worst_noise, s.worst_light / s.light, s.missed / in->area);
     return 0;
@@ -221,13 +258,18 @@ static int read_reference(struct inputs *in, const char *scene, const char *path
 static int read_solution(struct inputs *in, const char *scene, const char *faces, const char *mesh)
 {
     uint32_t bands = in->reference.bands;
+    int cells = ends_with(mesh, ".csv");
     if (faces_table_read(&in->solution, faces, in->file.polygon_count) < 0
-        || leaves_read(&in->mesh, mesh) < 0)
+        || (cells ? faces_table_read(&in->solution_cells, mesh, in->cells.count)
+                  : leaves_read(&in->mesh, mesh))
+               < 0)
         return -1;
     if (in->solution.count != in->file.polygon_count || !in->solution.exitance
         || in->solution.bands != bands)
         return unfit(faces, scene);
-    return in->mesh.bands == bands ? 0 : unfit(mesh, scene);
+    if (cells && in->solution_cells.count != in->cells.count)
+        return unfit(mesh, scene);
+    return (cells ? in->solution_cells.bands : in->mesh.bands) == bands ? 0 : unfit(mesh, scene);
 }
 
 enum verb { CUT, FACES, COMPARE, VERBS };
@@ -257,7 +299,7 @@ int main(int count, char **word)
     if (verb == VERBS || count < words || count > words + 1 || !(share > 0)) {
         fputs("usage: cell_error cut SCENE OUT [SHARE]\n"
               "       cell_error faces SCENE REF.csv [SHARE]\n"
-              "       cell_error compare SCENE REF.csv FACES.csv MESH.ply [SHARE]\n",
+              "       cell_error compare SCENE REF.csv FACES.csv MESH.ply|CELLS.csv [SHARE]\n",
               stderr);
         return 2;
     }
@@ -270,6 +312,7 @@ int main(int count, char **word)
                      : run(&in, (enum verb)verb, word);
     faces_table_free(&in.reference);
     faces_table_free(&in.solution);
+    faces_table_free(&in.solution_cells);
     leaves_free(&in.mesh);
     cells_free(&in.cells);
     scene_file_free(&in.file);

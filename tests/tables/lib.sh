@@ -1,7 +1,7 @@
 # lib.sh - what generators of tables share; they read it by `. "$(dirname "$0")/lib.sh"`.
 # SPDX-License-Identifier: MIT
 set -eu
-tables=$(dirname "$0") build=${BUILD:-build} radiosity=${BUILD:-build}/bin/radiosity
+tables=${TABLES_FOLDER:-$(dirname "$0")} build=${BUILD:-build} radiosity=${BUILD:-build}/bin/radiosity
 : "$tables" "$radiosity"
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT

@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# check_studies.sh - studies: a run that was stopped goes on, and nothing runs twice; rows that are damaged are told; the
+# Pareto front, the sentences that follow from it and thresholds are right; what is missing is named. by_chance in the furnace.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+export BUILD RESULTS=$tmp/results PAGES=$tmp/pages RADIOSITY=$radiosity
+BUILD=$(dirname "$(dirname "$radiosity")")
+unset BUDGET LIMIT SCENES_OF_STUDIES
+count=0 bad=0
+check() { # WHAT COMMAND...
+    what=$1
+    shift
+    count=$((count + 1))
+    "$@" >out 2>err && return
+    bad=$((bad + 1))
+    echo "failed: $what"
+    head -n 5 out err
+}
+says() { # TEXT COMMAND...: fails, and says it
+    text=$1
+    shift
+    "$@" >said 2>&1 && return 1
+    grep -qF -- "$text" said || { cat said && false; }
+}
+
+# ---- rows: a study of three runs, of which `three` may kill it
+mkdir study && cp "$top"/tests/studies/*.awk study
+cat >study/mini.sh <<'END'
+. "$LIB"
+rows_open mini scene,run,binary seconds,rays
+work() { echo "$1" >>log; [ "$1" != "${KILL:-}" ] || kill -9 $$; echo "seconds $2"; echo "rays 17"; echo "other 3"; }
+for run in one two three; do measure "room,$run,$binary" work $run .5; done
+measure "room,late,$binary" sh -c 'exit 124'
+END
+export LIB=$top/tests/studies/lib.sh TABLES_FOLDER=$top/tests/tables
+mini() { bash study/mini.sh; }
+KILL=three mini >out 2>err
+check "what was done before the kill is kept" sh -c '[ "$(wc -l <results/mini.csv)" = 3 ] && [ "$(tr "\n" " " <log)" = "one two three " ]'
+cp results/mini.csv before.csv
+check "it goes on" mini
+check "and runs nothing twice" [ "$(tr '\n' ' ' <log)" = "one two three three " ]
+check "rows before it are as they were" sh -c 'head -n 3 results/mini.csv | cmp - before.csv'
+check "a row has what has a column" grep -q '^room,three,[0-9]*,\.5,17$' results/mini.csv
+check "a run that was too long has dashes" grep -q '^room,late,[0-9]*,-,-$' results/mini.csv
+check "all that is there: nothing runs" sh -c 'cp log log.old && bash study/mini.sh && cmp log log.old'
+cp results/mini.csv whole.csv
+check "another command has rows of its own" sh -c 'printf x >other && RADIOSITY=$PWD/other bash study/mini.sh && [ "$(wc -l <results/mini.csv)" = 9 ]'
+damaged() { # LINE TEXT SED-SCRIPT
+    sed "$3" whole.csv >results/mini.csv
+    rm -f log
+    says "results/mini.csv:$1: error: $2" mini && [ ! -e log ]
+}
+check "a row that was cut short is told" damaged 3 "4 fields, not 5" '3s/,[^,]*$//'
+check "a word for a number is told" damaged 3 'rays is "x"' '3s/[^,]*$/x/'
+check "nan is told" damaged 4 'seconds is "nan"' '4s/,\.5,/,nan,/'
+check "two rows of one run are told" damaged 6 "a second row of room,late" '$p'
+check "other columns are told" damaged 1 "these are not the columns" '1s/rays/links/'
+cp whole.csv results/mini.csv
+check "a run that fails ends the study" says "ended with exit status 7" bash -c '. "$LIB"; rows_open mini scene,run,binary seconds,rays; measure a,b,c sh -c "exit 7"' study/mini.sh
+check "and leaves the rows" cmp whole.csv results/mini.csv
+mkdir bin
+for tool in bash sh awk sed cksum cut dirname basename mkdir mktemp rm cat; do ln -s "$(command -v $tool)" bin; done
+check "gnuplot is named when it is missing" says "apt-get install gnuplot-nox" env PATH="$tmp/bin" bash study/mini.sh
+
+# ---- the front: of equals the first; what is worse in one and equal in the other is beaten
+printf '%s\n' '4 1 d' '1 8 a' '2 7 beaten' '2 4 b' '2 4 second' '3 5 beaten' '2 6 beaten' '8 .5 e' '9 .5 beaten' '0 1 none' '3 3 c' '1e1 7 beaten' |
+    awk -f "$top/tests/studies/front.awk" | cut -d ' ' -f 3 | tr '\n' ' ' >front
+check "the front" [ "$(cat front)" = "a b c d e " ]
+
+# ---- the page of accuracy, from rows by hand
+header=scene,method,run,binary,seconds,seconds_cells,rays,elements,links,memory_mb,l1_faces,l2_faces,worst,power,l1_cells,l2_cells,noise_faces,noise_l2_faces,noise_cells,noise_l2_cells
+row() { echo "box,$1,$2,1,$3,$3,9,9,9,9,$4,.1,.1,0,$4,.1,.001,.001,.001,.001"; }
+mkdir -p pages
+{
+    echo $header
+    row particles "count 100" .01 .08
+    row particles "count 400" .04 .04
+    row particles "count 1600" .16 .02
+    row paths "count 100" .02 .1
+    row power "thresholds x 1" .02 .04
+    row "power mended" "thresholds x 1" .1 .01
+    row "power mended" "thresholds x .5" .2 .0001
+    row "power asked" "error 1 %" .4 .005
+    row ff "thresholds x 1" .015 .05
+} >pages/accuracy.csv
+page() { bash -c '. "$(dirname "$0")/lib.sh"; default=power; . "$studies/accuracy_page.sh"' "$top/tests/studies/accuracy.sh"; }
+check "a page is made" page
+# 1 % takes power --accuracy .4 s: its only run is better; particles are at 2 %, paths at 10 %; below its noise of .1 % nothing is told
+check "which is the fastest" grep -qF 'of faces: down to 10 % particles alone (0.01 s), down to 5 % links of `ff` alone (0.015 s), down to 0.1 % `power` mended (0.2 s); the least of all, 0.1 %, is by `power` mended in 0.2 s.' pages/accuracy.md
+check "what the default's error takes" grep -qF 'The 1 % that the default reaches in 0.1 s take, by others: particles alone 2 % at best (0.16 s), paths alone 10 % at best (0.02 s), `power --accuracy` 0.4 s.' pages/accuracy.md
+sed -i 's/^box,particles,count 1600,1,.16,.16,9,9,9,9,.02/box,particles,count 1600,1,.64,.64,9,9,9,9,.0025/' pages/accuracy.csv
+check "a page is made again" page
+# from 4 % at .04 s to .25 % at .64 s: 1 % halfway, .16 s
+check "what the default's error takes between two runs" grep -qF 'particles alone 0.16 s' pages/accuracy.md
+check "its charts are drawn, for light and dark" sh -c 'for f in accuracy accuracy_cells; do grep -q prefers-color-scheme pages/$f.svg && tail -n 3 pages/$f.svg | grep -q "</svg>" || exit 1; done'
+
+# ---- thresholds: those that --accuracy scales, within their ranges; the smallest part only falls
+printf '%s\n' '  param a : ratio = 0.5 in [0, 1] role link_threshold "x"' '  param b : ratio = 3' '  param c_2 : ratio = 2e-5 in [0, 1] role smallest_part "x"' \
+    '  param d : ratio = 0.25 in (0, inf] role link_threshold "x"' >g.dag
+check "thresholds, coarser" [ "$(awk -v SCALE=4 -f "$top/tests/studies/thresholds.awk" g.dag)" = "--set a=1 --set c_2=2e-05 --set d=1 " ]
+check "thresholds, finer" [ "$(awk -v SCALE=.5 -f "$top/tests/studies/thresholds.awk" g.dag)" = "--set a=0.25 --set c_2=1e-05 --set d=0.125 " ]
+
+# ---- by_chance: in the furnace B is 2 everywhere, and a table of cells held against itself is right
+furnace=$top/examples/scenes/furnace.obj
+near_two() { awk -F , 'NR > 1 && ($4 < 1.9 || $4 > 2.1) { wrong = 1 } END { exit wrong || NR != 7 }' faces.csv; }
+for method in particles paths; do
+    check "$method in the furnace" sh -c '"$BUILD/bin/by_chance" "$1" $2 20000 faces.csv >told' - "$furnace" $method
+    check "$method tell seconds and rays" sh -c 'grep -q "^seconds [0-9.e-]*$" told && grep -q "^rays [0-9]*$" told'
+    check "$method: B" near_two
+done
+check "an unknown method" says usage: "$BUILD/bin/by_chance" "$furnace" photons 10 x.csv
+check "cells" "$BUILD/bin/cell_error" cut "$furnace" cut 1e-2
+check "particles on cells" "$BUILD/bin/by_chance" cut.obj particles 20000 cells.csv
+check "cells against themselves" sh -c '"$BUILD/bin/cell_error" compare "$1" cells.csv faces.csv cells.csv 1e-2 >errors && grep -qx "l1_cells 0" errors && grep -qx "l2_cells 0" errors' - "$furnace"
+awk -F , 'NR > 1 { $4 += NR % 2 ? .1 : -.1 } { OFS = ","; print }' cells.csv >off.csv
+check "cells off by a tenth" sh -c '"$BUILD/bin/cell_error" compare "$1" cells.csv faces.csv off.csv 1e-2 >errors' - "$furnace"
+check "L2 of cells" awk '$1 == "l2_cells" { found = $2 > .09 && $2 < .101 } END { exit !found }' errors
+echo "$count checks, $bad failed"
+[ $bad = 0 ]
