@@ -52,7 +52,7 @@ struct RadOracleObject {
     RadDevice device;
     struct refiner *refiner;
     int counting;
-    struct statistics counted; /* what radGetOracleStatistics shows */
+    struct statistics counted;    /* what radGetOracleStatistics shows */
     struct explanation explained; /* what radExplain shows */
 };
 

@@ -116,8 +116,8 @@ static void note_arguments(struct RadArgument *out, const struct dag *dag, const
 }
 
 /* Hold it once more. `first`: everything is noted, later only shorter times are. */
-static void hold(struct explanation *x, const struct program *p, const struct discussion *before,
-                 const struct host *real, int first)
+static void repeat(struct explanation *x, const struct program *p, const struct discussion *before,
+                   const struct host *real, int first)
 {
     static const char *const kinds[] = {"precise", "approximate", "other"};
     const struct dag *dag = p->dag;
@@ -197,7 +197,7 @@ int explain(struct explanation *x, const struct refiner *r, const struct discuss
     }
     x->shown.asked = x->asked;
     for (int i = 0; i < REPEATS; i++)
-        hold(x, p, before, real, i == 0);
+        repeat(x, p, before, real, i == 0);
     for (int i = 0; i < x->shown.asked_count; i++)
         x->shown.seconds += x->asked[i].seconds;
     return 0;

@@ -207,7 +207,7 @@ static const struct occasion *find_last(const struct subject *s, int by_points)
 }
 
 /* Hold the discussion that never was. Returns 0, or -1 after a message. */
-static int hold_now(struct subject *s)
+static int discuss_now(struct subject *s)
 {
     struct RadElements tree;
     radGetElements(s->solution, &tree);
@@ -242,7 +242,7 @@ static int choose(struct subject *s, struct watch *w)
                             "nothing was said of this pair in pass %d; without --pass the last "
                             "discussion is shown, and the passes of all",
                             s->options->pass);
-    if (!s->occasion && hold_now(s) < 0)
+    if (!s->occasion && discuss_now(s) < 0)
         return -1;
     s->element[0] = s->occasion->receiver;
     s->element[1] = s->occasion->emitter;

@@ -42,7 +42,7 @@ struct steps {
 };
 
 /* Hold the discussion from its start. Returns 0, or -1 after a message. */
-static int hold(struct steps *s)
+static int discuss(struct steps *s)
 {
     s->at = 0;
     return radExplain(s->solution, s->oracle, s->discussion, &s->now) < 0
@@ -108,7 +108,7 @@ static int set(struct steps *s, const char *argument)
     if (!*argument)
         return 0;
     char *setting = (char *)(uintptr_t)argument;
-    return set_oracle(s->device, s->oracle, &setting, 1) < 0 ? -1 : hold(s);
+    return set_oracle(s->device, s->oracle, &setting, 1) < 0 ? -1 : discuss(s);
 }
 
 static int replace(struct steps *s, const char *argument)
@@ -131,13 +131,13 @@ static int replace(struct steps *s, const char *argument)
     }
     radReleaseOracle(s->oracle);
     s->oracle = oracle;
-    return hold(s);
+    return discuss(s);
 }
 
 static int again(struct steps *s, const char *argument)
 {
     (void)argument;
-    if (hold(s) < 0)
+    if (discuss(s) < 0)
         return -1;
     printf("again: %d nodes, %s\n", s->now.asked_count, s->now.decision_name);
     return 0;
@@ -168,7 +168,7 @@ static int change_pair(struct steps *s, const char *argument)
     s->other = other;
     s->discussion = &other->discussion;
     memcpy(s->name, name, sizeof name);
-    if (hold(s) < 0)
+    if (discuss(s) < 0)
         return -1;
     say_where(s);
     return 0;
@@ -264,7 +264,7 @@ int explain_steps(const struct options *o, RadDevice device, RadSolution solutio
     for (int i = 0; i < o->replacement_count; i++)
         status |= append(&s, o->replacements[i]) < 0;
     status |= radGetElementName(solution, first->receiver, s.name[0]) < 0
-              || radGetElementName(solution, first->emitter, s.name[1]) < 0 || hold(&s) < 0;
+              || radGetElementName(solution, first->emitter, s.name[1]) < 0 || discuss(&s) < 0;
     if (!status && s.now.way != first->way)
         printf("held again, the parts below it being what they are now, it goes another way:\n");
     if (!status)

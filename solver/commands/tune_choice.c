@@ -3,13 +3,13 @@
  * The lowest place of a fit is low for its scenes partly by luck: prices are jagged, since rays are
  * cast, and a threshold that hardly matters for these scenes goes wherever their noise leads.
  * Other scenes pay for that. So a place has to earn its distance from the start: a fit takes the
- * place where the mean logarithm of prices and `hold` times the sum of the squares of what was
- * doubled are least together. Which hold is the one with which scenes left out fare best: ridge
+ * place where the mean logarithm of prices and `penalty` times the sum of the squares of what was
+ * doubled are least together. Which penalty is the one with which scenes left out fare best: ridge
  * regression with its weight by cross-validation (Stone 1974), over places that were looked at
- * anyway, so that it costs next to nothing. Only a hold that carries over is taken, with which no
- * scene left out needs more than TUNE_CARRIES times as much as used: else scenes are being learnt
- * by heart, however cheap others are in the mean. An infinite hold is among them: where nothing
- * carries over, the shipped values stay.
+ * anyway, so that it costs next to nothing. Only a penalty that carries over is taken, with which
+ * no scene left out needs more than TUNE_CARRIES times as much as used: else scenes are being
+ * learnt by heart, however cheap others are in the mean. An infinite penalty is among them: where
+ * nothing carries over, the shipped values stay.
  *
  * A fit without a scene takes only what its own search has looked at: places where other fits have
  * been led by that scene are not its own.
@@ -22,7 +22,7 @@
 
 /* Mean logarithm of prices for each squared doubling of a parameter. .01 to .1: a doubling of one
  * has to save 1 to 10 %. */
-static const double holds[TUNE_HOLDS] = {INFINITY, 0.1, 0.05, 0.03, 0.02, 0.01, 0.003, 0};
+static const double penalties[TUNE_PENALTIES] = {INFINITY, 0.1, 0.05, 0.03, 0.02, 0.01, 0.003, 0};
 
 /* Sum over parameters of doublings squared. */
 static double distance(const struct tuner *t, const int *at)
@@ -46,8 +46,8 @@ static double mean_price(const struct tuner *t, const struct tune_point *p, int 
     return mean;
 }
 
-/* Where the fit goes with this hold. */
-static void take(const struct tuner *t, struct tune_fit *f, double hold)
+/* Where the fit goes with this penalty. */
+static void adopt(const struct tuner *t, struct tune_fit *f, double penalty)
 {
     double least = INFINITY;
     for (size_t i = 0; i < t->point_count; i++) {
@@ -55,7 +55,7 @@ static void take(const struct tuner *t, struct tune_fit *f, double hold)
         double far = distance(t, p->at);
         if (f->left_out >= 0 && !(p->fits & tune_bit(f->left_out)))
             continue;
-        double value = mean_price(t, p, f->left_out) + (far > 0 ? hold * far : 0);
+        double value = mean_price(t, p, f->left_out) + (far > 0 ? penalty * far : 0);
         if (!(value < least))
             continue;
         least = value;
@@ -95,19 +95,19 @@ static int judge(struct tuner *t, struct tune_fold *folds)
     return 0;
 }
 
-/* Give all fits what they take with one of the holds, and judge that. Returns as judge does. */
-static int hold_by(struct tune_outcome *o, int which)
+/* Give all fits what they take with one of the penalties, and judge that. Returns as judge does. */
+static int adopt_all(struct tune_outcome *o, int which)
 {
     struct tuner *t = o->tuner;
     struct tune_held *h = &o->held[which];
     double mean = 0;
     for (int s = 0; s < o->fold_count; s++)
-        take(t, &o->folds[s].fit, holds[which]);
+        adopt(t, &o->folds[s].fit, penalties[which]);
     int status = judge(t, o->folds);
     for (int s = 0; s < o->fold_count && status == 0; s++)
         mean += log(o->folds[s].left.price / t->defaults[s]) / o->fold_count;
-    *h = (struct tune_held){holds[which], exp(mean), tune_worst(o)};
-    o->hold = which;
+    *h = (struct tune_held){penalties[which], exp(mean), tune_worst(o)};
+    o->penalty = which;
     return status;
 }
 
@@ -121,13 +121,13 @@ static int better(const struct tune_held *a, const struct tune_held *b)
 int tune_choose(struct tune_outcome *o)
 {
     int best = 0, status = 0;
-    for (int h = 0; h < TUNE_HOLDS && status == 0; h++) {
-        status = hold_by(o, h);
+    for (int h = 0; h < TUNE_PENALTIES && status == 0; h++) {
+        status = adopt_all(o, h);
         if (status == 0 && better(&o->held[h], &o->held[best]))
             best = h;
     }
     if (status == 0)
-        status = hold_by(o, best);
+        status = adopt_all(o, best);
     if (status) {
         for (int s = 0; s < o->fold_count; s++) {
             o->folds[s].known = 0;
@@ -135,7 +135,7 @@ int tune_choose(struct tune_outcome *o)
         }
         return status;
     }
-    take(o->tuner, &o->all, holds[best]);
+    adopt(o->tuner, &o->all, penalties[best]);
     o->chosen = 1;
     return 0;
 }

@@ -5,9 +5,9 @@
 
 #include "commands/tune_report.h"
 
-/* Solve each scene with what the fit without it would take, for each hold; then give every fit the
- * place that the best of the holds makes it take. Returns 0, 1 when it was stopped, which leaves
- * the fits where they were, -1 after a message. */
+/* Solve each scene with what the fit without it would take, for each penalty; then give every fit
+ * the place that the best of the holds makes it take. Returns 0, 1 when it was stopped, which
+ * leaves the fits where they were, -1 after a message. */
 int tune_choose(struct tune_outcome *o);
 
 #endif

@@ -21,7 +21,7 @@ int tune_fails(const struct tune_outcome *o)
 {
     return o->chosen
            && (tune_worst(o) > TUNE_CARRIES
-               || (isinf(o->held[o->hold].hold) && o->all.found.value < 0));
+               || (isinf(o->held[o->penalty].penalty) && o->all.found.value < 0));
 }
 
 double tune_needs(const struct tuner *t, const struct tune_result *r)
@@ -88,17 +88,17 @@ static void print_holds(const struct tune_outcome *o)
     if (!o->chosen)
         return;
     printf("\nhow near to the defaults fits stay\n  ");
-    for (int h = 0; h < TUNE_HOLDS; h++)
-        if (isfinite(o->held[h].hold))
-            printf(" %6.3g ", 100 * o->held[h].hold);
+    for (int h = 0; h < TUNE_PENALTIES; h++)
+        if (isfinite(o->held[h].penalty))
+            printf(" %6.3g ", 100 * o->held[h].penalty);
         else
             printf(" %6s ", "all");
     printf("   each doubling has to save, %%\n  ");
-    for (int h = 0; h < TUNE_HOLDS; h++)
-        printf(" %6.3f%c", o->held[h].times, h == o->hold ? '*' : ' ');
+    for (int h = 0; h < TUNE_PENALTIES; h++)
+        printf(" %6.3f%c", o->held[h].times, h == o->penalty ? '*' : ' ');
     printf("  price, scenes left out, times\n  ");
-    for (int h = 0; h < TUNE_HOLDS; h++)
-        printf(" %6.2f%c", o->held[h].worst, h == o->hold ? '*' : ' ');
+    for (int h = 0; h < TUNE_PENALTIES; h++)
+        printf(" %6.2f%c", o->held[h].worst, h == o->penalty ? '*' : ' ');
     printf("  needed left out over used, at most\n");
 }
 
@@ -207,13 +207,14 @@ json_t *tune_json(const struct tune_outcome *o)
                                                 result_json(known(t, o->all.at, s))));
     for (int i = 0; i < o->fold_count; i++)
         json_array_append_new(folds, fold_json(t, &o->folds[i], i));
-    for (int h = 0; h < TUNE_HOLDS && o->chosen; h++)
+    for (int h = 0; h < TUNE_PENALTIES && o->chosen; h++)
         json_array_append_new(
-            holds, json_pack("{s:o, s:f, s:o, s:b}", "hold",
-                             isfinite(o->held[h].hold) ? json_real(o->held[h].hold) : json_null(),
-                             "left_out_times", o->held[h].times, "worst_ratio",
-                             isnan(o->held[h].worst) ? json_null() : json_real(o->held[h].worst),
-                             "taken", h == o->hold));
+            holds,
+            json_pack("{s:o, s:f, s:o, s:b}", "penalty",
+                      isfinite(o->held[h].penalty) ? json_real(o->held[h].penalty) : json_null(),
+                      "left_out_times", o->held[h].times, "worst_ratio",
+                      isnan(o->held[h].worst) ? json_null() : json_real(o->held[h].worst), "taken",
+                      h == o->penalty));
     return json_pack("{s:s, s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:o, "
                      "s:i, s:f}",
                      "oracle", o->oracle, "basis",
@@ -221,8 +222,8 @@ json_t *tune_json(const struct tune_outcome *o)
                      "power", t->power, "cost", cost_words[t->cost], "default",
                      parameters_json(t, defaults), "fitted", parameters_json(t, o->all.at),
                      "price_times", exp(price_of(o)), "evaluations", o->all.found.evaluations,
-                     "ended", end_text(&o->all), "scenes", scenes, "holds", holds, "folds", folds,
-                     "worst_ratio", isnan(worst) ? json_null() : json_real(worst), "carries_over",
-                     isnan(worst) ? json_null() : json_boolean(!tune_fails(o)), "solves", t->solves,
-                     "seconds", o->seconds);
+                     "ended", end_text(&o->all), "scenes", scenes, "penalties", holds, "folds",
+                     folds, "worst_ratio", isnan(worst) ? json_null() : json_real(worst),
+                     "carries_over", isnan(worst) ? json_null() : json_boolean(!tune_fails(o)),
+                     "solves", t->solves, "seconds", o->seconds);
 }

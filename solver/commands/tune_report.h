@@ -24,9 +24,9 @@ struct tune_fold {
 double tune_needs(const struct tuner *t, const struct tune_result *r);
 
 /* How scenes left out fare where fits are held to the start: price over that of the defaults. */
-enum { TUNE_HOLDS = 8 };
+enum { TUNE_PENALTIES = 8 };
 struct tune_held {
-    double hold; /* mean logarithm of prices per squared doubling; INFINITY: the start */
+    double penalty; /* mean logarithm of prices per squared doubling; INFINITY: the start */
     double times;
     double worst; /* the largest ratio of the folds */
 };
@@ -37,8 +37,8 @@ struct tune_outcome {
     struct tune_fit all;
     struct tune_fold *folds; /* [fold_count]; 0: one scene alone is not left out */
     int fold_count;
-    struct tune_held held[TUNE_HOLDS];
-    int hold, chosen; /* the one of them that fits take; 1: they do */
+    struct tune_held held[TUNE_PENALTIES];
+    int penalty, chosen; /* the one of them that fits take; 1: they do */
     double seconds;
 };
 

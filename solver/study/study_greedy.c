@@ -167,7 +167,7 @@ static int measure(const struct options *o, const struct greedy *g, RadDevice de
 }
 
 /* Greedy links with this error. */
-static void hold_step(struct row *row, int norm, size_t links, double error)
+static void compare_step(struct row *row, int norm, size_t links, double error)
 {
     size_t *least = &row->greedy_links[norm];
     if (links <= row->links && error < row->greedy[norm])
@@ -177,7 +177,7 @@ static void hold_step(struct row *row, int norm, size_t links, double error)
 }
 
 /* What greedy links make of the rows of a basis. Returns 0, or -1. */
-static int hold_against(const struct greedy *g, int basis, struct row row[TIMES])
+static int compare_with(const struct greedy *g, int basis, struct row row[TIMES])
 {
     size_t most = 64;
     for (int k = 0; k < TIMES; k++)
@@ -197,7 +197,7 @@ static int hold_against(const struct greedy *g, int basis, struct row row[TIMES]
             for (int i = 0; i < count; i++) {
                 double error = steps[i].error / greedy_reflected(g, (enum greedy_norm)n);
                 for (int k = 0; k < TIMES; k++)
-                    hold_step(&row[k], n, steps[i].links, error);
+                    compare_step(&row[k], n, steps[i].links, error);
             }
         }
     free(steps);
@@ -219,7 +219,7 @@ static int measure_scene(const struct options *o, int which, struct row rows[BAS
         for (int b = 0; b < BASES && status == 0; b++) {
             for (int k = 0; k < TIMES && status == 0; k++)
                 status = measure(o, &g, device, scene, b, times[k], &rows[b][k]);
-            if (status == 0 && hold_against(&g, b, rows[b]) < 0)
+            if (status == 0 && compare_with(&g, b, rows[b]) < 0)
                 status = report_error("study greedy", 0, "out of memory for links");
         }
         greedy_close(&g);

@@ -102,7 +102,7 @@ static void skip(struct reader *r)
         r->at++;
 }
 
-static int take(struct reader *r, const char *mark)
+static int accept(struct reader *r, const char *mark)
 {
     skip(r);
     if (strncmp(r->at, mark, strlen(mark)) != 0)
@@ -166,12 +166,12 @@ static int read_primary(struct reader *r)
                                     .length = (size_t)(end - from - 1),
                                     .column = column(r, from)});
     }
-    if (take(r, "(")) {
+    if (accept(r, "(")) {
         if (++r->depth > DEEPEST)
             return wrong(r, column(r, from), "more than %d parentheses in each other", DEEPEST);
         int inside = read_condition(r);
         r->depth--;
-        if (inside >= 0 && !take(r, ")"))
+        if (inside >= 0 && !accept(r, ")"))
             return wrong(r, column(r, r->at), "a ')' is missing");
         return inside;
     }
@@ -201,7 +201,7 @@ static int read_sign(struct reader *r)
 {
     skip(r);
     const char *from = r->at;
-    if (!take(r, "-"))
+    if (!accept(r, "-"))
         return read_primary(r);
     if (++r->depth > DEEPEST)
         return wrong(r, column(r, from), "more than %d signs in a row", DEEPEST);
@@ -311,7 +311,7 @@ static int read_comparison(struct reader *r)
     skip(r);
     const char *from = r->at;
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
-        if (!take(r, marks[i].mark))
+        if (!accept(r, marks[i].mark))
             continue;
         int right = read_sum(r);
         if (right < 0 || check_comparison(r, left, right, marks[i].mark, column(r, from)) < 0)
@@ -362,7 +362,7 @@ static int read_both(struct reader *r, int (*part)(struct reader *), const char 
     while (left >= 0) {
         skip(r);
         const char *from = r->at;
-        if (!take(r, mark))
+        if (!accept(r, mark))
             break;
         int right = part(r);
         if (right < 0 || want_truth(r, left) < 0 || want_truth(r, right) < 0)

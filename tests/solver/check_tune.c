@@ -436,18 +436,19 @@ START_TEST(what_is_left_out_is_not_seen)
 }
 END_TEST
 
-/* The hold is the one with which scenes left out pay least of those that carry over, and what they
- * pay is what is told of each. Held by any, fits lie between where they began and where they ended.
+/* The penalty is the one with which scenes left out pay least of those that carry over, and what
+ * they pay is what is told of each. Held by any, fits lie between where they began and where they
+ * ended.
  */
 static void check_holds(const json_t *t)
 {
-    const json_t *holds = json_object_get(t, "holds"), *folds = json_object_get(t, "folds");
+    const json_t *holds = json_object_get(t, "penalties"), *folds = json_object_get(t, "folds");
     double least = INFINITY, taken = 0, mean = 0;
     ck_assert_int_gt((int)json_array_size(holds), 2);
     for (size_t i = 0; i < json_array_size(holds); i++) {
         const json_t *h = json_array_get(holds, i);
         double times = number(h, "left_out_times", NULL);
-        if (json_is_null(json_object_get(h, "hold")))
+        if (json_is_null(json_object_get(h, "penalty")))
             ck_assert_double_eq(times, 1); /* the start */
         if (number(h, "worst_ratio", NULL) <= 1.5)
             least = fmin(least, times);
