@@ -33,7 +33,8 @@ struct pair {
     const struct host *host;
     double axis[3], square; /* between the centres (m), and its length's square */
     double factor, seen;    /* F and V */
-    int factor_level, seen_level, mark;
+    enum visibility_level seen_level;
+    int factor_level, mark;
     struct blockers *list, own;
 };
 
@@ -47,7 +48,7 @@ static void start(struct pair *p, const struct discussion *d)
     p->factor = d->terms.form_factor;
     p->factor_level = d->terms.form_factor_level;
     p->seen = d->terms.visibility;
-    p->seen_level = d->terms.visibility_level;
+    p->seen_level = (enum visibility_level)d->terms.visibility_level;
     p->mark = 0;
     p->own.known = BLOCKERS_UNKNOWN;
     p->list = d->blockers ? d->blockers : &p->own;
@@ -64,7 +65,7 @@ static double noise(const struct pair *p)
 {
     if (p->seen_level == VISIBILITY_EXACT)
         return 0;
-    double rays = visibility_rays_of((enum visibility_level)p->seen_level);
+    double rays = visibility_rays_of(p->seen_level);
     return p->seen <= 0 || p->seen >= 1 ? 1 / rays : sqrt(p->seen * (1 - p->seen) / rays);
 }
 
@@ -74,7 +75,7 @@ static double uneven(const struct pair *p)
     const struct element *s = p->s;
     double share = p->seen < 0.5 ? p->seen : 1 - p->seen;
     if (p->seen_level != VISIBILITY_EXACT)
-        share += 1.0 / visibility_rays_of((enum visibility_level)p->seen_level);
+        share += 1.0 / visibility_rays_of(p->seen_level);
     else if (share <= 0)
         return 0;
     return share * s->spread < s->deviation ? share * s->spread : s->deviation;
@@ -110,7 +111,7 @@ static double factor(struct pair *p)
 
 static void cast(struct pair *p, int rays)
 {
-    int level = visibility_level_of(rays);
+    enum visibility_level level = visibility_level_of(rays);
     if (p->seen_level < level) {
         p->seen = visibility_rays(p->r, p->s, p->host, rays);
         p->seen_level = level;
@@ -286,13 +287,13 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
         if (worse != NEITHER) {
             decision = split(&p, by->min_share, worse);
             if (decision != GO_ON)
-                return decision;
+                return (enum decision)decision;
         }
         brought = s->radiosity * p.factor;
     }
     decision = seen(&p, by, brought);
     if (decision != DECISION_LINK)
-        return decision;
+        return (enum decision)decision;
     d->terms.form_factor = exact_factor(&p);
     d->terms.form_factor_level = (unsigned char)p.factor_level;
     d->terms.visibility = p.seen;
@@ -336,7 +337,7 @@ static enum decision groups(const struct parameters *by, struct discussion *d)
     double limit = noise_here * mean * p.square, lost = by->hidden * noise_here * mean * p.square;
     double half = here(&p, by->shadow) * mean * p.square;
     for (int rays = 4;; rays *= 4) {
-        int level = visibility_level_of(rays);
+        enum visibility_level level = visibility_level_of(rays);
         if (p.seen_level < level) {
             p.seen = cluster_rays(r, s, d->host, rays);
             p.seen_level = level;
