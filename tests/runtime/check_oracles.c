@@ -83,8 +83,7 @@ END_TEST
 static const char *const ways[] = {
     "cornell.obj --set min_share=1e-3",
     "room.obj --set noise=1e-6 --set hidden=0.5 --set min_share=1e-2",
-    "room.obj --set product=1 --set shadow=1e-3 --set spot=1e-5 --set larger=1 --set "
-    "min_share=1e-2",
+    "room.obj --set product=1 --set shadow=1e-3 --set larger=1 --set min_share=1e-2",
     "cornell.obj --set spot=0 --set uneven=40 --set bend=1e-3 --set noise=1e-5",
     /* as they come */
     "cornell.obj",
