@@ -7,8 +7,6 @@
 #include "util/messages.h"
 
 #define DEFAULT_ORACLE "power"
-/* of `compare`: the one nearest to it that has a hand-written release */
-#define DEFAULT_BY_HAND "bf_guarded"
 
 enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASES };
 

@@ -445,7 +445,8 @@ const struct option_row option_rows[] = {
     /* Few links, of all sizes and distances, none of clusters. */
     {"oracle", "NAME|FILE.dag", FORM_FACTORS, "ff", "the oracle whose links are measured",
      TEXT(oracle)},
-    /* The one nearest to the default that has a release by hand. */
+    /* Its release by hand shares no code with the other two; that of the default shares geometry.
+     */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
     {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),

@@ -29,14 +29,19 @@ static int turned_away(const struct element *e, const struct element *other, dou
     return m * e->cone + (across > 0 && sine > 0 ? sqrt(across * sine) : 0) <= flat;
 }
 
-enum decision hand_open_clusters(const struct element *r, const struct element *s,
-                                 const struct host *host)
+int hand_apart(const struct element *r, const struct element *s, const struct host *host)
 {
     double x = s->centre[0] - r->centre[0], y = s->centre[1] - r->centre[1],
            z = s->centre[2] - r->centre[2];
     double reach = sqrt(x * x + y * y + z * z) + r->radius + s->radius;
     double flat = host->flat + (1 / 65536.0) * (r->radius + s->radius);
-    if (turned_away(r, s, x, y, z, reach, flat) || turned_away(s, r, -x, -y, -z, reach, flat))
+    return turned_away(r, s, x, y, z, reach, flat) || turned_away(s, r, -x, -y, -z, reach, flat);
+}
+
+enum decision hand_open_clusters(const struct element *r, const struct element *s,
+                                 const struct host *host)
+{
+    if (hand_apart(r, s, host))
         return DECISION_STOP;
     if (s->vertices)
         return DECISION_SUBDIVIDE_RECEIVER;

@@ -2,4 +2,4 @@
  * SPDX-License-Identifier: MIT */
 #include "hand.h"
 
-const struct oracle *const hand_releases[] = {&hand_bf, &hand_bf_guarded, 0};
+const struct oracle *const hand_releases[] = {&hand_bf, &hand_bf_guarded, &hand_power, 0};

@@ -77,6 +77,33 @@ START_TEST(test_releases)
 }
 END_TEST
 
+/* The default is what programs run: its releases decide alike, by hand too, where groups are
+ * linked, where shafts and outlines come after rays, where emitters are uneven, and where nothing
+ * may be split. */
+static const char *const ways[] = {
+    "cornell.obj --set min_share=1e-3",
+    "room.obj --set noise=1e-6 --set hidden=0.5 --set min_share=1e-2",
+    "room.obj --set product=1 --set shadow=1e-3 --set larger=1 --set min_share=1e-2",
+    "cornell.obj --set spot=0 --set uneven=40 --set bend=1e-3 --set noise=1e-5",
+    /* as they come */
+    "cornell.obj",
+    "room.obj",
+    "maze_8.obj",
+    "td.obj",
+};
+
+START_TEST(test_default_by_hand)
+{
+    const char *program = getenv("RADIOSITY");
+    char command[512];
+    ck_assert(oracles_by_hand(DEFAULT_ORACLE));
+    snprintf(command, sizeof command,
+             "%s compare examples/scenes/%s --oracle %s --repeats 1 > /dev/null",
+             program ? program : "build/bin/radiosity", ways[_i], DEFAULT_ORACLE);
+    ck_assert_msg(system(command) == 0, "%s", command);
+}
+END_TEST
+
 /* What compiled oracles say of themselves is what their graphs say: facts that are read, roles
  * of parameters. */
 START_TEST(test_declared)
@@ -282,6 +309,7 @@ int main(void)
     TCase *c = tcase_create("oracles");
     tcase_set_timeout(c, 600);
     tcase_add_loop_test(c, test_releases, 0, thorough() ? 3 : 1);
+    tcase_add_loop_test(c, test_default_by_hand, 0, thorough() ? 8 : 4);
     tcase_add_test(c, test_declared);
     tcase_add_loop_test(c, test_falling, 0, 3 * FALLING);
     tcase_add_loop_test(c, test_promise, 0, thorough() ? 5 : 2);

@@ -98,7 +98,7 @@ static char *coarse[] = {"min_share=1e-3", NULL};
 /* Threads, releases and methods give the same links to the bit. */
 START_TEST(test_same_links)
 {
-    static const char *const oracle[2] = {"bf", "bf_guarded"};
+    static const char *const oracle[3] = {"bf", "bf_guarded", "power"};
     struct solve one, other;
     struct scene scene;
     furnished(&scene, 1);
@@ -242,7 +242,7 @@ int main(void)
     tcase_add_loop_test(c, test_furnace, 0, thorough() ? 18 : 9);
     tcase_add_test(c, test_cube);
     tcase_add_loop_test(c, test_plates, 0, 2);
-    tcase_add_loop_test(c, test_same_links, 0, 2);
+    tcase_add_loop_test(c, test_same_links, 0, 3);
     tcase_add_test(c, test_brightness);
     tcase_add_loop_test(c, test_scale, 0, 2);
     tcase_add_test(c, test_methods);

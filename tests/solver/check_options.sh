@@ -167,8 +167,8 @@ says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --oracle bf_guarde
 says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --oracle bf_guarded --set rays=1e30
 says 1 "has no parameter 'no'; it has energy" solve "$scene" --set no=1
 says 1 "no such oracle" solve "$scene" --oracle nix
-says 1 "power: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded" \
-    solve "$scene" --release hand
+says 1 "gap: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded or --oracle power" \
+    solve "$scene" --oracle gap --release hand
 
 # ---- outputs that cannot be written are told before the scene is read, which is not there
 says 1 "nowhere/x.ply: error: cannot write: No such file or directory; make the folder first" solve none.obj -o nowhere/x.ply

@@ -57,8 +57,12 @@ if command -v size >/dev/null; then
     }
     for oracle in bf bf_guarded "$default"; do
         [ ! -f "$build/gen/oracles/$oracle.o" ] || measure "-,$oracle,flat,$binary" code_of "$build/gen/oracles/$oracle.o"
-        [ ! -f "$build/tests/hand/$oracle.o" ] ||
-            measure "-,$oracle,hand,$binary" code_of "$build/tests/hand/$oracle.o" "$build/tests/hand/factor.o" "$build/tests/hand/clusters.o"
+        hand=$build/tests/hand
+        [ -f "$hand/$oracle.o" ] || continue
+        geometry= # power takes that of the tools
+        nm "$hand/$oracle.o" | grep -q 'U hand_form_factor' && geometry=$hand/factor.o
+        # shellcheck disable=SC2086
+        measure "-,$oracle,hand,$binary" code_of "$hand/$oracle.o" $geometry "$hand/clusters.o"
     done
 fi
 rows_of_binary "$pages/need.csv"
