@@ -223,6 +223,11 @@ drawings: commands
 	    sed -e '/^<!--.*-->$$/d' -e '/^<!--/,/-->$$/d' -e '/^<title>/d' $(BUILD)/$$name.svg > examples/oracles/drawings/$$name.svg || exit 1; \
 	done
 
+# The page of cases on which methods fail; about half a minute.
+.PHONY: stability
+stability: commands
+	$(BUILD)/bin/radiosity study stability -q -o examples/stability.md
+
 .PHONY: heat
 heat: commands
 	$(BUILD)/bin/radiosity solve examples/scenes/room.obj -q --no-errors --statistics $(BUILD)/power_room.json
