@@ -256,10 +256,12 @@ START_TEST(test_command)
     snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", path);
     ck_assert_int_eq(run(arguments), 0);
     ck_assert(holds(path, "form factors,shared_edge,\"disc\",0.02"));
+    ck_assert(holds(path, ",measure,order") && holds(path, ",\"relative error of F\",0.46"));
     unlink(path);
     snprintf(path, sizeof path, "%s/out.md", folder);
     snprintf(arguments, sizeof arguments, "stability --only shared_edge -q -o %s", path);
     ck_assert_int_eq(run(arguments), 0);
+    ck_assert(holds(path, "The default oracle fails: shared_edge 2e-07; 1 of its 1 rows."));
     ck_assert(holds(path, "| shared_edge | 1e-08 | 0.59 order 0.5 fails: 1/r2"));
     unlink(path);
     ck_assert_int_eq(rmdir(folder), 0);
