@@ -1,6 +1,7 @@
 # make          the commands dagc and radiosity in build/bin, build/libradiosity.a and .so
 # make dagc     dagc and libdagc.a alone, which need a C compiler and libc
 # make check    the tests
+# make stability  examples/stability.md: where methods fail, by how much, and the order in which errors fall
 # make check-accuracy  the long ones: all that make check leaves out, and solutions against traced particles
 # make mutations  code broken on purpose, and which suite notices
 # make prove    1,000 random graphs: interpreter and compiled function on every path
@@ -222,6 +223,11 @@ drawings: commands
 	    $(BUILD)/bin/dagc --emit=svg -Wno-all -o $(BUILD)/$$name.svg examples/oracles/$$name.dag && \
 	    sed -e '/^<!--.*-->$$/d' -e '/^<!--/,/-->$$/d' -e '/^<title>/d' $(BUILD)/$$name.svg > examples/oracles/drawings/$$name.svg || exit 1; \
 	done
+
+# The page of cases on which methods fail; about half a minute.
+.PHONY: stability
+stability: commands
+	$(BUILD)/bin/radiosity study stability -q -o examples/stability.md
 
 .PHONY: heat
 heat: commands

@@ -317,8 +317,12 @@ const struct command_row command_rows[COMMANDS] = {
          "Small scenes whose answer is known and on which published methods fail:\n"
          "elements that share an edge, slivers, a blocker smaller than the gaps between\n"
          "rays, a bright furnace. Rows are the scenes, columns the methods; a cell is the\n"
-         "method's error, or `fails: why` when that is above the row's tolerance. The exit\n"
-         "status is 1 when a method that must pass fails: the default oracle.\n",
+         "method's error, and `fails: why` when that is above the row's tolerance, one for\n"
+         "all methods. `order p`: the error falls as 1/n^p, fitted to three errors; n is\n"
+         "the links of an oracle (thresholds times 4, 1 and 1/4), the rays of a pair, or\n"
+         "the elements of a face (each times 1, 4 and 16); -: at rounding, or nothing to\n"
+         "refine. Last come the rows that the default oracle fails. The exit status is 1\n"
+         "when a cell passes or fails otherwise than is known: FAILS or CHANGED.\n",
          "radiosity study stability --only tiny_blocker"},
     [COMMAND_VISIBILITY] =
         {"study visibility", "SCENE", "how often few rays are wrong about visibility",

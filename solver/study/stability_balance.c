@@ -128,7 +128,8 @@ int stability_cube(struct stability_trial *trial)
     double b[3] = {1, 0, 0}, f[2];
     if (trial->method->kind == BY_ORACLE)
         return stability_measured(trial, &cube, 0, &trial->error);
-    stability_cube_factors(trial->method, f);
+    stability_cube_factors(trial, f);
+    trial->work = 0;                /* its faces stay one element each, however well F is known */
     for (int i = 0; i < 200; i++) { /* one element per face: ceiling, floor, walls */
         double c = 1 + 0.5 * (f[0] * b[1] + 4 * f[1] * b[2]),
                g = 0.5 * (f[0] * b[0] + 4 * f[1] * b[2]);
@@ -167,7 +168,8 @@ int stability_cavity(struct stability_trial *trial)
         if (trial->method->kind == BY_FACTOR) {
             double b = wall[i], w = wall[i], rho = 1 - wall[i];
             double f[2];
-            stability_cube_factors(trial->method, f);
+            stability_cube_factors(trial, f);
+            trial->work = 0;
             for (int k = 0; k < 2000; k++) {
                 double next = wall[i] + rho * 4 * f[1] * w;
                 w = wall[i] + rho * (f[1] * b + (f[0] + 2 * f[1]) * w);

@@ -30,18 +30,18 @@ static struct made_scene two_perpendicular(double w, double h, double l)
 }
 
 /* F from polygon i to polygon j by a BY_FACTOR method. */
-static double pair_factor(const struct stability_method *method, const struct made_scene *scene,
+static double pair_factor(const struct stability_trial *trial, const struct made_scene *scene,
                           uint32_t i, uint32_t j)
 {
     const struct element r = made_element(scene, i), s = made_element(scene, j);
-    return stability_factor(method, &r, &s);
+    return stability_factor(trial, &r, &s);
 }
 
 /* F from face 0 to face 1 by the trial's method. Returns 0 or -1. */
 static int factor(struct stability_trial *trial, const struct made_scene *scene, double *f)
 {
     if (trial->method->kind == BY_FACTOR) {
-        *f = pair_factor(trial->method, scene, 0, 1);
+        *f = pair_factor(trial, scene, 0, 1);
         return 0;
     }
     struct solved s;
@@ -87,7 +87,7 @@ static double parts_error(const struct stability_trial *trial, uint32_t n)
         element[i] = made_element(&scene, i);
     for (uint32_t i = 0; i < cells; i++)
         for (uint32_t j = 0; j < cells; j++)
-            sum += h * h * stability_factor(trial->method, &element[i], &element[cells + j]);
+            sum += h * h * stability_factor(trial, &element[i], &element[cells + j]);
     return fabs(sum / closed_perpendicular(1, 1, 1) - 1);
 }
 
@@ -119,7 +119,7 @@ int stability_row_sum(struct stability_trial *trial)
     made_room(&cube, grey, 1, 1, 1);
     if (trial->method->kind == BY_FACTOR) {
         for (uint32_t j = 1; j < 6; j++)
-            sum += pair_factor(trial->method, &cube, 0, j);
+            sum += pair_factor(trial, &cube, 0, j);
     } else {
         struct solved s;
         if (stability_solve(&s, &cube, trial, 1) < 0)
@@ -151,11 +151,11 @@ int stability_straddle_children(struct stability_trial *trial)
 {
     const struct made_scene scene = two_straddling();
     const struct element wall = made_element(&scene, 0), floor = made_element(&scene, 1);
-    double whole = wall.area * stability_factor(trial->method, &wall, &floor), parts = 0;
+    double whole = wall.area * stability_factor(trial, &wall, &floor), parts = 0;
     for (int i = 0; i < 4; i++) {
         struct element quarter;
         surface_quarter(&wall, i, &quarter);
-        parts += quarter.area * stability_factor(trial->method, &quarter, &floor);
+        parts += quarter.area * stability_factor(trial, &quarter, &floor);
     }
     trial->error = fabs(parts - whole) / (0.5 * closed_perpendicular(0.5, 1, 1));
     return 0;
@@ -185,7 +185,7 @@ int stability_coplanar(struct stability_trial *trial)
         made_quad(&scene, 0, 0.1 + side * u[0], 0.2 + side * u[1], 0.3 + side * u[2], u[0], u[1],
                   u[2], v[0], v[1], v[2]);
         if (trial->method->kind == BY_FACTOR) {
-            wrong += pair_factor(trial->method, &scene, 0, 1) > 0;
+            wrong += pair_factor(trial, &scene, 0, 1) > 0;
         } else {
             struct solved s;
             if (stability_solve(&s, &scene, trial, 1) < 0)
@@ -258,8 +258,7 @@ int stability_degenerate_factor(struct stability_trial *trial)
     struct made_scene scene = one_grey();
     made_quad(&scene, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     made_face(&scene, 0, 3, flat);
-    double f = pair_factor(trial->method, &scene, 0, 1),
-           g = pair_factor(trial->method, &scene, 1, 0);
+    double f = pair_factor(trial, &scene, 0, 1), g = pair_factor(trial, &scene, 1, 0);
     trial->error = isnan(f) || isnan(g) ? NAN : fmax(fabs(f), fabs(g));
     return 0;
 }

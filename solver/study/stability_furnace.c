@@ -51,7 +51,7 @@ static int furnace(struct stability_trial *trial, void (*make)(struct made_scene
         return stability_measured(trial, &room, rho, &trial->error);
     double f[2];
     /* By symmetry all six B of the cube are equal, B = 1 + rho sum B. */
-    stability_cube_factors(trial->method, f);
+    stability_cube_factors(trial, f);
     trial->error = fabs((1 - rho) / (1 - rho * (f[0] + 4 * f[1])) - 1);
     if (rho * (f[0] + 4 * f[1]) >= 1)
         trial->error = INFINITY; /* every reflection adds power: no iteration ends */
@@ -89,7 +89,7 @@ static int sweep_furnace(struct stability_trial *trial, double rho,
 {
     static const char *const six_elements[] = {"relative=1",
                                                NULL}; /* they are as good as many here */
-    const struct stability_how how = {"bf", six_elements, trial->threads, *options};
+    const struct stability_how how = {"bf", six_elements, trial->threads, *options, 0};
     struct made_scene cube = {.count = 0};
     make_cube(&cube, rho);
     struct solved s;

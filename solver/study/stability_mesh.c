@@ -42,7 +42,8 @@ static int solve_both(struct stability_trial *trial, const struct comparison *c,
 {
     const struct stability_method *m =
         trial->method->kind == BY_ORACLE ? trial->method : &stability_methods[DEFAULT];
-    const struct stability_how how = {m->oracle, m->settings, trial->threads, {.tolerance = 1e-6}};
+    const struct stability_how how = {
+        m->oracle, m->settings, trial->threads, {.tolerance = 1e-6}, 0};
     if (stability_solve_so(&solved[0], c->one, &how) < 0)
         return -1;
     if (stability_solve_so(&solved[1], c->other, &how) < 0) {

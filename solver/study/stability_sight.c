@@ -73,7 +73,7 @@ static uint64_t simple_occluded(const struct host *host, int count, const struct
 
 /* Visible fraction between two elements by the trial's BY_RAYS method. */
 static double visible(const struct made_scene *scene, const struct host *host,
-                      const struct stability_trial *trial, const struct element *receiver,
+                      struct stability_trial *trial, const struct element *receiver,
                       const struct element *emitter)
 {
     int rays = trial->method->number;
@@ -87,9 +87,10 @@ static double visible(const struct made_scene *scene, const struct host *host,
     simple.host.occluded = simple_occluded;
     if (simple.single)
         simple.host.ray_offset = FIXED_OFFSET;
-    return term_visibility(&d, rays == 4    ? VISIBILITY_RAYS_4
-                               : rays == 16 ? VISIBILITY_RAYS_16
-                                            : VISIBILITY_RAYS_64);
+    if (rays <= 0)
+        return term_visibility(&d, VISIBILITY_RAYS_64);
+    trial->work = rays << 2 * trial->level;
+    return term_visibility(&d, visibility_level_of(rays << 2 * trial->level));
 }
 
 /* F V from face i to face j by the trial's method, any kind. Returns 0 or -1. */

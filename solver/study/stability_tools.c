@@ -7,8 +7,8 @@
 #include "util/device.h"
 #include "util/open_oracle.h"
 
-double stability_factor(const struct stability_method *method, const struct element *r,
-                        const struct element *s)
+static double whole_factor(const struct stability_method *method, const struct element *r,
+                           const struct element *s)
 {
     struct discussion d;
     memset(&d, 0, sizeof d);
@@ -33,6 +33,35 @@ double stability_factor(const struct stability_method *method, const struct elem
     return NAN;
 }
 
+/* The part of e that the digits of `part` in base 4 name, lowest first. */
+static struct element part_of(const struct element *e, int level, int part)
+{
+    struct element whole = *e;
+    for (; level > 0; level--, part /= 4) {
+        const struct element outer = whole;
+        surface_quarter(&outer, part % 4, &whole);
+    }
+    return whole;
+}
+
+double stability_factor(const struct stability_trial *trial, const struct element *r,
+                        const struct element *s)
+{
+    if (trial->level == 0)
+        return whole_factor(trial->method, r, s);
+    int parts = 1 << 2 * trial->level;
+    double sum = 0, area = 0;
+    for (int i = 0; i < parts; i++) {
+        const struct element to = part_of(r, trial->level, i);
+        area += to.area;
+        for (int j = 0; j < parts; j++) {
+            const struct element from = part_of(s, trial->level, j);
+            sum += to.area * whole_factor(trial->method, &to, &from);
+        }
+    }
+    return sum / area;
+}
+
 /* The scene, committed. Returns NULL after a message. */
 static RadScene commit_scene(RadDevice device, const struct made_scene *made)
 {
@@ -53,6 +82,24 @@ static RadScene commit_scene(RadDevice device, const struct made_scene *made)
     return scene;
 }
 
+/* Divide by 4^level what decides how far an oracle refines: as --accuracy does, and the shadows of
+ * `viewfactors`. */
+static void refine_oracle(RadOracle oracle, int level)
+{
+    struct RadOracleReport report;
+    radGetOracleReport(oracle, &report);
+    for (int i = 0; i < report.parameter_count; i++) {
+        const struct oracle_parameter *p = &report.parameters[i];
+        if (!p->fixed
+            && (p->role == ROLE_LINK_THRESHOLD || p->role == ROLE_SHADOW_TOLERANCE
+                || p->role == ROLE_SMALLEST_PART))
+            radSetOracleParameter(
+                oracle, p->name,
+                fmin(fmax(ldexp(radGetOracleParameter(oracle, p->name), -2 * level), p->low),
+                     p->high));
+    }
+}
+
 /* Made, committed, given an oracle, and solved when `solve`. */
 static int make_solution(struct solved *s, const struct made_scene *made,
                          const struct stability_how *how, int solve)
@@ -65,6 +112,8 @@ static int make_solution(struct solved *s, const struct made_scene *made,
     RadOracle oracle = scene ? open_oracle(device, how->oracle, RAD_RELEASE_FLAT,
                                            (char *const *)how->settings, count)
                              : NULL;
+    if (oracle && how->level != 0)
+        refine_oracle(oracle, how->level);
     if (oracle)
         status = (solve ? solved_open : solved_begin)(s, device, "study stability", scene, oracle,
                                                       &how->options);
@@ -88,17 +137,19 @@ int stability_unsolved(struct solved *s, const struct made_scene *made)
     return make_solution(s, made, &how, 0);
 }
 
-int stability_solve(struct solved *s, const struct made_scene *made,
-                    const struct stability_trial *trial, int unit)
+int stability_solve(struct solved *s, const struct made_scene *made, struct stability_trial *trial,
+                    int unit)
 {
     const struct stability_method *m = trial->method;
     const struct stability_how how = {
-        m->oracle,
-        m->settings,
-        trial->threads,
-        {.tolerance = 1e-6, .closure = (enum RadClosure)m->number, .unit = unit},
+        m->oracle,      m->settings,
+        trial->threads, {.tolerance = 1e-6, .closure = (enum RadClosure)m->number, .unit = unit},
+        trial->level,
     };
-    return stability_solve_so(s, made, &how);
+    if (stability_solve_so(s, made, &how) < 0)
+        return -1;
+    trial->work += (double)s->links.count;
+    return 0;
 }
 
 int stability_measured(struct stability_trial *trial, const struct stability_scene *scene,
@@ -115,15 +166,15 @@ int stability_measured(struct stability_trial *trial, const struct stability_sce
     return 0;
 }
 
-void stability_cube_factors(const struct stability_method *method, double f[2])
+void stability_cube_factors(const struct stability_trial *trial, double f[2])
 {
     const uint32_t grey[6] = {0, 0, 0, 0, 0, 0};
     struct made_scene cube = {.count = 0};
     made_room(&cube, grey, 1, 1, 1);
     const struct element floor = made_element(&cube, 0), ceiling = made_element(&cube, 1),
                          wall = made_element(&cube, 2);
-    f[0] = stability_factor(method, &floor, &ceiling);
-    f[1] = stability_factor(method, &floor, &wall);
+    f[0] = stability_factor(trial, &floor, &ceiling);
+    f[1] = stability_factor(trial, &floor, &wall);
 }
 
 const struct element *stability_face(const struct solved *s, uint32_t face)
@@ -178,22 +229,25 @@ double stability_random(unsigned *seed)
     return (*seed >> 8) / 16777216.0;
 }
 
-enum stability_verdict stability_judge(const struct stability_cell *cell, double error)
+enum stability_verdict stability_judge(const struct stability_case *c,
+                                       const struct stability_cell *cell, double error)
 {
     if (!cell->why)
-        return error <= cell->tolerance ? VERDICT_PASSES : VERDICT_FAILS;
-    return error > cell->tolerance && error >= cell->low && error <= cell->high
+        return error <= c->tolerance ? VERDICT_PASSES : VERDICT_FAILS;
+    return error > c->tolerance && error >= cell->low && error <= cell->high
                ? VERDICT_FAILS_AS_KNOWN
                : VERDICT_CHANGED;
 }
 
-int stability_run(const struct stability_case *c, const struct stability_cell *cell, int threads,
-                  struct stability_trial *trial)
+int stability_run(const struct stability_case *c, const struct stability_cell *cell,
+                  const struct stability_run *how, struct stability_trial *trial)
 {
     trial->method = &stability_methods[cell->method];
-    trial->threads = threads;
+    trial->threads = how->threads;
+    trial->level = how->level;
     trial->error = NAN;
     trial->count = -1;
+    trial->work = trial->method->kind == BY_FACTOR ? ldexp(1, 2 * how->level) : 0;
     if (c->run(trial) < 0)
         return -1;
     if (isnan(trial->error))

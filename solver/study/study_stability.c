@@ -1,9 +1,10 @@
 /* study_stability.c - `radiosity study stability`: run the failure table (stability.h) and print
  * it.
  *
- * On standard output and in Markdown one table per group: rows are cases, columns the methods that
- * the group's cases name, a cell is the measured error, and below it, when that is above the
- * tolerance, "fails: why". In CSV one line per cell, with the tolerance and the count.
+ * On standard output and in Markdown one table per group: rows are cases with their
+ * tolerance, columns the methods that the group's cases name, a cell is the measured error with the
+ * order in which it falls, and below it, when that is above the tolerance, "fails: why". In CSV one
+ * line per cell, with the tolerance, the count and the order.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -15,11 +16,13 @@
 #include "study/stability.h"
 
 enum format { PLAIN, MARKDOWN, CSV };
+enum { TEXT = 64 }; /* a cell's number */
 
 struct result {
     struct stability_trial trial;
     enum stability_verdict verdict;
-    int run; /* 0: not asked for */
+    double order; /* of convergence; NAN: has none */
+    int run;      /* 0: not asked for */
 };
 
 /* Results of one group: [case * STABILITY_CELLS + cell]. */
@@ -49,8 +52,12 @@ static int run_group(struct results *r, const struct options *o)
              k++) {
             struct result *result = &r->result[i * STABILITY_CELLS + k];
             announce(watched, c, &c->cells[k]);
-            status = stability_run(c, &c->cells[k], o->threads, &result->trial);
-            result->verdict = stability_judge(&c->cells[k], result->trial.error);
+            const struct stability_run how = {o->threads, 0};
+            status = stability_run(c, &c->cells[k], &how, &result->trial);
+            result->verdict = stability_judge(c, &c->cells[k], result->trial.error);
+            if (status == 0)
+                status =
+                    stability_order(c, &c->cells[k], o->threads, &result->trial, &result->order);
             result->run = 1;
         }
         if (status < 0)
@@ -61,20 +68,31 @@ static int run_group(struct results *r, const struct options *o)
     return status;
 }
 
-static void print_error(char text[48], const struct stability_case *c, const struct result *r)
+/* An order in two digits; without a sign where it rounds to 0. */
+static double rounded(double order)
 {
-    if (isinf(r->trial.error))
-        snprintf(text, 48, "none"); /* no number came of it, or it grows without end */
-    else if (r->trial.error == 0)
-        snprintf(text, 48, "0");
-    else
-        snprintf(text, 48, "%.2g", r->trial.error);
-    size_t n = strlen(text);
-    if (c->counted && r->trial.count >= 0)
-        snprintf(text + n, 48 - n, " (%.0f %s)", r->trial.count, c->counted);
+    return round(order * 10) / 10 + 0.0;
 }
 
-static void print_reason(char text[96], const struct stability_cell *cell, const struct result *r)
+static void print_error(char text[TEXT], const struct stability_case *c, const struct result *r)
+{
+    if (isinf(r->trial.error))
+        snprintf(text, TEXT, "none"); /* no number came of it, or it grows without end */
+    else if (r->trial.error == 0)
+        snprintf(text, TEXT, "0");
+    else
+        snprintf(text, TEXT, "%.2g", r->trial.error);
+    size_t n = strlen(text);
+    if (c->counted && r->trial.count >= 0)
+        n += (size_t)snprintf(text + n, TEXT - n, " (%.0f %s)", r->trial.count, c->counted);
+    if (c->limit == CONVERGES && isnan(r->order))
+        snprintf(text + n, TEXT - n, " order -");
+    else if (c->limit == CONVERGES)
+        snprintf(text + n, TEXT - n, " order %.1f", rounded(r->order));
+}
+
+static void print_reason(char text[96], const struct stability_case *c,
+                         const struct stability_cell *cell, const struct result *r)
 {
     switch (r->verdict) {
     case VERDICT_PASSES:
@@ -84,7 +102,7 @@ static void print_reason(char text[96], const struct stability_cell *cell, const
         snprintf(text, 96, "fails: %s", cell->why);
         break;
     case VERDICT_FAILS:
-        snprintf(text, 96, "FAILS: above %.1g", cell->tolerance);
+        snprintf(text, 96, "FAILS: above %.1g", c->tolerance);
         break;
     case VERDICT_CHANGED:
         snprintf(text, 96, "CHANGED: was %.2g to %.2g", cell->low, cell->high);
@@ -103,17 +121,17 @@ static int cell_of(const struct stability_case *c, int method)
 
 /* The error of a case by a method into text and why; "-" where that makes no sense. Returns 0
  * when the case was not run. */
-static int cell_texts(const struct results *r, int i, int method, char text[48], char why[96])
+static int cell_texts(const struct results *r, int i, int method, char text[TEXT], char why[96])
 {
     const struct stability_case *c = &r->group->cases[i];
     int k = cell_of(c, method);
     const struct result *result = &r->result[i * STABILITY_CELLS + (k < 0 ? 0 : k)];
     why[0] = 0;
-    snprintf(text, 48, "-");
+    snprintf(text, TEXT, "-");
     if (k < 0 || !result->run)
         return result->run;
     print_error(text, c, result);
-    print_reason(why, &c->cells[k], result);
+    print_reason(why, c, &c->cells[k], result);
     return 1;
 }
 
@@ -124,7 +142,7 @@ static int columns(const struct results *r, int method[METHODS], int width[METHO
     for (int m = NO_METHOD + 1; m < METHODS; m++) {
         int used = 0, wide = (int)strlen(stability_methods[m].name);
         for (int i = 0; i < r->group->count; i++) {
-            char text[48], why[96];
+            char text[TEXT], why[96];
             if (!cell_texts(r, i, m, text, why) || cell_of(&r->group->cases[i], m) < 0)
                 continue;
             used = 1;
@@ -144,16 +162,16 @@ static void print_plain(FILE *out, const struct results *r)
     int method[METHODS], width[METHODS], n = columns(r, method, width);
     if (n == 0)
         return;
-    fprintf(out, "%-20s", r->group->title);
+    fprintf(out, "%-20s  %-6s", r->group->title, "within");
     for (int k = 0; k < n; k++)
         fprintf(out, "  %-*s", width[k], stability_methods[method[k]].name);
     fputc('\n', out);
     for (int i = 0; i < r->group->count; i++) {
-        char text[48], why[96];
+        char text[TEXT], why[96];
         int reasons = 0;
         if (!r->result[i * STABILITY_CELLS].run)
             continue;
-        fprintf(out, "%-20s", r->group->cases[i].name);
+        fprintf(out, "%-20s  %-6.2g", r->group->cases[i].name, r->group->cases[i].tolerance);
         for (int k = 0; k < n; k++) {
             (void)cell_texts(r, i, method[k], text, why);
             fprintf(out, "  %-*s", width[k], text);
@@ -162,7 +180,7 @@ static void print_plain(FILE *out, const struct results *r)
         fputc('\n', out);
         if (!reasons)
             continue;
-        fprintf(out, "%-20s", "");
+        fprintf(out, "%-20s  %-6s", "", "");
         for (int k = 0; k < n; k++) {
             (void)cell_texts(r, i, method[k], text, why);
             fprintf(out, "  %-*s", width[k], why);
@@ -177,18 +195,18 @@ static void print_markdown(FILE *out, const struct results *r)
     int method[METHODS], width[METHODS], n = columns(r, method, width);
     if (n == 0)
         return;
-    fprintf(out, "\n## %s\n\n| case |", r->group->title);
+    fprintf(out, "\n## %s\n\n| case | within |", r->group->title);
     for (int k = 0; k < n; k++)
         fprintf(out, " %s |", stability_methods[method[k]].name);
-    fprintf(out, "\n|---|");
+    fprintf(out, "\n|---|---|");
     for (int k = 0; k < n; k++)
         fprintf(out, "---|");
     for (int i = 0; i < r->group->count; i++) {
         if (!r->result[i * STABILITY_CELLS].run)
             continue;
-        fprintf(out, "\n| %s |", r->group->cases[i].name);
+        fprintf(out, "\n| %s | %.2g |", r->group->cases[i].name, r->group->cases[i].tolerance);
         for (int k = 0; k < n; k++) {
-            char text[48], why[96];
+            char text[TEXT], why[96];
             (void)cell_texts(r, i, method[k], text, why);
             fprintf(out, " %s%s%s |", text, *why ? " " : "", why);
         }
@@ -211,25 +229,58 @@ static void print_csv(FILE *out, const struct results *r)
             if (!result->run)
                 continue;
             fprintf(out, "%s,%s,\"%s\",%.6g,%.6g,%s,\"%s\",", r->group->title, c->name,
-                    stability_methods[c->cells[k].method].name, result->trial.error,
-                    c->cells[k].tolerance, verdict[result->verdict],
-                    c->cells[k].why ? c->cells[k].why : "");
+                    stability_methods[c->cells[k].method].name, result->trial.error, c->tolerance,
+                    verdict[result->verdict], c->cells[k].why ? c->cells[k].why : "");
             if (result->trial.count >= 0)
                 fprintf(out, "%.0f", result->trial.count);
-            fprintf(out, ",\"%s\"\n", c->measure);
+            fprintf(out, ",\"%s\",", c->measure);
+            if (!isnan(result->order))
+                fprintf(out, "%.3g", result->order);
+            fputc('\n', out);
         }
     }
+}
+
+/* Where the default oracle is above what is allowed, by how much; in one line. */
+static void print_default(FILE *out, const struct results *results)
+{
+    int asked = 0, failing = 0;
+    for (int g = 0; g < stability_group_count; g++)
+        for (int i = 0; i < results[g].group->count; i++) {
+            const struct stability_case *c = &results[g].group->cases[i];
+            int k = cell_of(c, DEFAULT);
+            const struct result *r = &results[g].result[i * STABILITY_CELLS + (k < 0 ? 0 : k)];
+            if (k < 0 || !r->run)
+                continue;
+            asked++;
+            if (r->trial.error <= c->tolerance)
+                continue;
+            fprintf(out, "%s %s %.2g", failing++ ? "," : "\nThe default oracle fails:", c->name,
+                    r->trial.error);
+        }
+    if (failing)
+        fprintf(out, "; %d of its %d rows.\n", failing, asked);
 }
 
 static void print_all(FILE *out, const struct results *results, enum format format)
 {
     if (format == CSV)
-        fprintf(out, "group,case,method,error,tolerance,result,why,count,measure\n");
+        fprintf(out, "group,case,method,error,tolerance,result,why,count,measure,order\n");
     if (format == MARKDOWN)
-        fprintf(out, "# Where methods fail\n\nMade by `radiosity study stability -o FILE.md`. A "
-                     "cell is the method's error; "
-                     "`fails: why` stands where it is above the tolerance of the cell; - where the "
-                     "two have nothing to do with each other.\n");
+        fprintf(out,
+                "# Where methods fail\n\nMade by `make stability`, or `radiosity study stability "
+                "-o FILE.md`. A cell is the method's error; `fails: why` stands where it is "
+                "above what the row allows (`within`), the same for every method; - where "
+                "the two have nothing to do with each other.\n\n"
+                "`order` is p where the error falls as 1/n^p while the method is refined in "
+                "three steps: n is of an oracle the number of links, its thresholds and "
+                "smallest part times 4, 1 and 1/4; of visibility by rays, the rays of a "
+                "pair, times 1, 4 and 16; of a form factor, the elements of a face, 1, 4 and "
+                "16. By least squares of the logarithms; below 0 the error grows. `order -`: "
+                "the error is at rounding or without end, or there is nothing to refine. "
+                "Rows without orders ask for a condition that holds or does not.\n");
+    if (format == MARKDOWN)
+        print_default(out, results);
     for (int g = 0; g < stability_group_count; g++)
         (format == CSV        ? print_csv
          : format == MARKDOWN ? print_markdown
@@ -293,6 +344,7 @@ int study_stability(const struct options *o, const struct open_scene *scene)
         int wrong = unexpected(results, &cells, &failing);
         if (!o->quiet) {
             print_all(stdout, results, PLAIN);
+            print_default(stdout, results);
             printf("%d cells: %d pass, %d fail as they are known to, %d are not as expected\n",
                    cells, cells - failing - wrong, failing, wrong);
         }
