@@ -514,6 +514,12 @@ char *dag_json(struct dag *dag);
  * many. */
 int dag_oracle(const struct dag *dag, const char *name);
 
+/* The node of the oracle at this place of its topological order, from 0. */
+const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph *oracle, int place);
+
+/* "precise", "approximate", "other". */
+const char *dag_kind_name(enum kind kind);
+
 /* Is it made of numbers and parameters alone? Then it is the same in every discussion of a run. */
 int dag_is_fixed(const struct dag *dag, int expression);
 

@@ -116,6 +116,12 @@ const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph 
     return &dag->nodes[dag->order[oracle->order.first + place]];
 }
 
+const char *dag_kind_name(enum kind kind)
+{
+    static const char *const names[] = {"precise", "approximate", "other"};
+    return names[kind];
+}
+
 const char *dag_answer_name(const struct dag *dag, const struct node *node, int answer)
 {
     return dag->answers[dag->tools[node->tool].answers.first + answer].name;

@@ -44,7 +44,6 @@ const struct node *dag_search_turn(const struct search *search, const struct nod
 
 /* ---- analyse.c: words and small facts */
 
-const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph *oracle, int place);
 const char *dag_answer_name(const struct dag *dag, const struct node *node, int answer);
 const char *dag_target_name(const struct dag *dag, const struct target *target);
 /* The value, whole and the same for the same value: names resolved, operators in parentheses. */

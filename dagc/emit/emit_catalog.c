@@ -54,7 +54,6 @@ static void print_decisions(const struct dag *dag, struct text *out)
 
 static void print_answers(const struct dag *dag, struct text *out, const struct tool *tool)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
     print_doc(out, "\n", tool->doc);
     dag_print(out, "enum %s_answer {\n", tool->name);
     for (int i = 0; i < tool->answers.count; i++) {
@@ -62,7 +61,7 @@ static void print_answers(const struct dag *dag, struct text *out, const struct 
         dag_print(out, "    ");
         print_constant(out, tool->name, answer->name);
         dag_print(out, "%s /* %s */\n", i + 1 < tool->answers.count ? "," : "",
-                  kinds[answer->kind]);
+                  dag_kind_name(answer->kind));
     }
     dag_print(out, "};\n#define ");
     print_constant(out, tool->name, "answers");

@@ -99,7 +99,6 @@ static void print_parameters(struct dag *dag, struct text *out, struct span para
 
 static void print_tools(struct dag *dag, struct text *out)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
     dag_print(out, "## Tools\n\n");
     for (int i = 0; i < dag->tool_count; i++) {
         const struct tool *tool = &dag->tools[i];
@@ -121,7 +120,8 @@ static void print_tools(struct dag *dag, struct text *out)
         print_parameters(dag, out, tool->parameters);
         dag_print(out, "| answer | kind |\n|---|---|\n");
         for (int a = tool->answers.first; a < tool->answers.first + tool->answers.count; a++)
-            dag_print(out, "| `%s` | %s |\n", dag->answers[a].name, kinds[dag->answers[a].kind]);
+            dag_print(out, "| `%s` | %s |\n", dag->answers[a].name,
+                      dag_kind_name(dag->answers[a].kind));
         dag_print(out, "\n");
         print_needs(dag, out, "Reads", tool->reads);
         print_needs(dag, out, "Writes", tool->writes);

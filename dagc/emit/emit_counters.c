@@ -23,12 +23,6 @@ void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enu
     dag_print(out, ")");
 }
 
-static const struct node *node_at(const struct dag *dag, const struct oracle_graph *oracle,
-                                  int place)
-{
-    return &dag->nodes[dag->order[oracle->order.first + place]];
-}
-
 void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                          const struct emit_options *options)
 {
@@ -37,7 +31,7 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
     if (!options->counted && !options->traced)
         return;
     for (int i = 0; i < oracle->order.count; i++)
-        arcs += node_at(dag, oracle, i)->arcs.count;
+        arcs += dag_node_at(dag, oracle, i)->arcs.count;
     dag_print(
         out,
         "\n/* Nodes and arcs by number: their names, how far an arc's answer can be trusted, and "
@@ -82,12 +76,12 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
 static void print_answers(const struct dag *dag, struct text *out,
                           const struct oracle_graph *oracle, int kinds)
 {
-    static const char *const words[] = {"precise", "approximate", "other"}; /* by enum kind */
     for (int i = 0; i < oracle->order.count; i++) {
-        const struct node *node = node_at(dag, oracle, i);
+        const struct node *node = dag_node_at(dag, oracle, i);
         const struct answer *answers = &dag->answers[dag->tools[node->tool].answers.first];
         for (int a = 0; a < node->arcs.count; a++)
-            dag_print(out, "    \"%s\",\n", kinds ? words[answers[a].kind] : answers[a].name);
+            dag_print(out, "    \"%s\",\n",
+                      kinds ? dag_kind_name(answers[a].kind) : answers[a].name);
     }
 }
 
@@ -95,7 +89,7 @@ static void print_names(const struct dag *dag, struct text *out, const struct or
 {
     dag_print(out, "\nconst char *const %s_node_names[] = {\n", oracle->name);
     for (int i = 0; i < oracle->order.count; i++)
-        dag_print(out, "    \"%s\",\n", node_at(dag, oracle, i)->name);
+        dag_print(out, "    \"%s\",\n", dag_node_at(dag, oracle, i)->name);
     dag_print(out, "};\nconst char *const %s_arc_names[] = {\n", oracle->name);
     print_answers(dag, out, oracle, 0);
     dag_print(out, "};\nconst char *const %s_arc_kinds[] = {\n", oracle->name);
@@ -103,7 +97,7 @@ static void print_names(const struct dag *dag, struct text *out, const struct or
     dag_print(out, "};\nconst int %s_arc_nodes[] = {\n", oracle->name);
     for (int i = 0; i < oracle->order.count; i++) {
         dag_print(out, "   ");
-        for (int a = 0; a < node_at(dag, oracle, i)->arcs.count; a++)
+        for (int a = 0; a < dag_node_at(dag, oracle, i)->arcs.count; a++)
             dag_print(out, " %d,", i);
         dag_print(out, "\n");
     }

@@ -9,8 +9,6 @@
 
 #include "analyse/analyse.h"
 
-static const char *const kind_names[] = {"precise", "approximate", "other"}; /* by enum kind */
-
 static void print_text(struct text *out, const char *value)
 {
     dag_print(out, "\"");
@@ -192,7 +190,7 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     for (int i = 0; i < tool->answers.count; i++) {
         const struct answer *answer = &dag->answers[tool->answers.first + i];
         print_field(out, i > 0 ? ", {" : "{", "name", answer->name);
-        print_field(out, ", ", "kind", kind_names[answer->kind]);
+        print_field(out, ", ", "kind", dag_kind_name(answer->kind));
         dag_print(out, "}");
     }
     dag_print(out, "]");
@@ -384,7 +382,7 @@ static void print_node(struct dag *dag, struct text *out, const struct node *nod
         const struct answer *answer = &dag->answers[dag->tools[node->tool].answers.first + i];
         const struct target *target = &dag->arcs[node->arcs.first + i].target;
         print_field(out, i > 0 ? ",\n                {" : "{", "answer", answer->name);
-        print_field(out, ", ", "kind", kind_names[answer->kind]);
+        print_field(out, ", ", "kind", dag_kind_name(answer->kind));
         print_field(out, ", ", target->kind == TARGET_NODE ? "node" : "decision",
                     dag_target_name(dag, target));
         dag_print(out, "}");

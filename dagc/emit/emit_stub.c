@@ -49,7 +49,6 @@ static void print_includes(const struct dag *dag, struct text *out, const struct
 
 static void print_tool(const struct dag *dag, struct text *out, const struct tool *tool)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
     dag_print(out, "/* %s - %s: ", tool->header,
               tool->kind == TOOL_QUESTION ? "question" : "command");
     dag_print_comment(out, *tool->doc != '\0' ? tool->doc
@@ -85,7 +84,7 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
         dag_print_upper(out, tool->name);
         dag_print(out, "_");
         dag_print_upper(out, answer->name);
-        dag_print(out, ", %s\n", kinds[answer->kind]);
+        dag_print(out, ", %s\n", dag_kind_name(answer->kind));
     }
     dag_print(out, "     */\n    return ");
     dag_print_upper(out, tool->name);

@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: MIT */
 #include "analyse/analyse.h"
 
-static const char *const kinds[] = {"precise", "approximate", "other"}; /* by enum kind */
-
 struct listing {
     struct dag *dag;
     struct text *out;
@@ -47,7 +45,7 @@ static void print_arcs(const struct listing *listing, const struct node *node)
     for (int i = 0; i < node->arcs.count; i++) {
         const struct target *target = &dag->arcs[node->arcs.first + i].target;
         dag_print(listing->out, "    %s -> %s; # %s%s\n", answers[i].name,
-                  dag_target_name(dag, target), kinds[answers[i].kind],
+                  dag_target_name(dag, target), dag_kind_name(answers[i].kind),
                   target->kind == TARGET_DECISION ? ", decision" : "");
     }
 }
@@ -148,7 +146,8 @@ static void print_branch(const struct listing *listing, const struct oracle_grap
     dag_print(listing->out, ") exits (");
     for (int i = 0; i < branch->exits.count; i++) {
         const struct answer *exit = &dag->answers[branch->exits.first + i];
-        dag_print(listing->out, "%s%s %s", i > 0 ? ", " : "", exit->name, kinds[exit->kind]);
+        dag_print(listing->out, "%s%s %s", i > 0 ? ", " : "", exit->name,
+                  dag_kind_name(exit->kind));
     }
     dag_print(listing->out, ") {\n  start %s;\n",
               branch->start.name != NULL ? branch->start.name : "?");

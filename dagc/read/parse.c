@@ -273,8 +273,7 @@ static int parse_oracle(struct parser *parser, int wanted)
     return ok;
 }
 
-/* file = { import | graph | oracle | catalog_item } */
-static void parse_file(struct dag *dag, int source, enum content content)
+struct parser dag_parser(struct dag *dag, int source, enum content content)
 {
     struct parser parser = {0};
     parser.dag = dag;
@@ -282,6 +281,13 @@ static void parse_file(struct dag *dag, int source, enum content content)
     parser.last = (struct where){source, 0, 0};
     parser.content = content;
     parser.token = dag_lex(&parser.lexer);
+    return parser;
+}
+
+/* file = { import | graph | oracle | catalog_item } */
+static void parse_file(struct dag *dag, int source, enum content content)
+{
+    struct parser parser = dag_parser(dag, source, content);
     int main = content == CONTENT_ORACLES && dag->sources[source].importer.source < 0;
     int oracles = dag->oracle_count, errors = dag->error_count;
     while (parser.token.kind != TOKEN_END) {

@@ -21,6 +21,8 @@ struct parser {
     enum content content;
 };
 
+/* At the first token of a source. */
+struct parser dag_parser(struct dag *dag, int source, enum content content);
 void dag_advance(struct parser *parser);
 struct token dag_peek(const struct parser *parser); /* the token after the one at hand */
 int dag_at_mark(const struct parser *parser, char mark);

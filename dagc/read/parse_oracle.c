@@ -158,12 +158,7 @@ static int parse_node(struct parser *parser, struct oracle_graph *graph)
 
 int dag_parse_replacement(struct dag *dag, int source, struct node *node)
 {
-    struct parser parser = {0};
-    parser.dag = dag;
-    parser.lexer = (struct lexer){dag, source, 0, 0};
-    parser.last = (struct where){source, 0, 0};
-    parser.content = CONTENT_ORACLES;
-    parser.token = dag_lex(&parser.lexer);
+    struct parser parser = dag_parser(dag, source, CONTENT_ORACLES);
     *node = (struct node){0};
     node->written.first = -1;
     if (!dag_expect_name(&parser, "the name of a node", &node->name, &node->where)
