@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include "commands/account_summary.h"
 #include "commands/summary.h"
+#include "util/decisions.h"
 
 /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
 enum { GUARDED = 1 };
@@ -108,16 +109,11 @@ static json_t *basis_json(const struct RadReport *r)
 /* How often each decision was taken; without those that never were. */
 static json_t *decisions_json(const struct RadReport *r)
 {
-    static const char *const names[] = {[DECISION_LINK] = "link",
-                                        [DECISION_LINK_CLUSTERS] = "link_clusters",
-                                        [DECISION_STOP] = "stop",
-                                        [DECISION_SUBDIVIDE_RECEIVER] = "subdivide_receiver",
-                                        [DECISION_SUBDIVIDE_EMITTER] = "subdivide_emitter",
-                                        [DECISION_SUBDIVIDE_BOTH] = "subdivide_both"};
     json_t *decisions = json_object();
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    for (int i = 0; i < DECISIONS; i++)
         if (r->decided[i])
-            json_object_set_new(decisions, names[i], json_integer((json_int_t)r->decided[i]));
+            json_object_set_new(decisions, decision_names[i],
+                                json_integer((json_int_t)r->decided[i]));
     return decisions;
 }
 
