@@ -14,6 +14,7 @@
 #include "geometry.h"
 #include "output/explanation.h"
 #include "output/json_file.h"
+#include "output/json_values.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
 #include "util/parameter_file.h"
@@ -162,7 +163,7 @@ static json_t *subject_json(const struct subject *s)
 {
     struct RadOracleReport report;
     radGetOracleReport(s->watch->oracle, &report);
-    json_t *history = json_array(), *replaced = json_array(), *parameters = json_object();
+    json_t *history = json_array(), *replaced = json_array();
     for (size_t i = 0; i < s->watch->count; i++) {
         const struct occasion *o = s->watch->occasions[i];
         char receiver[RAD_NAME] = "", emitter[RAD_NAME] = "";
@@ -176,16 +177,11 @@ static json_t *subject_json(const struct subject *s)
     }
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));
-    for (int i = 0; i < report.parameter_count; i++) {
-        const double value = radGetOracleParameter(s->watch->oracle, report.parameters[i].name);
-        json_object_set_new(parameters, report.parameters[i].name,
-                            isfinite(value) ? json_real(value) : json_null());
-    }
     return json_pack(
         "{s:s, s:s, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:O, s:I}", "scene", s->options->scene,
-        "oracle", report.name, "parameters", parameters, "replaced", replaced, "receiver",
-        element_json(s, 0), "emitter", element_json(s, 1), "discussed", !s->made, "pass",
-        s->made ? json_null() : json_integer(s->occasion->pass), "round",
+        "oracle", report.name, "parameters", oracle_parameters_json(s->watch->oracle), "replaced",
+        replaced, "receiver", element_json(s, 0), "emitter", element_json(s, 1), "discussed",
+        !s->made, "pass", s->made ? json_null() : json_integer(s->occasion->pass), "round",
         s->made ? json_null() : json_integer((json_int_t)s->occasion->round), "history", history,
         "discussion", s->occasion->json, "links", (json_int_t)count_links(s));
 }

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include "commands/account_summary.h"
 #include "commands/summary.h"
+#include "output/json_values.h"
 #include "util/decisions.h"
 
 /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
@@ -88,12 +89,10 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
 /* How the links were solved over, and to what. */
 static json_t *solver_json(const struct options *o, const struct RadReport *r)
 {
-    int bounded = isfinite(r->solved.bound);
     return json_pack("{s:s, s:s, s:b, s:f, s:o, s:f}", "method", solver_words[r->solver],
                      "projection", projection_words[r->projection], "tolerance_given",
                      o->tolerance > 0, "tolerance", r->solved.tolerance, "bound",
-                     bounded ? json_real(r->solved.bound) : json_null(), "variation",
-                     r->solved.variation);
+                     json_finite(r->solved.bound), "variation", r->solved.variation);
 }
 
 static json_t *basis_json(const struct RadReport *r)
