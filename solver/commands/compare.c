@@ -7,12 +7,12 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
+#include "commands/asked_oracle.h"
 #include "commands/commands.h"
 #include "output/json_file.h"
 #include "util/progress.h"
 #include "util/decisions.h"
 #include "util/device.h"
-#include "util/open_oracle.h"
 #include "util/report.h"
 #include "util/solved.h"
 
@@ -223,10 +223,7 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
                      ? RELEASES
                      : RELEASES - 1};
     for (int k = 0; k < panel.count; k++) {
-        enum RadRelease release = order[RELEASES - panel.count + k];
-        panel.releases[k] =
-            open_oracle_replaced(device, o->oracle, release, o->settings, o->setting_count,
-                                 o->replacements, o->replacement_count);
+        panel.releases[k] = open_asked_oracle(o, device, order[RELEASES - panel.count + k]);
         if (!panel.releases[k])
             return NULL;
     }

@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
+#include "commands/asked_oracle.h"
 #include "commands/commands.h"
 #include "commands/explain_steps.h"
 #include "commands/watch_pair.h"
@@ -16,8 +17,6 @@
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "util/device.h"
-#include "util/open_oracle.h"
-#include "util/parameter_file.h"
 #include "util/progress.h"
 #include "util/report.h"
 
@@ -302,14 +301,7 @@ static int explain_pair(const struct options *o, const struct open_scene *scene,
 int command_explain(const struct options *o, const struct open_scene *scene)
 {
     const struct RadSolveOptions how = solve_options(o);
-    RadOracle oracle = open_oracle_replaced(scene->device, o->oracle, RAD_RELEASE_DAG, NULL, 0,
-                                            o->replacements, o->replacement_count);
-    if (oracle
-        && ((o->params && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
-            || set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)) {
-        radReleaseOracle(oracle);
-        return 1;
-    }
+    RadOracle oracle = open_asked_oracle(o, scene->device, RAD_RELEASE_DAG);
     RadSolution solution = oracle ? radNewSolution(scene->scene, oracle, &how) : NULL;
     if (oracle && !solution)
         report_device(scene->device, o->scene);
