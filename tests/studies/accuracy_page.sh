@@ -136,7 +136,8 @@ fi
 has its thresholds swept (those that \`--accuracy\` scales), from 16 times as coarse as they are set to finer; \`$default\`, the default, also mended by
 particles (\`mended\`) and asked for an error by \`--accuracy\`. Particles and paths alone have a number of particles or
 of paths instead. Errors are against traced references, as shares of the reflected light: L1 of the means of faces, and
-of cells of 1e-4 of the area, which show shadows. Seconds are of one processor, without reading and writing."
+of cells of 1e-4 of the area, which show shadows. Seconds are what a run took of one processor, user and system, without reading and writing: not the
+clock's, so that what else the machine does counts for little."
     printf '![Error of faces over seconds, a panel per scene](accuracy.svg)\n\n![Error of cells over seconds, a panel per scene](accuracy_cells.svg)\n\n'
     for name in $names; do
         printf '## %s\n\n' "$name"

@@ -97,6 +97,17 @@ sed -i 's/^box,particles,count 1600,1,.16,.16,9,9,9,9,.02/box,particles,count 16
 check "a page is made again" page
 # from 4 % at .04 s to .25 % at .64 s: 1 % halfway, .16 s
 check "what the default's error takes between two runs" grep -qF 'particles alone 0.16 s' pages/accuracy.md
+printf '%s\n' 'box,particles,count 100,1,.01,.08,9,9,9,9,.4,.1,.1,0,.4,.1,.001,.001,.001,.001' 'box,paths,count 100,1,-,-,-,-,-,-,-,-,-,-,-,-,-,-,-,-' |
+    sed "1i $header" >partial.csv
+check "a page of two runs" sh -c 'cp pages/accuracy.csv all.csv && cp partial.csv pages/accuracy.csv'
+check "is made" page
+check "it says that little is known" grep -qF 'Nothing has an error of faces of 20 % or less yet: the least, 40 %, is by particles alone in 0.01 s.' pages/accuracy.md
+check "and that the default is missing" grep -qF 'The default, mended, at its own thresholds has no run here that ended' pages/accuracy.md
+printf '%s\n' 'box,power mended,thresholds x 1,1,.1,.1,9,9,9,9,.01,.1,.1,0,.01,.1,.001,.001,.001,.001' >>pages/accuracy.csv
+check "with the default alone" page
+check "it says what has no run" grep -qF 'particles alone 40 % at best (0.01 s), paths alone has no run that ended' pages/accuracy.md
+check "all rows again" sh -c 'cp all.csv pages/accuracy.csv'
+check "and their page" page
 check "without an optimum no word of it" sh -c '! grep -q "The floor" pages/accuracy.md'
 {
     echo scene,basis,thresholds,links,l1,greedy_l1,floor_l1,l2,greedy_l2,floor_l2
