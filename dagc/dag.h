@@ -517,6 +517,14 @@ int dag_oracle(const struct dag *dag, const char *name);
 /* The node of the oracle at this place of its topological order, from 0. */
 const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph *oracle, int place);
 
+/* held[u], one byte for each of uses, is 1 where some of the oracle's nodes are copies made for
+ * this use of a branch, or for one in it. */
+void dag_held_uses(const struct dag *dag, const struct oracle_graph *oracle, unsigned char *held);
+
+/* The node's name without its branch's: "pair__cut__guard" in "pair__cut" is "guard". `name` of a
+ * node or of a use, `use` the one around it; -1: none. */
+const char *dag_name_in_use(const struct dag *dag, const char *name, int use);
+
 /* "precise", "approximate", "other". */
 const char *dag_kind_name(enum kind kind);
 

@@ -1,5 +1,7 @@
 /* analyse.c - the analyses in their order, and the search for a path that proves what they say.
  * SPDX-License-Identifier: MIT */
+#include <string.h>
+
 #include "analyse/analyse.h"
 
 void dag_analyse(struct dag *dag)
@@ -114,6 +116,23 @@ const struct node *dag_search_turn(const struct search *search, const struct nod
 const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph *oracle, int place)
 {
     return &dag->nodes[dag->order[oracle->order.first + place]];
+}
+
+void dag_held_uses(const struct dag *dag, const struct oracle_graph *oracle, unsigned char *held)
+{
+    memset(held, 0, (size_t)dag->use_count);
+    for (int i = 0; i < oracle->order.count; i++)
+        for (int u = dag_node_at(dag, oracle, i)->use; u >= 0 && !held[u]; u = dag->uses[u].outer)
+            held[u] = 1;
+}
+
+const char *dag_name_in_use(const struct dag *dag, const char *name, int use)
+{
+    size_t length = use < 0 ? 0 : strlen(dag->uses[use].node);
+    return length > 0 && strncmp(name, dag->uses[use].node, length) == 0
+                   && strncmp(name + length, "__", 2) == 0
+               ? name + length + 2
+               : name;
 }
 
 const char *dag_kind_name(enum kind kind)

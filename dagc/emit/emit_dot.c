@@ -5,7 +5,8 @@
  * dashed: approximate, dotted: other). Answers of one kind with one target share an arc. Leaves
  * are drawn small, once below each node that decides, because arcs from everywhere to one
  * `stop` would hide the graph; their colour tells a decision that subdivides (orange) and one that
- * uses terms (green) from one that does neither (grey).
+ * uses terms (green) from one that does neither (grey). A branch is a frame around the nodes that
+ * stand in its place, with its own name for them.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
@@ -14,6 +15,8 @@
 struct drawing {
     struct dag *dag;
     struct text *out;
+    const struct oracle_graph *graph;
+    const unsigned char *held; /* by use of a branch: is it one of this oracle's? */
     int oracle; /* its number stands before every name, so that several can share a drawing */
 };
 
@@ -70,7 +73,7 @@ static void print_node(const struct drawing *drawing, const struct node *node)
     struct text *out = drawing->out;
     const struct tool *tool = &dag->tools[node->tool];
     dag_print(out, "  \"%d.%s\" [label=<<b>%s</b><br/><font point-size=\"10\">", drawing->oracle,
-              node->name, node->name);
+              node->name, dag_name_in_use(dag, node->name, node->use));
     print_escaped(out, tool->name);
     dag_print(out, "</font>");
     for (int i = 0; i < node->arguments.count; i++) {
@@ -124,19 +127,55 @@ static void print_leaf(const struct drawing *drawing, const struct node *node, i
         drawing->oracle, node->name, leaf->name, leaf->name, leaf_colour(leaf));
 }
 
+/* Does an answer before this one lead to the same place? */
+static int is_repeated(const struct drawing *drawing, const struct node *node, int answer)
+{
+    const struct arc *arcs = &drawing->dag->arcs[node->arcs.first];
+    for (int a = 0; a < answer; a++)
+        if (same_target(&arcs[a].target, &arcs[answer].target))
+            return 1;
+    return 0;
+}
+
+static void print_node_and_leaves(const struct drawing *drawing, const struct node *node)
+{
+    print_node(drawing, node);
+    for (int a = 0; a < node->arcs.count; a++) {
+        const struct target *target = &drawing->dag->arcs[node->arcs.first + a].target;
+        if (target->kind == TARGET_DECISION && !is_repeated(drawing, node, a))
+            print_leaf(drawing, node, target->index);
+    }
+}
+
+/* The nodes that stand in this use of a branch (-1: in none), then the uses in it, each in its
+ * frame. Arcs come after all of them: Graphviz puts what an arc names where it stands. */
+static void print_shapes(const struct drawing *drawing, int use)
+{
+    struct dag *dag = drawing->dag;
+    for (int i = 0; i < drawing->graph->order.count; i++)
+        if (dag_node_at(dag, drawing->graph, i)->use == use)
+            print_node_and_leaves(drawing, dag_node_at(dag, drawing->graph, i));
+    for (int u = 0; u < dag->use_count; u++) {
+        const struct use *inner = &dag->uses[u];
+        if (!drawing->held[u] || inner->outer != use)
+            continue;
+        dag_print(drawing->out,
+                  "  subgraph \"cluster%d.%s\" {\n  label=\"%s = %s\"; labelloc=t; fontsize=10; "
+                  "fontcolor=\"#555555\"; style=\"rounded,filled\"; fillcolor=\"#f7f8fb\"; "
+                  "color=\"#b5bccb\"; margin=10;\n",
+                  drawing->oracle, inner->node, dag_name_in_use(dag, inner->node, use),
+                  dag->branches[inner->branch].name);
+        print_shapes(drawing, u);
+        dag_print(drawing->out, "  }\n");
+    }
+}
+
 static void print_arcs(const struct drawing *drawing, const struct node *node)
 {
     unsigned char done[ANSWERS_MAX] = {0};
-    for (int a = 0; a < node->arcs.count; a++) {
-        const struct target *target = &drawing->dag->arcs[node->arcs.first + a].target;
-        int seen = 0;
-        for (int b = 0; b < a; b++)
-            seen |= same_target(&drawing->dag->arcs[node->arcs.first + b].target, target);
-        if (target->kind == TARGET_DECISION && !seen)
-            print_leaf(drawing, node, target->index);
+    for (int a = 0; a < node->arcs.count; a++)
         if (!done[a])
             print_arc(drawing, node, a, done);
-    }
 }
 
 /* ---- the caption: what the oracle is, and a row per parameter */
@@ -182,14 +221,16 @@ static void print_caption(const struct drawing *drawing, const struct oracle_gra
     dag_print(out, "</tr><tr><td colspan=\"4\" align=\"left\"><font color=\"#555555\">solid: "
                    "precise answer; dashed: "
                    "approximate; dotted: other; heavy frame: guard; tinted box: "
-                   "command</font></td></tr></table>>;\n");
+                   "command; frame around nodes: a branch</font></td></tr></table>>;\n");
 }
 
 /* Several oracles stand side by side, each in its own frame. */
 static void print_oracle(struct dag *dag, struct text *out, int index)
 {
     const struct oracle_graph *oracle = &dag->oracles[index];
-    struct drawing drawing = {dag, out, index};
+    unsigned char *held = dag_alloc(&dag->arena, (size_t)dag->use_count);
+    struct drawing drawing = {dag, out, oracle, held, index};
+    dag_held_uses(dag, oracle, held);
     if (dag->oracle_count > 1)
         dag_print(out, "  subgraph \"cluster%d\" {\n  color=\"#cccccc\";\n", index);
     print_caption(&drawing, oracle);
@@ -197,10 +238,9 @@ static void print_oracle(struct dag *dag, struct text *out, int index)
               "  \"%d start\" [label=\"start\", shape=plain, fontcolor=\"#555555\"];\n"
               "  \"%d start\" -> \"%d.%s\";\n",
               index, index, index, oracle->start.name);
-    for (int i = 0; i < oracle->order.count; i++) {
-        print_node(&drawing, dag_node_at(dag, oracle, i));
+    print_shapes(&drawing, -1);
+    for (int i = 0; i < oracle->order.count; i++)
         print_arcs(&drawing, dag_node_at(dag, oracle, i));
-    }
     if (dag->oracle_count > 1)
         dag_print(out, "  }\n");
 }

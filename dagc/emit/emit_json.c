@@ -331,22 +331,14 @@ static void print_expression(struct dag *dag, struct text *out, int expression)
     dag_print(out, "}");
 }
 
-/* Is some node that the oracle reaches a part of it, or of a branch in it? */
-static int holds_nodes(const struct dag *dag, const struct oracle_graph *oracle, int use)
-{
-    for (int i = 0; i < oracle->order.count; i++)
-        for (int u = dag_node_at(dag, oracle, i)->use; u >= 0; u = dag->uses[u].outer)
-            if (u == use)
-                return 1;
-    return 0;
-}
-
 /* The places where branches are used, as far as their nodes are reached; outer ones first. */
 static void print_branches(struct dag *dag, struct text *out, const struct oracle_graph *oracle)
 {
     int count = 0;
+    unsigned char *held = dag_alloc(&dag->arena, (size_t)dag->use_count);
+    dag_held_uses(dag, oracle, held);
     for (int u = 0; u < dag->use_count; u++) {
-        if (!holds_nodes(dag, oracle, u))
+        if (!held[u])
             continue;
         const struct oracle_graph *branch = &dag->branches[dag->uses[u].branch];
         dag_print(out, "%s", count == 0 ? ",\n     \"branches\": [" : "");

@@ -81,9 +81,18 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
                                 const double on[3], const double normal[3])
 {
     double h[REFINER_POLYGON_MAX];
-    for (int i = 0; i < n; i++)
+    int front = 0;
+    for (int i = 0; i < n; i++) {
         h[i] = refiner_height3(v[i], on, normal);
-    out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
+        front += h[i] >= 0;
+    }
+    out->n = n;
+    if (front < n)
+        out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
+    else /* most planes cut nothing */
+        for (int i = 0; i < n; i++)
+            for (int k = 0; k < 3; k++)
+                out->v[i][k] = v[i][k];
     if (out->n < 3)
         out->n = 0;
 }
@@ -540,16 +549,18 @@ struct refiner_contour_factor_edge {
 static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from,
                                           double to)
 {
-    static const double node[2] = {0.53846931010568309104, 0.90617984593866399280};
-    static const double weight[3] = {0.56888888888888888889, 0.47862867049936646804,
+    static const double node[5] = {-0.90617984593866399280, -0.53846931010568309104, 0,
+                                   0.53846931010568309104, 0.90617984593866399280};
+    static const double weight[5] = {0.23692688505618908751, 0.47862867049936646804,
+                                     0.56888888888888888889, 0.47862867049936646804,
                                      0.23692688505618908751};
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    for (int i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
+    for (int i = 0; i < 5; i++) {
+        double s = middle + half * node[i], p[3];
         p[0] = g->p[0] + s * g->e[0];
         p[1] = g->p[1] + s * g->e[1];
         p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i < 0 ? -i : i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
+        sum += weight[i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
     }
     return sum * half;
 }
@@ -716,21 +727,26 @@ static inline double refiner_polygon_factor_quad(const double (*v)[3], const dou
                                       {0.21132486540518711775, 0.78867513459481288225, 0},
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
-    double sum = 0;
-    for (int i = 0; i <= order; i++)
+    double sum = 0, near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
+    refiner_sub3(near, v[1], v[0]);
+    refiner_sub3(far, v[2], v[3]);
+    for (int i = 0; i <= order; i++) {
+        double s = node[order][i], low[3], dt[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = v[0][k] + s * near[k];
+            dt[k] = v[3][k] + s * far[k] - low[k];
+        }
         for (int j = 0; j <= order; j++) {
-            double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
+            double t = node[order][j], p[3], ds[3], jacobian[3];
             for (int k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]),
-                       high = v[3][k] + s * (v[2][k] - v[3][k]);
-                p[k] = low + t * (high - low);
-                dt[k] = high - low;
-                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+                p[k] = low[k] + t * dt[k];
+                ds[k] = (1 - t) * near[k] + t * far[k];
             }
             refiner_cross3(jacobian, ds, dt);
             sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n)
                    * refiner_lambert_sum(p, n, (const double(*)[3])q->v, q->n);
         }
+    }
     return sum;
 }
 

@@ -59,16 +59,18 @@ struct contour_factor_edge {
 static inline double contour_factor_gauss(const struct contour_factor_edge *g, double from,
                                           double to)
 {
-    static const double node[2] = {0.53846931010568309104, 0.90617984593866399280};
-    static const double weight[3] = {0.56888888888888888889, 0.47862867049936646804,
+    static const double node[5] = {-0.90617984593866399280, -0.53846931010568309104, 0,
+                                   0.53846931010568309104, 0.90617984593866399280};
+    static const double weight[5] = {0.23692688505618908751, 0.47862867049936646804,
+                                     0.56888888888888888889, 0.47862867049936646804,
                                      0.23692688505618908751};
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    for (int i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
+    for (int i = 0; i < 5; i++) {
+        double s = middle + half * node[i], p[3];
         p[0] = g->p[0] + s * g->e[0];
         p[1] = g->p[1] + s * g->e[1];
         p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i < 0 ? -i : i] * contour_factor_line(p, g->a, g->u, g->length);
+        sum += weight[i] * contour_factor_line(p, g->a, g->u, g->length);
     }
     return sum * half;
 }

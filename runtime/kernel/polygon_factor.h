@@ -64,21 +64,26 @@ static inline double polygon_factor_quad(const double (*v)[3], const double n[3]
                                       {0.21132486540518711775, 0.78867513459481288225, 0},
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
-    double sum = 0;
-    for (int i = 0; i <= order; i++)
+    double sum = 0, near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
+    sub3(near, v[1], v[0]);
+    sub3(far, v[2], v[3]);
+    for (int i = 0; i <= order; i++) {
+        double s = node[order][i], low[3], dt[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = v[0][k] + s * near[k];
+            dt[k] = v[3][k] + s * far[k] - low[k];
+        }
         for (int j = 0; j <= order; j++) {
-            double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
+            double t = node[order][j], p[3], ds[3], jacobian[3];
             for (int k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]),
-                       high = v[3][k] + s * (v[2][k] - v[3][k]);
-                p[k] = low + t * (high - low);
-                dt[k] = high - low;
-                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+                p[k] = low[k] + t * dt[k];
+                ds[k] = (1 - t) * near[k] + t * far[k];
             }
             cross3(jacobian, ds, dt);
             sum += weight[order][i] * weight[order][j] * dot3(jacobian, n)
                    * lambert_sum(p, n, (const double(*)[3])q->v, q->n);
         }
+    }
     return sum;
 }
 

@@ -362,7 +362,8 @@ const struct command_row command_rows[COMMANDS] = {
          "one, parallel plates, a lamp over a wall. Hold error and links, in L1 and L2, by\n"
          "constants and linear elements, against greedy links: those of which each split\n"
          "was the one that lowered the true error most. `times`: by how much the error\n"
-         "is larger with as many links; `links`: how many greedy links reach that error.\n",
+         "is larger with as many links; `links`: how many greedy links reach that\n"
+         "error; `floor`: the least that constants over N parts, N large, err by.\n",
          "radiosity study greedy --oracle bf_guarded"},
     [COMMAND_DRAW] =
         {"draw", "ORACLE", "an oracle's graph as a picture, with a solve's heat",

@@ -1,5 +1,6 @@
 /* study_greedy.c - `radiosity study greedy`: error of an oracle's links where light is smooth,
- * against what greedy links make (greedy.h), by constants and by linear elements.
+ * against what greedy links make (greedy.h), by constants and by linear elements, and against the
+ * least that constants can do (best_squares.h).
  *
  * Four scenes without shadows, whose light is known: an empty white cube, in which one element for
  * each face is exact, the cube lit by its ceiling, two parallel plates, and the lamp over a wall of
@@ -19,6 +20,7 @@
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "output/solution.h"
+#include "study/best_squares.h"
 #include "study/greedy.h"
 #include "study/made_scene.h"
 #include "study/study.h"
@@ -205,8 +207,10 @@ static int compare_with(const struct greedy *g, int basis, struct row row[TIMES]
     return status;
 }
 
-/* Returns 0, or -1 after a message. */
-static int measure_scene(const struct options *o, int which, struct row rows[BASES][TIMES])
+/* `best`: the least error of constants, as a share, times the root of the links. Returns 0, or -1
+ * after a message. */
+static int measure_scene(const struct options *o, int which, struct row rows[BASES][TIMES],
+                         double best[GREEDY_NORMS])
 {
     struct greedy_face faces[GREEDY_FACES];
     struct greedy g;
@@ -217,6 +221,9 @@ static int measure_scene(const struct options *o, int which, struct row rows[BAS
         status = 0;
         if (greedy_open(&g, faces, count) < 0)
             status = report_error("study greedy", 0, "out of memory for the cells' factors");
+        for (int n = 0; n < GREEDY_NORMS && status == 0; n++)
+            best[n] =
+                best_squares(&g, (enum greedy_norm)n) / greedy_reflected(&g, (enum greedy_norm)n);
         for (int b = 0; b < BASES && status == 0; b++) {
             for (int k = 0; k < TIMES && status == 0; k++)
                 status = measure(o, &g, device, scene, b, times[k], &rows[b][k]);
@@ -240,7 +247,8 @@ static void print_or_dash(int width, int digits, double value, int known)
         printf(" %*s", width, "-");
 }
 
-static void print_scene(int scene, const struct row rows[BASES][TIMES])
+static void print_scene(int scene, const struct row rows[BASES][TIMES],
+                        const double best[GREEDY_NORMS])
 {
     printf("%s\n%-9s %9s %8s  %8s %8s %7s %7s  %8s %8s %7s %7s\n", scene_names[scene], "basis",
            "threshold", "links", "L1, %", "greedy", "times", "links", "L2, %", "greedy", "times",
@@ -257,10 +265,15 @@ static void print_scene(int scene, const struct row rows[BASES][TIMES])
                 putchar(n == 0 ? ' ' : '\n');
             }
         }
+    if (best[0] > EXACT)
+        printf(
+            "%-9s constants over N parts, N large: at least %.3g %% / sqrt N (L1), %.3g %% (L2)\n",
+            "floor", 100 * best[0], 100 * best[1]);
     printf("\n");
 }
 
-static json_t *scene_json(int scene, const struct row rows[BASES][TIMES])
+static json_t *scene_json(int scene, const struct row rows[BASES][TIMES],
+                          const double best[GREEDY_NORMS])
 {
     json_t *list = json_array();
     for (int b = 0; b < BASES; b++)
@@ -276,30 +289,32 @@ static json_t *scene_json(int scene, const struct row rows[BASES][TIMES])
                                 (json_int_t)r->greedy_links[0], "l2", r->error[1], "greedy_l2",
                                 shares[1], "greedy_links_l2", (json_int_t)r->greedy_links[1]));
         }
-    return json_pack("{s:s, s:o}", "scene", scene_names[scene], "rows", list);
+    return json_pack("{s:s, s:f, s:f, s:o}", "scene", scene_names[scene], "floor_l1", best[0],
+                     "floor_l2", best[1], "rows", list);
 }
 
 int study_greedy(const struct options *o, const struct open_scene *none)
 {
     struct row rows[BASES][TIMES];
+    double best[GREEDY_NORMS];
     json_t *table = o->json ? json_array() : NULL;
     (void)none;
     for (int i = 0; i < SCENES; i++) {
         struct progress progress;
         progress_start(&progress, o->quiet);
         progress_say(&progress, "%s", scene_names[i]);
-        int status = measure_scene(o, i, rows);
+        int status = measure_scene(o, i, rows, best);
         progress_end(&progress);
         if (status < 0) {
             json_decref(table);
             return 1;
         }
         if (!o->quiet) {
-            print_scene(i, (const struct row(*)[TIMES])rows);
+            print_scene(i, (const struct row(*)[TIMES])rows, best);
             fflush(stdout);
         }
         if (o->json)
-            json_array_append_new(table, scene_json(i, (const struct row(*)[TIMES])rows));
+            json_array_append_new(table, scene_json(i, (const struct row(*)[TIMES])rows, best));
     }
     return o->json && json_file_write(o->json, table) < 0;
 }

@@ -177,6 +177,7 @@ check "--emit=dot" sh -c "$run --emit=dot good.dag | dot -Tplain | grep -q ^edge
 check "--emit=dot, two oracles" sh -c "$run --emit=dot '$here/emit_header_name.dag' | dot -Tplain | grep -q ^edge"
 check "--emit=dot, odd characters" sh -c "$run --emit=dot odd.dag | dot -Tplain | grep -q ^edge"
 check "--emit=svg" sh -c "$run --emit=svg -o good.svg good.dag && grep -q '</svg>' good.svg"
+check "--emit=svg frames branches" sh -c "$dagc --catalog '$here/analysis_catalog.dag' -Wno-all --emit=svg '$here/emit_dot_branch.dag' | grep -c 'class=\"cluster\"' | grep -qx 4"
 check "--emit=svg to standard output" sh -c "$run --emit=svg good.dag | cmp - good.svg"
 old
 check "--emit=svg without Graphviz" fails_with 1 "cannot run 'dot'" env PATH=/nowhere $run --emit=svg -o old.c good.dag

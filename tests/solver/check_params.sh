@@ -36,6 +36,7 @@ same() {
 
 same 'oracle ff\n' "" ""
 same '# mine\n\n  oracle\tff \nlimit = 0.5 # rough\n\trays=4\n' "" "--set limit=0.5 --set rays=4"
+same '\357\273\277oracle ff\nlimit = 0.5' "" "--set limit=0.5"
 same 'oracle ff\r\nlimit = 5e-1\r\n' "" "--set limit=0.5"
 same 'oracle ff\nlimit = 0.01' "--set limit=0.5" "--set limit=0.5"
 same 'oracle ff\nlimit = inf\nmin_share = 0.1' "" "--set limit=inf --set min_share=0.1"

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "study/arvo.h"
+#include "study/best_squares.h"
 #include "study/closed_forms.h"
 #include "study/greedy.h"
 #include "folder.h"
@@ -195,6 +196,56 @@ START_TEST(the_default_is_within_twice_the_greedy_optimum)
 }
 END_TEST
 
+/* A plane over a square: all squares alike, whose error is summed here. */
+START_TEST(best_squares_of_a_plane)
+{
+    enum { CELLS = 48, PARTS = 3, SIDE = CELLS / PARTS };
+    static double b[CELLS * CELLS];
+    static const double slope[3][2] = {{1, 0}, {-2, 2}, {0.5, -3}};
+    struct greedy g = {
+        .face = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, CELLS, 0.5, 0}}, .count = 1, .radiosity = {b}};
+    for (int k = 0; k < 3; k++) {
+        double sum = 0, squares = 0, cell = 2.0 / CELLS;
+        for (int i = 0; i < CELLS * CELLS; i++)
+            b[i] = 7 + slope[k][0] * (i % CELLS) * cell + slope[k][1] * (i / CELLS) * cell;
+        for (int i = 0; i < CELLS * CELLS; i++) {
+            double x = (i % CELLS % SIDE - 0.5 * (SIDE - 1)) * cell,
+                   y = (i / CELLS % SIDE - 0.5 * (SIDE - 1)) * cell,
+                   off = slope[k][0] * x + slope[k][1] * y;
+            sum += fabs(off) * cell * cell;
+            squares += off * off * cell * cell;
+        }
+        /* cells are few: 16 points along a side stand for it */
+        ck_assert_double_eq_tol(best_squares(&g, GREEDY_L1) / PARTS, sum, 0.01 * sum);
+        ck_assert_double_eq_tol(best_squares(&g, GREEDY_L2) / (2 * PARTS), 0.5 * sqrt(squares),
+                                0.005 * sqrt(squares));
+    }
+}
+END_TEST
+
+/* Of the wall below the lamp: no greedy link does with less, and greedy quadtrees, whose squares
+ * have sizes of 2^-k alone, with not much more. (Of a cell's size nothing is left to be wrong:
+ * there are many cells for each link.) */
+START_TEST(greedy_links_are_above_the_best_squares)
+{
+    static struct greedy_step steps[MOST];
+    struct greedy g;
+    open_wall(&g, 256);
+    for (int n = 0; n < GREEDY_NORMS; n++) {
+        double best = best_squares(&g, (enum greedy_norm)n);
+        int count = greedy_run(&g, (enum greedy_norm)n, 0, 0, 1000, steps);
+        ck_assert_int_gt(count, 100);
+        for (int i = 0; i < count; i++)
+            if (steps[i].links > 60) {
+                double least = best / sqrt((double)steps[i].links);
+                ck_assert_double_gt(steps[i].error, least);
+                ck_assert_double_lt(steps[i].error, 1.3 * least);
+            }
+    }
+    greedy_close(&g);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("study greedy");
@@ -204,6 +255,8 @@ int main(void)
     tcase_add_test(t, constants_are_as_good_as_a_greedy_quadtree);
     tcase_add_test(t, planes_are_least_squares);
     tcase_add_test(t, all_splits_leave_nothing);
+    tcase_add_test(t, best_squares_of_a_plane);
+    tcase_add_test(t, greedy_links_are_above_the_best_squares);
     tcase_add_test(t, the_default_is_within_twice_the_greedy_optimum);
     tcase_set_timeout(t, 600);
     suite_add_tcase(suite, t);

@@ -106,5 +106,23 @@ for name in ${SCENES_OF_STUDIES:-cornell room panels maze_8 td soda}; do
     done
     say_left "$name" "${BUDGET:-100}" $left
 done
+find_optimum
 rows_of_binary "$pages/accuracy.csv"
+# From the lists of study greedy a row for each solve: what the oracle's links err by, greedy ones, the best constants.
+{
+    echo scene,basis,thresholds,links,l1,greedy_l1,floor_l1,l2,greedy_l2,floor_l2
+    awk -f "$tables/json.awk" "$optimum.json" | awk '
+        function floor(norm) { return v["basis"] == "constant" ? v["floor_" norm] / sqrt(v["links"]) : "-" }
+        function known(name) { return name in v ? v[name] : "-" }
+        {
+            name = $1
+            sub(/.*\./, "", name)
+            v[name] = substr($0, length($1) + 2)
+        }
+        name == "basis" { delete v["greedy_l1"]; delete v["greedy_l2"] }
+        name == "greedy_links_l2" {
+            printf "%s,%s,x %g,%d,%s,%s,%s,%s,%s,%s\n", v["scene"], v["basis"], v["times"], v["links"], v["l1"], known("greedy_l1"), floor("l1"),
+                v["l2"], known("greedy_l2"), floor("l2")
+        }'
+} >"$pages/accuracy_optimum.csv"
 . "$studies/accuracy_page.sh"

@@ -36,7 +36,7 @@ function best_of(name, i, best) {
 function beside(name, wanted, t, best) {
     best = best_of(name)
     t = time_for(name, wanted)
-    return called(name) (t == "" ? (best ? sprintf(" %.2g %% at best (%.2g s)", e[best], s[best]) : " not run") \
+    return called(name) (t == "" ? (best ? sprintf(" %.2g %% at best (%.2g s)", e[best], s[best]) : " has no run that ended") \
         : sprintf(" %.2g s", t))
 }
 function add(to, at) {
@@ -54,7 +54,8 @@ END {
         was = i
     }
     add(to, was)
-    printf "The fastest, by the error of %s: %s; the least of all, %.2g %%, is by %s in %.2g s.\n", what, text, error[n],
+    if (text == "") printf "Nothing has an error of %s of 20 %% or less yet: the least, %.2g %%, is by %s in %.2g s.\n", what, error[n], called(method[n]), time[n]
+    else printf "The fastest, by the error of %s: %s; the least of all, %.2g %%, is by %s in %.2g s.\n", what, text, error[n],
         called(method[n]), time[n]
     for (i = 1; i <= m; i++)
         if (by[i] == own "_mended" && run[i] == "thresholds_x_1") {
@@ -62,4 +63,5 @@ END {
                 beside("particles", e[i]), beside("paths", e[i]), beside(own "_asked", e[i])
             exit
         }
+    printf "The default, mended, at its own thresholds has no run here that ended, so nothing can be said of what its error takes by others.\n"
 }

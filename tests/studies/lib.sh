@@ -115,21 +115,30 @@ say_left() { # SCENE BUDGET RUNS
     [ "$3" = 0 ] || say "$1: the budget of $2 s is spent, $3 runs are left for another time"
 }
 
+# Greedy links and what formulas allow, where light is known: $results/greedy_$binary.txt and .json, made once by each command.
+optimum=$results/greedy_$binary
+find_optimum() {
+    [ ! -s "$optimum.json" ] || return 0
+    say "study greedy"
+    "$radiosity" study greedy --threads 1 --json "$tmp/greedy.json" >"$tmp/greedy.txt" || fail "radiosity study greedy ended with exit status $?"
+    mv "$tmp/greedy.txt" "$optimum.txt"
+    mv "$tmp/greedy.json" "$optimum.json"
+}
+
 # ---- pages
 
-# What gnuplot draws of a script at standard input, with ink and paper that follow the reader's light or dark. Ink is
-# #111111, paper #fefefe.
+# What gnuplot draws of a script at standard input, made small (small_svg.awk), with ink and paper that follow the reader's
+# light or dark. Ink is #111111, paper #fefefe.
 draw() { # FILE.svg WIDTH,HEIGHT
     {
         echo "set terminal svg size $2 dynamic font 'sans-serif,13' background '#fefefe'"
-        echo "set border lc rgb '#111111'"
+        echo "set border lc rgb '#111111'; set tics nomirror"
         echo "set key textcolor rgb '#111111'"
         for what in title xlabel ylabel; do echo "set $what textcolor rgb '#111111'"; done
         cat
     } >"$tmp/script.gp"
     gnuplot "$tmp/script.gp" >"$tmp/chart.svg" 2>"$tmp/gnuplot.err" || { cat "$tmp/gnuplot.err" >&2 && fail "gnuplot cannot draw $1"; }
-    sed -e 's,^<title>.*</title>,<style>@media (prefers-color-scheme: dark) { [fill="#fefefe"] { fill: #0d1117 } [fill="rgb(17\,17\,17)"]\, [fill="black"] { fill: #e6edf3 } [stroke="rgb( 17\,  17\,  17)"]\, [stroke="black"] { stroke: #e6edf3 } [color="black"] { color: #e6edf3 } }</style>,' \
-        -e '/^<desc>/d' -e '/^$/d' "$tmp/chart.svg" >"$tmp/chart.new.svg"
+    awk -f "$studies/small_svg.awk" "$tmp/chart.svg" >"$tmp/chart.new.svg" || fail "$1 cannot be drawn"
     mv "$tmp/chart.new.svg" "$1"
 }
 

@@ -66,11 +66,7 @@ if command -v size >/dev/null; then
     done
 fi
 rows_of_binary "$pages/need.csv"
-greedy=$results/need_greedy_$binary.txt
-if "$radiosity" study --help | grep -q ' greedy ' && [ ! -s "$greedy" ]; then
-    "$radiosity" study greedy >"$tmp/greedy" || fail "radiosity study greedy ended with exit status $?"
-    mv "$tmp/greedy" "$greedy"
-fi
+find_optimum
 
 # ---- the page
 names=$(awk -F , 'NR > 1 && $1 != "-" && !seen[$1]++ { print $1 }' "$pages/need.csv")
@@ -126,10 +122,10 @@ names=$(awk -F , 'NR > 1 && $1 != "-" && !seen[$1]++ { print $1 }' "$pages/need.
             }
             if (most) printf "\nAt no larger error the default has %.1f (%s) to %.1f (%s) times fewer links.\n", least, least_at, most, most_at
         }' "$pages/need.csv"
-    if [ -s "$greedy" ]; then
+    if [ -s "$optimum.txt" ]; then
         printf '\n## The optimum\n\nWhere light is known exactly, links can be held against greedy ones, each split being the one that lowers the true error most:\n\n'
         printf '    $ build/bin/radiosity study greedy\n'
-        sed 's/^\(.\)/    \1/' "$greedy"
+        sed 's/^\(.\)/    \1/' "$optimum.txt"
     fi
     printf '\n## Bytes\n\n'
     awk -F , -v own="$default" '
