@@ -8,8 +8,9 @@
  *
  * How sure is what mending says? Of a polygon that particles hardly met, what is left is what links
  * said, and the classes of mend.c tell their errors where most surfaces are bright. So it is
- * thought to be off by the standard error s of the particles: as much as these would let pass.
- * Taken is the mean of both, each by the inverse of its variance.
+ * thought to be off by the standard error s of the particles, as much as these would let pass; and
+ * by what it differs from them where that is more: links as wrong as no others are believed too
+ * much. Taken is the mean of both, each by the inverse of its variance.
  *
  * How many paths? So many that 1 / (1 / s^2 + n / v), v the variance of one, is the square of
  * DIM_GOAL of its light. Few tell first how noisy they are and how much light there is. Then
@@ -86,7 +87,7 @@ static void list_faces(struct dim_faces *d)
 }
 
 /* What mending says of a polygon, and how sure that is: by how replicates differ, and as if one
- * more particle might have met it. */
+ * more particle might have met it; or by how far it is from what these counted. */
 static void weigh(const struct dim_faces *d, const struct tally *tally, struct dim_polygon *p)
 {
     const struct tracer *t = d->tracer;
@@ -100,7 +101,6 @@ static void weigh(const struct dim_faces *d, const struct tally *tally, struct d
         mean += sum / REPLICATES;
         square += sum * sum / REPLICATES;
     }
-    p->variance = fmax(square - mean * mean, 0) / (REPLICATES - 1) + one * one;
     for (uint32_t i = p->from; i < p->to; i++)
         for (uint32_t k = 0; k < t->bands; k++) {
             size_t at = (size_t)t->hierarchy->face_element[d->face[i]] * t->bands + k;
@@ -109,6 +109,8 @@ static void weigh(const struct dim_faces *d, const struct tally *tally, struct d
             p->mended[k] += part;
             p->light += t->reflectance[(size_t)d->face[i] * t->bands + k] * part;
         }
+    p->variance = fmax(fmax(square - mean * mean, 0) / (REPLICATES - 1) + one * one,
+                       (p->light - mean) * (p->light - mean));
 }
 
 /* Those that are dim; the others are forgotten. */
