@@ -28,8 +28,11 @@
 #include "engine/dim_paths.h"
 #include "kernel/constants.h"
 
-enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
-#define FIRST 0.125        /* of the rays: those that tell how noisy paths are */
+enum {
+    RAYS_OF_PATH = 4, /* about, before any is traced */
+    ENOUGH = 4        /* times the paths of the first look: chosen, its noise is then halved */
+};
+#define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
 #define NOT_DIM UINT32_MAX
 
 static double strongest(const struct tracer *t, uint32_t face)
@@ -230,6 +233,8 @@ static int trace_all(struct dim_faces *d, double budget)
             d->polygon[j].wanted -= (d->polygon[j].wanted - d->polygon[j].paths) / 2;
         if (dim_paths_trace(d) < 0)
             return -1;
+        for (uint32_t j = 0; j < d->count && part == 2; j++)
+            d->polygon[j].looked = d->polygon[j].paths;
     }
     return 0;
 }
@@ -243,10 +248,11 @@ static double power_of(const struct dim_faces *d, uint32_t element, uint32_t ban
            * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
 }
 
-/* The mean irradiance of a dim polygon in a band, by what is known of both (W/m2). */
+/* The mean irradiance of a dim polygon in a band, by what is known of both (W/m2). What a first
+ * look found says as little of its own noise as of the light: it is not believed without more. */
 static double mean_of(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
 {
-    double weight = path_weight(d, p);
+    double weight = p->paths >= ENOUGH * p->looked ? path_weight(d, p) : 0;
     return (1 - weight) * p->mended[band] + weight * p->sum[band] / (double)p->paths;
 }
 

@@ -17,6 +17,7 @@ struct dim_polygon {
     double variance;   /* s^2 of that */
     double mended[3];  /* mean irradiance once mended (W/m2) */
     int planned;       /* 1: is to reach DIM_GOAL */
+    uint64_t looked;   /* paths of a first look */
     uint64_t paths, wanted, rays;
     double sum[3];      /* over paths: of what they find, H (W/m2); */
     double all, square; /* of rho H, all bands, and of its square */
