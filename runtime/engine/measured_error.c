@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/detail.h"
+#include "engine/dim_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/ray_split.h"
@@ -180,7 +181,8 @@ static int mend_gradient(struct solve *s)
     size_t values = (size_t)s->hierarchy.count * p->bands;
     if (!s->linear.gradient)
         return 0;
-    s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
+    if (!s->mended_gradient)
+        s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
     if (!s->mended_gradient)
         return -1;
     for (size_t i = 0; i < values; i++) {
@@ -197,7 +199,30 @@ static int mend_gradient(struct solve *s)
     return 0;
 }
 
-static int mend(struct solve *s, const struct tally *tally)
+/* What goes with the irradiances of the mended solution. Returns 0, or -1 when out of memory. */
+static int follow_irradiance(struct solve *s)
+{
+    struct state *mended = &s->mended;
+    set_radiosity(&s->operator, mended, s->state.radiosity);
+    return mend_gradient(s);
+}
+
+/* Dim polygons, whose rays are added to *spent. Returns 0, or -1 when out of memory or cancelled.
+ */
+static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
+                    uint64_t *spent)
+{
+    double budget = DIM_RAYS * (double)tally->rays;
+    struct watched watched = {.solve = s,
+                              .before = tally->rays + *spent,
+                              .now = budget,
+                              .all = (double)(tally->rays + *spent) + budget};
+    const struct watch watch = {tell, &watched};
+    int changed = dim_faces_mend(s, t, tally, (uint64_t)budget, &watch, spent);
+    return changed > 0 ? follow_irradiance(s) : changed;
+}
+
+static int mend(struct solve *s, const struct tracer *t, const struct tally *tally, uint64_t *spent)
 {
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     struct state *m = &s->mended;
@@ -206,11 +231,9 @@ static int mend(struct solve *s, const struct tally *tally)
     m->irradiance = malloc(values * sizeof *m->irradiance);
     if (m->radiosity && m->irradiance) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
-        if (mend_irradiance(&s->operator, tally, m->irradiance) == 0) {
-            set_radiosity(&s->operator, m, s->state.radiosity);
-            if (mend_gradient(s) == 0)
-                return 0;
-        }
+        if (mend_irradiance(&s->operator, tally, m->irradiance) == 0 && follow_irradiance(s) == 0
+            && mend_dim(s, t, tally, spent) == 0)
+            return 0;
     }
     solve_forget_mended(s);
     return -1;
@@ -265,7 +288,7 @@ int measure_and_mend(struct solve *s, double noise, uint64_t most, uint64_t more
         failed = trace_rays(s, &t, &tally, goal, fmin(all, (double)most)) < 0
                  || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, &tally, &left) < 0;
     }
-    failed = failed || measure_faces(s, &tally, alone) < 0 || mend(s, &tally) < 0;
+    failed = failed || measure_faces(s, &tally, alone) < 0 || mend(s, &t, &tally, &spent) < 0;
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

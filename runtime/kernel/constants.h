@@ -294,6 +294,15 @@
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
 #define PLACE_SHARE 1e-4
+/* of the scene's area. A polygon above is judged by its own light, however dim; chosen with
+ * FACE_ERROR_LARGE: there can be a hundred at most */
+#define DIM_LARGE 0.01
+/* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
+ * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
+#define DIM_GOAL 0.0255
+/* of the rays of mending. So many may be spent on dim polygons, all together; chosen: mending loses
+ * a twentieth of its accuracy by them where all are spent */
+#define DIM_RAYS 0.1
 /* of the rays of mending. So many show first whether links are worth theirs; chosen: a thirtieth of
  * the links' rays, whose noise on some thousand places is then known to less than what is asked */
 #define SPLIT_LOOK 0.125

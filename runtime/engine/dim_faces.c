@@ -1,0 +1,326 @@
+/* dim_faces.c - see dim_faces.h.
+ *
+ * A polygon of the share a of the area on which m times the mean irradiance falls is met by a m N
+ * of N particles, and known to 1 / sqrt(a m N) of its own light. Where m is small that is little,
+ * and links say little too: to the oracle such light is nobody's loss. Whoever looks at that
+ * polygon alone sees it. So it is asked from where it is (dim_paths.c): paths start on it, see
+ * bright surfaces at once, and their noise is a share of what it receives, however small that is.
+ *
+ * How sure is what mending says? Of a polygon that particles hardly met, what is left is what links
+ * said, and the classes of mend.c tell their errors where most surfaces are bright. So it is
+ * thought to be off by the standard error s of the particles, as much as these would let pass; and
+ * by what it differs from them where that is more: links as wrong as no others are believed too
+ * much. Taken is the mean of both, each by the inverse of its variance.
+ *
+ * How many paths? So many that 1 / (1 / s^2 + n / v), v the variance of one, is the square of
+ * DIM_GOAL of its light. Few tell first how noisy they are and how much light there is. Then
+ * polygons get what they need, the cheapest first, so that few are left wrong; what remains makes
+ * the others equally sure.
+ *
+ * Below the polygon all elements keep their shares, and the power of the whole scene, which
+ * particles know best, stays: what is added here all the others give in proportion.
+ *
+ * [The split of paths and the choice of polygons: derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+#include "engine/dim_faces.h"
+#include "engine/dim_paths.h"
+#include "kernel/constants.h"
+
+enum {
+    RAYS_OF_PATH = 4, /* about, before any is traced */
+    ENOUGH = 4        /* times the paths of the first look: chosen, its noise is then halved */
+};
+#define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
+#define NOT_DIM UINT32_MAX
+
+static double strongest(const struct tracer *t, uint32_t face)
+{
+    double most = 0;
+    for (uint32_t k = 0; k < t->bands; k++)
+        most = fmax(most, t->reflectance[(size_t)face * t->bands + k]);
+    return most;
+}
+
+/* ---- which polygons */
+
+/* Large ones, with their faces. Returns 0, or -1 when out of memory. */
+static int list_large(struct dim_faces *d)
+{
+    const struct tracer *t = d->tracer;
+    const struct hierarchy *h = t->hierarchy;
+    uint32_t polygons = d->solve->problem.scene->input_count;
+    double *area = calloc((size_t)polygons + 1, sizeof *area);
+    d->of = malloc(((size_t)polygons + 1) * sizeof *d->of);
+    d->polygon = calloc((size_t)(1 / DIM_LARGE) + 1, sizeof *d->polygon);
+    d->face = malloc(((size_t)h->face_count + 1) * sizeof *d->face);
+    d->until = malloc(((size_t)h->face_count + 1) * sizeof *d->until);
+    int failed = !area || !d->of || !d->polygon || !d->face || !d->until;
+    for (uint32_t i = 0; i < h->face_count && !failed; i++)
+        area[h->faces[i].input] += strongest(t, i) > 0 ? tracer_surface(t, i)->area : 0;
+    for (uint32_t p = 0; p < polygons && !failed; p++)
+        d->of[p] = area[p] > DIM_LARGE * h->elements[0].area ? d->count++ : NOT_DIM;
+    free(area);
+    return failed ? -1 : 0;
+}
+
+/* The faces of each, one polygon's beside each other. */
+static void list_faces(struct dim_faces *d)
+{
+    const struct tracer *t = d->tracer;
+    const struct hierarchy *h = t->hierarchy;
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < h->face_count; i++)
+        if (strongest(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM)
+            d->polygon[d->of[h->faces[i].input]].to++;
+    for (uint32_t j = 0; j < d->count; j++) {
+        struct dim_polygon *p = &d->polygon[j];
+        p->from = next;
+        next += p->to;
+        p->to = p->from;
+    }
+    for (uint32_t i = 0; i < h->face_count; i++)
+        if (strongest(t, i) > 0 && d->of[h->faces[i].input] != NOT_DIM) {
+            struct dim_polygon *p = &d->polygon[d->of[h->faces[i].input]];
+            p->area += tracer_surface(t, i)->area;
+            d->until[p->to] = p->area;
+            d->face[p->to++] = i;
+        }
+}
+
+/* What mending says of a polygon, and how sure that is: by how replicates differ, and as if one
+ * more particle might have met it; or by how far it is from what these counted. */
+static void weigh(const struct dim_faces *d, const struct tally *tally, struct dim_polygon *p)
+{
+    const struct tracer *t = d->tracer;
+    double one = tally_power_of_one(tally) / p->area, mean = 0, square = 0;
+    for (int r = 0; r < REPLICATES; r++) {
+        double sum = 0;
+        for (uint32_t i = p->from; i < p->to; i++)
+            for (uint32_t k = 0; k < t->bands; k++)
+                sum += t->reflectance[(size_t)d->face[i] * t->bands + k]
+                       * tally_face(tally, r, d->face[i], k) / p->area;
+        mean += sum / REPLICATES;
+        square += sum * sum / REPLICATES;
+    }
+    for (uint32_t i = p->from; i < p->to; i++)
+        for (uint32_t k = 0; k < t->bands; k++) {
+            size_t at = (size_t)t->hierarchy->face_element[d->face[i]] * t->bands + k;
+            double part =
+                d->solve->mended.irradiance[at] * tracer_surface(t, d->face[i])->area / p->area;
+            p->mended[k] += part;
+            p->light += t->reflectance[(size_t)d->face[i] * t->bands + k] * part;
+        }
+    p->variance = fmax(fmax(square - mean * mean, 0) / (REPLICATES - 1) + one * one,
+                       (p->light - mean) * (p->light - mean));
+}
+
+/* Those that are dim; the others are forgotten. */
+static void keep_dim(struct dim_faces *d, const struct tally *tally)
+{
+    uint32_t kept = 0, polygons = d->solve->problem.scene->input_count;
+    for (uint32_t p = 0; p < polygons; p++) {
+        if (d->of[p] == NOT_DIM)
+            continue;
+        struct dim_polygon at = d->polygon[d->of[p]]; /* places rise with p */
+        weigh(d, tally, &at);
+        double sure = DIM_GOAL * at.light;
+        d->of[p] = at.variance > sure * sure ? kept : NOT_DIM;
+        if (d->of[p] != NOT_DIM)
+            d->polygon[kept++] = at;
+    }
+    d->count = kept;
+}
+
+/* ---- how many, and what they say */
+
+/* The variance of one path. One thing unseen is allowed for, lest what is dark by chance seem
+ * certain: one more path, which finds as much as an average place of the scene reflects. */
+static double path_variance(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    double n = (double)p->paths, mean = p->all / n;
+    return fmax((p->square + d->unseen * d->unseen) / n - mean * mean, 0) * n / (n - 1);
+}
+
+/* The share of paths in the mean of both. */
+static double path_weight(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    return p->variance / (p->variance + path_variance(d, p) / (double)p->paths);
+}
+
+/* Its light as far as is known by now, but no less than how uncertain that is (W/m2). */
+static double light_known(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    double weight = p->paths > 0 ? path_weight(d, p) : 0,
+           found = p->paths > 0 ? p->all / (double)p->paths : 0;
+    return fmax((1 - weight) * p->light + weight * found, sqrt((1 - weight) * p->variance));
+}
+
+/* How many paths more make its standard error that share of its light; */
+static double paths_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
+{
+    double goal = share * light_known(d, p);
+    return fmax(
+        path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0) - (double)p->paths, 0);
+}
+
+/* rays that these take. */
+static double rays_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
+{
+    return paths_for(d, p, share) * (double)p->rays / (double)p->paths;
+}
+
+/* Give those that reach DIM_GOAL what they need, the cheapest first, as far as the rays allow.
+ * Returns how many rays are left. */
+static double plan_cheap(struct dim_faces *d, double rays)
+{
+    for (;;) {
+        struct dim_polygon *cheapest = NULL;
+        double least = rays;
+        for (uint32_t j = 0; j < d->count; j++) {
+            struct dim_polygon *p = &d->polygon[j];
+            double cost = p->planned ? INFINITY : rays_for(d, p, DIM_GOAL);
+            if (cost <= least) {
+                least = cost;
+                cheapest = p;
+            }
+        }
+        if (!cheapest)
+            return rays;
+        cheapest->planned = 1;
+        cheapest->wanted = cheapest->paths + (uint64_t)paths_for(d, cheapest, DIM_GOAL);
+        rays -= least;
+    }
+}
+
+static double rays_of_others(const struct dim_faces *d, double share)
+{
+    double sum = 0;
+    for (uint32_t j = 0; j < d->count; j++)
+        sum += d->polygon[j].planned ? 0 : rays_for(d, &d->polygon[j], share);
+    return sum;
+}
+
+/* How many paths each is to have in the end, if so many rays are left. The others: as the rest
+ * allows, all the same share of their light, in steps of a fiftieth. */
+static void plan(struct dim_faces *d, double rays)
+{
+    double share = DIM_GOAL;
+    for (uint32_t j = 0; j < d->count; j++) {
+        d->polygon[j].planned = 0;
+        d->polygon[j].wanted = d->polygon[j].paths;
+    }
+    rays = plan_cheap(d, rays);
+    while (share < 1 && rays_of_others(d, share) > rays)
+        share *= 1.02;
+    for (uint32_t j = 0; j < d->count && share < 1; j++)
+        if (!d->polygon[j].planned)
+            d->polygon[j].wanted += (uint64_t)paths_for(d, &d->polygon[j], share);
+}
+
+/* A few paths of each; half of what is then planned; then all. */
+static int trace_all(struct dim_faces *d, double budget)
+{
+    uint64_t before = *d->rays;
+    double first = budget * FIRST / RAYS_OF_PATH / d->count;
+    for (uint32_t j = 0; j < d->count; j++)
+        d->polygon[j].wanted = first > 1 ? (uint64_t)first : 1;
+    for (int part = 2; part >= 0; part--) {
+        if (part < 2)
+            plan(d, fmax(budget - (double)(*d->rays - before), 0));
+        for (uint32_t j = 0; j < d->count && part == 1; j++)
+            d->polygon[j].wanted -= (d->polygon[j].wanted - d->polygon[j].paths) / 2;
+        if (dim_paths_trace(d) < 0)
+            return -1;
+        for (uint32_t j = 0; j < d->count && part == 2; j++)
+            d->polygon[j].looked = d->polygon[j].paths;
+    }
+    return 0;
+}
+
+/* ---- what becomes of the solution */
+
+/* What the element receives in a band (W). */
+static double power_of(const struct dim_faces *d, uint32_t element, uint32_t band)
+{
+    return d->tracer->hierarchy->elements[element].area
+           * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
+}
+
+/* The mean irradiance of a dim polygon in a band, by what is known of both (W/m2). What a first
+ * look found says as little of its own noise as of the light: it is not believed without more. */
+static double mean_of(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
+{
+    double weight = p->paths >= ENOUGH * p->looked ? path_weight(d, p) : 0;
+    return (1 - weight) * p->mended[band] + weight * p->sum[band] / (double)p->paths;
+}
+
+/* Which dim polygon the face is of, or NULL. */
+static const struct dim_polygon *polygon_of(const struct dim_faces *d, uint32_t face)
+{
+    uint32_t of = d->of[d->tracer->hierarchy->faces[face].input];
+    return of != NOT_DIM && strongest(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
+}
+
+/* Change them, and all others by one factor; then clusters as their children. */
+static void change(const struct dim_faces *d, uint32_t band, double *irradiance)
+{
+    const struct hierarchy *h = d->tracer->hierarchy;
+    uint32_t bands = d->tracer->bands;
+    double before = 0, after = 0, whole = power_of(d, 0, band);
+    for (uint32_t j = 0; j < d->count; j++) {
+        before += d->polygon[j].mended[band] * d->polygon[j].area;
+        after += mean_of(d, &d->polygon[j], band) * d->polygon[j].area;
+    }
+    double others = before < whole ? fmax(whole - after, 0) / (whole - before) : 1;
+    for (uint32_t e = h->count; e-- > 0;) { /* children follow their parents */
+        double *H = &irradiance[(size_t)e * bands + band];
+        if (h->elements[e].vertices) {
+            const struct dim_polygon *p = polygon_of(d, h->elements[e].face);
+            double mean = p ? mean_of(d, p, band) : 0;
+            if (p && !(p->mended[band] > 0))
+                *H = mean; /* nothing is known of how it is spread */
+            else
+                *H *= p ? mean / p->mended[band] : others;
+            continue;
+        }
+        double sum = 0;
+        for (uint32_t c = 0; c < h->elements[e].children; c++)
+            sum += power_of(d, h->elements[e].child + c, band);
+        *H = sum / h->elements[e].area;
+    }
+}
+
+static void close_all(struct dim_faces *d)
+{
+    free(d->of);
+    free(d->polygon);
+    free(d->face);
+    free(d->until);
+}
+
+int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
+                   uint64_t budget, const struct watch *watch, uint64_t *rays)
+{
+    struct dim_faces d = {
+        .solve = s, .tracer = t, .light = element_light_shown(s), .watch = watch, .rays = rays};
+    if (!(t->lights.power > 0) || tally->particles == 0)
+        return 0;
+    int failed = list_large(&d) < 0;
+    if (!failed) {
+        list_faces(&d);
+        keep_dim(&d, tally);
+        for (uint32_t i = 0; i < t->hierarchy->face_count; i++)
+            for (uint32_t k = 0; k < t->bands; k++)
+                d.unseen += t->reflectance[(size_t)i * t->bands + k]
+                            * power_of(&d, t->hierarchy->face_element[i], k)
+                            / t->hierarchy->elements[0].area;
+        failed = d.count > 0 && trace_all(&d, (double)budget) < 0;
+    }
+    for (uint32_t k = 0; k < t->bands && !failed && d.count > 0; k++)
+        change(&d, k, s->mended.irradiance);
+    int changed = failed ? -1 : (int)d.count;
+    close_all(&d);
+    return changed;
+}

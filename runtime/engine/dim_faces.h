@@ -1,0 +1,19 @@
+/* dim_faces.h - large polygons that are too dim for particles to know, looked at from themselves.
+ * SPDX-License-Identifier: MIT */
+#ifndef DIM_FACES_H
+#define DIM_FACES_H
+
+#include "engine/solve.h"
+#include "particles/particles.h"
+#include "particles/watch.h"
+
+/* Irradiances of the mended solution s->mended, which `tally` has mended, are set anew: those of
+ * polygons above DIM_LARGE of the area whose reflected light the tally knows to no better than
+ * DIM_GOAL, by paths from their points; all others by one factor per band, so that the scene
+ * receives what it did. Radiosities are the caller's to set. At most about `budget` rays are cast,
+ * which *rays is raised by; without such polygons none. watch: NULL, or asked. Returns how many
+ * polygons were changed, or -1 when out of memory or stopped. */
+int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
+                   uint64_t budget, const struct watch *watch, uint64_t *rays);
+
+#endif

@@ -1,0 +1,44 @@
+/* dim_paths.h - polygons asked from themselves: paths that start on them and end in a solution.
+ *
+ * Invariant: a block of paths is summed up by one thread, and blocks in their order, so threads do
+ * not show.
+ * SPDX-License-Identifier: MIT */
+#ifndef DIM_PATHS_H
+#define DIM_PATHS_H
+
+#include "engine/element_light.h"
+#include "particles/tracer.h"
+#include "particles/watch.h"
+
+struct dim_polygon {
+    uint32_t from, to; /* its faces that reflect, in dim_faces.face */
+    double area;       /* of them (m2) */
+    double light;      /* what it reflects once mended, mean over it, all bands (W/m2) */
+    double variance;   /* s^2 of that */
+    double mended[3];  /* mean irradiance once mended (W/m2) */
+    int planned;       /* 1: is to reach DIM_GOAL */
+    uint64_t looked;   /* paths of a first look */
+    uint64_t paths, wanted, rays;
+    double sum[3];      /* over paths: of what they find, H (W/m2); */
+    double all, square; /* of rho H, all bands, and of its square */
+};
+
+struct dim_faces {
+    const struct solve *solve;
+    const struct tracer *tracer;
+    struct element_light light; /* B~ */
+    uint32_t *of;               /* [polygons of the scene]: place in `polygon`; or NOT_DIM */
+    struct dim_polygon *polygon;
+    uint32_t count;
+    uint32_t *face; /* [faces]: by polygon */
+    double *until;  /* [faces]: running sums of their areas in the polygon (m2) */
+    double unseen;  /* light reflected, mean over the scene, all bands (W/m2) */
+    const struct watch *watch;
+    uint64_t *rays;
+};
+
+/* Trace until each polygon has the paths it wants, in whole blocks. Returns 0, or -1 when out of
+ * memory or stopped. */
+int dim_paths_trace(struct dim_faces *d);
+
+#endif

@@ -1,0 +1,171 @@
+/* Does mending find the light of a large face that few particles meet? The truth is a closed form:
+ * two closed boxes, apart, each a furnace: walls that emit E and reflect rho have H = E / (1 - rho)
+ * everywhere. One is a thousand times as bright as the other and gets all but a thousandth of the
+ * particles. What links say of one wall of the dark one is spoilt.
+ * SPDX-License-Identifier: MIT */
+#include "runtime/make_solve.h"
+#include "engine/dim_faces.h"
+#include "engine/measured_error.h"
+#include "engine/mend.h"
+#include "engine/solve_tracer.h"
+#include "suite.h"
+
+#define DARK 1e-3  /* W/m2: H in the dark box; in the bright one it is 1 */
+#define RHO 0.3    /* of both */
+#define SPOILT 1.3 /* by what the wall's light is multiplied */
+
+enum { WALL = 6, CUTS = 4 }; /* the face that is spoilt, the first of the dark box */
+
+/* Of a box's walls: one part of n by n. */
+static void add_part(struct scene *s, uint32_t material, const struct face *wall, int n, int part)
+{
+    const double(*v)[3] = wall->vertex;
+    double o[3], a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = (v[1][k] - v[0][k]) / n;
+        b[k] = (v[3][k] - v[0][k]) / n;
+        o[k] = v[0][k] + part % n * a[k] + part / n * b[k];
+    }
+    made_quad(s, material, o[0] + 5, o[1], o[2], a[0], a[1], a[2], b[0], b[1], b[2]);
+}
+
+/* Two boxes whose links are right. light: H in the second, of whose walls all but the first are cut
+ * in parts of less than a hundredth of the area. */
+static void two_furnaces(struct solve *s, struct scene *scene, double light, int threads)
+{
+    static char *settings[] = {"min_share=0.02", NULL};
+    ck_assert_int_eq(made_open(scene), 0);
+    uint32_t bright = made_material(scene, RHO, 1 - RHO),
+             dark = made_material(scene, RHO, light * (1 - RHO));
+    const uint32_t walls[6] = {bright, bright, bright, bright, bright, bright};
+    made_room(scene, walls, 1, 1, 1);
+    for (int i = 0; i < 6; i++)
+        for (int n = i == 0 ? 1 : CUTS, part = 0; part < n * n; part++)
+            add_part(scene, dark, &scene->faces[i], n, part);
+    solve_with(s, scene, "bf", RELEASE_FLAT, settings, quick(threads));
+}
+
+static void spoil_wall(struct solve *s)
+{
+    for (uint32_t e = 0; e < s->hierarchy.count; e++)
+        if (s->hierarchy.elements[e].vertices && s->hierarchy.elements[e].face == WALL) {
+            s->state.irradiance[e] *= SPOILT;
+            s->state.radiosity[e] = DARK * (1 - RHO) + RHO * s->state.irradiance[e];
+        }
+}
+
+static double of_face(const struct solve *s, uint32_t face)
+{
+    return s->mended.irradiance[s->hierarchy.face_element[face]];
+}
+
+/* The wall is right to 5 %, two standard errors, where links are off by 30 % and some 50 particles
+ * by 14 %; bright walls stay; each element has what its children have. */
+START_TEST(test_found)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    two_furnaces(&s, &scene, DARK, 2);
+    spoil_wall(&s);
+    ck_assert_int_eq(measure_and_mend(&s, 1e-4, 450000, 0, &alone, &cause), 0);
+    const struct hierarchy *h = &s.hierarchy;
+    for (uint32_t f = 0; f < WALL; f++)
+        ck_assert_double_eq_tol(of_face(&s, f), 1, 0.01);
+    ck_assert_double_eq_tol(of_face(&s, WALL) / DARK, 1, 0.05);
+    for (uint32_t e = 0; e < h->count; e++) {
+        double sum = 0, own = s.mended.irradiance[e] * h->elements[e].area;
+        for (uint32_t c = 0; c < h->elements[e].children; c++)
+            sum += s.mended.irradiance[h->elements[e].child + c]
+                   * h->elements[h->elements[e].child + c].area;
+        if (h->elements[e].children)
+            ck_assert_double_eq_tol(sum, own, 1e-12 * own);
+    }
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Mend by `particles`, then dim polygons by `budget` rays. Returns what the latter returned; *root:
+ * by what factor the whole scene's light has changed. */
+static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint64_t *rays,
+                      double *root)
+{
+    size_t size = s->hierarchy.count * sizeof(double);
+    struct tracer t = solve_tracer(s);
+    struct tally tally;
+    ck_assert_int_eq(tracer_open(&t), 0);
+    ck_assert_int_eq(tally_open(&tally, &t, MEND_STREAM, 1), 0);
+    ck_assert_int_eq(tally_trace(&tally, &t, particles / REPLICATES, NULL), 0);
+    s->mended.radiosity = malloc(size);
+    s->mended.irradiance = malloc(size);
+    memcpy(s->mended.radiosity, s->state.radiosity, size);
+    memcpy(s->mended.irradiance, s->state.irradiance, size);
+    ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
+    double before = s->mended.irradiance[0];
+    *rays = 0;
+    int changed = dim_faces_mend(s, &t, &tally, budget, NULL, rays);
+    *root = s->mended.irradiance[0] / before;
+    tally_close(&tally);
+    tracer_close(&t);
+    return changed;
+}
+
+/* Same bits by any number of threads; no power is made or lost; the budget is kept, but for whole
+ * blocks of paths. */
+START_TEST(test_same_bits)
+{
+    enum { BUDGET = 20000 };
+    static const int threads[] = {1, 2, 5};
+    double *first = NULL;
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        struct solve s;
+        uint64_t rays;
+        double root;
+        two_furnaces(&s, &scene, DARK, threads[i]);
+        spoil_wall(&s);
+        ck_assert_int_eq(mend_apart(&s, 200000, BUDGET, &rays, &root), 1);
+        ck_assert_uint_gt(rays, 0);
+        ck_assert_uint_le(rays, BUDGET + 64 * 4);
+        ck_assert_double_eq_tol(root, 1, 1e-12);
+        size_t size = s.hierarchy.count * sizeof *first;
+        if (i == 0)
+            memcpy(first = malloc(size), s.mended.irradiance, size);
+        else
+            ck_assert_int_eq(memcmp(first, s.mended.irradiance, size), 0);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    free(first);
+}
+END_TEST
+
+/* Where every large face is met by particles enough, nothing is asked and nothing paid. */
+START_TEST(test_bright)
+{
+    struct scene scene;
+    struct solve s;
+    uint64_t rays;
+    double root;
+    two_furnaces(&s, &scene, 1, 2);
+    ck_assert_int_eq(mend_apart(&s, 200000, 20000, &rays, &root), 0);
+    ck_assert_uint_eq(rays, 0);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("dim faces");
+    TCase *tests = tcase_create("");
+    tcase_set_timeout(tests, 60);
+    tcase_add_test(tests, test_found);
+    tcase_add_test(tests, test_same_bits);
+    tcase_add_test(tests, test_bright);
+    suite_add_tcase(suite, tests);
+    return suite_failures(suite) > 0;
+}
