@@ -26,6 +26,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "engine/mend.h"
 #include "kernel/constants.h"
 
@@ -35,7 +36,13 @@ struct sight {
     uint32_t elements;
 };
 
-enum { CLASSES = 48 };
+/* How well what a parent's children lack foretells what a child's own children lack: sums, over a
+ * class, of the foretold times what is seen, of its square, and of the variance of the first. */
+struct trend {
+    double product, square, noise;
+};
+
+enum { CLASSES = 48, CLUSTERS = -1 };
 
 struct mending {
     const struct light_operator *op;
@@ -45,8 +52,10 @@ struct mending {
     double *linked;     /* [element * bands + band]: power by links (W) */
     double *received;   /* the same, counted, mean of all replicates */
     double *replicate;  /* [REPLICATES][built * bands]: by each (W) */
-    /* clusters, then surfaces, by the logarithm of their particles */
-    struct sight class[2][CLASSES];
+    int depth;          /* of the level that is mended now; CLUSTERS: the tree above the faces */
+    /* of this level, by the logarithm of their particles */
+    struct sight class[CLASSES];
+    struct trend trend[CLASSES];
 };
 
 enum { CHILDREN = 255 };
@@ -67,6 +76,52 @@ static void shares_by_links(const struct mending *m, uint32_t e, uint32_t k, dou
         uint32_t j = at->child + c;
         given[c] = linked > 0 ? m->linked[place(m, j, k)] / linked : elements[j].area / at->area;
     }
+}
+
+/* The mended light of an element over that by links. */
+static double correction(const struct mending *m, uint32_t e, uint32_t k)
+{
+    double linked = m->linked[place(m, e, k)];
+    return linked > 0 ? m->irradiance[place(m, e, k)] * m->op->hierarchy->elements[e].area / linked
+                      : 1;
+}
+
+/* What the children of e lack of `given`, foretold: the correction of e and of its siblings, as a
+ * plane over their parent, goes on below. Returns 0 where there are none. */
+static int foretell(const struct mending *m, uint32_t e, uint32_t k, const double *given,
+                    double lack[CHILDREN])
+{
+    const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
+    const struct element *parent = &elements[at->parent];
+    double own = correction(m, e, k), u[3], v[3], uu = 0, uv = 0, vv = 0, ur = 0, vr = 0, sum = 0;
+    if (!at->vertices || !at->depth || !(own > 0))
+        return 0;
+    sub3(u, elements[parent->child].centre, parent->centre);
+    cross3(v, parent->normal, u);
+    for (uint32_t c = 0; c < parent->children; c++) {
+        double off[3], r = correction(m, parent->child + c, k);
+        sub3(off, elements[parent->child + c].centre, parent->centre);
+        double x = dot3(u, off), y = dot3(v, off);
+        uu += x * x;
+        uv += x * y;
+        vv += y * y;
+        ur += x * r;
+        vr += y * r;
+    }
+    double det = uu * vv - uv * uv;
+    if (!(det > 0))
+        return 0;
+    for (uint32_t c = 0; c < at->children; c++) {
+        double off[3];
+        sub3(off, elements[at->child + c].centre, at->centre);
+        double tilt =
+            ((vv * ur - uv * vr) * dot3(u, off) + (uu * vr - uv * ur) * dot3(v, off)) / det;
+        lack[c] = given[c] * fmin(fmax(tilt / own, -1), 1);
+        sum += lack[c];
+    }
+    for (uint32_t c = 0; c < at->children; c++) /* shares go on to sum to 1 */
+        lack[c] -= sum * given[c];
+    return 1;
 }
 
 /* m^2 and s^2 among the children of e, which some particles met. */
@@ -95,12 +150,11 @@ static struct sight see(const struct mending *m, uint32_t e, uint32_t k, const d
 }
 
 /* The class of an element in a band. */
-static struct sight *class_of(struct mending *m, uint32_t e, uint32_t k)
+static int class_of(const struct mending *m, uint32_t e, uint32_t k)
 {
     double particles = m->received[place(m, e, k)] / tally_power_of_one(m->tally);
     int class = particles > 1 ? (int)log2(particles) : 0;
-    return &m->class[m->op->hierarchy->elements[e].vertices > 0]
-                    [class < CLASSES ? class : CLASSES - 1];
+    return class < CLASSES ? class : CLASSES - 1;
 }
 
 /* k of one element among its class. */
@@ -114,16 +168,57 @@ static double believed(const struct sight *own, const struct sight *class)
     return seen > own->noise ? 1 - own->noise / seen : 0;
 }
 
+/* The shares of the children of e, before any particle below it is looked at. */
+static void foretold_shares(const struct mending *m, uint32_t e, uint32_t k, double given[CHILDREN])
+{
+    const struct trend *t = &m->trend[class_of(m, e, k)];
+    double lack[CHILDREN];
+    shares_by_links(m, e, k, given);
+    if (!(t->product > MEND_EVIDENCE * sqrt(t->noise)) || !foretell(m, e, k, given, lack))
+        return;
+    for (uint32_t c = 0; c < m->op->hierarchy->elements[e].children; c++)
+        given[c] += fmin(1, t->product / t->square) * lack[c];
+}
+
+static void note_trend(struct mending *m, uint32_t e, uint32_t k)
+{
+    const struct element *at = &m->op->hierarchy->elements[e];
+    struct trend *t = &m->trend[class_of(m, e, k)];
+    double given[CHILDREN], lack[CHILDREN], whole = m->received[place(m, e, k)];
+    shares_by_links(m, e, k, given);
+    if (!(whole > 0) || !foretell(m, e, k, given, lack))
+        return;
+    for (uint32_t c = 0; c < at->children; c++) {
+        double here = m->received[place(m, at->child + c, k)];
+        t->product += lack[c] * (here / whole - given[c]);
+        t->square += lack[c] * lack[c];
+        t->noise += lack[c] * lack[c] * tally_chance(m->tally, here, k) / (whole * whole);
+    }
+}
+
+static void note_sight(struct mending *m, uint32_t e, uint32_t k)
+{
+    struct sight *class = &m->class[class_of(m, e, k)];
+    double given[CHILDREN];
+    if (!(m->received[place(m, e, k)] > 0))
+        return;
+    foretold_shares(m, e, k, given);
+    struct sight own = see(m, e, k, given);
+    class->seen += own.seen;
+    class->noise += own.noise;
+    class->elements++;
+}
+
 /* Share out what e receives, mended by now, among its children. */
 static void share_out(struct mending *m, uint32_t e, uint32_t k)
 {
     const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
     double given[CHILDREN], whole = m->irradiance[place(m, e, k)] * at->area;
     double counted = m->received[place(m, e, k)], belief = 0;
-    shares_by_links(m, e, k, given);
+    foretold_shares(m, e, k, given);
     if (counted > 0) {
         struct sight own = see(m, e, k, given);
-        belief = believed(&own, class_of(m, e, k));
+        belief = believed(&own, &m->class[class_of(m, e, k)]);
     }
     for (uint32_t c = 0; c < at->children; c++) {
         uint32_t j = at->child + c;
@@ -134,21 +229,27 @@ static void share_out(struct mending *m, uint32_t e, uint32_t k)
     }
 }
 
-/* What all elements of each class show. */
-static void fill_classes(struct mending *m)
+/* Do so with all elements of this level that have children. */
+static void each(struct mending *m, void (*act)(struct mending *, uint32_t, uint32_t))
 {
     const struct hierarchy *h = m->op->hierarchy;
-    double given[CHILDREN];
-    for (uint32_t e = 0; e < h->count; e++)
-        for (uint32_t k = 0; k < m->bands && h->elements[e].children; k++) {
-            if (!(m->received[place(m, e, k)] > 0))
-                continue;
-            shares_by_links(m, e, k, given);
-            struct sight own = see(m, e, k, given), *class = class_of(m, e, k);
-            class->seen += own.seen;
-            class->noise += own.noise;
-            class->elements++;
-        }
+    uint32_t last = m->depth == CLUSTERS ? h->built : h->count;
+    for (uint32_t e = 0; e < last; e++) { /* children follow their parents */
+        const struct element *at = &h->elements[e];
+        int here = at->vertices ? m->depth == at->depth : m->depth == CLUSTERS;
+        for (uint32_t k = 0; k < m->bands && here && at->children; k++)
+            act(m, e, k);
+    }
+}
+
+static void mend_level(struct mending *m, int depth)
+{
+    m->depth = depth;
+    memset(m->class, 0, sizeof m->class);
+    memset(m->trend, 0, sizeof m->trend);
+    each(m, note_trend);
+    each(m, note_sight);
+    each(m, share_out);
 }
 
 static void mend_root(struct mending *m, uint32_t k)
@@ -203,12 +304,14 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
     int result = m.linked && m.received && m.replicate ? 0 : -1;
     if (result == 0) {
         fill(&m);
-        fill_classes(&m);
         for (uint32_t k = 0; k < m.bands; k++)
             mend_root(&m, k);
-        for (uint32_t e = 0; e < h->count; e++) /* children follow their parents */
-            for (uint32_t k = 0; k < m.bands && h->elements[e].children; k++)
-                share_out(&m, e, k);
+        int deepest = CLUSTERS;
+        for (uint32_t e = 0; e < h->count; e++)
+            if (h->elements[e].vertices && h->elements[e].depth > deepest)
+                deepest = h->elements[e].depth;
+        for (int depth = CLUSTERS; depth < deepest; depth++)
+            mend_level(&m, depth);
     }
     free(m.linked);
     free(m.received);
