@@ -564,16 +564,33 @@ struct RadCorrectOptions {
     /* particles are traced until their noise in the L1 error of polygons is below this share of the
      * reflected light; 0: RAD_CORRECT_NOISE */
     double noise;
-    /* or until about so many rays are cast; 0: RAD_CORRECT_SHARE of what the solution has cast, and
-     * no fewer than RAD_CORRECT_LEAST. Then, where a few rays show that particles from as many rays
-     * as links took would have been nearer on places of 1e-4 of the area, RAD_CORRECT_MOST of them
-     * are cast whatever the noise is (engine/ray_split.c) */
+    /* or until about so many rays are cast. 0: as many as bring the error on places of 1e-4 of the
+     * scene's area to RAD_CORRECT_PLACES, root mean square as in RadPlaces, and on until the noise
+     * is as small as that; no fewer than RAD_CORRECT_LEAST, and no more than RAD_CORRECT_MOST or
+     * what the solution has cast, whichever is more */
     uint64_t rays;
 };
-#define RAD_CORRECT_NOISE 0.005
-#define RAD_CORRECT_SHARE 0.25
-#define RAD_CORRECT_MOST 0.5
-#define RAD_CORRECT_LEAST (1u << 18)
+#define RAD_CORRECT_NOISE 0.0065
+#define RAD_CORRECT_PLACES 0.065
+#define RAD_CORRECT_LEAST (1u << 17)
+#define RAD_CORRECT_MOST (1u << 24)
+
+/* How far links are off, point by point: squared errors on places of about 1e-4 of the scene's
+ * area, each as a share of the light that falls there, the places weighed by that light. */
+struct RadPlaces {
+    double links;     /* of links; by chance it may come out below 0 */
+    double deviation; /* standard deviation of that */
+    double ray;       /* of particles of one ray; of r rays a share 1 / r of it */
+    uint64_t rays;    /* that told it */
+};
+#define RAD_PLACES_SHARE 0.04
+#define RAD_PLACES_LEAST (1u << 15)
+
+/* Measure that of the links, by about so many rays (0: RAD_PLACES_SHARE of what the solution has
+ * cast, and no fewer than RAD_PLACES_LEAST). Links of l rays and an error^2 of e, and r rays of
+ * particles, together have 1 / (1 / e + r / ray): engine/ray_split.c. The solution stays as it is.
+ * places may be NULL. Returns 0, or -1. */
+RAD_API int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlaces *places);
 
 /* Mend the solution: add to each element what particles see of its error, level by level from the
  * root down, as far as it stands out of their noise (engine/mend.c). From then on elements,
@@ -586,6 +603,7 @@ struct RadCorrectOptions {
  * mending took. NULL options: the defaults. Returns 0, or -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
                        struct RadErrorReport *alone);
+
 /* ---- which light links bring wrongly, and why */
 
 /* How light came from one leaf to another, or would have had to. */

@@ -1,6 +1,7 @@
 /* api_error.c - measured error and mended solutions.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
+#include <math.h>
 #include "engine/api.h"
 
 /* A share of the rays that links have cast, and `more` besides, but no fewer than `least`. */
@@ -84,6 +85,23 @@ const double *radGetElementErrors(RadSolution solution)
     return solution && !solution->dead ? solution->measured.element : NULL;
 }
 
+int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlaces *places)
+{
+    const char *cause;
+    if (api_solved(solution, "radMeasurePlaces") < 0)
+        return -1;
+    if (!rays)
+        rays = share_of_rays(solution, RAD_PLACES_SHARE, 0, RAD_PLACES_LEAST);
+    if (measure_places(&solution->solve, rays, &solution->places, &cause) < 0)
+        return api_give_up(solution, cause);
+    if (places)
+        *places = (struct RadPlaces){.links = solution->places.links,
+                                     .deviation = solution->places.deviation,
+                                     .ray = solution->places.ray,
+                                     .rays = solution->places.rays};
+    return 0;
+}
+
 int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                struct RadErrorReport *alone)
 {
@@ -97,14 +115,18 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                         "for the default",
                         o->noise);
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
-    uint64_t rays =
-        o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_SHARE, 0, RAD_CORRECT_LEAST);
-    uint64_t more =
-        o->rays ? o->rays : share_of_rays(solution, RAD_CORRECT_MOST, 0, RAD_CORRECT_LEAST);
+    struct mending_goal goal = {.noise = noise, .most = o->rays};
+    if (!o->rays) {
+        uint64_t cast = rays_count(solution->solve.problem.rays).rays;
+        goal.places = RAD_CORRECT_PLACES;
+        goal.least = RAD_CORRECT_LEAST;
+        goal.most = cast > RAD_CORRECT_MOST ? cast : RAD_CORRECT_MOST;
+        goal.expected = ray_split_wanted(&solution->places, goal.places);
+    }
     struct measured_error links;
     const char *cause;
     measured_error_free(&solution->measured);
-    if (measure_and_mend(&solution->solve, noise, rays, more, &links, &cause) < 0)
+    if (measure_and_mend(&solution->solve, &goal, &links, &cause) < 0)
         return api_give_up(solution, cause);
     solution->mending_rays = links.rays;
     if (alone)

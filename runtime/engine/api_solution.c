@@ -272,6 +272,7 @@ int radStep(RadSolution solution)
         && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return api_give_up(solution, cause);
     measured_error_free(&solution->measured);
+    solution->places.rays = 0;
     int more = solve_step(&solution->solve, &cause);
     solution->done = more == 0;
     return more < 0 ? api_give_up(solution, cause) : more;
@@ -307,6 +308,7 @@ int radSolveWithFactors(RadSolution solution, const float *form_factors)
                             "form factor %zu of %zu is %g; it takes a finite number from 0", i,
                             count, (double)form_factors[i]);
     const char *cause;
+    solution->places.rays = 0;
     if (solve_with_factors(&solution->solve, form_factors, &cause) < 0)
         return api_give_up(solution, cause);
     solution->done = 1;

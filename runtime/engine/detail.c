@@ -7,8 +7,9 @@
  * seem brighter than they are.
  *
  * Quarters start from their parent's light: mean B + g . (centre - parent's centre), and its slope.
- * So links alone say what they said. Emitters and leaves that a solid covers in part stay whole:
- * what is reflected there is no linear function. [Derived here]
+ * Where a solid covers a leaf in part, quarters receive by what of them is bare, and reflect what
+ * the leaf did. So links alone say what they said. Emitters stay whole: what is reflected there is
+ * no linear function. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/detail.h"
@@ -29,20 +30,21 @@ static int may_split(const struct solve *s, uint32_t leaf)
     int dark = 1;
     for (uint32_t k = 0; k < s->problem.bands; k++)
         dark &= !(s->problem.exitance[(size_t)e->face * s->problem.bands + k] > 0);
-    return dark && !e->black && s->operator.uncovered[leaf] >= 1;
+    return dark && !e->black;
 }
 
-/* Split until a part has its share of `particles`. Returns 0, or -1 when out of memory. */
-static int split(struct hierarchy *h, uint32_t leaf, double particles)
+/* Split until a leaf is worth no more than one part of so many. Returns 0, or -1 when out of
+ * memory.
+ */
+static int split(struct hierarchy *h, uint32_t leaf, double parts)
 {
-    if (particles <= MEND_DETAIL || h->elements[leaf].depth == UINT8_MAX)
+    if (parts <= 1 || h->elements[leaf].depth == UINT8_MAX)
         return 0;
     if (hierarchy_split(h, leaf) < 0)
         return -1;
     uint32_t child = h->elements[leaf].child;
     for (uint32_t c = 0; c < 4; c++)
-        if (split(h, child + c, particles * h->elements[child + c].area / h->elements[leaf].area)
-            < 0)
+        if (split(h, child + c, parts * h->elements[child + c].area / h->elements[leaf].area) < 0)
             return -1;
     return 0;
 }
@@ -57,13 +59,35 @@ static void inherit(struct solve *s, uint32_t i)
     for (uint32_t k = 0; k < s->problem.bands; k++) {
         size_t at = (size_t)i * s->problem.bands + k,
                above = (size_t)e->parent * s->problem.bands + k;
+        double bare = s->operator.uncovered[e->parent],
+               share = bare > 0 ? s->operator.uncovered[i] / bare : 1;
         double rho = s->problem.reflectance[(size_t)e->face * s->problem.bands + k],
                tilt = dot3(&s->linear.gradient[3 * above], off);
         s->state.radiosity[at] = s->state.radiosity[above] + tilt;
-        s->state.irradiance[at] = s->state.irradiance[above] + (rho > 0 ? tilt / rho : 0);
+        s->state.irradiance[at] = s->state.irradiance[above] * share + (rho > 0 ? tilt / rho : 0);
         for (size_t c = 0; c < 3; c++)
             s->linear.gradient[3 * at + c] = s->linear.gradient[3 * above + c];
     }
+}
+
+/* Room for new elements, from `first` on, and their light. Returns 0, or -1 when out of memory. */
+static int light(struct solve *s, uint32_t first)
+{
+    struct hierarchy *h = &s->hierarchy;
+    if (h->count == first)
+        return 0;
+    double *gradient =
+        realloc(s->linear.gradient, (size_t)h->count * s->problem.bands * 3 * sizeof *gradient);
+    if (gradient)
+        s->linear.gradient = gradient;
+    if (!gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0)
+        return -1;
+    for (uint32_t i = first; i < h->count; i++) /* children follow their parents */
+        s->operator.uncovered[i] = s->operator.uncovered[h->elements[i].parent];
+    solve_measure_contact(s, first, 1);
+    for (uint32_t i = first; i < h->count; i++)
+        inherit(s, i);
+    return 0;
 }
 
 int detail_leaves(struct solve *s, double landings)
@@ -77,17 +101,30 @@ int detail_leaves(struct solve *s, double landings)
         whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
     for (uint32_t i = 0; whole > 0 && i < first; i++)
         if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
-            && split(h, i, landings * received(s, i) / whole) < 0)
+            && split(h, i, landings * received(s, i) / whole / MEND_DETAIL) < 0)
             return -1;
-    if (h->count == first)
+    return light(s, first);
+}
+
+int detail_places(struct solve *s)
+{
+    struct hierarchy *h = &s->hierarchy;
+    uint32_t first = h->count;
+    double most = PLACE_SHARE * h->elements[0].area;
+    if (!s->linear.gradient)
         return 0;
-    double *gradient =
-        realloc(s->linear.gradient, (size_t)h->count * s->problem.bands * 3 * sizeof *gradient);
-    if (gradient)
-        s->linear.gradient = gradient;
-    if (!gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0)
-        return -1;
-    for (uint32_t i = first; i < h->count; i++) /* children follow their parents */
-        inherit(s, i);
-    return 0;
+    for (uint32_t i = 0; i < first; i++)
+        if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
+            && split(h, i, h->elements[i].area / most) < 0)
+            return -1;
+    return light(s, first);
+}
+
+int detail_drop(struct solve *s, uint32_t count)
+{
+    if (s->hierarchy.count == count)
+        return 0;
+    hierarchy_drop(&s->hierarchy, count);
+    s->started = count;
+    return refinement_sort(&s->refinement);
 }

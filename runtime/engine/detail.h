@@ -10,4 +10,10 @@
  * no link is added. A solution of constants stays as it is. Returns 0, or -1 when out of memory. */
 int detail_leaves(struct solve *s, double landings);
 
+/* Split them until none is larger than PLACE_SHARE of the scene's area; the same holds. */
+int detail_places(struct solve *s);
+
+/* Undo that: back to the first `count` elements. Returns 0, or -1 when out of memory. */
+int detail_drop(struct solve *s, uint32_t count);
+
 #endif

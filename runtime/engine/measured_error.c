@@ -239,56 +239,84 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
     return -1;
 }
 
-/* How many rays mend: `most`, or `more` where a few show that links were not worth theirs. What
- * these cost is taken off, and added to *spent. Returns 0, or -1 when cancelled or out of memory.
- */
-static int choose_rays(struct solve *s, const struct tracer *t, uint64_t *most, uint64_t more,
-                       uint64_t *spent, int *worth)
+int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause)
 {
-    uint64_t links = rays_count(s->problem.rays).rays;
-    struct tally look = {0};
-    struct ray_split split;
-    *worth = 1;
-    if (more <= *most || links == 0)
-        return 0;
-    int failed =
-        tally_open(&look, t, MEND_STREAM, 1) < 0
-        || trace_rays(s, t, &look, (uint64_t)(SPLIT_LOOK * (double)*most), (double)*most) < 0
-        || ray_split_measure(&s->operator, & look, s->state.irradiance, links, &split) < 0;
-    if (!failed) {
-        *worth = !(split.links > split.particles);
-        *most = *worth ? *most : more;
-        *most -= look.rays < *most ? look.rays : *most;
-        *spent += look.rays;
-    }
-    tally_close(&look);
-    return failed ? -1 : 0;
+    uint32_t elements = s->hierarchy.count;
+    struct tracer t = solve_tracer(s);
+    struct tally tally = {0};
+    int failed = tracer_open(&t) < 0 || detail_places(s) < 0
+                 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+                 || trace_rays(s, &t, &tally, rays, (double)rays) < 0
+                 || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0;
+    tally_close(&tally);
+    tracer_close(&t);
+    failed |= detail_drop(s, elements) < 0;
+    return failed ? give_up(s, cause) : 0;
 }
 
-int measure_and_mend(struct solve *s, double noise, uint64_t most, uint64_t more,
-                     struct measured_error *alone, const char **cause)
+/* Trace until links and particles together are as near on places as is wanted, by what the
+ * particles tell so far. These double at the most before that is asked again. Returns 0, or -1 when
+ * cancelled or out of memory. */
+static int trace_for_places(struct solve *s, const struct tracer *t, struct tally *tally,
+                            const struct mending_goal *goal)
+{
+    double wanted = (double)goal->least;
+    do {
+        double next = fmin(fmin(wanted, fmax(2.0 * (double)tally->rays, (double)goal->least)),
+                           (double)goal->most);
+        struct ray_split split;
+        if (trace_rays(s, t, tally, (uint64_t)next, fmin(wanted, (double)goal->most)) < 0
+            || ray_split_measure(&s->operator, tally, s->state.irradiance, &split) < 0)
+            return -1;
+        wanted = ray_split_wanted(&split, goal->places);
+    } while (tally->rays > 0 && (double)tally->rays < 0.99 * fmin(wanted, (double)goal->most));
+    return 0;
+}
+
+/* The same until their noise in the L1 error of polygons is small enough. */
+static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally *tally,
+                           const struct mending_goal *goal)
+{
+    double left = t->lights.power > 0 ? INFINITY : 0;
+    if (tally->particles > 0 && left > 0
+        && face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &left) < 0)
+        return -1;
+    while (left > goal->noise && tally->rays < goal->most) {
+        /* noise falls with the root of the number, which doubles at the most */
+        double ratio = left / goal->noise, all = (double)tally->rays * ratio * ratio,
+               next = fmin(fmin(1.02 * all, 2.0 * (double)tally->rays), (double)goal->most);
+        uint64_t before = tally->rays;
+        if (trace_rays(s, t, tally, next > 1 ? (uint64_t)next : 1, fmin(all, (double)goal->most))
+                < 0
+            || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &left) < 0)
+            return -1;
+        if (tally->rays == before)
+            break;
+    }
+    return 0;
+}
+
+/* How many are to land, about: leaves are made for no more. */
+static double landings(const struct mending_goal *goal)
+{
+    double expected = fmax(goal->expected, DETAIL_LANDINGS * (double)goal->least);
+    return goal->places > 0 ? fmin(expected, (double)goal->most) : (double)goal->most;
+}
+
+int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct measured_error *alone,
+                     const char **cause)
 {
     double start = seconds();
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     uint64_t spent = 0;
-    int worth = 1;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
-    int failed = tracer_open(&t) < 0 || choose_rays(s, &t, &most, more, &spent, &worth) < 0
-                 || detail_leaves(s, (double)most) < 0 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || trace_rays(s, &t, &tally, 1, (double)most) < 0;
-    noise = worth ? noise : 0;
-    double left = t.lights.power > 0 ? INFINITY : 0;
-    for (uint64_t goal = 0; !failed && left > noise && goal < most;) {
-        goal = 2 * tally.rays < most ? 2 * tally.rays : most;
-        /* noise falls with the root of the number, which doubles until it is enough */
-        double all =
-            noise > 0 ? (double)tally.rays * exp2(ceil(2 * log2(left / noise))) : (double)most;
-        failed = trace_rays(s, &t, &tally, goal, fmin(all, (double)most)) < 0
-                 || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, &tally, &left) < 0;
-    }
-    failed = failed || measure_faces(s, &tally, alone) < 0 || mend(s, &t, &tally, &spent) < 0;
+    int failed = tracer_open(&t) < 0 || detail_leaves(s, landings(goal)) < 0
+                 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+                 || (goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
+                 || trace_for_faces(s, &t, &tally, goal) < 0 || measure_faces(s, &tally, alone) < 0
+                 || mend(s, &t, &tally, &spent) < 0;
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

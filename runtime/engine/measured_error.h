@@ -4,6 +4,7 @@
 #ifndef MEASURED_ERROR_H
 #define MEASURED_ERROR_H
 
+#include "engine/ray_split.h"
 #include "engine/face_error.h"
 #include "engine/solve.h"
 
@@ -26,12 +27,22 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
                   struct measured_error *m, const char **cause);
 void measured_error_free(struct measured_error *m);
 
-/* Mend the radiosities of the links, which a mended solution then shows: particles are traced until
- * their noise in the L1 error of polygons is below `noise`, a share of the reflected light, or
- * about `most` rays are cast. Where `more` is above `most`, a few rays first ask whether links were
- * worth theirs (ray_split.h); if not, `more` are cast whatever the noise is. *alone: the links'
- * error as the same particles measure it. Returns 0, or -1 with *cause set. */
-int measure_and_mend(struct solve *s, double noise, uint64_t most, uint64_t more,
-                     struct measured_error *alone, const char **cause);
+/* How far links are off on places of PLACE_SHARE of the area, and particles would be, by about so
+ * many rays (ray_split.h). The solution stays as it was. Returns 0, or -1 with *cause set. */
+int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause);
+
+/* When particles are enough. */
+struct mending_goal {
+    double noise;    /* theirs in the L1 error of polygons, a share of the reflected light */
+    uint64_t most;   /* rays, about: no more, whatever they have reached */
+    double places;   /* error on places, root mean square as ray_split.h; 0: not looked at */
+    uint64_t least;  /* rays, about, before that is looked at */
+    double expected; /* rays that may be needed for it; 0: nothing is known */
+};
+
+/* Mend the radiosities of the links, which a mended solution then shows. *alone: the links' error
+ * as the same particles measure it. Returns 0, or -1 with *cause set. */
+int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct measured_error *alone,
+                     const char **cause);
 
 #endif

@@ -1,10 +1,9 @@
 /* ray_split.c - see ray_split.h.
  *
  * Of errors e of links and s / sqrt(r) of r rays of particles the best mixture has
- * 1 / (1 / e^2 + r / s^2). Particles alone from all rays, L of links and r, have s^2 / (L + r). So
- * the mixture is better if and only if e^2 < s^2 / L, whatever r is: links are worth their rays
- * where particles from as many would be worse. Where they are not, what is spent besides is better
- * spent on particles.
+ * 1 / (1 / e^2 + r / s^2). So an error of t takes s^2 (1 / t^2 - 1 / e^2) rays of particles, and
+ * finer links, of L rays and an error f, are worth them if and only if s^2 (1 / f^2 - 1 / e^2) > L,
+ * whatever t is: solver/commands/coarse_first.c.
  *
  * Both are measured on places: the largest elements of no more than PLACE_SHARE of the area, and
  * leaves that are larger. What particles differ from links by is e^2 + s^2 / r, of which chance
@@ -41,29 +40,37 @@ static int is_place(const struct hierarchy *h, uint32_t e)
 }
 
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
-                      const double *irradiance, uint64_t link_rays, struct ray_split *split)
+                      const double *irradiance, struct ray_split *split)
 {
     const struct hierarchy *h = op->hierarchy;
-    double *power = count_power(h, tally), seen = 0, noise = 0, light = 0;
+    double *power = count_power(h, tally), seen = 0, noise = 0, square = 0, light = 0; /* W */
     double one = tally_power_of_one(tally);
-    *split = (struct ray_split){0, 0};
+    *split = (struct ray_split){.rays = tally->rays};
     if (!power)
         return -1;
     for (uint32_t e = 0; e < h->count; e++)
         for (uint32_t k = 0; k < tally->bands && is_place(h, e); k++) {
             size_t at = (size_t)e * tally->bands + k;
-            double linked = irradiance[at] * h->elements[e].area, off = power[at] - linked;
+            double area = h->elements[e].area, linked = irradiance[at] * area,
+                   off = power[at] - linked, weight = 1 / (linked + irradiance[k] * area + one);
             /* chance is that of the light that links expect: of what landed it would be small
              * wherever little happened to */
-            double chance = one * tally->square[k] * linked;
-            seen += off * off / (linked + one);
-            noise += chance / (linked + one);
-            light += linked;
+            double chance = one * tally->square[k] * linked * weight;
+            seen += off * off * weight;
+            noise += chance;
+            square += chance * chance;
+            light += linked * linked * weight;
         }
     free(power);
     if (light > 0 && tally->rays > 0) {
         split->links = (seen - noise) / light;
-        split->particles = noise / light * (double)tally->rays / (double)link_rays;
+        split->deviation = sqrt(2 * square) / light; /* of squares of normal variables */
+        split->ray = noise / light * (double)tally->rays;
     }
     return 0;
+}
+
+double ray_split_wanted(const struct ray_split *split, double wanted)
+{
+    return split->links > 0 ? split->ray * fmax(0, 1 / (wanted * wanted) - 1 / split->links) : 0;
 }

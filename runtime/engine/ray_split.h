@@ -1,4 +1,4 @@
-/* ray_split.h - did links bring more for their rays than particles would have?
+/* ray_split.h - how far links are off, point by point, and how far particles would be.
  * SPDX-License-Identifier: MIT */
 #ifndef RAY_SPLIT_H
 #define RAY_SPLIT_H
@@ -6,15 +6,21 @@
 #include "engine/operator.h"
 #include "particles/particles.h"
 
-/* Squared error over places, each as a share of the light there, the places weighed by light: what
- * links have, and what particles would have of as many rays as the links took. */
+/* Squared error over places, each as a share of the light there, the places weighed by light. */
 struct ray_split {
-    double links, particles;
+    double links;     /* of links; by chance it may come out below 0 */
+    double deviation; /* standard deviation of that */
+    double ray;       /* of particles of one ray; of r rays a share 1 / r of it */
+    uint64_t rays;    /* that told it; 0: nothing is known */
 };
 
 /* By what particles say of the irradiances [element * bands + band] of all elements (W/m2). The
  * tally has counts of leaves. Returns 0, or -1 when out of memory. */
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
-                      const double *irradiance, uint64_t link_rays, struct ray_split *split);
+                      const double *irradiance, struct ray_split *split);
+
+/* How many rays of particles bring links and particles together to an error of `wanted`, root mean
+ * square as above. */
+double ray_split_wanted(const struct ray_split *split, double wanted);
 
 #endif

@@ -75,6 +75,7 @@ struct contacts {
     const struct rays *rays;
     double *uncovered; /* [element] */
     uint32_t first;    /* the first of them */
+    int known;         /* those of 1 */
 };
 
 static void measure_leaves(const void *contacts, size_t from, size_t to)
@@ -82,18 +83,18 @@ static void measure_leaves(const void *contacts, size_t from, size_t to)
     const struct contacts *c = contacts;
     for (size_t i = c->first + from; i < c->first + to; i++) {
         const struct element *e = &c->h->elements[i];
-        if (e->vertices && !e->children)
+        if (e->vertices && !e->children && !(c->known && c->uncovered[i] >= 1))
             c->uncovered[i] = 1 - contact_fraction(c->rays, e);
     }
 }
 
-/* Which share of each new leaf no solid stands on; from there up, means. `first`: the first new
- * element. */
-static void measure_contact(double *uncovered, const struct hierarchy *h, const struct problem *p,
-                            uint32_t first)
+void solve_measure_contact(struct solve *s, uint32_t first, int known)
 {
+    const struct hierarchy *h = &s->hierarchy;
+    const struct problem *p = &s->problem;
     const struct element *elements = h->elements;
-    const struct contacts contacts = {h, p->rays, uncovered, first};
+    double *uncovered = s->operator.uncovered;
+    const struct contacts contacts = {h, p->rays, uncovered, first, known};
     thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
     for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
         if (!elements[i].children)
@@ -281,7 +282,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     if (collocation_update(&s->operator) < 0)
         return fail(s, "out of memory", cause);
     if (!p->options.unit)
-        measure_contact(s->operator.uncovered, &s->hierarchy, p, 0);
+        solve_measure_contact(s, 0, 0);
     s->report.seconds.refine += seconds() - start;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
     return 0;
@@ -356,7 +357,7 @@ static int64_t refine_again(struct solve *s)
             && (refinement_sort(&s->refinement) < 0 || collocation_update(&s->operator) < 0))
         || solve_make_room(s) < 0)
         return -1;
-    measure_contact(s->operator.uncovered, &s->hierarchy, &s->problem, first);
+    solve_measure_contact(s, first, 0);
     return changed;
 }
 

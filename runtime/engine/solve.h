@@ -111,8 +111,13 @@ void solve_sum_power(struct solve *s);
  * Returns 0, or -1 when out of memory. */
 int solve_make_room(struct solve *s);
 
+/* Which share of each leaf from element `first` on no solid stands on; from there up, means. With
+ * `known`, leaves of which all is bare by what stands in operator.uncovered are taken to be so. */
+void solve_measure_contact(struct solve *s, uint32_t first, int known);
+
 /* Tell the progress function which phase of the work goes on. Returns nonzero when it cancels. */
 int solve_tell(struct solve *s, const char *phase);
+
 /* Give the links other form factors, [link_count] in their order, and solve over them as they are
  * then, without discussing any; those of links with a cluster at an end are not looked at. Returns
  * 0, or -1 with *cause set. */

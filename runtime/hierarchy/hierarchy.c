@@ -196,6 +196,13 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
     return 0;
 }
 
+void hierarchy_drop(struct hierarchy *h, uint32_t count)
+{
+    for (uint32_t i = h->count; i-- > count;)
+        h->elements[h->elements[i].parent].children = 0;
+    h->count = count;
+}
+
 void hierarchy_free(struct hierarchy *h)
 {
     free(h->elements);

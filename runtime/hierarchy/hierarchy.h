@@ -57,6 +57,9 @@ int hierarchy_build_by(struct hierarchy *h, const struct face *faces, uint32_t f
  * Returns 0, or -1 when out of memory or out of indices; then nothing has changed. */
 int hierarchy_split(struct hierarchy *h, uint32_t element);
 
+/* Undo all splits since there were `count` elements. */
+void hierarchy_drop(struct hierarchy *h, uint32_t count);
+
 void hierarchy_free(struct hierarchy *h);
 
 /* The part of `order` below an element; of a part of a face the face's. */

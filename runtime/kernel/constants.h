@@ -287,10 +287,13 @@
 /* the same for one element: what is so far out is believed whatever its class says; 3, as is usual
  * for outliers */
 #define MEND_OUTLIER 3.0
-/* particles. Leaves on which more are to land are quartered for them. Cells of soda are off by
- * 6.0 % with the leaves that links need, by 5.1, 4.5 and 4.5 with 1024, 256 and 64, and leaves are
- * 1, 8 and 46 % more; corridor, maze_8 and cube are within .1 % for all: tests/tables/judge.sh */
-#define MEND_DETAIL 256.0
+/* particles. Leaves on which more are to land are quartered for them. Chosen: on a quarter of so
+ * few, chance says more than they do, so finer leaves would show nothing. Cells of corridor, whose
+ * faces are long, are off by 8.7 % with 256, by 4.8 with 64, by 3.5 with 16: tests/tables/judge.sh */
+#define MEND_DETAIL 16.0
+/* of the fewest rays of mending: leaves are made for so many landings at the least, as it shows only
+ * later how many rays are cast. Chosen: two doublings */
+#define DETAIL_LANDINGS 4.0
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
 #define PLACE_SHARE 1e-4
@@ -303,9 +306,6 @@
 /* of the rays of mending. So many may be spent on dim polygons, all together; chosen: mending loses
  * a twentieth of its accuracy by them where all are spent */
 #define DIM_RAYS 0.1
-/* of the rays of mending. So many show first whether links are worth theirs; chosen: a thirtieth of
- * the links' rays, whose noise on some thousand places is then known to less than what is asked */
-#define SPLIT_LOOK 0.125
 /* ---- account of error (engine) */
 
 /* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats

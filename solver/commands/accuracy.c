@@ -12,58 +12,18 @@
 #include <math.h>
 #include <stdio.h>
 #include "commands/accuracy.h"
+#include "commands/thresholds.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/report.h"
 
-/* FIRST_RAYS: of mending, and as many of measuring; PARAMETERS: the most that are scaled. */
-enum { FIRST_RAYS = 1 << 16, PARAMETERS = 32 };
+enum { FIRST_RAYS = 1 << 16 }; /* of mending, and as many of measuring */
 
 /* how coarse links are at first, against what is set; and at the finest */
 static const double COARSEST = 8, FINEST = 1.0 / 1024;
 
 /* of all that is cast: a guard against what would take hours */
 static const double ACCURACY_RAYS = 2e10;
-
-/* The thresholds of an oracle, and what they were set to. */
-struct thresholds {
-    RadOracle oracle;
-    int count;
-    struct {
-        const char *name;
-        double value, low, high;
-        int part; /* 1: the smallest part, which only falls */
-    } of[PARAMETERS];
-};
-
-static void thresholds_of(struct thresholds *t, RadOracle oracle)
-{
-    struct RadOracleReport report;
-    radGetOracleReport(oracle, &report);
-    *t = (struct thresholds){.oracle = oracle};
-    for (int i = 0; i < report.parameter_count && t->count < PARAMETERS; i++) {
-        const struct oracle_parameter *p = &report.parameters[i];
-        if (p->fixed)
-            continue;
-        if (p->role != ROLE_LINK_THRESHOLD && p->role != ROLE_SMALLEST_PART
-            && p->role != ROLE_RELATIVE_ERROR_TOLERANCE && p->role != ROLE_RELATIVE_POWER_TOLERANCE)
-            continue;
-        t->of[t->count].name = p->name;
-        t->of[t->count].value = radGetOracleParameter(oracle, p->name);
-        t->of[t->count].low = p->low;
-        t->of[t->count].high = p->high;
-        t->of[t->count++].part = p->role == ROLE_SMALLEST_PART;
-    }
-}
-
-static void scale_thresholds(const struct thresholds *t, double scale)
-{
-    for (int i = 0; i < t->count; i++) {
-        double value = t->of[i].value * (t->of[i].part ? fmin(scale, 1) : scale);
-        radSetOracleParameter(t->oracle, t->of[i].name,
-                              fmin(fmax(value, t->of[i].low), t->of[i].high));
-    }
-}
 
 /* How large the error may be, by the last measurement. That of faces is also no smaller than what
  * chance leaves of it, whatever a measurement happens to say. */
@@ -141,7 +101,7 @@ static int by_particles(struct work *w, double rays)
 static int solve_at(struct work *w, const struct thresholds *t, double scale, RadScene scene,
                     const struct RadSolveOptions *how)
 {
-    scale_thresholds(t, scale);
+    thresholds_scale(t, scale);
     *w->m = (struct measured){0};
     if (solved_open(w->s, w->device, w->o->scene, scene, t->oracle, how) < 0)
         return -1;
@@ -192,7 +152,7 @@ int accuracy_solve(struct accuracy *a, struct solved *s, struct measured *m,
     struct work w = {a, s, m, o, device, seconds()};
     struct thresholds t;
     *a = (struct accuracy){0};
-    thresholds_of(&t, oracle);
+    thresholds_open(&t, oracle);
     if (solve_at(&w, &t, t.count > 0 ? COARSEST : 1, scene, how) < 0)
         return -1;
     int status =

@@ -66,8 +66,9 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
 /* Write all that was asked for. Returns the exit status. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct surfaces *surfaces, const struct solved *solved,
-                         const struct measured *measured, const struct power_promise *promise,
-                         const struct accuracy *accuracy, RadOracle oracle)
+                         const struct coarse_first *coarse, const struct measured *measured,
+                         const struct power_promise *promise, const struct accuracy *accuracy,
+                         RadOracle oracle)
 {
     double start = seconds();
     int status =
@@ -78,6 +79,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                                     scene,
                                     solved,
                                     oracle,
+                                    o->accuracy > 0 ? NULL : coarse,
                                     measured,
                                     promise,
                                     o->accuracy > 0 ? accuracy : NULL,
@@ -92,13 +94,14 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
 
 /* Solve, and write every discussion where that is asked for. Returns 0, or the exit status after a
  * message, with nothing to close. */
-static int solve_links(struct solved *s, const struct options *o, const struct open_scene *scene,
-                       RadOracle oracle, const struct RadSolveOptions *how)
+static int solve_links(struct solved *s, struct coarse_first *coarse, const struct options *o,
+                       const struct open_scene *scene, RadOracle oracle,
+                       const struct RadSolveOptions *how)
 {
     struct trace_file *trace = NULL;
     struct trace_count count;
     if (!o->trace)
-        return solved_open(s, scene->device, o->scene, scene->scene, oracle, how) < 0;
+        return coarse_first_solve(coarse, s, o, scene->device, scene->scene, oracle, how) < 0;
     if (solved_begin(s, scene->device, o->scene, scene->scene, oracle, how) < 0)
         return 1;
     int status = trace_file_open(&trace, o->trace, o->where, scene->scene, s->solution, oracle);
@@ -131,11 +134,12 @@ static int solve_links(struct solved *s, const struct options *o, const struct o
 }
 
 /* Solve, mend and measure as the options say. Returns 0, or the exit status after a message. */
-static int solve_once(struct solved *s, struct measured *measured, struct power_promise *promise,
-                      const struct options *o, const struct open_scene *scene, RadOracle oracle,
+static int solve_once(struct solved *s, struct coarse_first *coarse, struct measured *measured,
+                      struct power_promise *promise, const struct options *o,
+                      const struct open_scene *scene, RadOracle oracle,
                       const struct RadSolveOptions *how)
 {
-    const int status = solve_links(s, o, scene, oracle, how);
+    const int status = solve_links(s, coarse, o, scene, oracle, how);
     if (status)
         return status;
     if (measured_take(measured, o, scene->device, s->solution) == 0
@@ -171,9 +175,11 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     struct measured measured;
     struct power_promise promise = {0};
     struct accuracy accuracy = {.reached = 1};
-    int status = o->accuracy > 0 ? accuracy_solve(&accuracy, &s, &measured, o, scene->device,
-                                                  scene->scene, oracle, &how)
-                                 : solve_once(&s, &measured, &promise, o, scene, oracle, &how);
+    struct coarse_first coarse = {.scale = 1};
+    int status =
+        o->accuracy > 0
+            ? accuracy_solve(&accuracy, &s, &measured, o, scene->device, scene->scene, oracle, &how)
+            : solve_once(&s, &coarse, &measured, &promise, o, scene, oracle, &how);
     if (status == 0 && o->errors == ERRORS_ALL
         && measured_account(&measured, o, scene->device, s.solution) < 0) {
         solved_close(&s);
@@ -193,7 +199,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
         measured_warn(&measured, o->scene);
         power_promise_warn(&promise, o->scene);
     }
-    status = write_outputs(o, scene, &surfaces, &s, &measured, &promise, &accuracy, oracle);
+    status =
+        write_outputs(o, scene, &surfaces, &s, &coarse, &measured, &promise, &accuracy, oracle);
     if (!accuracy.reached) {
         report_warning(o->scene, 0, "--accuracy was not kept: stopped by %s", accuracy.why);
         status = status ? status : 3;

@@ -142,15 +142,15 @@ json_t *summary_json(const struct summary *s)
                   (json_int_t)r->changing, "residual", r->residual, "solver",
                   solver_json(s->options, r), "basis", basis_json(r), "power_emitted", r->emitted,
                   "power_absorbed", r->absorbed, "power_imbalance", imbalance(r));
-    json_t *quality =
-        json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
-                  "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved",
-                  r->rows.moved, "defect_mean", r->rows.defect_mean, "defect_largest",
-                  r->rows.defect_most, "closure", closure_json(s->options, r), "importance",
-                  importance_json(r), "error_control", error_control_json(r), "bracket",
-                  bracket_json(r), "ranking", ranking_json(r), "error", measured_json(s->measured),
-                  "correction", mended_json(s->measured), "promise", power_promise_json(s->promise),
-                  "accuracy", s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null());
+    json_t *quality = json_pack(
+        "{s:{s:f, s:f, s:f, s:f, s:f}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+        "row_sums", "smallest", r->rows.low, "largest", r->rows.high, "excess_moved", r->rows.moved,
+        "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
+        closure_json(s->options, r), "importance", importance_json(r), "error_control",
+        error_control_json(r), "bracket", bracket_json(r), "ranking", ranking_json(r), "scale",
+        s->coarse ? coarse_first_json(s->coarse) : json_null(), "error", measured_json(s->measured),
+        "correction", mended_json(s->measured), "promise", power_promise_json(s->promise),
+        "accuracy", s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null());
     json_t *cost = json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:f}", "seconds", "build",
                              r->seconds.build, "refine", r->seconds.refine, "in_rays",
                              r->seconds.in_rays, "iterate", r->seconds.iterate, "output",
@@ -277,13 +277,15 @@ void summary_print(const struct summary *s)
            100 * fabs(imbalance(r)),
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
     print_rows(s->options, r);
+    if (s->coarse)
+        coarse_first_print(s->coarse);
     measured_print(s->measured, scene->polygons);
     if (s->measured->accounted)
         account_print(&s->measured->account);
     power_promise_print(s->promise);
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
-    double particles = measured_seconds(s->measured);
+    double particles = measured_seconds(s->measured) + (s->coarse ? s->coarse->seconds : 0);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, particles "
            "%.2f, output %.2f; %.0f MB\n",
            r->seconds.build + r->seconds.refine + r->seconds.iterate + particles

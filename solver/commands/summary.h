@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 #include "commands/accuracy.h"
+#include "commands/coarse_first.h"
 #include "commands/error_summary.h"
 #include "commands/power_promise.h"
 #include "options/options.h"
@@ -18,6 +19,7 @@ struct summary {
     const struct open_scene *scene;
     const struct solved *solved;
     RadOracle oracle;
+    const struct coarse_first *coarse; /* NULL: --accuracy chose */
     const struct measured *measured;
     const struct power_promise *promise;
     const struct accuracy *accuracy; /* NULL: none was asked for */

@@ -54,6 +54,14 @@ static int read_whole(struct options *o, const struct option_row *row, const cha
     return 0;
 }
 
+static int read_scale(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    char *end;
+    o->scale = strtod(value, &end);
+    return end == value || *end || !(o->scale >= 1e-6 && o->scale <= 1e6) ? -1 : 0;
+}
+
 static int read_tolerance(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
@@ -474,6 +482,8 @@ const struct option_row option_rows[] = {
      "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX)},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters), .rare = 1},
+    {"scale", "X", SOLVE, NULL, "thresholds times X (measured; 1 where any is set)",
+     "a number from 1e-6 to 1e6", .read = read_scale, .rare = 1},
     {"tolerance", "X", MATRICES, NULL, "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
     /* Below what the best kinds differ by. */

@@ -396,6 +396,12 @@ static int check_together(struct options *o)
             || o->solver == RAD_SOLVER_LU))
         return wrong(c->name, "--basis linear goes with --projection galerkin, and with --solver "
                               "gauss-seidel or jacobi");
+    o->choose_scale = o->command == COMMAND_SOLVE && strcmp(o->oracle, RAD_DEFAULT_ORACLE) == 0
+                      && !o->setting_count && !o->params && !o->replacement_count && !o->trace
+                      && !o->statistics && !o->no_correct && !(o->accuracy > 0)
+                      && o->basis == RAD_BASIS_LINEAR;
+    if (o->scale > 0 && o->accuracy > 0)
+        return wrong(c->name, "--accuracy chooses the scale: it does not go with --scale");
     if (o->correct && o->no_correct)
         return wrong(c->name, "--correct and --no-correct contradict each other");
     if (o->mesh && !o->image && !o->image_error)

@@ -67,6 +67,8 @@ struct options {
     enum RadClosure closure;
     enum RadBasis basis;
     int basis_given;
+    double scale;     /* of the oracle's thresholds; 0: not given */
+    int choose_scale; /* it is chosen then; else 1 */
     double tolerance;
     enum RadSolver solver;
     enum RadProjection projection;

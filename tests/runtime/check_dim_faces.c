@@ -69,7 +69,9 @@ START_TEST(test_found)
     const char *cause;
     two_furnaces(&s, &scene, DARK, 2);
     spoil_wall(&s);
-    ck_assert_int_eq(measure_and_mend(&s, 1e-4, 450000, 0, &alone, &cause), 0);
+    ck_assert_int_eq(
+        measure_and_mend(&s, &(struct mending_goal){.noise = 1e-4, .most = 450000}, &alone, &cause),
+        0);
     const struct hierarchy *h = &s.hierarchy;
     for (uint32_t f = 0; f < WALL; f++)
         ck_assert_double_eq_tol(of_face(&s, f), 1, 0.01);

@@ -24,11 +24,11 @@ done | awk '
     { value[$1 "." $2] = $3 }
     END {
         mending = value["json.correction.rays"] + 0; errors = value["json.error.rays"] + 0
-        links = value["json.rays"] + 0; all = links + mending + errors
+        links = value["json.rays"] + value["json.scale.rays"]; all = links + mending + errors
         print "links", value["json.links"]; print "rays_links", links; print "rays_mending", mending
         print "rays_errors", errors; print "rays", all
         print "seconds", value["json.seconds.build"] + value["json.seconds.refine"] + value["json.seconds.iterate"] \
-            + value["json.correction.seconds"] + value["json.error.seconds"]
+            + value["json.scale.seconds"] + value["json.correction.seconds"] + value["json.error.seconds"]
         if (all > 0)
             print "particles_cells", sqrt(2 / 3.14159265 * (value["cells.json.standard_error.both"] ^ 2 \
                 + value["cells.json.standard_error.particles"] ^ 2 * value["cells.json.rays.particles"] / all))
