@@ -188,6 +188,7 @@ struct emit_options {
     const char *const *folders; /* -I: where headers are looked for before the built-in ones */
     int folder_count;
     const unsigned char *terms; /* by term: is it in struct terms? NULL: all are */
+    const char *before; /* of --prove: text before the first oracle; NULL: none */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */

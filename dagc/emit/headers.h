@@ -16,4 +16,7 @@ const char *dag_header_text(struct dag *dag, const char *name);
 /* ends with a NULL name (dagc/emit/embed_headers.sh makes it) */
 extern const struct dag_header dagc_headers[];
 
+/* Likewise, for --prove: the runtime's interpreter and what it includes. */
+extern const struct dag_header dagc_interpreter[];
+
 #endif
