@@ -26,9 +26,10 @@ oracle small "text" {
   node a = look() { left -> b; right -> c; neither -> drop; }
   node b = weigh(most = max(most - less, glow), share = 0.5) { light -> c; heavy -> d; }
   node c = measure() { done -> e; }
-  node d = tally(upto = upto) { few -> c; some -> split; many -> drop; }
+  node d = tally(upto = upto) { few -> h; some -> split; many -> h; }
   node e = weigh(most = max(most * size.rough, 0), share = min(1, right.area / left.area)) { light -> keep; heavy -> f; }
   node f = look() { left -> g; right -> g; neither -> split; }
+  node h = weigh(most = 2, share = 0.25) { light -> c; heavy -> drop; }
   node g = weigh(share = 1) { light -> keep; heavy -> drop; }
 }
 END_OF_GRAPH
