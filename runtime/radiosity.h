@@ -294,7 +294,7 @@ struct RadStatistics {
     const struct RadPass *passes;     /* [pass_count], those that are over */
     int pass_count;
     /* The paths that took most time, at most RAD_PATHS, the longest first; how many were gone at
-     * all. A graph of 2^63 paths or more has none told. */
+     * all. A graph of 2^64 paths or more has none told. */
     const struct RadPath *paths;
     int path_count;
     uint64_t distinct_paths;

@@ -7,11 +7,12 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
+#include "commands/asked_oracle.h"
 #include "commands/commands.h"
 #include "output/json_file.h"
 #include "util/progress.h"
+#include "util/decisions.h"
 #include "util/device.h"
-#include "util/open_oracle.h"
 #include "util/report.h"
 #include "util/solved.h"
 
@@ -126,25 +127,6 @@ static void print_side(const struct difference *f, int side)
         printf("face %u at depth %d", f->face[side], f->depth[side]);
 }
 
-static const char *decision_name(enum decision d)
-{
-    switch (d) {
-    case DECISION_LINK:
-        return "link";
-    case DECISION_LINK_CLUSTERS:
-        return "link_clusters";
-    case DECISION_STOP:
-        return "stop";
-    case DECISION_SUBDIVIDE_RECEIVER:
-        return "subdivide_receiver";
-    case DECISION_SUBDIVIDE_EMITTER:
-        return "subdivide_emitter";
-    case DECISION_SUBDIVIDE_BOTH:
-        return "subdivide_both";
-    }
-    return "?";
-}
-
 /* What release k of the panel is called. */
 static const char *name_of(const struct panel *p, int k)
 {
@@ -161,7 +143,7 @@ static void print_difference(const struct panel *p)
     print_side(f, 1);
     printf(":\n");
     for (int i = 0; i < 2; i++) {
-        printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_name(f->decision[i]));
+        printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_names[f->decision[i]]);
         if (links(f->decision[i]))
             printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d",
                    (double)f->link[i].form_factor, f->link[i].levels[0], f->link[i].visibility,
@@ -241,10 +223,7 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
                      ? RELEASES
                      : RELEASES - 1};
     for (int k = 0; k < panel.count; k++) {
-        enum RadRelease release = order[RELEASES - panel.count + k];
-        panel.releases[k] =
-            open_oracle_replaced(device, o->oracle, release, o->settings, o->setting_count,
-                                 o->replacements, o->replacement_count);
+        panel.releases[k] = open_asked_oracle(o, device, order[RELEASES - panel.count + k]);
         if (!panel.releases[k])
             return NULL;
     }
