@@ -54,6 +54,9 @@ offsets of the first | dagc/emit/emit_c.c | s/is_integer(dag, parameter), oracle
 fingerprints of nothing | dagc/emit/emit_c.c | s/dag_fingerprint_text(oracle, fingerprint);/memset(fingerprint, '0', 16), fingerprint[16] = 0;/ | dagc/check_prove
 last answers go first | dagc/emit/emit_flat.c | s/print_jump(flat, node->order, target);/print_jump(flat, node->order, left == 0 ? \&arc_of(flat, node, 0)->target : target);/ | dagc/check_prove
 known too early | dagc/emit/emit_flat.c | s/level_name(dag, t, low));$/level_name(dag, t, t->levels.count > 0 ? t->levels.count : 1));/ | dagc/check_prove
+counted and decided otherwise | runtime/oracle/counting.c | s/return (enum decision) ~p->next\[at\];/return (enum decision)(~p->next[at] == 1 ? 0 : ~p->next[at]);/ | runtime/check_releases
+followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | runtime/check_releases
+differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/    if (1)/; s/    if (panel.differences) {/    if (0) {/ | solver/check_compare
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
 panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/strchr("\&", *at)/ | solver/check_panel
