@@ -182,6 +182,7 @@ void dag_fingerprint(struct dag *dag);
 struct emit_options {
     int counted;        /* --instrument: NAME_refine_counted */
     int traced;         /* --trace: NAME_refine_traced */
+    int copies;         /* --copies: of a node for what paths know, at most; 0: one */
     int lines;          /* --lines: a comment at each node says where it stands in its source */
     int standalone;     /* --standalone: all that it needs, in one .c and one .h */
     const char *prefix; /* of every name in it; NULL: the first oracle's name */

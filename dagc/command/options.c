@@ -3,6 +3,7 @@
  * The options are the rows of options.def, emits.def and passes.def: parsing and help both read
  * them. Values come as `--name VALUE` or `--name=VALUE`.
  * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -208,6 +209,11 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_TRACE:
         job->c.traced = 1;
         return -1;
+    case OPTION_COPIES:
+        job->c.copies = atoi(value);
+        if (job->c.copies < 1 || job->c.copies > 64 || strspn(value, "0123456789") != strlen(value))
+            return wrong("--copies takes a number from 1 to 64, not", value);
+        return -1;
     case OPTION_LINES:
         job->c.lines = 1;
         return -1;
@@ -328,9 +334,11 @@ static const char *contradiction(const struct job *job)
         return "the source and the catalog cannot both be standard input";
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
-    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove)
+    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove
+         || job->c.copies)
         && (job->emit != EMIT_C || job->stop != PASSES))
-        return "--instrument, --trace, --lines, --standalone and --prove belong to C text";
+        return "--instrument, --trace, --copies, --lines, --standalone and --prove belong to C "
+               "text";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
         return "--prove writes nothing";
     if (job->c.standalone && header == NULL)

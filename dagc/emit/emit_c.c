@@ -95,6 +95,13 @@ void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct ora
               " holds the terms that the\n * decision reads; the others are unspecified. */\n");
     dag_emit_prototype(out, oracle, FLAVOUR_PLAIN);
     dag_print(out, ";\n");
+    if (options->copies > 1) {
+        dag_print(out,
+                  "\n/* The same where nothing is known yet, the discussion's terms being all zero:"
+                  " they are\n * not looked at. */\n");
+        dag_emit_prototype(out, oracle, FLAVOUR_FIRST);
+        dag_print(out, ";\n");
+    }
     dag_emit_counters_h(dag, out, oracle, options);
 }
 
@@ -282,9 +289,9 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
 }
 
 /* What analyse_terms.c proved and a compiler may not see. */
-void dag_emit_known_macro(struct dag *dag, struct text *out)
+void dag_emit_known_macro(struct dag *dag, struct text *out, const struct emit_options *options)
 {
-    if (!dag_emit_states_facts(dag))
+    if (!dag_emit_states_facts(dag, options))
         return;
     dag_print(out, "\n#if defined __GNUC__\n"
                    "#define KNOWN(fact) do { if (!(fact)) __builtin_unreachable(); } while (0)\n"
@@ -322,7 +329,7 @@ void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char
     print_tool_headers(dag, c, reached);
     dag_emit_accessors(dag, c);
     dag_emit_callers(dag, c, reached);
-    dag_emit_known_macro(dag, c);
+    dag_emit_known_macro(dag, c, options);
     for (int i = 0; i < dag->oracle_count; i++) {
         dag_emit_oracle_c(dag, c, &dag->oracles[i], options);
         print_oracle(dag, c, &dag->oracles[i]);

@@ -10,7 +10,7 @@
 void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enum flavour flavour)
 {
     const char *name = oracle->name;
-    static const char *const suffixes[] = {"", "_counted", "_traced"};
+    static const char *const suffixes[] = {"", "_counted", "_traced", "_first"};
     dag_print(out,
               "enum decision %s_refine%s(const struct %s_parameters *parameters,\n"
               "    struct discussion *discussion",
@@ -55,6 +55,7 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
             "    double time[%d];              /* by node, in the unit of clock */\n"
             "    unsigned long long calls[%d]; /* by node */\n"
             "    unsigned long long arcs[%d];  /* by arc: how often the answer was given */\n"
+            "    unsigned long long checks;    /* looks at a term that may be known or not */\n"
             "};\n",
             name, oracle->order.count, oracle->order.count, arcs);
         dag_print(out, "\n/* Decides as %s_refine does, and counts. */\n", name);

@@ -81,7 +81,7 @@ static void collect(struct standalone *s, struct c_items *items)
         dag_emit_oracle_h(dag, &declarations, &dag->oracles[i], &s->options);
     dag_emit_accessors(dag, &functions);
     dag_emit_callers(dag, &functions, reached);
-    dag_emit_known_macro(dag, &functions);
+    dag_emit_known_macro(dag, &functions, &s->options);
     for (int i = 0; i < dag->oracle_count; i++)
         dag_emit_oracle_c(dag, &functions, &dag->oracles[i], &s->options);
 

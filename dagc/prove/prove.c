@@ -174,6 +174,9 @@ static void print_run(const struct dag *dag, struct text *out, const struct emit
                       dag->types[parameter->type].base == BASE_INTEGER ? "(int)" : "", k);
         }
         dag_print(out, "    if (flavour == 0)\n        result = (int)%s_refine(&p, d);\n", name);
+        if (options->copies > 1)
+            dag_print(out, "    if (flavour == 3)\n        result = (int)%s_refine_first(&p, d);\n",
+                      name);
         if (options->counted)
             dag_print(
                 out,
@@ -365,7 +368,8 @@ static int walk(const struct proof *proof, struct prove_record *r)
 
 static void print_path(const struct proof *proof, int wanted, int got, const char *what)
 {
-    static const char *const flavours[] = {"refine", "refine_counted", "refine_traced"};
+    static const char *const flavours[] = {"refine", "refine_counted", "refine_traced",
+                                           "refine_first"};
     const struct node *node = node_at(proof, 0);
     fprintf(proof->report, "%s: %s_%s differs in %s on the path\n", proof->oracle->name,
             proof->oracle->name, flavours[proof->different - 1], what);
@@ -403,7 +407,7 @@ static const char *difference(const struct proof *proof, int flavour, int wanted
         if (a->levels[term] != b->levels[term] || a->terms[term] != b->terms[term])
             return "a term that the decision reads";
     }
-    return flavour != 0 && b->watched != b->calls ? "what was counted" : NULL;
+    return (flavour == 1 || flavour == 2) && b->watched != b->calls ? "what was counted" : NULL;
 }
 
 static void empty(const struct proof *proof, struct prove_record *r)
@@ -417,8 +421,9 @@ static void try_script(struct proof *proof)
 {
     empty(proof, &proof->wanted);
     int wanted = walk(proof, &proof->wanted);
-    for (int flavour = 0; flavour < 3 && proof->different == 0; flavour++) {
-        if ((flavour == 1 && !proof->options->counted) || (flavour == 2 && !proof->options->traced))
+    for (int flavour = 0; flavour < 4 && proof->different == 0; flavour++) {
+        if ((flavour == 1 && !proof->options->counted) || (flavour == 2 && !proof->options->traced)
+            || (flavour == 3 && proof->options->copies < 2))
             continue;
         empty(proof, &proof->got);
         int got = proof->run(proof->number, flavour, proof->values, &proof->got);
