@@ -376,6 +376,8 @@ struct dag {
     int lost;                   /* a declaration lost its name to a syntax error: a name that
                                    seems unknown may be that one */
     struct where runtime_where;
+    const char *verb; /* an oracle's function is NAME_VERB; "refine" when not declared */
+    struct where verb_where;
     struct type *types;
     int type_count;
     struct level *levels;

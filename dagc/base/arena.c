@@ -123,6 +123,8 @@ struct dag *dag_new(void)
     dag->oracles = none, dag->branches = none, dag->sources = none, dag->imports = none;
     dag->diagnostics = none;
     dag->use = -1;
+    dag->verb = "refine";
+    dag->verb_where.source = -1;
     return dag;
 }
 

@@ -187,6 +187,8 @@ struct emit_options {
     const char *prefix; /* of every name in it; NULL: the first oracle's name */
     const char *const *folders; /* -I: where headers are looked for before the built-in ones */
     int folder_count;
+    const char *const *host; /* --host: headers that --standalone leaves to the program */
+    int host_count;
     const unsigned char *terms; /* by term: is it in struct terms? NULL: all are */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
@@ -200,6 +202,9 @@ void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availab
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
 /* terms: as above */
 void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms);
+/* likewise; tools, by tool: are its answers in it? NULL: all are */
+void dag_emit_catalog_part(const struct dag *dag, struct text *out, const unsigned char *terms,
+                           const unsigned char *tools);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 /* a tool's or term's header */
 void dag_emit_stub(struct dag *dag, struct text *out, const char *name);

@@ -134,8 +134,11 @@ int main(int count, char **arguments)
     int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
     struct job job = {0};
     job.folders = calloc((size_t)count, sizeof *job.folders);
-    if (job.folders == NULL) {
+    job.host = calloc((size_t)count, sizeof *job.host);
+    if (job.folders == NULL || job.host == NULL) {
         fprintf(stderr, "dagc: error: out of memory\n");
+        free(job.folders);
+        free(job.host);
         return diff ? 2 : 1;
     }
     int status =
@@ -145,5 +148,6 @@ int main(int count, char **arguments)
     else if (status < 0)
         status = diff ? run_diff(&job) : run(&job);
     free(job.folders);
+    free(job.host);
     return status;
 }

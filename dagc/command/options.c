@@ -217,6 +217,9 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_PREFIX:
         job->c.prefix = value;
         return -1;
+    case OPTION_HOST:
+        job->host[job->c.host_count++] = value;
+        return -1;
     case OPTION_PROVE:
         job->prove = 1;
         return -1;
@@ -337,6 +340,8 @@ static const char *contradiction(const struct job *job)
         return "--standalone needs --header";
     if (job->c.prefix != NULL && !job->c.standalone)
         return "--prefix belongs to --standalone";
+    if (job->c.host_count > 0 && !job->c.standalone)
+        return "--host belongs to --standalone";
     if (header != NULL && (job->emit != EMIT_C || job->stop != PASSES))
         return "--header belongs to C text";
     if (job->emit == EMIT_STUB && (job->stop != PASSES || depfile != NULL))
@@ -373,6 +378,7 @@ int dag_parse_arguments(struct job *job, int count, char **arguments)
         job->outputs[OUTPUT_TEXT].path = "-";
     job->c.folders = job->folders;
     job->c.folder_count = job->folder_count;
+    job->c.host = job->host;
     const char *why = contradiction(job);
     return why != NULL ? wrong(why, "") : -1;
 }

@@ -26,6 +26,7 @@ struct job {
     struct input input, catalog;
     const char **folders; /* of -I; room for as many as there are arguments */
     int folder_count;
+    const char **host;       /* of --host; likewise */
     const char *second_path; /* of diff */
     struct output outputs[OUTPUTS];
 };

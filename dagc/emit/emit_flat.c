@@ -518,7 +518,7 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);
     dag_print(out, "\n");
-    dag_emit_prototype(out, oracle, flavour);
+    dag_emit_prototype(dag, out, oracle, flavour);
     dag_print(out, "\n{\n    struct discussion d = *discussion;\n");
     if (flat.parts > 1)
         print_parts_loop(&flat);

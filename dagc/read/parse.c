@@ -191,9 +191,10 @@ int dag_parse_parameter(struct parser *parser)
     return 1;
 }
 
-static const char *const item_words[] = {"import", "graph", "oracle", "runtime", "type",    "term",
-                                         "fact",   "role",  "extern", "tool",    "decision"};
-enum { ITEM_WORDS = 11, CATALOG_WORD = 3 /* the first of the catalog's */ };
+static const char *const item_words[] = {"import", "graph",  "oracle", "runtime",
+                                         "verb",   "type",   "term",   "fact",
+                                         "role",   "extern", "tool",   "decision"};
+enum { ITEM_WORDS = 12, CATALOG_WORD = 3 /* the first of the catalog's */ };
 
 static int at_catalog_word(const struct parser *parser)
 {
@@ -235,9 +236,9 @@ static void unknown_item(struct parser *parser)
 {
     int catalog = parser->content == CONTENT_CATALOG;
     struct suggestion suggestion = {parser->token.text, NULL, 0};
-    dag_expected(parser, catalog
-                             ? "import, runtime, type, term, fact, extern, tool, decision or graph"
-                             : "'oracle', 'graph', 'import' or a declaration");
+    dag_expected(
+        parser, catalog ? "import, runtime, verb, type, term, fact, extern, tool, decision or graph"
+                        : "'oracle', 'graph', 'import' or a declaration");
     if (parser->token.kind == TOKEN_NAME) {
         for (int i = 0; i < ITEM_WORDS; i++)
             dag_suggest(&suggestion, item_words[i]);

@@ -50,6 +50,25 @@ static int parse_runtime(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
+/* verb = "verb" NAME ";" */
+static int parse_verb(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    const char *verb;
+    struct where where;
+    if (!dag_expect_name(parser, "what the function of an oracle does, a name such as 'decide'",
+                         &verb, &where))
+        return 0;
+    if (dag->verb_where.source >= 0 && strcmp(verb, dag->verb) != 0) {
+        dag_error(dag, where, "a second verb");
+        dag_note(dag, dag->verb_where, "the first is here");
+    } else {
+        dag->verb = verb;
+        dag->verb_where = where;
+    }
+    return dag_expect(parser, ';', "after a declaration");
+}
+
 /* type = "type" NAME "=" ( "real" [ "[" NUMBER "]" ] | "integer" ) STRING ";" */
 static int parse_type(struct parser *parser)
 {
@@ -383,15 +402,15 @@ static int parse_extern(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
-/* catalog_item = runtime | type | term | fact | role | extern | tool | decision */
+/* catalog_item = runtime | verb | type | term | fact | role | extern | tool | decision */
 int dag_parse_catalog_item(struct parser *parser)
 {
     static const struct {
         const char *word;
         int (*parse)(struct parser *parser);
-    } items[] = {{"runtime", parse_runtime}, {"type", parse_type},        {"term", parse_term},
-                 {"fact", parse_fact},       {"role", parse_role},        {"extern", parse_extern},
-                 {"tool", parse_tool},       {"decision", parse_decision}};
+    } items[] = {{"runtime", parse_runtime}, {"verb", parse_verb}, {"type", parse_type},
+                 {"term", parse_term},       {"fact", parse_fact}, {"role", parse_role},
+                 {"extern", parse_extern},   {"tool", parse_tool}, {"decision", parse_decision}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++)
         if (dag_take_word(parser, items[i].word))
             return items[i].parse(parser);
