@@ -250,6 +250,27 @@ check "a header that includes itself" fails 1 "round.h includes itself" $run --s
 rm net/tools/longer.h
 check "no header of a tool" fails 1 'net.dag:9:6: error: no header "tools/longer.h"' $run --standalone -o x.c --header x.h gate.dag
 
+# ---- a skeleton of the whole: it compiles, runs, and stays where somebody has written
+for what in "stub c net/net.dag pass" "stub-c++ cpp net/net.dag pass" "stub c $top/tests/dagc/test_catalog.dag keep" "stub-c++ cpp $top/runtime/catalog.dag link"; do
+    # shellcheck disable=SC2086
+    set -- $what
+    rm -rf skeleton
+    check "$what: made" "$dagc" --emit="$1" -o skeleton/of "$3"
+    check "$what: compiles" make -s -C skeleton/of DAGC="$dagc" CFLAGS="-O0 $warnings" CXXFLAGS="-O0 $warnings"
+    check "$what: decides" sh -c "[ \"\$(skeleton/of/first)\" = $4 ]"
+    check "$what: has its program" [ -f "skeleton/of/main.$2" ]
+done
+echo '/* mine */' >>skeleton/of/main.cpp
+rm skeleton/of/tools/transfer.h
+check "once more" "$dagc" --emit=stub-c++ -o skeleton/of "$top/runtime/catalog.dag"
+check "what was there stays" grep -q mine skeleton/of/main.cpp
+check "what was missing is made" [ -f skeleton/of/tools/transfer.h ]
+check "no folder" fails 1 "cannot make the folder of" "$dagc" --emit=stub -o net/net.dag/x net/net.dag
+printf 'decision stop;\nruntime "x.h" abi 1;\n' >empty.dag
+check "a catalog without tools" fails 1 "declares no tool" "$dagc" --emit=stub -o none empty.dag
+check "and nothing is made" [ ! -e none ]
+check "not of a tool" fails 2 "takes a catalog, not" "$dagc" --emit=stub-c++ weigh
+
 # ---- the verb
 verb() { sed "s/^verb .*/$1/" net/net.dag >verb.dag; }
 verb 'verb while;' && check "a keyword may be a verb: gate_while" "$dagc" --catalog verb.dag --emit=none gate.dag
