@@ -225,8 +225,10 @@ static int print_graph(struct skeleton *s)
         if (i != decision && is_plain(dag, i) && last->answers.count > 1)
             other = i;
     struct text *out = add_file(s, dag_format(&dag->arena, "%s.dag", s->name));
-    dag_print(out, "# One way through the catalog, to begin with.\noracle %s {\n  start n1;\n",
-              s->name);
+    dag_print(out,
+              "# One way through the catalog, to begin with.\ncatalog \"%s\";\n\noracle %s {\n"
+              "  start n1;\n",
+              s->catalog, s->name);
     for (; asks < count - 1; asks++) {
         print_node(dag, out, tools[asks], asks + 1);
         dag_print(out, "otherwise -> n%d; }\n", asks + 2);
@@ -275,15 +277,15 @@ static void print_makefile(struct skeleton *s)
     struct text *out = add_file(s, "Makefile");
     const char *n = s->name, *c = s->cxx ? "cpp" : "c", *compiler = s->cxx ? "CXX" : "CC";
     dag_print(out,
-              "# make, then ./%s\nDAGC    = dagc\nCATALOG = %s\n"
+              "# make, then ./%s\nDAGC   = dagc\n"
               "%sFLAGS = -O2 -Wall -Wextra -ffp-contract=off\n\n"
               "%s: main.%s %s.%s %s.h\n"
               "\t$(%s) $(%sFLAGS) -o $@ main.%s %s.%s -lm\n\n"
               "%s.%s %s.h: %s.dag\n"
-              "\t$(DAGC) --catalog $(CATALOG) -I . --standalone --depfile %s.d -o %s.%s --header "
+              "\t$(DAGC) -I . --standalone --depfile %s.d -o %s.%s --header "
               "%s.h %s.dag\n\n-include %s.d\n",
-              n, s->catalog, s->cxx ? "CXX" : "C", n, c, n, c, n, compiler, s->cxx ? "CXX" : "C", c,
-              n, c, n, c, n, n, n, n, c, n, n, n);
+              n, s->cxx ? "CXX" : "C", n, c, n, c, n, compiler, s->cxx ? "CXX" : "C", c, n, c, n, c,
+              n, n, n, n, c, n, n, n);
 }
 
 void dag_emit_skeleton(struct skeleton *s)
