@@ -50,7 +50,7 @@ static const struct {
 
 int dag_job_is_catalog(const struct job *job)
 {
-    return emits[job->emit].source == SOURCE_CATALOG;
+    return emits[job->emit].source == SOURCE_CATALOG || job->skeleton;
 }
 
 /* ---- help */
@@ -223,6 +223,9 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_PREFIX:
         job->c.prefix = value;
         return -1;
+    case OPTION_HOST:
+        job->host[job->c.host_count++] = value;
+        return -1;
     case OPTION_PROVE:
         job->prove = 1;
         return -1;
@@ -345,9 +348,12 @@ static const char *contradiction(const struct job *job)
         return "--standalone needs --header";
     if (job->c.prefix != NULL && !job->c.standalone)
         return "--prefix belongs to --standalone";
+    if (job->c.host_count > 0 && !job->c.standalone)
+        return "--host belongs to --standalone";
     if (header != NULL && (job->emit != EMIT_C || job->stop != PASSES))
         return "--header belongs to C text";
-    if (job->emit == EMIT_STUB && (job->stop != PASSES || depfile != NULL))
+    if ((job->emit == EMIT_STUB || job->emit == EMIT_STUB_CXX)
+        && (job->stop != PASSES || depfile != NULL))
         return "--dump and --depfile mean nothing with --emit=stub";
     if (dag_job_is_catalog(job) && job->stop != PASSES)
         return "--dump shows oracles, not a catalog";
@@ -381,6 +387,13 @@ int dag_parse_arguments(struct job *job, int count, char **arguments)
         job->outputs[OUTPUT_TEXT].path = "-";
     job->c.folders = job->folders;
     job->c.folder_count = job->folder_count;
+    job->c.host = job->host;
+    size_t length = strlen(job->input_path);
+    if (job->emit == EMIT_STUB || job->emit == EMIT_STUB_CXX)
+        job->skeleton = strchr(job->input_path, '/') != NULL
+                        || (length > 4 && strcmp(job->input_path + length - 4, ".dag") == 0);
+    if (job->emit == EMIT_STUB_CXX && !job->skeleton)
+        return wrong("--emit=stub-c++ takes a catalog, not", job->input_path);
     const char *why = contradiction(job);
     return why != NULL ? wrong(why, "") : -1;
 }

@@ -21,6 +21,7 @@ enum { PART_NODES = 100 };
  * is used, and of one oracle all but its `struct oracle`. */
 void dag_emit_banner(const struct dag *dag, struct text *out);
 unsigned char *dag_emit_reached_tools(struct dag *dag); /* by tool */
+unsigned char *dag_emit_reached_terms(struct dag *dag); /* by term: some argument reads it */
 void dag_emit_known_macro(struct dag *dag, struct text *out, const struct emit_options *options);
 void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                        const struct emit_options *options);
@@ -40,8 +41,10 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
                          const struct emit_options *options);
 void dag_emit_counters_c(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                          const struct emit_options *options);
-/* The head of NAME_refine, NAME_refine_counted or NAME_refine_traced, up to its `)`. */
-void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enum flavour flavour);
+/* The head of NAME_refine, NAME_refine_counted or NAME_refine_traced, up to its `)`; the catalog's
+ * verb may be another than `refine`. */
+void dag_emit_prototype(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                        enum flavour flavour);
 
 /* emit_expression.c: the constants that a node's arguments read (how many), then each argument
  * over them, *value counting on from 0; `at` is the discussion's address there; and what the C file

@@ -609,7 +609,7 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
                   "    struct discussion *discussion%s)",
                   oracle->name, oracle->name, flat.most > 1 ? ", int first" : "");
     else
-        dag_emit_prototype(out, oracle, flavour);
+        dag_emit_prototype(dag, out, oracle, flavour);
     dag_print(out, "\n{\n    struct discussion d = *discussion;\n");
     if (flat.parts > 1)
         print_parts_loop(&flat);
@@ -629,7 +629,7 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
     dag_print(out, "}\n");
     for (int first = 0; entries && first < 2; first++) {
         dag_print(out, "\n");
-        dag_emit_prototype(out, oracle, first ? FLAVOUR_FIRST : FLAVOUR_PLAIN);
+        dag_emit_prototype(dag, out, oracle, first ? FLAVOUR_FIRST : FLAVOUR_PLAIN);
         dag_print(out, "\n{\n    return %s_discuss(parameters, discussion%s);\n}\n", oracle->name,
                   flat.most == 1 ? ""
                   : first        ? ", 1"

@@ -173,28 +173,29 @@ static void print_run(const struct dag *dag, struct text *out, const struct emit
             dag_print(out, "    p.%s = %svalues[%d];\n", parameter->name,
                       dag->types[parameter->type].base == BASE_INTEGER ? "(int)" : "", k);
         }
-        dag_print(out, "    if (flavour == 0)\n        result = (int)%s_refine(&p, d);\n", name);
+        dag_print(out, "    if (flavour == 0)\n        result = (int)%s_%s(&p, d);\n", name,
+                  dag->verb);
         if (options->copies > 1)
-            dag_print(out, "    if (flavour == 3)\n        result = (int)%s_refine_first(&p, d);\n",
-                      name);
+            dag_print(out, "    if (flavour == 3)\n        result = (int)%s_%s_first(&p, d);\n", name,
+                      dag->verb);
         if (options->counted)
             dag_print(
                 out,
                 "    if (flavour == 1) {\n"
                 "        static struct %s_counters c;\n"
                 "        int calls = 0, arcs = 0, i;\n        memset(&c, 0, sizeof c);\n"
-                "        result = (int)%s_refine_counted(&p, d, &c);\n"
+                "        result = (int)%s_%s_counted(&p, d, &c);\n"
                 "        for (i = 0; i < %s_nodes; i++)\n            calls += (int)c.calls[i];\n"
                 "        for (i = 0; i < %s_arcs; i++)\n"
                 "            if (c.arcs[i] > 0 && c.calls[%s_arc_nodes[i]] > 0)\n                "
                 "arcs += (int)c.arcs[i];\n"
                 "        d->record->watched = calls == arcs ? calls : -1;\n    }\n",
-                name, name, name, name, name);
+                name, name, dag->verb, name, name, name);
         if (options->traced)
             dag_print(out,
-                      "    if (flavour == 2)\n        result = (int)%s_refine_traced(&p, d, "
+                      "    if (flavour == 2)\n        result = (int)%s_%s_traced(&p, d, "
                       "prove_trace, d->record);\n",
-                      name);
+                      name, dag->verb);
         dag_print(out, "    return result;\n}\n");
     }
     dag_print(out,
@@ -368,11 +369,10 @@ static int walk(const struct proof *proof, struct prove_record *r)
 
 static void print_path(const struct proof *proof, int wanted, int got, const char *what)
 {
-    static const char *const flavours[] = {"refine", "refine_counted", "refine_traced",
-                                           "refine_first"};
+    static const char *const flavours[] = {"", "_counted", "_traced", "_first"};
     const struct node *node = node_at(proof, 0);
-    fprintf(proof->report, "%s: %s_%s differs in %s on the path\n", proof->oracle->name,
-            proof->oracle->name, flavours[proof->different - 1], what);
+    fprintf(proof->report, "%s: %s_%s%s differs in %s on the path\n", proof->oracle->name,
+            proof->oracle->name, proof->dag->verb, flavours[proof->different - 1], what);
     for (int i = 0; i < proof->wanted.calls; i++) {
         const struct arc *arc = &proof->dag->arcs[node->arcs.first + proof->script[i]];
         const struct tool *tool = &proof->dag->tools[node->tool];
