@@ -11,11 +11,19 @@
 
 struct dag;
 struct discussion;
+struct node;
 struct oracle;
 struct oracle_graph;
 
 /* What runs. What the options do not ask for is not there. */
-enum prove_flavour { PROVE_PLAIN, PROVE_COUNTED, PROVE_TRACED, PROVE_INTERPRETED, PROVE_FLAVOURS };
+enum prove_flavour {
+    PROVE_PLAIN,
+    PROVE_FIRST, /* the entry for a first discussion (--copies) */
+    PROVE_COUNTED,
+    PROVE_TRACED,
+    PROVE_INTERPRETED,
+    PROVE_FLAVOURS
+};
 
 enum { PROVE_LEVELS = 256 }; /* more than any term has */
 
@@ -70,6 +78,8 @@ struct prove_host {
     struct dag *dag;
     int (*is_fixed)(const struct dag *dag, int expression);
     int (*reads_fact)(const struct dag *dag, const struct oracle_graph *oracle, int fact);
+    const struct node *(*node_at)(const struct dag *dag, const struct oracle_graph *oracle,
+                                  int place);
 };
 
 /* The library's one symbol, prove_library. */

@@ -41,15 +41,18 @@ static void report(const struct proof *proof, const struct prove_extent *extent,
     fprintf(proof->report,
             paths < 1e15 ? "%s: proved on all %.0f paths" : "%s: proved on all %.3g paths",
             proof->oracle->name, paths);
-    fprintf(proof->report, " from %ld beginnings, by %ld states: refine%s%s, the interpreter\n",
-            extent->starts, extent->states, flavours >> PROVE_COUNTED & 1 ? ", refine_counted" : "",
-            flavours >> PROVE_TRACED & 1 ? ", refine_traced" : "");
+    fprintf(proof->report, " from %ld beginnings, by %ld states:", extent->starts, extent->states);
+    for (enum prove_flavour f = 0; f < PROVE_FLAVOURS; f++)
+        if (flavours >> f & 1)
+            fprintf(proof->report, "%s %s", f > 0 ? "," : "", prove_flavour_name(proof->dag, f));
+    fprintf(proof->report, "\n");
 }
 
 static int prove_oracle(struct proof *proof)
 {
-    const struct prove_host host = {proof->dag, dag_is_fixed, dag_reads_fact};
-    int flavours = 1 << PROVE_PLAIN | proof->options->counted << PROVE_COUNTED
+    const struct prove_host host = {proof->dag, dag_is_fixed, dag_reads_fact, dag_node_at};
+    int flavours = 1 << PROVE_PLAIN | (proof->options->copies > 1) << PROVE_FIRST
+                   | proof->options->counted << PROVE_COUNTED
                    | proof->options->traced << PROVE_TRACED | 1 << PROVE_INTERPRETED;
     struct prove_extent most = {0};
     const char *cause = proof->library->open(&host, proof->number);
@@ -67,7 +70,7 @@ static int prove_oracle(struct proof *proof)
             struct prove_extent extent;
             if ((flavours >> f & 1) == 0)
                 continue;
-            prove_states(proof, f, way == 0, &extent);
+            prove_states(proof, f, way == 0 && f != PROVE_FIRST, &extent);
             if (extent.states > most.states || extent.cut)
                 most = extent;
         }

@@ -42,7 +42,7 @@ void prove_choose_values(struct proof *proof, int way);
 /* Walks the graph and runs a release along the script. 0, or 1 after a report of what they differ
  * in. */
 int prove_try(struct proof *proof, enum prove_flavour flavour);
-const char *prove_flavour_name(enum prove_flavour flavour);
+const char *prove_flavour_name(struct dag *dag, enum prove_flavour flavour);
 
 /* described.c. What the releases say of themselves: 0, or 1 after a report. */
 int prove_descriptions(struct proof *proof);

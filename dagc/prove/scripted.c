@@ -191,19 +191,19 @@ static const char *watch_text(struct dag *dag)
     return text;
 }
 
-static void print_counted(struct text *out, const char *name)
+static void print_counted(struct text *out, const char *name, const char *verb)
 {
     dag_print(out,
               "    if (flavour == %d) {\n"
               "        static struct %s_counters c;\n"
               "        int calls = 0, arcs = 0, i;\n        memset(&c, 0, sizeof c);\n"
-              "        result = (int)%s_refine_counted(p, d, &c);\n"
+              "        result = (int)%s_%s_counted(p, d, &c);\n"
               "        for (i = 0; i < %s_nodes; i++)\n            calls += (int)c.calls[i];\n"
               "        for (i = 0; i < %s_arcs; i++)\n"
               "            if (c.arcs[i] > 0 && c.calls[%s_arc_nodes[i]] > 0)\n                "
               "arcs += (int)c.arcs[i];\n"
               "        d->record->watched = calls == arcs ? calls : -1;\n    }\n",
-              PROVE_COUNTED, name, name, name, name, name);
+              PROVE_COUNTED, name, name, verb, name, name, name);
 }
 
 /* Where each parameter of each oracle is in truth, and the functions that count and trace. */
@@ -226,12 +226,15 @@ static void print_compiled(const struct dag *dag, struct text *out,
                   "    (void)p;\n    (void)d;\n    (void)flavour;\n",
                   i, name, name);
         if (options->counted)
-            print_counted(out, name);
+            print_counted(out, name, dag->verb);
         if (options->traced)
             dag_print(out,
-                      "    if (flavour == %d)\n        result = (int)%s_refine_traced(p, d, "
+                      "    if (flavour == %d)\n        result = (int)%s_%s_traced(p, d, "
                       "prove_trace, d->record);\n",
-                      PROVE_TRACED, name);
+                      PROVE_TRACED, name, dag->verb);
+        if (options->copies > 1)
+            dag_print(out, "    if (flavour == %d)\n        result = (int)%s_%s_first(p, d);\n",
+                      PROVE_FIRST, name, dag->verb);
         dag_print(out, "    return result;\n}\nstatic const size_t prove_fields_%d[] = {", i);
         for (int k = 0; k < oracle->parameters.count; k++)
             dag_print(out, "offsetof(struct %s_parameters, %s), ", name, parameters[k].name);

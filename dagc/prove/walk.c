@@ -198,25 +198,26 @@ static const char *level_name(const struct dag *dag, int term, int level)
                                               : dag->levels[levels.first + level - 1].name;
 }
 
-const char *prove_flavour_name(enum prove_flavour flavour)
+const char *prove_flavour_name(struct dag *dag, enum prove_flavour flavour)
 {
-    static const char *const names[PROVE_FLAVOURS] = {"refine", "refine_counted", "refine_traced",
-                                                      "the interpreter"};
-    return names[flavour];
+    static const char *const suffixes[PROVE_FLAVOURS] = {"", "_first", "_counted", "_traced", ""};
+    return flavour == PROVE_INTERPRETED
+               ? "the interpreter"
+               : dag_format(&dag->arena, "%s%s", dag->verb, suffixes[flavour]);
 }
 
 static void print_path(const struct proof *proof, enum prove_flavour flavour, int wanted, int got,
                        const char *what)
 {
-    const struct dag *dag = proof->dag;
+    struct dag *dag = proof->dag;
     const struct node *node = prove_node_at(proof, 0);
     const char *name = proof->oracle->name;
     if (flavour == PROVE_INTERPRETED)
         fprintf(proof->report, "%s: %s differs in %s on the path\n", name,
-                prove_flavour_name(flavour), what);
+                prove_flavour_name(dag, flavour), what);
     else
         fprintf(proof->report, "%s: %s_%s differs in %s on the path\n", name, name,
-                prove_flavour_name(flavour), what);
+                prove_flavour_name(dag, flavour), what);
     for (int i = 0; i < dag->term_count; i++)
         if (proof->start[i] > 0)
             fprintf(proof->report, "  (the discussion comes with %s: %s)\n", dag->terms[i].name,

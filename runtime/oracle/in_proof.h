@@ -44,6 +44,11 @@ int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int
     return host.reads_fact(dag, oracle, fact);
 }
 
+const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph *oracle, int place)
+{
+    return host.node_at(dag, oracle, place);
+}
+
 char *dag_json(struct dag *dag)
 {
     (void)dag;

@@ -88,5 +88,14 @@ oracle/arguments.c|s/top\[-1\] = operate(i->kind, top\[-1\], top\[0\])/top[-1] =
 oracle/refiner.c|s/value <= p->high/value < INFINITY/|differs in setting of parameter upto
 catalog.c|s/tool_tally(d, (int)arguments\[0\], /tool_tally(d, (int)arguments[1], /|the interpreter differs in an argument
 END_OF_FAULTS
+
+# With nodes copied where paths know different terms: the same, and a copy that takes for known what is not.
+count=$((count + 1))
+copied="$prove --copies=4"
+$copied >said 2>&1 && grep -q ' states: refine, refine_first, refine_counted, refine_traced, the interpreter$' said || fail "copies"
+count=$((count + 1))
+printf '#!/bin/sh\nfor f; do case $f in */oracles.c) sed -i "s/if (d.terms.size_level >= SIZE_FINE)/if (d.terms.size_level >= SIZE_ROUGH)/" $f;; esac; done\nexec cc "$@" -O0\n' >broken
+CC=$tmp/broken $copied >said 2>&1
+[ $? = 1 ] && grep -q 'differs in what it takes for known' said || fail "copies that take too much for known"
 echo "prove: $count checks, $bad failed"
 [ $bad = 0 ]
