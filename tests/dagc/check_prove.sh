@@ -97,5 +97,9 @@ count=$((count + 1))
 printf '#!/bin/sh\nfor f; do case $f in */oracles.c) sed -i "s/if (d.terms.size_level >= SIZE_FINE)/if (d.terms.size_level >= SIZE_ROUGH)/" $f;; esac; done\nexec cc "$@" -O0\n' >broken
 CC=$tmp/broken $copied >said 2>&1
 [ $? = 1 ] && grep -q 'differs in what it takes for known' said || fail "copies that take too much for known"
+# A catalog of other words.
+count=$((count + 1))
+sed 's/^runtime "discussion.h"/verb judge; runtime "judge.h"/' "$top/tests/dagc/test_catalog.dag" >judge.dag
+"$dagc" -Wno-all --catalog judge.dag --prove small.dag >said 2>&1 && grep -q ' states: judge, the interpreter$' said || fail "another verb"
 echo "prove: $count checks, $bad failed"
 [ $bad = 0 ]
