@@ -276,10 +276,21 @@ static void redirect(struct dag *dag)
 
 int prove_build(struct proof *proof)
 {
-    enum { ORACLES, RELEASES, TABLE, CATALOG, DISCUSSION, ORACLE, TOOLS, TOOL_TABLE, FILES };
+    enum {
+        ORACLES,
+        RELEASES,
+        TABLE,
+        CATALOG,
+        DISCUSSION,
+        ORACLE,
+        TOOLS,
+        TOOL_TABLE,
+        ATOMIC,
+        FILES
+    };
     static const char *const names[FILES] = {"oracles.c", "releases.c",   "catalog.c",
                                              "catalog.h", "discussion.h", "oracle.h",
-                                             "tools.h",   "tool_table.h"};
+                                             "tools.h",   "tool_table.h", "stdatomic.h"};
     struct dag *dag = proof->dag;
     struct text texts[FILES] = {{0}};
     struct emit_options options = *proof->options;
@@ -300,6 +311,8 @@ int prove_build(struct proof *proof)
     print_discussion(dag, &texts[DISCUSSION], proof->width);
     dag_print(&texts[ORACLE], "%s", embedded("oracle.h"));
     dag_print(&texts[TOOLS], "/* all are in discussion.h */\n");
+    /* One thread asks; and not every compiler has it. */
+    dag_print(&texts[ATOMIC], "#define _Atomic(type) type\ntypedef int atomic_int;\n");
     dag_print(&texts[TOOL_TABLE], "#include \"oracle/tool_table.h\"\n");
     for (int i = 0; i < FILES; i++) {
         files[i] = (struct c_file){names[i], texts[i].bytes, texts[i].length};
