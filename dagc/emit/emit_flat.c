@@ -12,40 +12,11 @@
  * than PART_NODES nodes becomes several functions over one discussion, as compilers need more
  * than linear time for a function.
  * SPDX-License-Identifier: MIT */
-#include <string.h>
-
-#include "analyse/copies.h"
-#include "analyse/shared.h"
-#include "emit/emit.h"
+#include "emit/flat.h"
 #include "emit/line_directives.h"
 
-struct flat {
-    struct dag *dag;
-    struct text *out;
-    const struct oracle_graph *oracle;
-    enum flavour flavour;
-    const unsigned char *terms; /* see emit_options; NULL: all */
-    int lines, directives;      /* likewise */
-    int parts;                  /* how many functions; 1: all is in one */
-    const char *at, *of;        /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
-    int most;                   /* copies of a node */
-    struct copies copies;
-    int *first_arc;            /* by order: the number of the node's first arc */
-    unsigned char *entry;      /* by order: does an arc from another part lead to it? */
-    unsigned char *node_label; /* by copy: is there a goto to it? */
-    unsigned char *leaf_label; /* by decision */
-    unsigned char *leaf_used;  /* by decision: does an arc lead to its shared leaf? */
-    /* --outline: the pieces that are functions, how many, and by order which of them and which use
-     * a node is a part of (from 1; 0: of none), and which node of it. */
-    struct shared *shared;
-    int shared_count;
-    int *piece, *use, *member;
-    const struct shared *inside; /* the function that is printed; NULL: that of the whole graph */
-    int first_leaf;              /* the first decision whose leaf is used; -1: none */
-};
-
 /* For compilers and debuggers: what follows stands there in the source. */
-static void print_directive(const struct flat *flat, struct where where)
+void dag_flat_directive(const struct flat *flat, struct where where)
 {
     if (flat->directives)
         dag_line_at(flat->dag, flat->out, where);
@@ -70,7 +41,7 @@ static int decides_nothing(const struct flat *flat, const struct node *node)
     return 1;
 }
 
-static int has_shared_leaf(const struct flat *flat, const struct target *target)
+int dag_flat_has_leaf(const struct flat *flat, const struct target *target)
 {
     return target->kind == TARGET_DECISION && flat->dag->decisions[target->index].reads.count > 0;
 }
@@ -86,7 +57,7 @@ static const struct node *node_at(const struct flat *flat, int place)
 }
 
 /* The copy that stands behind this one; -1: it is the last. */
-static int copy_behind(const struct flat *flat, int copy)
+int dag_flat_behind(const struct flat *flat, int copy)
 {
     const struct copy *c = &flat->copies.items[copy];
     if (c->next >= 0)
@@ -101,7 +72,7 @@ static int falls_through(const struct flat *flat, int copy)
     const struct copy *c = &flat->copies.items[copy];
     const struct node *node = node_at(flat, c->place);
     const struct target *target = &arc_of(flat, node, 0)->target;
-    int behind = copy_behind(flat, copy);
+    int behind = dag_flat_behind(flat, copy);
     if (!decides_nothing(flat, node) || flat->shared_count > 0)
         return 0;
     if (target->kind == TARGET_NODE) {
@@ -123,14 +94,7 @@ static void label_way(struct flat *flat, int number)
     }
 }
 
-/* Is the node in a function of its own, and not in this one? */
-static int is_elsewhere(const struct flat *flat, int place)
-{
-    return flat->shared_count > 0 && flat->piece[place] > 0
-           && flat->inside != &flat->shared[flat->piece[place] - 1];
-}
-
-static void label_copy(struct flat *flat, int copy)
+void dag_flat_mark_labels(struct flat *flat, int copy)
 {
     const struct copy *c = &flat->copies.items[copy];
     const struct node *node = node_at(flat, c->place);
@@ -139,7 +103,7 @@ static void label_copy(struct flat *flat, int copy)
         const struct target *target = &arc_of(flat, node, a)->target;
         if (target->kind == TARGET_NODE)
             label_way(flat, c->ways[a]);
-        else if (has_shared_leaf(flat, target))
+        else if (dag_flat_has_leaf(flat, target))
             flat->leaf_label[target->index] = 1;
     }
 }
@@ -154,7 +118,7 @@ static void find_labels(struct flat *flat)
         arcs += node->arcs.count;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &arc_of(flat, node, a)->target;
-            if (has_shared_leaf(flat, target)) {
+            if (dag_flat_has_leaf(flat, target)) {
                 flat->leaf_used[target->index] = 1;
                 if (flat->first_leaf < 0 || target->index < flat->first_leaf)
                     flat->first_leaf = target->index;
@@ -166,7 +130,7 @@ static void find_labels(struct flat *flat)
         }
     }
     for (int i = 0; i < flat->copies.count; i++)
-        label_copy(flat, i);
+        dag_flat_mark_labels(flat, i);
 }
 
 static void print_constant(struct text *out, const char *prefix, const char *name)
@@ -190,7 +154,7 @@ static void print_jump_in_part(const struct flat *flat, int from, const struct t
 }
 
 /* "node_NAME", or of its copies but the first "copyN_NAME". */
-static void print_label(const struct flat *flat, int copy)
+void dag_flat_label(const struct flat *flat, int copy)
 {
     const struct copy *c = &flat->copies.items[copy];
     if (c->number == 0)
@@ -210,7 +174,7 @@ static void print_way(const struct flat *flat, int number, int indent)
     const struct way *way = &flat->copies.ways[number];
     if (way->cut == 0) {
         dag_print(flat->out, "goto ");
-        print_label(flat, way->below);
+        dag_flat_label(flat, way->below);
         dag_print(flat->out, ";\n");
         return;
     }
@@ -238,14 +202,14 @@ static int print_exit(const struct flat *flat, int from, int answer)
     return exit >= 0;
 }
 
-static void print_jump(const struct flat *flat, int from, const struct target *target, int way,
-                       int indent)
+void dag_flat_jump(const struct flat *flat, int from, const struct target *target, int way,
+                   int indent)
 {
     if (flat->parts > 1)
         print_jump_in_part(flat, from, target);
     else if (target->kind == TARGET_NODE)
         print_way(flat, way, indent);
-    else if (has_shared_leaf(flat, target))
+    else if (dag_flat_has_leaf(flat, target))
         dag_print(flat->out, "goto leaf_%s;\n", flat->dag->decisions[target->index].name);
     else {
         dag_print(flat->out, "return ");
@@ -299,10 +263,10 @@ static void print_switch(const struct flat *flat, const struct node *node, const
             }
         if (done[i] == 2) {
             dag_print(flat->out, "%s", left == 0 ? "    default:\n" : "");
-            print_directive(flat, arc_of(flat, node, i)->where);
+            dag_flat_directive(flat, arc_of(flat, node, i)->where);
             dag_print(flat->out, "        ");
             if (!print_exit(flat, node->order, i))
-                print_jump(flat, node->order, target, copy->ways[i], 8);
+                dag_flat_jump(flat, node->order, target, copy->ways[i], 8);
         }
         for (int j = i; j < node->arcs.count; j++)
             done[j] = done[j] != 0;
@@ -391,15 +355,15 @@ static void print_place(const struct flat *flat, const struct node *node)
     dag_print(flat->out, " */\n");
 }
 
-static void print_node(const struct flat *flat, int at)
+void dag_flat_node(const struct flat *flat, int at)
 {
     const struct copy *copy = &flat->copies.items[at];
     const struct node *node = node_at(flat, copy->place);
     int block = dag_has_reads(flat->dag, node);
     dag_print(flat->out, "\n");
-    print_directive(flat, node->where);
+    dag_flat_directive(flat, node->where);
     if (flat->node_label[at] || (flat->parts > 1 && flat->entry[node->order])) {
-        print_label(flat, at);
+        dag_flat_label(flat, at);
         dag_print(flat->out, ":\n");
     }
     if (flat->lines)
@@ -410,12 +374,12 @@ static void print_node(const struct flat *flat, int at)
     if (flat->flavour == FLAVOUR_COUNTED) /* what the arguments compute is the node's time, too */
         dag_print(flat->out, "    began = %s_clock(counters);\n", flat->oracle->name);
     if (block) {
-        print_directive(flat, node->tool_where);
+        dag_flat_directive(flat, node->tool_where);
         dag_emit_reads(flat->dag, flat->out, node, flat->at);
     }
     if (flat->flavour == FLAVOUR_COUNTED && copy->checks > 0)
         dag_print(flat->out, "    counters->checks += %d;\n", copy->checks);
-    print_directive(flat, node->tool_where);
+    dag_flat_directive(flat, node->tool_where);
     if (flat->flavour != FLAVOUR_PLAIN)
         print_watched(flat, node);
     if (!decides_nothing(flat, node)) {
@@ -430,10 +394,10 @@ static void print_node(const struct flat *flat, int at)
     }
     dag_print(flat->out, "%s", block ? "    }\n" : "");
     if (!falls_through(flat, at)) {
-        print_directive(flat, arc_of(flat, node, 0)->where);
+        dag_flat_directive(flat, arc_of(flat, node, 0)->where);
         dag_print(flat->out, "    ");
         if (!print_exit(flat, node->order, 0))
-            print_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
+            dag_flat_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
     }
 }
 
@@ -570,8 +534,8 @@ static void print_part(const struct flat *flat, int part)
                       --left == 0 ? "    default:\n" : "", node_at(flat, i)->name);
     dag_print(out, "    }\n");
     for (int i = first; i < end; i++)
-        print_node(flat, flat->copies.first[i]);
-    print_directive(flat, dag_nowhere);
+        dag_flat_node(flat, flat->copies.first[i]);
+    dag_flat_directive(flat, dag_nowhere);
     dag_print(out, "}\n");
 }
 
@@ -659,178 +623,6 @@ int dag_emit_states_facts(struct dag *dag, const struct emit_options *options)
     return 0;
 }
 
-/* ---- pieces that are used more than once, as functions (--outline) */
-
-static void print_shared_name(const struct flat *flat, const struct shared *s)
-{
-    dag_print(flat->out, "%s_branch_%s", flat->oracle->name, flat->dag->branches[s->branch].name);
-}
-
-static void print_function(struct flat *flat, const struct shared *s)
-{
-    const struct dag *dag = flat->dag;
-    const char *at = flat->at, *of = flat->of;
-    unsigned char *labels = flat->node_label;
-    flat->inside = s;
-    flat->at = "d";
-    flat->of = "d->";
-    flat->node_label = dag_alloc(&flat->dag->arena, (size_t)flat->copies.count);
-    for (int i = 0; i < s->nodes; i++)
-        for (int a = 0; a < dag->nodes[s->node[i]].arcs.count; a++)
-            if (s->exit_of[s->first_answer[i] + a] < 0) {
-                const struct target *to = &dag->arcs[dag->nodes[s->node[i]].arcs.first + a].target;
-                flat->node_label[flat->copies.first[dag->nodes[to->index].order]] = 1;
-            }
-    dag_print(flat->out, "\n/* The graph %s, used %d times. Returns by which exit it is left. */\n",
-              dag->branches[s->branch].name, s->uses);
-    dag_print(flat->out, "static int ");
-    print_shared_name(flat, s);
-    dag_print(flat->out, "(const struct %s_parameters *parameters,\n    struct discussion *d",
-              flat->oracle->name);
-    for (int i = 0; i < s->different; i++) {
-        const struct argument *argument = &dag->arguments[s->argument[i * s->uses]];
-        int type = dag->parameters[argument->parameter].type;
-        dag_print(flat->out, ", %s argument_%d",
-                  dag->types[type].base == BASE_INTEGER ? "int" : "double", i + 1);
-    }
-    dag_print(flat->out, ")\n{\n    (void)parameters;\n");
-    for (int i = 0; i < s->nodes; i++)
-        print_node(flat, flat->copies.first[dag->nodes[s->node[i]].order]);
-    print_directive(flat, dag_nowhere);
-    dag_print(flat->out, "}\n");
-    flat->inside = NULL;
-    flat->at = at;
-    flat->of = of;
-    flat->node_label = labels;
-}
-
-static int way_of(const struct flat *flat, const struct shared *s, int use, int exit)
-{
-    int arc = s->exit[use * s->exits + exit];
-    for (int i = 0; i < s->nodes; i++) {
-        const struct node *node = &flat->dag->nodes[s->node[use * s->nodes + i]];
-        if (arc >= node->arcs.first && arc < node->arcs.first + node->arcs.count)
-            return flat->copies.items[flat->copies.first[node->order]].ways[arc - node->arcs.first];
-    }
-    return -1;
-}
-
-/* In place of a use's first node. */
-static void print_use(const struct flat *flat, int copy)
-{
-    int place = flat->copies.items[copy].place, use = flat->use[place] - 1, value = 0;
-    const struct dag *dag = flat->dag;
-    const struct shared *s = &flat->shared[flat->piece[place] - 1];
-    dag_print(flat->out, "\n");
-    if (flat->node_label[copy]) {
-        print_label(flat, copy);
-        dag_print(flat->out, ":\n");
-    }
-    print_directive(flat, dag->uses[node_at(flat, place)->use].where);
-    dag_print(flat->out, s->exits > 1 ? "    switch (" : "    (void)");
-    print_shared_name(flat, s);
-    dag_print(flat->out, "(parameters, %s", flat->at);
-    for (int i = 0; i < s->different; i++) {
-        dag_print(flat->out, ", ");
-        dag_emit_expression(dag, flat->out, &dag->arguments[s->argument[i * s->uses + use]],
-                            flat->at, &value);
-    }
-    dag_print(flat->out, s->exits > 1 ? ")) {\n" : ");\n    ");
-    for (int e = 0; e < s->exits; e++) {
-        const struct arc *arc = &dag->arcs[s->exit[use * s->exits + e]];
-        if (s->exits > 1) {
-            dag_print(flat->out, "    case %d:\n%s", e, e == s->exits - 1 ? "    default:\n" : "");
-            dag_print(flat->out, "        ");
-        }
-        print_jump(flat, place, &arc->target,
-                   arc->target.kind == TARGET_NODE ? way_of(flat, s, use, e) : -1, 8);
-    }
-    dag_print(flat->out, s->exits > 1 ? "    }\n" : "");
-}
-
-static void print_node_or_call(const struct flat *flat, int copy)
-{
-    int place = flat->copies.items[copy].place;
-    if (!is_elsewhere(flat, place))
-        print_node(flat, copy);
-    else if (flat->member[place] == 0)
-        print_use(flat, copy);
-}
-
-/* The labels anew: of what is in this function, and of what leaves the others. */
-static void label_again(struct flat *flat)
-{
-    memset(flat->node_label, 0, (size_t)flat->copies.count);
-    memset(flat->leaf_label, 0, (size_t)flat->dag->decision_count);
-    for (int i = 0; i < flat->copies.count; i++)
-        if (!is_elsewhere(flat, flat->copies.items[i].place))
-            label_copy(flat, i);
-    for (int p = 0; p < flat->shared_count; p++) {
-        const struct shared *s = &flat->shared[p];
-        for (int i = 0; i < s->uses * s->exits; i++) {
-            const struct target *target = &flat->dag->arcs[s->exit[i]].target;
-            if (target->kind == TARGET_NODE)
-                flat->node_label[flat->copies.first[flat->dag->nodes[target->index].order]] = 1;
-            else if (has_shared_leaf(flat, target))
-                flat->leaf_label[target->index] = 1;
-        }
-    }
-}
-
-/* By order, what is in the piece; `number` 0: in none. */
-static void mark_piece(struct flat *flat, const struct shared *s, int number)
-{
-    for (int i = 0; i < s->uses * s->nodes; i++) {
-        int place = flat->dag->nodes[s->node[i]].order;
-        flat->piece[place] = number;
-        flat->use[place] = i / s->nodes + 1;
-        flat->member[place] = i % s->nodes;
-    }
-}
-
-/* How long the text of the whole is, as the pieces are now. */
-static size_t text_length(struct flat *flat)
-{
-    struct text *out = flat->out, measured = {0};
-    flat->out = &measured;
-    for (int p = 0; p < flat->shared_count; p++)
-        print_function(flat, &flat->shared[p]);
-    label_again(flat);
-    for (int i = flat->copies.first[0]; i >= 0; i = copy_behind(flat, i))
-        print_node_or_call(flat, i);
-    flat->out = out;
-    size_t length = measured.length;
-    dag_text_free(&measured);
-    return length;
-}
-
-/* Those pieces become functions with which the text is shorter. */
-static void print_shared(struct flat *flat)
-{
-    size_t places = (size_t)flat->oracle->order.count;
-    struct shared *all;
-    int count = dag_find_shared(flat->dag, flat->oracle, &all);
-    flat->shared = dag_alloc(&flat->dag->arena, (size_t)(count + 1) * sizeof *all);
-    flat->piece = dag_alloc(&flat->dag->arena, places * sizeof(int));
-    flat->use = dag_alloc(&flat->dag->arena, places * sizeof(int));
-    flat->member = dag_alloc(&flat->dag->arena, places * sizeof(int));
-    size_t shortest = text_length(flat);
-    for (int i = 0; i < count; i++) {
-        flat->shared[flat->shared_count++] = all[i];
-        mark_piece(flat, &all[i], flat->shared_count);
-        size_t length = text_length(flat);
-        if (length < shortest)
-            shortest = length;
-        else {
-            flat->shared_count--;
-            mark_piece(flat, &all[i], 0);
-        }
-    }
-    for (int p = 0; p < flat->shared_count; p++)
-        print_function(flat, &flat->shared[p]);
-    label_again(flat);
-}
-
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                    enum flavour flavour, const struct emit_options *options)
 {
@@ -841,7 +633,7 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);
     if (options->outline && flavour == FLAVOUR_PLAIN && flat.parts == 1)
-        print_shared(&flat);
+        dag_flat_outline(&flat);
     dag_print(out, "\n");
     /* two entries to one body */
     int entries = flavour == FLAVOUR_PLAIN && options->copies > 1;
@@ -860,9 +652,9 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
         if (!uses_parameters(&flat))
             dag_print(out, "    (void)parameters;\n");
         print_absent(&flat);
-        for (int i = flat.copies.first[0]; i >= 0; i = copy_behind(&flat, i))
-            print_node_or_call(&flat, i);
-        print_directive(&flat, dag_nowhere);
+        for (int i = flat.copies.first[0]; i >= 0; i = dag_flat_behind(&flat, i))
+            dag_flat_node_or_call(&flat, i);
+        dag_flat_directive(&flat, dag_nowhere);
     }
     for (int i = 0; i < dag->decision_count; i++)
         if (flat.leaf_used[i]) {
