@@ -193,7 +193,7 @@ struct emit_options {
     int counted;        /* --instrument: NAME_refine_counted */
     int traced;         /* --trace: NAME_refine_traced */
     int copies;         /* --copies: of a node for what paths know, at most; 0: one */
-    int outline;        /* --outline: graphs used more than once are functions where that is shorter */
+    int outline;        /* --outline: graphs used more than once are functions */
     int lines;          /* --lines: a comment at each node says where it stands in its source */
     int directives;     /* --line-directives: #line (line_directives.h) */
     int standalone;     /* --standalone: all that it needs, in one .c and one .h */
