@@ -294,7 +294,7 @@ struct RadStatistics {
     const struct RadPass *passes;     /* [pass_count], those that are over */
     int pass_count;
     /* The paths that took most time, at most RAD_PATHS, the longest first; how many were gone at
-     * all. A graph of 2^63 paths or more has none told. */
+     * all. A graph of 2^64 paths or more has none told. */
     const struct RadPath *paths;
     int path_count;
     uint64_t distinct_paths;
@@ -766,6 +766,11 @@ RAD_API int radGetOracleAnswer(RadOracle oracle, int node, int answer, struct Ra
 /* The answers on a way through the graph, at most `most` of them. Returns how many there are, or
  * -1: there is no such way. */
 RAD_API int radGetOracleWay(RadOracle oracle, uint64_t way, struct RadAnswer *out, int most);
+
+/* radAskOracle; *way gets the way that it took. Safe from many threads once radGetOracleWay has
+ * been called: with no room for answers it only makes ready. */
+RAD_API enum decision radAskOracleWay(RadOracle oracle, struct discussion *discussion,
+                                      uint64_t *way);
 
 /* One discussion of a refinement. */
 struct RadTraced {

@@ -82,7 +82,7 @@ static const char lesson[] =
     "small_oracle\n"
     "    dagc --emit=svg -o small.svg small.dag         a drawing of the graph\n"
     "    dagc --emit=none -Werror small.dag             only look for mistakes, and be strict\n"
-    "    dagc --prove small.dag                         does the C text what the graph says?\n"
+    "    dagc --prove small.dag                         does what runs do what it says?\n"
     "\n"
     "Every warning and error shows where it is, the path that proves it, and how to mend it.\n"
     "`dagc diff` says which answers make the oracles of two files decide differently; exit status\n"

@@ -330,6 +330,8 @@ void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char
     dag_emit_accessors(dag, c);
     dag_emit_callers(dag, c, reached, options);
     dag_emit_known_macro(dag, c, options);
+    if (options->before != NULL)
+        dag_print(c, "%s", options->before);
     for (int i = 0; i < dag->oracle_count; i++) {
         dag_emit_oracle_c(dag, c, &dag->oracles[i], options);
         print_oracle(dag, c, &dag->oracles[i]);

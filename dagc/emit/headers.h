@@ -29,4 +29,7 @@ int dag_runtime_is_ours(struct dag *dag);
 /* ends with a NULL name (dagc/emit/embed_headers.sh makes it) */
 extern const struct dag_header dagc_headers[];
 
+/* Likewise, for --prove: the runtime's interpreter and what it includes. */
+extern const struct dag_header dagc_interpreter[];
+
 #endif

@@ -392,8 +392,7 @@ static int solve_linear(struct solve *s, const char **cause)
     struct transport x = light(s, tolerance);
     if (!(tolerance > 0)) {
         s->report.variation = variation_of(&s->operator, & x);
-        x.tolerance =
-            fmin(fmax(SOLVE_SHARE * s->report.variation, SOLVE_TOLERANCE), SOLVE_TOLERANCE_MOST);
+        x.tolerance = variation_tolerance(s->report.variation);
     }
     x.watch = watch_light;
     x.watch_context = s;

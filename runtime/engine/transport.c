@@ -125,7 +125,7 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
         x->held = SOLVE_TOLERANCE_MOST;
         if (x->bound <= x->held) {
             x->variation = variation_of(op, x);
-            x->held = fmin(fmax(SOLVE_SHARE * x->variation, SOLVE_TOLERANCE), x->held);
+            x->held = variation_tolerance(x->variation);
         }
     }
     return x->bound / x->held;

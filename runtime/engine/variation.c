@@ -13,6 +13,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/variation.h"
+#include "kernel/constants.h"
 
 double variation_of(const struct light_operator *op, const struct transport *x)
 {
@@ -42,4 +43,9 @@ double variation_of(const struct light_operator *op, const struct transport *x)
         }
     }
     return power > 0 ? steps / power : 0;
+}
+
+double variation_tolerance(double variation)
+{
+    return fmin(fmax(SOLVE_SHARE * variation, SOLVE_TOLERANCE), SOLVE_TOLERANCE_MOST);
 }

@@ -9,4 +9,7 @@
  * mean| among the parent's children. */
 double variation_of(const struct light_operator *op, const struct transport *x);
 
+/* The relative L1 error that iteration may leave beside such a variation. */
+double variation_tolerance(double variation);
+
 #endif

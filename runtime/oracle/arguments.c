@@ -208,14 +208,14 @@ int program_link(struct program *p, const struct oracle_graph *g, struct message
     const struct dag *dag = p->dag;
     int size = 0, argument = 0, *first = NULL;
     for (int i = 0; i < g->order.count; i++)
-        p->computed_count += is_computed(dag, &dag->nodes[dag->order[g->order.first + i]]);
+        p->computed_count += is_computed(dag, dag_node_at(dag, g, i));
     p->computed = calloc((size_t)p->computed_count + 1, sizeof *p->computed);
     first = calloc((size_t)p->computed_count + 1, sizeof *first);
     if (!p->computed || !first)
         goto memory;
     p->computed_count = 0;
     for (int i = 0; i < g->order.count; i++) {
-        const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
+        const struct node *n = dag_node_at(dag, g, i);
         struct computed *c = &p->computed[p->computed_count];
         if (is_computed(dag, n)) {
             if (n->arguments.count > STACK_MAX - EXPRESSION_DEPTH) {

@@ -11,14 +11,15 @@
  * sixteens. A timed discussion during which the thread was off its processor is not told as timed:
  * one such pause lasts longer than the discussions of a second that are timed.
  *
- * A path is counted under its number, to which each arc adds what arcs before it leave free: no two
- * paths have the same sum. [Ball & Larus, Efficient path profiling, MICRO 1996]
+ * A path is counted under its number (follow.h); a graph of too many to be numbered has none
+ * counted.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include "oracle/counting.h"
+#include "oracle/follow.h"
 #include "oracle/statistics.h"
 #include "oracle/tool_table.h"
 
@@ -89,9 +90,8 @@ static void forget_counts(struct program *p)
         next = t->next;
         free_tally(t);
     }
-    free(p->gains);
     free(p->passes);
-    p->gains = p->passes = NULL;
+    p->passes = NULL;
     p->pass_count = p->pass_capacity = 0;
 }
 
@@ -205,36 +205,6 @@ static void count_path(const struct program *p, struct tally *t, uint64_t number
     path->nanoseconds += spent;
 }
 
-/* What each arc adds, and how many paths there are from each step on. Of 2^63 or more there will be
- * no gains. Returns 0, or -1 when out of memory. */
-static int number_paths(struct program *p)
-{
-    int steps = p->graph->order.count, overflow = 0;
-    uint64_t *paths = calloc((size_t)steps, sizeof *paths);
-    p->gains = calloc((size_t)p->answer_count + 1, sizeof *p->gains);
-    if (!paths || !p->gains) {
-        free(paths);
-        return -1;
-    }
-    for (int i = steps - 1; i >= 0; i--) {
-        size_t first = (size_t)(p->steps[i].next - p->next),
-               end = i + 1 < steps ? (size_t)(p->steps[i + 1].next - p->next)
-                                   : (size_t)p->answer_count;
-        for (size_t at = first; at < end; at++) {
-            uint64_t more = p->next[at] < 0 ? 1 : paths[p->next[at]];
-            p->gains[at] = paths[i];
-            overflow |= more > INT64_MAX - paths[i];
-            paths[i] += overflow ? 0 : more;
-        }
-    }
-    free(paths);
-    if (overflow) {
-        free(p->gains);
-        p->gains = NULL;
-    }
-    return 0;
-}
-
 /* ---- the walk */
 
 /* Gaps of RAD_TIMED_EVERY on average; the same in every run. [Marsaglia 2003] */
@@ -272,8 +242,8 @@ static inline enum decision walk(const struct program *p, struct tally *t, struc
         t->numbers[at]++;
         numbers[NUMBER_RAYS] += t->host.rays - rays;
         count_levels(t, d, numbers + NUMBER_TERMS);
-        if (p->gains)
-            t->path += p->gains[at];
+        if (p->ways)
+            t->path += p->ways[at];
         if (step->keeps != KEEPS_NOTHING)
             keep_arguments(t, step, d);
         if (p->next[at] < 0)
@@ -321,7 +291,7 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
         t->wait = draw_gap(t);
         decision = walk_timed(p, t, d, &timed, &spent);
     }
-    if (p->gains)
+    if (p->ways)
         count_path(p, t, t->path, timed, spent);
     d->host = host;
     return decision;
@@ -351,7 +321,7 @@ int refiner_count(struct refiner *r)
     p->forget = forget_counts;
     p->number_count =
         (size_t)p->answer_count + (size_t)p->graph->order.count * (size_t)program_stride();
-    if (number_paths(p) < 0)
+    if (follow_number(p) < 0)
         return -1;
     p->self = p;
     p->clock = clock_cost();

@@ -10,6 +10,7 @@
 #include <string.h>
 #include "oracle/counted_host.h"
 #include "oracle/explain.h"
+#include "oracle/follow.h"
 #include "oracle/program.h"
 #include "oracle/tool_table.h"
 #include "util/clock.h"
@@ -22,11 +23,6 @@ void explain_free(struct explanation *x)
     free(x->arguments);
     free(x->terms);
     memset(x, 0, sizeof *x);
-}
-
-static const struct node *node_at(const struct program *p, int step)
-{
-    return &p->dag->nodes[p->dag->order[p->graph->order.first + step]];
 }
 
 /* Term i of the catalog, as the data manager has it. */
@@ -119,7 +115,6 @@ static void note_arguments(struct RadArgument *out, const struct dag *dag, const
 static void repeat(struct explanation *x, const struct program *p, const struct discussion *before,
                    const struct host *real, int first)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
     const struct dag *dag = p->dag;
     struct discussion d = *before;
     struct blockers list;
@@ -132,8 +127,7 @@ static void repeat(struct explanation *x, const struct program *p, const struct 
         d.blockers = &list;
     }
     for (int step = 0; step >= 0; count++) {
-        const struct node *n = node_at(p, step);
-        const struct tool *tool = &dag->tools[n->tool];
+        const struct node *n = dag_node_at(dag, p->graph, step);
         const struct terms old = d.terms;
         const uint64_t rays = host.rays;
         double values[STACK_MAX];
@@ -144,14 +138,13 @@ static void repeat(struct explanation *x, const struct program *p, const struct 
         const double taken = seconds() - start;
         struct RadAsked *a = &x->asked[count];
         if (first) {
-            const struct answer *said = &dag->answers[tool->answers.first + answer];
-            *a = (struct RadAsked){.node = n->name,
-                                   .tool = tool->name,
-                                   .doc = tool->doc,
-                                   .answer = said->name,
-                                   .kind =
-                                       tool->kind == TOOL_COMMAND ? "command" : kinds[said->kind],
-                                   .target = dag->arcs[n->arcs.first + answer].target.name,
+            const struct RadAnswer said = follow_said(p, step, answer);
+            *a = (struct RadAsked){.node = said.node,
+                                   .tool = said.tool,
+                                   .doc = said.doc,
+                                   .answer = said.answer,
+                                   .kind = said.kind,
+                                   .target = said.target,
                                    .arguments = &x->arguments[argument],
                                    .argument_count = n->arguments.count,
                                    .terms = &x->terms[term],

@@ -5,28 +5,38 @@
 #include "oracle/follow.h"
 #include "oracle/program.h"
 
-static const struct node *node_at(const struct program *p, int step)
-{
-    return &p->dag->nodes[p->dag->order[p->graph->order.first + step]];
-}
-
-/* Ways from each step: of the last step first, since arcs lead forward. Returns 0, or -1: they are
- * too many. */
-static int number_ways(const struct program *p, uint64_t *from)
+/* Ways from each step, of the last step first, since arcs lead forward; and what each arc is worth.
+ * Returns 0, or 1: they are too many. */
+static int number_ways(const struct program *p, uint64_t *from, uint64_t *worth)
 {
     for (int i = p->graph->order.count; i-- > 0;) {
         const int *next = p->steps[i].next;
-        uint64_t *ways = &p->ways[next - p->next];
+        uint64_t *ways = &worth[next - p->next];
         from[i] = 0;
-        for (int k = 0; k < node_at(p, i)->arcs.count; k++) {
+        for (int k = 0; k < dag_node_at(p->dag, p->graph, i)->arcs.count; k++) {
             const uint64_t below = next[k] < 0 ? 1 : from[next[k]];
             ways[k] = from[i];
             if (from[i] > UINT64_MAX - below)
-                return -1;
+                return 1;
             from[i] += below;
         }
     }
     return 0;
+}
+
+int follow_number(struct program *p)
+{
+    if (p->ways)
+        return 0;
+    uint64_t *from = malloc((size_t)p->graph->order.count * sizeof *from);
+    uint64_t *worth = malloc(((size_t)p->answer_count + 1) * sizeof *worth);
+    const int status = from && worth ? number_ways(p, from, worth) : -1;
+    free(from);
+    if (status == 0)
+        p->ways = worth;
+    else
+        free(worth);
+    return status;
 }
 
 int follow_open(struct refiner *r, struct messages *messages)
@@ -36,25 +46,15 @@ int follow_open(struct refiner *r, struct messages *messages)
                             "only interpreted graphs can be watched; make oracle %s with "
                             "RAD_RELEASE_DAG",
                             r->oracle);
-    struct program *p = r->own;
-    if (p->ways)
-        return 0;
-    uint64_t *from = malloc((size_t)p->graph->order.count * sizeof *from);
-    p->ways = malloc(((size_t)p->answer_count + 1) * sizeof *p->ways);
-    int status = from && p->ways ? number_ways(p, from) : -1;
-    if (!from || !p->ways)
-        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
-    else if (status < 0)
-        (void)messages_say(messages, MESSAGE_ARGUMENT,
-                           "oracle %s has more than 2^64 ways from its start to a decision: too "
-                           "many to be told apart",
-                           r->oracle);
-    free(from);
-    if (status < 0) {
-        free(p->ways);
-        p->ways = NULL;
-    }
-    return status;
+    const int status = follow_number(r->own);
+    if (status < 0)
+        return messages_say(messages, MESSAGE_MEMORY, "out of memory");
+    if (status > 0)
+        return messages_say(messages, MESSAGE_ARGUMENT,
+                            "oracle %s has more than 2^64 ways from its start to a decision: too "
+                            "many to be told apart",
+                            r->oracle);
+    return 0;
 }
 
 enum decision follow_ask(const struct refiner *r, struct discussion *d, uint64_t *way)
@@ -73,43 +73,52 @@ enum decision follow_ask(const struct refiner *r, struct discussion *d, uint64_t
     }
 }
 
-int follow_answer(struct RadAnswer *out, const struct refiner *r, int node, int answer)
+struct RadAnswer follow_said(const struct program *p, int step, int answer)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
-    const struct program *p = r->own;
     const struct dag *dag = p->dag;
-    if (node < 0 || node >= p->graph->order.count || answer < 0
-        || answer >= node_at(p, node)->arcs.count)
-        return -1;
-    const struct node *n = node_at(p, node);
+    const struct node *n = dag_node_at(dag, p->graph, step);
     const struct tool *tool = &dag->tools[n->tool];
     const struct answer *a = &dag->answers[tool->answers.first + answer];
-    *out = (struct RadAnswer){.node_number = node,
+    return (struct RadAnswer){.node_number = step,
                               .answer_number = answer,
                               .node = n->name,
                               .tool = tool->name,
                               .doc = tool->doc,
                               .answer = a->name,
-                              .kind = tool->kind == TOOL_COMMAND ? "command" : kinds[a->kind],
+                              .kind =
+                                  tool->kind == TOOL_COMMAND ? "command" : dag_kind_name(a->kind),
                               .target = dag->arcs[n->arcs.first + answer].target.name};
+}
+
+int follow_answer(struct RadAnswer *out, const struct refiner *r, int node, int answer)
+{
+    const struct program *p = r->own;
+    if (node < 0 || node >= p->graph->order.count || answer < 0
+        || answer >= dag_node_at(p->dag, p->graph, node)->arcs.count)
+        return -1;
+    *out = follow_said(p, node, answer);
     return 0;
+}
+
+int follow_step(const struct program *p, int step, uint64_t *way)
+{
+    const uint64_t *ways = &p->ways[p->steps[step].next - p->next];
+    int answer = dag_node_at(p->dag, p->graph, step)->arcs.count - 1;
+    while (ways[answer] > *way) /* the first is worth 0 */
+        answer--;
+    *way -= ways[answer];
+    return answer;
 }
 
 int follow_way(struct RadAnswer *out, int most, const struct refiner *r, uint64_t way)
 {
     const struct program *p = r->own;
-    for (int step = 0, count = 0;;) {
-        const int *next = p->steps[step].next;
-        const uint64_t *ways = &p->ways[next - p->next];
-        int answer = node_at(p, step)->arcs.count - 1;
-        while (answer > 0 && ways[answer] > way)
-            answer--;
+    int count = 0;
+    for (int step = 0; step >= 0; count++) {
+        const int answer = follow_step(p, step, &way);
         if (count < most)
-            (void)follow_answer(&out[count], r, step, answer);
-        count++;
-        way -= ways[answer];
-        if (next[answer] < 0)
-            return way == 0 ? count : -1;
-        step = next[answer];
+            out[count] = follow_said(p, step, answer);
+        step = p->steps[step].next[answer];
     }
+    return way == 0 ? count : -1;
 }

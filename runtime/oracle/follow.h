@@ -11,8 +11,21 @@
 #include "oracle/refiner.h"
 #include "radiosity.h"
 
-/* Number the ways. Returns 0, or -1 after a message: it is no interpreted graph, it has more ways
- * than a number tells, or memory is out. */
+struct program;
+
+/* Number the ways, in program.ways, unless that is done. Returns 0; 1: there are 2^64 or more; -1:
+ * out of memory. */
+int follow_number(struct program *p);
+
+/* The answer that the way, of which *way is left, takes at the step; *way becomes what is left
+ * behind it. After follow_number. */
+int follow_step(const struct program *p, int step, uint64_t *way);
+
+/* Answer `answer` of step `step`, which there are. */
+struct RadAnswer follow_said(const struct program *p, int step, int answer);
+
+/* Number a refiner's ways. Returns 0, or -1 after a message: it is no interpreted graph, it has
+ * more ways than a number tells, or memory is out. */
 int follow_open(struct refiner *refiner, struct messages *messages);
 
 /* Ask it, as refiner->refine does; *way gets the number. After follow_open; safe from many threads.

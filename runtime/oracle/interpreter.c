@@ -62,7 +62,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
     const struct dag *dag = p->dag;
     int arguments = 0, answers = 0;
     for (int i = 0; i < g->order.count; i++) {
-        const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
+        const struct node *n = dag_node_at(dag, g, i);
         arguments += n->arguments.count;
         answers += n->arcs.count;
     }
@@ -102,7 +102,7 @@ static int build(struct refiner *r, struct program *p, const struct oracle_graph
             p->reads[p->read_count++] = i;
     arguments = answers = 0;
     for (int i = 0; i < g->order.count; i++) {
-        const struct node *n = &dag->nodes[dag->order[g->order.first + i]];
+        const struct node *n = dag_node_at(dag, g, i);
         const struct tool_entry *tool = find_tool(dag->tools[n->tool].name);
         if (!tool || tool->argument_count != n->arguments.count
             || tool->answer_count != n->arcs.count) {

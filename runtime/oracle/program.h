@@ -54,16 +54,14 @@ struct program {
     int *reads; /* [read_count], enum catalog_fact */
     int read_count;
     int answer_count;     /* of all steps */
-    uint64_t *ways;       /* of all steps, as next: see follow.h; NULL: nobody follows */
+    uint64_t *ways;       /* of all steps, as next: see follow.h; NULL: not numbered, or too many */
     char *graph_json;     /* made when asked for; NULL: not yet */
     uint64_t counting;    /* which of all countings this is; 0: nothing is counted */
     struct program *self; /* so that a walk, which has a const one, can add its thread's counters */
     void (*forget)(struct program *p); /* frees what counting made; NULL: nothing was counted */
     _Atomic(struct tally *) tallies;   /* one per thread that has asked */
     atomic_int lost;                   /* there was no memory for one */
-    /* [answer_count]: added up along a path they give its number; NULL: too many paths */
-    uint64_t *gains;
-    uint64_t clock; /* what reading the clock takes, ns */
+    uint64_t clock;                    /* what reading the clock takes, ns */
     /* [pass_count][number_count]: all tallies' numbers together at the end of each pass */
     uint64_t *passes;
     size_t pass_count, pass_capacity, number_count;

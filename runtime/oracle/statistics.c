@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "oracle/counting.h"
+#include "oracle/follow.h"
 #include "oracle/statistics.h"
 #include "util/array.h"
 
@@ -42,27 +43,23 @@ static double scaled_seconds(uint64_t nanoseconds, uint64_t timed, uint64_t call
 static void show_nodes(struct statistics *s, const struct program *p, size_t view,
                        const uint64_t *numbers, const uint64_t *since)
 {
-    static const char *const kinds[] = {"precise", "approximate", "other"};
-    const struct dag *dag = p->dag;
     const size_t steps = (size_t)p->graph->order.count, stride = (size_t)program_stride();
     struct RadAnswerCount *answer = s->answers + view * (size_t)p->answer_count;
     struct RadTermCount *term = s->terms + view * steps * (size_t)term_table_count;
     size_t arc = 0;
     for (size_t i = 0; i < steps; i++) {
-        const struct node *n = &dag->nodes[dag->order[p->graph->order.first + (int)i]];
-        const struct tool *tool = &dag->tools[n->tool];
+        const struct node *n = dag_node_at(p->dag, p->graph, (int)i);
         struct RadNodeCount *x = &s->nodes[view * steps + i];
         const size_t own = (size_t)p->answer_count + i * stride;
         *x = (struct RadNodeCount){.name = n->name,
-                                   .tool = tool->name,
+                                   .tool = p->dag->tools[n->tool].name,
                                    .answers = answer,
                                    .answer_count = n->arcs.count,
                                    .terms = term};
         for (int k = 0; k < n->arcs.count; k++, arc++, answer++) {
-            const struct answer *a = &dag->answers[tool->answers.first + k];
-            *answer = (struct RadAnswerCount){
-                a->name, tool->kind == TOOL_COMMAND ? "command" : kinds[a->kind],
-                dag->arcs[n->arcs.first + k].target.name, numbers[arc] - (since ? since[arc] : 0)};
+            const struct RadAnswer said = follow_said(p, (int)i, k);
+            *answer = (struct RadAnswerCount){said.answer, said.kind, said.target,
+                                              numbers[arc] - (since ? since[arc] : 0)};
             x->calls += answer->count;
         }
         uint64_t at[NUMBER_TERMS];
@@ -152,15 +149,9 @@ static int follow(const struct program *p, uint64_t number, int *steps, int *ans
 {
     int length = 0;
     for (int at = 0; at >= 0; length++) {
-        const uint64_t *gains = p->gains + (p->steps[at].next - p->next);
-        const struct node *n = &p->dag->nodes[p->dag->order[p->graph->order.first + at]];
-        int answer = n->arcs.count - 1;
-        while (gains[answer] > number)
-            answer--;
-        number -= gains[answer];
         steps[length] = at;
-        answers[length] = answer;
-        at = p->steps[at].next[answer];
+        answers[length] = follow_step(p, at, &number);
+        at = p->steps[at].next[answers[length]];
     }
     return length;
 }

@@ -4,6 +4,7 @@
 #include "commands/account_summary.h"
 #include <math.h>
 #include <stdio.h>
+#include "output/json_values.h"
 
 /* By enum RadErrorCategory: what it is called, in JSON too, and how to have less of it. */
 static const struct {
@@ -88,15 +89,10 @@ void account_print(const struct RadAccountReport *r)
            (unsigned long long)r->guarded);
 }
 
-static json_t *number_json(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
 static json_t *norms_json(const struct RadErrorNorms *n)
 {
-    return json_pack("{s:o, s:o, s:o}", "l1", number_json(n->l1), "l2", number_json(n->l2), "linf",
-                     number_json(n->linf));
+    return json_pack("{s:o, s:o, s:o}", "l1", json_finite(n->l1), "l2", json_finite(n->l2), "linf",
+                     json_finite(n->linf));
 }
 
 json_t *account_json(const struct RadAccountReport *r)
@@ -110,10 +106,10 @@ json_t *account_json(const struct RadAccountReport *r)
     json_object_set_new(all, "blame", json_string(categories[largest(r->estimate)].key));
     json_object_set_new(all, "operator",
                         json_pack("{s:f, s:o, s:f, s:o, s:o, s:f, s:f, s:f, s:I}", "norm_rows",
-                                  r->kappa_inf, "norm_columns", number_json(r->kappa_1),
+                                  r->kappa_inf, "norm_columns", json_finite(r->kappa_1),
                                   "largest_reflectance", r->reflectance, "inverse_bound",
-                                  number_json(r->inverse_bound), "inverse_found",
-                                  number_json(r->inverse_found), "row_defect_mean", r->defect_mean,
+                                  json_finite(r->inverse_bound), "inverse_found",
+                                  json_finite(r->inverse_found), "row_defect_mean", r->defect_mean,
                                   "row_defect_largest", r->defect_most, "blind_area", r->blind_area,
                                   "guard_hits", (json_int_t)r->guarded));
     json_object_set_new(all, "slopes_left_out", json_boolean(r->without_slopes));

@@ -20,6 +20,7 @@
 #include "commands/commands.h"
 #include "output/faces_table.h"
 #include "output/json_file.h"
+#include "output/json_values.h"
 #include "util/report.h"
 
 /* Areas of one face in two tables may differ by so much (a share): nine digits, and what a face
@@ -302,11 +303,6 @@ static void print_text(const struct comparison *c)
 
 /* ---- JSON */
 
-static json_t *number_json(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 /* A name that is no UTF-8 keeps what is ASCII of it. */
 static json_t *text_json(const char *text)
 {
@@ -325,7 +321,7 @@ static json_t *norms_json(const struct sums *s, double (*of)(const struct sums *
 {
     json_t *all = json_object();
     for (enum norm k = POWER; k < NORMS; k = (enum norm)(k + 1))
-        json_object_set_new(all, norm_names[k], number_json(of(s, k)));
+        json_object_set_new(all, norm_names[k], json_finite(of(s, k)));
     return all;
 }
 
@@ -338,7 +334,7 @@ static json_t *worst_json(const struct comparison *c)
             const struct values v = values_of(c, i, k);
             json_array_append_new(b, json_real(v.b));
             json_array_append_new(reference, json_real(v.reference));
-            json_array_append_new(far, number_json((v.b - v.reference) / v.deviation));
+            json_array_append_new(far, json_finite((v.b - v.reference) / v.deviation));
         }
         json_array_append_new(all, json_pack("{s:I, s:o, s:f, s:o, s:o, s:o, s:f}", "face",
                                              (json_int_t)c->theirs.face[c->pairs[i].theirs],

@@ -8,15 +8,15 @@
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
+#include "commands/asked_oracle.h"
 #include "commands/commands.h"
 #include "commands/explain_steps.h"
 #include "commands/watch_pair.h"
 #include "geometry.h"
 #include "output/explanation.h"
 #include "output/json_file.h"
+#include "output/json_values.h"
 #include "util/device.h"
-#include "util/open_oracle.h"
-#include "util/parameter_file.h"
 #include "util/progress.h"
 #include "util/report.h"
 
@@ -162,7 +162,7 @@ static json_t *subject_json(const struct subject *s)
 {
     struct RadOracleReport report;
     radGetOracleReport(s->watch->oracle, &report);
-    json_t *history = json_array(), *replaced = json_array(), *parameters = json_object();
+    json_t *history = json_array(), *replaced = json_array();
     for (size_t i = 0; i < s->watch->count; i++) {
         const struct occasion *o = s->watch->occasions[i];
         char receiver[RAD_NAME] = "", emitter[RAD_NAME] = "";
@@ -176,16 +176,11 @@ static json_t *subject_json(const struct subject *s)
     }
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));
-    for (int i = 0; i < report.parameter_count; i++) {
-        const double value = radGetOracleParameter(s->watch->oracle, report.parameters[i].name);
-        json_object_set_new(parameters, report.parameters[i].name,
-                            isfinite(value) ? json_real(value) : json_null());
-    }
     return json_pack(
         "{s:s, s:s, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:O, s:I}", "scene", s->options->scene,
-        "oracle", report.name, "parameters", parameters, "replaced", replaced, "receiver",
-        element_json(s, 0), "emitter", element_json(s, 1), "discussed", !s->made, "pass",
-        s->made ? json_null() : json_integer(s->occasion->pass), "round",
+        "oracle", report.name, "parameters", oracle_parameters_json(s->watch->oracle), "replaced",
+        replaced, "receiver", element_json(s, 0), "emitter", element_json(s, 1), "discussed",
+        !s->made, "pass", s->made ? json_null() : json_integer(s->occasion->pass), "round",
         s->made ? json_null() : json_integer((json_int_t)s->occasion->round), "history", history,
         "discussion", s->occasion->json, "links", (json_int_t)count_links(s));
 }
@@ -306,14 +301,7 @@ static int explain_pair(const struct options *o, const struct open_scene *scene,
 int command_explain(const struct options *o, const struct open_scene *scene)
 {
     const struct RadSolveOptions how = solve_options(o);
-    RadOracle oracle = open_oracle_replaced(scene->device, o->oracle, RAD_RELEASE_DAG, NULL, 0,
-                                            o->replacements, o->replacement_count);
-    if (oracle
-        && ((o->params && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
-            || set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)) {
-        radReleaseOracle(oracle);
-        return 1;
-    }
+    RadOracle oracle = open_asked_oracle(o, scene->device, RAD_RELEASE_DAG);
     RadSolution solution = oracle ? radNewSolution(scene->scene, oracle, &how) : NULL;
     if (oracle && !solution)
         report_device(scene->device, o->scene);

@@ -117,7 +117,7 @@ static int replace(struct steps *s, const char *argument)
         return report_error("replace", 0, "write NODE=TOOL(...) or NODE=ANSWER");
     if (append(s, argument) < 0)
         return -1;
-    RadOracle oracle = open_oracle_replaced(s->device, s->options->oracle, RAD_RELEASE_DAG, NULL, 0,
+    RadOracle oracle = open_oracle_replaced(s->device, s->options->oracle, RAD_RELEASE_DAG,
                                             s->replacements, s->replacement_count);
     if (!oracle) {
         free(s->replacements[--s->replacement_count]);

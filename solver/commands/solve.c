@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "commands/accuracy.h"
+#include "commands/asked_oracle.h"
 #include "commands/commands.h"
 #include "commands/summary.h"
 #include "output/error_image.h"
@@ -15,8 +16,6 @@
 #include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
-#include "util/open_oracle.h"
-#include "util/parameter_file.h"
 #include "util/report.h"
 
 /* Both pictures, of the error and of the light, through the same camera. */
@@ -205,16 +204,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
 
 int command_solve(const struct options *o, const struct open_scene *scene)
 {
-    RadOracle oracle = open_oracle_replaced(scene->device, o->oracle, o->release, NULL, 0,
-                                            o->replacements, o->replacement_count);
-    int status = !oracle;
-    if (oracle && o->params
-        && parameter_file_apply(o->params, scene->device, oracle, o->oracle) < 0)
-        status = 1;
-    if (status == 0 && set_oracle(scene->device, oracle, o->settings, o->setting_count) < 0)
-        status = 1;
-    if (status == 0)
-        status = solve_by(o, scene, oracle);
+    RadOracle oracle = open_asked_oracle(o, scene->device, o->release);
+    const int status = oracle ? solve_by(o, scene, oracle) : 1;
     radReleaseOracle(oracle);
     return status;
 }

@@ -6,6 +6,8 @@
 #include <sys/resource.h>
 #include "commands/account_summary.h"
 #include "commands/summary.h"
+#include "output/json_values.h"
+#include "util/decisions.h"
 
 /* the mark by which graphs say that a link was too large and could not be split (tools/mark.h) */
 enum { GUARDED = 1 };
@@ -87,12 +89,10 @@ static json_t *closure_json(const struct options *o, const struct RadReport *r)
 /* How the links were solved over, and to what. */
 static json_t *solver_json(const struct options *o, const struct RadReport *r)
 {
-    int bounded = isfinite(r->solved.bound);
     return json_pack("{s:s, s:s, s:b, s:f, s:o, s:f}", "method", solver_words[r->solver],
                      "projection", projection_words[r->projection], "tolerance_given",
                      o->tolerance > 0, "tolerance", r->solved.tolerance, "bound",
-                     bounded ? json_real(r->solved.bound) : json_null(), "variation",
-                     r->solved.variation);
+                     json_finite(r->solved.bound), "variation", r->solved.variation);
 }
 
 static json_t *basis_json(const struct RadReport *r)
@@ -108,16 +108,11 @@ static json_t *basis_json(const struct RadReport *r)
 /* How often each decision was taken; without those that never were. */
 static json_t *decisions_json(const struct RadReport *r)
 {
-    static const char *const names[] = {[DECISION_LINK] = "link",
-                                        [DECISION_LINK_CLUSTERS] = "link_clusters",
-                                        [DECISION_STOP] = "stop",
-                                        [DECISION_SUBDIVIDE_RECEIVER] = "subdivide_receiver",
-                                        [DECISION_SUBDIVIDE_EMITTER] = "subdivide_emitter",
-                                        [DECISION_SUBDIVIDE_BOTH] = "subdivide_both"};
     json_t *decisions = json_object();
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    for (int i = 0; i < DECISIONS; i++)
         if (r->decided[i])
-            json_object_set_new(decisions, names[i], json_integer((json_int_t)r->decided[i]));
+            json_object_set_new(decisions, decision_names[i],
+                                json_integer((json_int_t)r->decided[i]));
     return decisions;
 }
 

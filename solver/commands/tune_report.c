@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "output/json_values.h"
+
 static const char *const cost_words[] = {"rays + links", "links", "rays + 40 pairs"};
 
 double tune_worst(const struct tune_outcome *o)
@@ -209,21 +211,16 @@ json_t *tune_json(const struct tune_outcome *o)
         json_array_append_new(folds, fold_json(t, &o->folds[i], i));
     for (int h = 0; h < TUNE_PENALTIES && o->chosen; h++)
         json_array_append_new(
-            holds,
-            json_pack("{s:o, s:f, s:o, s:b}", "penalty",
-                      isfinite(o->held[h].penalty) ? json_real(o->held[h].penalty) : json_null(),
-                      "left_out_times", o->held[h].times, "worst_ratio",
-                      isnan(o->held[h].worst) ? json_null() : json_real(o->held[h].worst), "taken",
-                      h == o->penalty));
-    return json_pack("{s:s, s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:o, "
-                     "s:i, s:f}",
-                     "oracle", o->oracle, "basis",
-                     t->basis == RAD_BASIS_LINEAR ? "linear" : "constant", "target", t->target,
-                     "power", t->power, "cost", cost_words[t->cost], "default",
-                     parameters_json(t, defaults), "fitted", parameters_json(t, o->all.at),
-                     "price_times", exp(price_of(o)), "evaluations", o->all.found.evaluations,
-                     "ended", end_text(&o->all), "scenes", scenes, "penalties", holds, "folds",
-                     folds, "worst_ratio", isnan(worst) ? json_null() : json_real(worst),
-                     "carries_over", isnan(worst) ? json_null() : json_boolean(!tune_fails(o)),
-                     "solves", t->solves, "seconds", o->seconds);
+            holds, json_pack("{s:o, s:f, s:o, s:b}", "penalty", json_finite(o->held[h].penalty),
+                             "left_out_times", o->held[h].times, "worst_ratio",
+                             json_finite(o->held[h].worst), "taken", h == o->penalty));
+    return json_pack(
+        "{s:s, s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:i, s:f}",
+        "oracle", o->oracle, "basis", t->basis == RAD_BASIS_LINEAR ? "linear" : "constant",
+        "target", t->target, "power", t->power, "cost", cost_words[t->cost], "default",
+        parameters_json(t, defaults), "fitted", parameters_json(t, o->all.at), "price_times",
+        exp(price_of(o)), "evaluations", o->all.found.evaluations, "ended", end_text(&o->all),
+        "scenes", scenes, "penalties", holds, "folds", folds, "worst_ratio", json_finite(worst),
+        "carries_over", isnan(worst) ? json_null() : json_boolean(!tune_fails(o)), "solves",
+        t->solves, "seconds", o->seconds);
 }

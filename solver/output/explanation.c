@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: MIT */
 #include "output/explanation.h"
 
-#include <math.h>
 #include <string.h>
+
+#include "output/json_values.h"
 
 enum { WIDTH = 96, INDENT = 5 };
 
@@ -108,19 +109,13 @@ void explanation_print(FILE *out, const struct RadExplanation *x)
     explanation_print_decision(out, x);
 }
 
-/* JSON has no INFINITY and no NAN: they are null. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *term_json(const struct RadTerm *t)
 {
     json_t *value = t->size > 1 ? json_array() : NULL;
     for (int k = 0; k < t->size && k < 3 && value; k++)
-        json_array_append_new(value, t->level ? number(t->value[k]) : json_null());
+        json_array_append_new(value, t->level ? json_finite(t->value[k]) : json_null());
     if (t->size == 1)
-        value = t->level ? number(t->value[0]) : json_null();
+        value = t->level ? json_finite(t->value[0]) : json_null();
     json_t *level = t->level && t->level_count ? json_string(t->level) : json_null();
     return json_pack("{s:s, s:o, s:s, s:o, s:i, s:i, s:i, s:b, s:b, s:b}", "term", t->name, "value",
                      value, "unit", t->unit, "level", level, "level_number", t->level_number,
@@ -146,7 +141,7 @@ json_t *explanation_json(const struct RadExplanation *x)
             const struct RadArgument *g = &a->arguments[k];
             json_array_append_new(arguments,
                                   json_pack("{s:s, s:o, s:s, s:s, s:b}", "argument", g->name,
-                                            "value", number(g->value), "unit", g->unit, "doc",
+                                            "value", json_finite(g->value), "unit", g->unit, "doc",
                                             g->doc, "computed", g->computed));
         }
         json_array_append_new(nodes, json_pack("{s:s, s:s, s:s, s:o, s:o, s:s, s:s, s:s, s:I, s:f}",

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "output/json_values.h"
+
 static json_t *whole(uint64_t count)
 {
     return json_integer((json_int_t)count);
@@ -131,24 +133,13 @@ static json_t *records_json(const struct RadStatistics *s)
     return all;
 }
 
-static json_t *parameters_json(RadOracle oracle, const struct RadOracleReport *report)
-{
-    json_t *values = json_object();
-    for (int i = 0; i < report->parameter_count; i++) {
-        const char *name = report->parameters[i].name;
-        double value = radGetOracleParameter(oracle, name);
-        json_object_set_new(values, name, isfinite(value) ? json_real(value) : json_null());
-    }
-    return values;
-}
-
 json_t *statistics_json(const char *scene, RadOracle oracle, const struct RadStatistics *s)
 {
     struct RadOracleReport report;
     radGetOracleReport(oracle, &report);
     return json_pack("{s:s, s:s, s:s, s:o, s:o, s:f, s:o, s:i, s:o, s:o, s:o, s:o, s:o, s:o}",
                      "schema", STATISTICS_SCHEMA, "oracle", report.name, "scene", scene,
-                     "parameters", parameters_json(oracle, &report), "discussions",
+                     "parameters", oracle_parameters_json(oracle), "discussions",
                      whole(s->node_count ? s->nodes[0].calls : 0), "seconds", statistics_seconds(s),
                      "rays", whole(statistics_rays(s)), "timed_every", RAD_TIMED_EVERY, "nodes",
                      nodes_json(s), "unused", unused_json(s), "paths", paths_json(s), "passes",

@@ -14,6 +14,7 @@
 #include "geometry.h"
 #include "util/array.h"
 #include "util/atomic_file.h"
+#include "util/decisions.h"
 #include "util/device.h"
 #include "util/ends_with.h"
 #include "util/filter.h"
@@ -44,14 +45,6 @@ struct trace_file {
     int failed; /* a write, or the library */
     char receiver[RAD_NAME], emitter[RAD_NAME];
 };
-
-static const char *const decisions[] = {[DECISION_LINK] = "link",
-                                        [DECISION_STOP] = "stop",
-                                        [DECISION_SUBDIVIDE_RECEIVER] = "subdivide_receiver",
-                                        [DECISION_SUBDIVIDE_EMITTER] = "subdivide_emitter",
-                                        [DECISION_SUBDIVIDE_BOTH] = "subdivide_both",
-                                        [DECISION_LINK_CLUSTERS] = "link_clusters",
-                                        [DECISIONS] = NULL};
 
 /* Values that are numbers, in this order; then texts; then `decision`; then nodes. */
 enum {
@@ -130,7 +123,7 @@ static int list_names(struct trace_file *t)
             return -1;
     if (add_name(t, "receiver", FILTER_TEXT, NULL) < 0
         || add_name(t, "emitter", FILTER_TEXT, NULL) < 0
-        || add_name(t, "decision", FILTER_WORD, decisions) < 0)
+        || add_name(t, "decision", FILTER_WORD, decision_names) < 0)
         return -1;
     t->first_node = (int)t->name_count;
     for (; radGetOracleAnswer(t->oracle, t->nodes, 0, &a) == 0; t->nodes++)
@@ -206,7 +199,7 @@ static int print_line(const struct trace_file *t, const struct RadTraced *d, int
                                    "\"form_factor\": "
                                  : "%d,%llu,%s,%s,%s,%u,",
                          d->pass, (unsigned long long)d->round, t->receiver, t->emitter,
-                         decisions[d->decision], (unsigned)d->rays);
+                         decision_names[d->decision], (unsigned)d->rays);
     length += print_number(out, t->json, d->form_factor_level, d->form_factor);
     length += fprintf(out, t->json ? ", \"visibility\": " : ",");
     length += print_number(out, t->json, d->visibility_level, d->visibility);

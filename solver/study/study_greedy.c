@@ -17,6 +17,7 @@
 
 #include "kernel/leaf_at.h"
 #include "output/json_file.h"
+#include "output/json_values.h"
 #include "output/solution.h"
 #include "study/greedy.h"
 #include "study/made_scene.h"
@@ -267,7 +268,7 @@ static json_t *scene_json(int scene, const struct row rows[BASES][TIMES])
             const struct row *r = &rows[b][k];
             json_t *shares[GREEDY_NORMS];
             for (int n = 0; n < GREEDY_NORMS; n++)
-                shares[n] = isnan(r->greedy[n]) ? json_null() : json_real(r->greedy[n]);
+                shares[n] = json_finite(r->greedy[n]);
             json_array_append_new(
                 list, json_pack("{s:s, s:f, s:I, s:f, s:o, s:I, s:f, s:o, s:I}", "basis",
                                 basis_names[b], "times", times[k], "links", (json_int_t)r->links,

@@ -84,19 +84,22 @@ int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int co
 RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release,
                       char *const *settings, int count)
 {
-    return open_oracle_replaced(device, oracle, release, settings, count, NULL, 0);
+    RadOracle opened = open_oracle_replaced(device, oracle, release, NULL, 0);
+    if (opened && set_oracle(device, opened, settings, count) < 0) {
+        radReleaseOracle(opened);
+        return NULL;
+    }
+    return opened;
 }
 
 RadOracle open_oracle_replaced(RadDevice device, const char *oracle, enum RadRelease release,
-                               char *const *settings, int count, char *const *replacements,
-                               int replacement_count)
+                               char *const *replacements, int count)
 {
     RadOracle opened;
-    if (replacement_count > 0 && release != RAD_RELEASE_HAND
-        && (is_file(oracle) || radGetOracleText(oracle))) {
+    if (count > 0 && release != RAD_RELEASE_HAND && (is_file(oracle) || radGetOracleText(oracle))) {
         opened =
             radLoadOracleReplaced(device, oracle, is_file(oracle) ? NULL : radGetOracleText(oracle),
-                                  release, (const char *const *)replacements, replacement_count);
+                                  release, (const char *const *)replacements, count);
     } else if (release == RAD_RELEASE_HAND || !is_file(oracle)) {
         if (!radHasOracle(device, oracle, release))
             return refuse_oracle(device, oracle, release);
@@ -104,11 +107,5 @@ RadOracle open_oracle_replaced(RadDevice device, const char *oracle, enum RadRel
     } else {
         opened = radLoadOracle(device, oracle, NULL, release);
     }
-    if (!opened)
-        return refuse_graph(device, oracle);
-    if (set_oracle(device, opened, settings, count) < 0) {
-        radReleaseOracle(opened);
-        return NULL;
-    }
-    return opened;
+    return opened ? opened : refuse_graph(device, oracle);
 }

@@ -10,10 +10,10 @@
 RadOracle open_oracle(RadDevice device, const char *oracle, enum RadRelease release,
                       char *const *settings, int count);
 
-/* The same with nodes that are otherwise than written, as radLoadOracleReplaced takes them. */
+/* The same at its defaults, with nodes that are otherwise than written: [count] replacements, as
+ * radLoadOracleReplaced takes them. */
 RadOracle open_oracle_replaced(RadDevice device, const char *oracle, enum RadRelease release,
-                               char *const *settings, int count, char *const *replacements,
-                               int replacement_count);
+                               char *const *replacements, int count);
 
 /* Apply texts "NAME=VALUE" to an oracle. Returns 0, or -1 after a message. */
 int set_oracle(RadDevice device, RadOracle oracle, char *const *settings, int count);

@@ -110,6 +110,10 @@ in_budget() { # BUDGET
     spent >"$tmp/spent"
     [ $(($(cat "$tmp/spent") - budget_start)) -lt "$1" ]
 }
+# Say how many runs of a scene its budget left out, if any.
+say_left() { # SCENE BUDGET RUNS
+    [ "$3" = 0 ] || say "$1: the budget of $2 s is spent, $3 runs are left for another time"
+}
 
 # ---- pages
 

@@ -32,7 +32,7 @@ for name in ${SCENES_OF_STUDIES:-cornell room panels maze_8 td soda}; do
             done
         done
     done
-    [ $left = 0 ] || say "$name: the budget of ${BUDGET:-100} s is spent, $left runs are left for another time"
+    say_left "$name" "${BUDGET:-100}" $left
 done
 rows_of_binary "$pages/limit.csv"
 

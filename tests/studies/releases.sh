@@ -56,7 +56,7 @@ for name in ${SCENES_OF_STUDIES:-cornell room maze_8 td soda sejour}; do
             done
         done
     done
-    [ $left = 0 ] || say "$name: the budget of ${BUDGET:-120} s is spent, $left runs are left for another time"
+    say_left "$name" "${BUDGET:-120}" $left
     case " ${COUNTED:-cornell room} " in *" $name "*) ;; *) continue ;; esac
     command -v valgrind >/dev/null || { say "valgrind is not here: no instructions are counted" && continue; }
     for oracle in bf bf_guarded "$default"; do

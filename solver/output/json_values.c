@@ -1,0 +1,22 @@
+/* json_values.c - see json_values.h.
+ * SPDX-License-Identifier: MIT */
+#include "output/json_values.h"
+
+#include <math.h>
+
+json_t *json_finite(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *oracle_parameters_json(RadOracle oracle)
+{
+    struct RadOracleReport report;
+    radGetOracleReport(oracle, &report);
+    json_t *values = json_object();
+    for (int i = 0; i < report.parameter_count; i++) {
+        const char *name = report.parameters[i].name;
+        json_object_set_new(values, name, json_finite(radGetOracleParameter(oracle, name)));
+    }
+    return values;
+}

@@ -1,0 +1,16 @@
+/* json_values.h - values that several of the command's JSON files hold.
+ * SPDX-License-Identifier: MIT */
+#ifndef JSON_VALUES_H
+#define JSON_VALUES_H
+
+#include <jansson.h>
+
+#include "radiosity.h"
+
+/* JSON has no INFINITY and no NAN: they are null. */
+json_t *json_finite(double value);
+
+/* The values of all parameters of the oracle, by name. */
+json_t *oracle_parameters_json(RadOracle oracle);
+
+#endif
