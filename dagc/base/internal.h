@@ -193,7 +193,9 @@ struct emit_options {
     int counted;        /* --instrument: NAME_refine_counted */
     int traced;         /* --trace: NAME_refine_traced */
     int copies;         /* --copies: of a node for what paths know, at most; 0: one */
+    int outline;        /* --outline: graphs used more than once are functions */
     int lines;          /* --lines: a comment at each node says where it stands in its source */
+    int directives;     /* --line-directives: #line (line_directives.h) */
     int standalone;     /* --standalone: all that it needs, in one .c and one .h */
     const char *prefix; /* of every name in it; NULL: the first oracle's name */
     const char *const *folders; /* -I: where headers are looked for before the built-in ones */

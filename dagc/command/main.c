@@ -9,9 +9,19 @@
 #include "command/depfile.h"
 #include "prove/diff.h"
 #include "emit/emit_svg.h"
+#include "emit/line_directives.h"
 #include "command/options.h"
 #include "command/write_skeleton.h"
 #include "prove/prove.h"
+
+/* What #line calls a text that goes to standard output: as if it were a file beside its source. */
+static const char *name_of(struct dag *dag, const struct job *job, int which)
+{
+    const char *path = job->outputs[which].path;
+    if (path != NULL && strcmp(path, "-") != 0)
+        return path;
+    return dag_format(&dag->arena, "%s.%s", dag->oracles[0].name, which == OUTPUT_TEXT ? "c" : "h");
+}
 
 static void emit(struct dag *dag, struct job *job)
 {
@@ -26,6 +36,8 @@ static void emit(struct dag *dag, struct job *job)
         else
             dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name,
                        &job->c);
+        for (int i = OUTPUT_TEXT; job->c.directives && i <= OUTPUT_HEADER; i++)
+            dag_number_lines(&job->outputs[i].text, name_of(dag, job, i));
         break;
     case EMIT_DOT:
     case EMIT_SVG: /* run() has it drawn, outside of dag_protect */

@@ -214,6 +214,12 @@ static int set_option(struct job *job, enum option option, const char *value)
         if (job->c.copies < 1 || job->c.copies > 64 || strspn(value, "0123456789") != strlen(value))
             return wrong("--copies takes a number from 1 to 64, not", value);
         return -1;
+    case OPTION_DIRECTIVES:
+        job->c.directives = 1;
+        return -1;
+    case OPTION_OUTLINE:
+        job->c.outline = 1;
+        return -1;
     case OPTION_LINES:
         job->c.lines = 1;
         return -1;
@@ -338,10 +344,13 @@ static const char *contradiction(const struct job *job)
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
     if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove
-         || job->c.copies)
+         || job->c.copies || job->c.directives || job->c.outline)
         && (job->emit != EMIT_C || job->stop != PASSES))
-        return "--instrument, --trace, --copies, --lines, --standalone and --prove belong to C "
-               "text";
+        return "--instrument, --trace, --copies, --outline, --lines, --line-directives, "
+               "--standalone and "
+               "--prove belong to C text";
+    if (job->c.outline && job->c.copies > 1)
+        return "--outline makes the text shorter, --copies longer: take one";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
         return "--prove writes nothing";
     if (job->c.standalone && header == NULL)

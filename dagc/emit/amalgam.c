@@ -8,6 +8,7 @@
 
 #include "emit/amalgam.h"
 #include "emit/headers.h"
+#include "emit/line_directives.h"
 
 enum { FILES_DEEP = 200 };
 
@@ -92,7 +93,8 @@ static int add_file(struct amalgam *amalgam, const char *name, const char *path,
 
 void dag_amalgam_text(struct amalgam *amalgam, const char *name, const char *text)
 {
-    add_file(amalgam, name, name, text, NULL);
+    int file = add_file(amalgam, name, name, text, NULL); /* the array may grow */
+    amalgam->files[file].made = 1;
 }
 
 /* Index of the file; -1: there is none, or it is the program's. */
@@ -151,6 +153,26 @@ static int put_included(struct amalgam *amalgam, struct text *out, const struct 
     return 1;
 }
 
+/* What follows is line `line` of the file; texts that were made here have no file. */
+static void print_directive(const struct amalgam *amalgam, struct text *out,
+                            const struct amalgam_file *file, int line)
+{
+    if (!amalgam->directives || out == NULL)
+        return;
+    if (file->made)
+        dag_line_here(out);
+    else
+        dag_line_in(out, file->path, line);
+}
+
+static int lines_in(const struct c_token *token)
+{
+    int lines = 0;
+    for (size_t i = 0; i < token->length; i++)
+        lines += token->text[i] == '\n';
+    return lines;
+}
+
 static void put_file(struct amalgam *amalgam, struct text *out, int index, int conditional)
 {
     struct dag *dag = amalgam->dag;
@@ -168,7 +190,8 @@ static void put_file(struct amalgam *amalgam, struct text *out, int index, int c
     if (wrap && out != NULL)
         dag_print(out, "#ifndef %s_ONCE_%d\n#define %s_ONCE_%d\n", amalgam->prefix, index,
                   amalgam->prefix, index);
-    int own = file.guarded && !file.once; /* its guard is no condition */
+    int own = file.guarded && !file.once, line = 1; /* its guard is no condition */
+    print_directive(amalgam, out, &file, line);
     for (int i = 0; i < file.tokens.count; i++) {
         const struct c_token *token = &file.tokens.items[i];
         int opens = dag_c_directive(token, "if") != NULL || dag_c_directive(token, "ifdef") != NULL
@@ -176,15 +199,18 @@ static void put_file(struct amalgam *amalgam, struct text *out, int index, int c
         depth += opens && !own;
         own &= !opens;
         depth -= dag_c_directive(token, "endif") != NULL && depth > conditional;
+        line += lines_in(token);
         if (put_included(amalgam, out, &file, token, depth) || has_word(token, "pragma", "once")) {
             skip = 1; /* the end of its line */
+            print_directive(amalgam, out, &file, line + 1);
             continue;
         }
         if (out == NULL)
             continue;
-        if (token->kind == C_COMMENT && first && file.built_in)
+        if (token->kind == C_COMMENT && first && file.built_in) {
             print_comment(out, token);
-        else if (skip && token->kind == C_SPACE && *token->text == '\n')
+            print_directive(amalgam, out, &file, line);
+        } else if (skip && token->kind == C_SPACE && *token->text == '\n')
             dag_print(out, "%.*s", (int)token->length - 1, token->text + 1);
         else
             dag_c_print(dag, out, token, before, &amalgam->names, amalgam->prefix);
@@ -208,6 +234,8 @@ int dag_amalgam_put(struct amalgam *amalgam, struct text *out, const char *name,
     if (out != NULL && !(amalgam->files[index].guarded && amalgam->files[index].in))
         dag_print(out, "\n");
     put_file(amalgam, out, index, 0);
+    if (amalgam->directives && out != NULL)
+        dag_line_here(out);
     return 1;
 }
 

@@ -12,7 +12,8 @@ struct amalgam_file {
     unsigned char guarded; /* a second inclusion has no effect */
     unsigned char once;    /* by #pragma once */
     unsigned char built_in;
-    unsigned char in; /* put in where no condition can take it out */
+    unsigned char made; /* by dagc: there is no such file */
+    unsigned char in;   /* put in where no condition can take it out */
 };
 
 struct amalgam {
@@ -24,6 +25,7 @@ struct amalgam {
     const char *prefix;      /* of the names */
     const char *const *host; /* [host_count] headers that stay where they are */
     int host_count;
+    int directives;      /* #line at each change of file */
     int built_in;        /* dagc's own headers may be taken */
     int depth;           /* of files in files */
     const char *catalog; /* the folder of the catalog: the last place to look; NULL: none */

@@ -34,7 +34,8 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
 /* Does the text use the macro KNOWN? */
 int dag_emit_states_facts(struct dag *dag, const struct emit_options *options);
 /* What functions of many parts call instead of the tools; nothing when no oracle is that large. */
-void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned char *reached);
+void dag_emit_callers(struct dag *dag, struct text *out, const unsigned char *reached,
+                      const struct emit_options *options);
 
 /* The declarations and tables that counted and traced functions need (emit_counters.c). */
 void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,

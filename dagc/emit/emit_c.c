@@ -328,7 +328,7 @@ void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char
     dag_print(c, "\n#include <math.h>\n#include <stddef.h>\n");
     print_tool_headers(dag, c, reached);
     dag_emit_accessors(dag, c);
-    dag_emit_callers(dag, c, reached);
+    dag_emit_callers(dag, c, reached, options);
     dag_emit_known_macro(dag, c, options);
     if (options->before != NULL)
         dag_print(c, "%s", options->before);

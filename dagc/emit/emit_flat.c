@@ -12,27 +12,15 @@
  * than PART_NODES nodes becomes several functions over one discussion, as compilers need more
  * than linear time for a function.
  * SPDX-License-Identifier: MIT */
-#include "analyse/copies.h"
-#include "emit/emit.h"
+#include "emit/flat.h"
+#include "emit/line_directives.h"
 
-struct flat {
-    struct dag *dag;
-    struct text *out;
-    const struct oracle_graph *oracle;
-    enum flavour flavour;
-    const unsigned char *terms; /* see emit_options; NULL: all */
-    int lines;                  /* likewise */
-    int parts;                  /* how many functions; 1: all is in one */
-    const char *at, *of;        /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
-    int most;                   /* copies of a node */
-    struct copies copies;
-    int *first_arc;            /* by order: the number of the node's first arc */
-    unsigned char *entry;      /* by order: does an arc from another part lead to it? */
-    unsigned char *node_label; /* by copy: is there a goto to it? */
-    unsigned char *leaf_label; /* by decision */
-    unsigned char *leaf_used;  /* by decision: does an arc lead to its shared leaf? */
-    int first_leaf;            /* the first decision whose leaf is used; -1: none */
-};
+/* For compilers and debuggers: what follows stands there in the source. */
+void dag_flat_directive(const struct flat *flat, struct where where)
+{
+    if (flat->directives)
+        dag_line_at(flat->dag, flat->out, where);
+}
 
 static int same_target(const struct target *a, const struct target *b)
 {
@@ -53,7 +41,7 @@ static int decides_nothing(const struct flat *flat, const struct node *node)
     return 1;
 }
 
-static int has_shared_leaf(const struct flat *flat, const struct target *target)
+int dag_flat_has_leaf(const struct flat *flat, const struct target *target)
 {
     return target->kind == TARGET_DECISION && flat->dag->decisions[target->index].reads.count > 0;
 }
@@ -69,7 +57,7 @@ static const struct node *node_at(const struct flat *flat, int place)
 }
 
 /* The copy that stands behind this one; -1: it is the last. */
-static int copy_behind(const struct flat *flat, int copy)
+int dag_flat_behind(const struct flat *flat, int copy)
 {
     const struct copy *c = &flat->copies.items[copy];
     if (c->next >= 0)
@@ -84,8 +72,8 @@ static int falls_through(const struct flat *flat, int copy)
     const struct copy *c = &flat->copies.items[copy];
     const struct node *node = node_at(flat, c->place);
     const struct target *target = &arc_of(flat, node, 0)->target;
-    int behind = copy_behind(flat, copy);
-    if (!decides_nothing(flat, node))
+    int behind = dag_flat_behind(flat, copy);
+    if (!decides_nothing(flat, node) || flat->shared_count > 0)
         return 0;
     if (target->kind == TARGET_NODE) {
         const struct way *way = &flat->copies.ways[c->ways[0]];
@@ -106,7 +94,7 @@ static void label_way(struct flat *flat, int number)
     }
 }
 
-static void label_copy(struct flat *flat, int copy)
+void dag_flat_mark_labels(struct flat *flat, int copy)
 {
     const struct copy *c = &flat->copies.items[copy];
     const struct node *node = node_at(flat, c->place);
@@ -115,7 +103,7 @@ static void label_copy(struct flat *flat, int copy)
         const struct target *target = &arc_of(flat, node, a)->target;
         if (target->kind == TARGET_NODE)
             label_way(flat, c->ways[a]);
-        else if (has_shared_leaf(flat, target))
+        else if (dag_flat_has_leaf(flat, target))
             flat->leaf_label[target->index] = 1;
     }
 }
@@ -130,7 +118,7 @@ static void find_labels(struct flat *flat)
         arcs += node->arcs.count;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &arc_of(flat, node, a)->target;
-            if (has_shared_leaf(flat, target)) {
+            if (dag_flat_has_leaf(flat, target)) {
                 flat->leaf_used[target->index] = 1;
                 if (flat->first_leaf < 0 || target->index < flat->first_leaf)
                     flat->first_leaf = target->index;
@@ -142,7 +130,7 @@ static void find_labels(struct flat *flat)
         }
     }
     for (int i = 0; i < flat->copies.count; i++)
-        label_copy(flat, i);
+        dag_flat_mark_labels(flat, i);
 }
 
 static void print_constant(struct text *out, const char *prefix, const char *name)
@@ -166,7 +154,7 @@ static void print_jump_in_part(const struct flat *flat, int from, const struct t
 }
 
 /* "node_NAME", or of its copies but the first "copyN_NAME". */
-static void print_label(const struct flat *flat, int copy)
+void dag_flat_label(const struct flat *flat, int copy)
 {
     const struct copy *c = &flat->copies.items[copy];
     if (c->number == 0)
@@ -186,7 +174,7 @@ static void print_way(const struct flat *flat, int number, int indent)
     const struct way *way = &flat->copies.ways[number];
     if (way->cut == 0) {
         dag_print(flat->out, "goto ");
-        print_label(flat, way->below);
+        dag_flat_label(flat, way->below);
         dag_print(flat->out, ";\n");
         return;
     }
@@ -204,14 +192,24 @@ static void print_way(const struct flat *flat, int number, int indent)
     print_way(flat, way->below, indent);
 }
 
-static void print_jump(const struct flat *flat, int from, const struct target *target, int way,
-                       int indent)
+/* Out of a function for a piece of the graph: which exit; 0: the target is in it. */
+static int print_exit(const struct flat *flat, int from, int answer)
+{
+    const struct shared *s = flat->inside;
+    int exit = s == NULL ? -1 : s->exit_of[s->first_answer[flat->member[from]] + answer];
+    if (exit >= 0)
+        dag_print(flat->out, "return %d;\n", exit);
+    return exit >= 0;
+}
+
+void dag_flat_jump(const struct flat *flat, int from, const struct target *target, int way,
+                   int indent)
 {
     if (flat->parts > 1)
         print_jump_in_part(flat, from, target);
     else if (target->kind == TARGET_NODE)
         print_way(flat, way, indent);
-    else if (has_shared_leaf(flat, target))
+    else if (dag_flat_has_leaf(flat, target))
         dag_print(flat->out, "goto leaf_%s;\n", flat->dag->decisions[target->index].name);
     else {
         dag_print(flat->out, "return ");
@@ -226,9 +224,15 @@ static void print_call(const struct flat *flat, const struct node *node)
     dag_print(flat->out, "%s_%s(%s", flat->parts > 1 ? "ask" : "tool",
               flat->dag->tools[node->tool].name, flat->at);
     for (int i = 0; i < node->arguments.count; i++) {
+        int given = flat->inside == NULL
+                        ? -1
+                        : dag_shared_argument(flat->inside, node->arguments.first + i);
         dag_print(flat->out, ", ");
-        dag_emit_expression(flat->dag, flat->out, &flat->dag->arguments[node->arguments.first + i],
-                            flat->at, &value);
+        if (given >= 0)
+            dag_print(flat->out, "argument_%d", given + 1);
+        else
+            dag_emit_expression(flat->dag, flat->out,
+                                &flat->dag->arguments[node->arguments.first + i], flat->at, &value);
     }
     dag_print(flat->out, ")");
 }
@@ -258,8 +262,11 @@ static void print_switch(const struct flat *flat, const struct node *node, const
                 left--;
             }
         if (done[i] == 2) {
-            dag_print(flat->out, "%s        ", left == 0 ? "    default:\n" : "");
-            print_jump(flat, node->order, target, copy->ways[i], 8);
+            dag_print(flat->out, "%s", left == 0 ? "    default:\n" : "");
+            dag_flat_directive(flat, arc_of(flat, node, i)->where);
+            dag_print(flat->out, "        ");
+            if (!print_exit(flat, node->order, i))
+                dag_flat_jump(flat, node->order, target, copy->ways[i], 8);
         }
         for (int j = i; j < node->arcs.count; j++)
             done[j] = done[j] != 0;
@@ -283,7 +290,8 @@ static int term_of(const struct dag *dag, const struct node *node, int need)
 /* Is it worth telling the compiler that a term is known? With one arc it has seen why. */
 static int is_fact(const struct flat *flat, const struct copy *copy, int term)
 {
-    return copy->known.low[term] > 0 && copy->arcs_in > 1 && flat->parts == 1;
+    return copy->known.low[term] > 0 && copy->arcs_in > 1 && flat->parts == 1
+           && flat->inside == NULL;
 }
 
 /* What the analysis knows of the terms that the node handles, for the reader as a comment
@@ -347,14 +355,15 @@ static void print_place(const struct flat *flat, const struct node *node)
     dag_print(flat->out, " */\n");
 }
 
-static void print_node(const struct flat *flat, int at)
+void dag_flat_node(const struct flat *flat, int at)
 {
     const struct copy *copy = &flat->copies.items[at];
     const struct node *node = node_at(flat, copy->place);
     int block = dag_has_reads(flat->dag, node);
     dag_print(flat->out, "\n");
+    dag_flat_directive(flat, node->where);
     if (flat->node_label[at] || (flat->parts > 1 && flat->entry[node->order])) {
-        print_label(flat, at);
+        dag_flat_label(flat, at);
         dag_print(flat->out, ":\n");
     }
     if (flat->lines)
@@ -364,10 +373,13 @@ static void print_node(const struct flat *flat, int at)
         dag_print(flat->out, "    {\n");
     if (flat->flavour == FLAVOUR_COUNTED) /* what the arguments compute is the node's time, too */
         dag_print(flat->out, "    began = %s_clock(counters);\n", flat->oracle->name);
-    if (block)
+    if (block) {
+        dag_flat_directive(flat, node->tool_where);
         dag_emit_reads(flat->dag, flat->out, node, flat->at);
+    }
     if (flat->flavour == FLAVOUR_COUNTED && copy->checks > 0)
         dag_print(flat->out, "    counters->checks += %d;\n", copy->checks);
+    dag_flat_directive(flat, node->tool_where);
     if (flat->flavour != FLAVOUR_PLAIN)
         print_watched(flat, node);
     if (!decides_nothing(flat, node)) {
@@ -382,8 +394,10 @@ static void print_node(const struct flat *flat, int at)
     }
     dag_print(flat->out, "%s", block ? "    }\n" : "");
     if (!falls_through(flat, at)) {
+        dag_flat_directive(flat, arc_of(flat, node, 0)->where);
         dag_print(flat->out, "    ");
-        print_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
+        if (!print_exit(flat, node->order, 0))
+            dag_flat_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
     }
 }
 
@@ -520,7 +534,8 @@ static void print_part(const struct flat *flat, int part)
                       --left == 0 ? "    default:\n" : "", node_at(flat, i)->name);
     dag_print(out, "    }\n");
     for (int i = first; i < end; i++)
-        print_node(flat, flat->copies.first[i]);
+        dag_flat_node(flat, flat->copies.first[i]);
+    dag_flat_directive(flat, dag_nowhere);
     dag_print(out, "}\n");
 }
 
@@ -551,8 +566,23 @@ static void print_parts_loop(const struct flat *flat)
     dag_print(out, "    return (enum decision)~at;\n");
 }
 
+/* How many functions the graph becomes, not counting those of --outline: one, if with these none is
+ * too large. */
+static int count_parts(struct dag *dag, const struct oracle_graph *oracle, enum flavour flavour,
+                       const struct emit_options *options)
+{
+    struct shared *shared;
+    int nodes = oracle->order.count, left = nodes, most = 0;
+    if (nodes > PART_NODES && options->outline && flavour == FLAVOUR_PLAIN)
+        for (int i = dag_find_shared(dag, oracle, &shared) - 1; i >= 0; i--) {
+            left -= shared[i].uses * (shared[i].nodes - 1);
+            most = shared[i].nodes > most ? shared[i].nodes : most;
+        }
+    return left <= PART_NODES && most <= PART_NODES ? 1 : (nodes + PART_NODES - 1) / PART_NODES;
+}
+
 static struct flat open_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
-                             enum flavour flavour, int most)
+                             enum flavour flavour, const struct emit_options *options)
 {
     size_t nodes = (size_t)oracle->order.count;
     struct flat flat = {0};
@@ -561,10 +591,11 @@ static struct flat open_flat(struct dag *dag, struct text *out, const struct ora
     flat.oracle = oracle;
     flat.flavour = flavour;
     flat.first_leaf = -1;
-    flat.parts = nodes > PART_NODES ? (int)((nodes + PART_NODES - 1) / PART_NODES) : 1;
+    flat.parts = count_parts(dag, oracle, flavour, options);
     flat.at = flat.parts > 1 ? "d" : "&d";
     flat.of = flat.parts > 1 ? "d->" : "d.";
-    flat.most = flat.parts > 1 || flavour == FLAVOUR_TRACED || most < 1 ? 1 : most;
+    flat.most =
+        flat.parts > 1 || flavour == FLAVOUR_TRACED || options->copies < 1 ? 1 : options->copies;
     flat.copies = dag_copies(dag, oracle, flat.most);
     flat.first_arc = dag_alloc(&dag->arena, nodes * sizeof(int));
     flat.entry = dag_alloc(&dag->arena, nodes);
@@ -580,7 +611,7 @@ static struct flat open_flat(struct dag *dag, struct text *out, const struct ora
 int dag_emit_states_facts(struct dag *dag, const struct emit_options *options)
 {
     for (int i = 0; i < dag->oracle_count; i++) {
-        struct flat flat = open_flat(dag, NULL, &dag->oracles[i], FLAVOUR_PLAIN, options->copies);
+        struct flat flat = open_flat(dag, NULL, &dag->oracles[i], FLAVOUR_PLAIN, options);
         for (int n = 0; n < flat.copies.count; n++) {
             const struct copy *copy = &flat.copies.items[n];
             const struct node *node = node_at(&flat, copy->place);
@@ -595,11 +626,14 @@ int dag_emit_states_facts(struct dag *dag, const struct emit_options *options)
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                    enum flavour flavour, const struct emit_options *options)
 {
-    struct flat flat = open_flat(dag, out, oracle, flavour, options->copies);
+    struct flat flat = open_flat(dag, out, oracle, flavour, options);
     flat.terms = options->terms;
     flat.lines = options->lines;
+    flat.directives = options->directives;
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);
+    if (options->outline && flavour == FLAVOUR_PLAIN && flat.parts == 1)
+        dag_flat_outline(&flat);
     dag_print(out, "\n");
     /* two entries to one body */
     int entries = flavour == FLAVOUR_PLAIN && options->copies > 1;
@@ -618,8 +652,9 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
         if (!uses_parameters(&flat))
             dag_print(out, "    (void)parameters;\n");
         print_absent(&flat);
-        for (int i = flat.copies.first[0]; i >= 0; i = copy_behind(&flat, i))
-            print_node(&flat, i);
+        for (int i = flat.copies.first[0]; i >= 0; i = dag_flat_behind(&flat, i))
+            dag_flat_node_or_call(&flat, i);
+        dag_flat_directive(&flat, dag_nowhere);
     }
     for (int i = 0; i < dag->decision_count; i++)
         if (flat.leaf_used[i]) {
@@ -637,11 +672,15 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
     }
 }
 
-void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned char *reached)
+void dag_emit_callers(struct dag *dag, struct text *out, const unsigned char *reached,
+                      const struct emit_options *options)
 {
     int any = 0;
     for (int i = 0; i < dag->oracle_count; i++)
-        any |= dag->oracles[i].order.count > PART_NODES;
+        any |= count_parts(dag, &dag->oracles[i],
+                           options->counted || options->traced ? FLAVOUR_COUNTED : FLAVOUR_PLAIN,
+                           options)
+               > 1;
     if (!any)
         return;
     dag_print(out,

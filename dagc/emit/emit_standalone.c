@@ -48,7 +48,7 @@ static void add_generated(struct standalone *s)
         dag_emit_oracle_h(dag, &declarations, &dag->oracles[i], &s->options);
     dag_amalgam_text(&s->files, declarations_name, text_kept(dag, &declarations));
     dag_emit_accessors(dag, &functions);
-    dag_emit_callers(dag, &functions, s->reached);
+    dag_emit_callers(dag, &functions, s->reached, &s->options);
     dag_emit_known_macro(dag, &functions, &s->options);
     for (int i = 0; i < dag->oracle_count; i++)
         dag_emit_oracle_c(dag, &functions, &dag->oracles[i], &s->options);
@@ -94,6 +94,7 @@ static void open_files(struct standalone *s, const char *prefix)
     s->files = (struct amalgam){0};
     s->files.dag = s->dag;
     s->files.prefix = prefix;
+    s->files.directives = s->options.directives;
     s->files.host = s->options.host;
     s->files.host_count = s->options.host_count;
     s->files.built_in = dag_runtime_is_ours(s->dag);
