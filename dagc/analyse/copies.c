@@ -6,8 +6,8 @@
  * Where a tool leaves open what it computed, one look at the level, just behind the call, says
  * which copy is next (a compiler that has inlined the tool knows, and takes the look out); where
  * the host left it open, the look is taken when somebody first asks. Two rules keep the text short:
- * levels that nobody below asks for are not told apart, and beyond `most` copies of a node the last
- * one serves all others.
+ * levels that nobody below asks for are not told apart, and beyond `most` copies of a node the
+ * nearest serves all others.
  *
  * `low` is what writes declare, and may be stated as a fact. `high` is a guess, since a tool may
  * compute terms on its way that it does not name: it decides where copies are made, never what
@@ -117,53 +117,48 @@ static void pass_node(const struct making *m, const struct node *node, struct kn
     }
 }
 
-/* Is that all the same to whoever comes? */
-static int same_cuts(uint64_t cuts, int a, int b)
-{
-    uint64_t from = a < b ? (uint64_t)a : (uint64_t)b, to = a < b ? (uint64_t)b : (uint64_t)a;
-    return (cuts & ((UINT64_C(2) << (to < CUTS ? to : CUTS - 1)) - 1)
-            & ~((UINT64_C(2) << (from < CUTS ? from : CUTS - 1)) - 1))
-           == 0;
-}
-
-static int same_knowledge(const struct making *m, int place, struct knowledge a, struct knowledge b)
-{
-    for (int t = 0; t < m->terms; t++)
-        if (!same_cuts(cuts_at(m, place)[t], a.low[t], b.low[t])
-            || !same_cuts(cuts_at(m, place)[t], a.high[t], b.high[t]))
-            return 0;
-    return 1;
-}
-
 /* ---- copies */
 
+/* The cuts that lie between two knowledges of the terms: what one of them is told, and not the
+ * other. */
+static int distance(const struct making *m, int place, struct knowledge a, struct knowledge b)
+{
+    int cuts = 0;
+    for (int t = 0; t < m->terms; t++)
+        for (int level = 1; level <= finest(m->dag, t) && level < CUTS; level++)
+            if (cuts_at(m, place)[t] & bit_of(level))
+                cuts += ((a.low[t] >= level) != (b.low[t] >= level))
+                        + ((a.high[t] >= level) != (b.high[t] >= level));
+    return cuts;
+}
+
+static void widen(const struct making *m, struct knowledge known, struct knowledge by)
+{
+    for (int t = 0; t < m->terms; t++) {
+        if (by.low[t] < known.low[t])
+            known.low[t] = by.low[t];
+        if (by.high[t] > known.high[t])
+            known.high[t] = by.high[t];
+    }
+}
+
 /* The copy of the node at this place for what is known: one that is there, a new one, or, when
- * there are `most`, the last, which then knows less. */
+ * there are `most`, the nearest, which then knows less. */
 static int copy_for(struct making *m, int place, struct knowledge known)
 {
     struct copies *copies = m->copies;
-    int last = -1, count = 0;
+    int last = -1, count = 0, nearest = -1, least = 0;
     for (int i = copies->first[place]; i >= 0; i = copies->items[i].next, count++) {
-        if (same_knowledge(m, place, copies->items[i].known, known)) {
-            for (int t = 0; t < m->terms; t++) { /* of levels that nobody asks for, too */
-                if (known.low[t] < copies->items[i].known.low[t])
-                    copies->items[i].known.low[t] = known.low[t];
-                if (known.high[t] > copies->items[i].known.high[t])
-                    copies->items[i].known.high[t] = known.high[t];
-            }
-            return i;
+        int d = distance(m, place, copies->items[i].known, known);
+        if (nearest < 0 || d < least) {
+            nearest = i;
+            least = d;
         }
         last = i;
     }
-    if (count == m->most) {
-        struct knowledge all = copies->items[last].known;
-        for (int t = 0; t < m->terms; t++) {
-            if (known.low[t] < all.low[t])
-                all.low[t] = known.low[t];
-            if (known.high[t] > all.high[t])
-                all.high[t] = known.high[t];
-        }
-        return last;
+    if (nearest >= 0 && (least == 0 || count == m->most)) {
+        widen(m, copies->items[nearest].known, known);
+        return nearest;
     }
     copies->items = dag_grow(&m->dag->arena, copies->items, copies->count, sizeof *copies->items);
     struct copy *copy = &copies->items[copies->count];
