@@ -629,6 +629,7 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
     struct flat flat = open_flat(dag, out, oracle, flavour, options);
     flat.terms = options->terms;
     flat.lines = options->lines;
+    flat.watched = options->before != NULL;
     flat.directives = options->directives;
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);

@@ -162,6 +162,16 @@ static size_t text_length(struct flat *flat)
     return length;
 }
 
+/* A proof must know from where a function was called. */
+static void print_watched_name(const struct flat *flat, const struct shared *s)
+{
+    dag_print(flat->out, "\n#define ");
+    print_shared_name(flat, s);
+    dag_print(flat->out, "(...) WATCHED(");
+    print_shared_name(flat, s);
+    dag_print(flat->out, "(__VA_ARGS__))\n");
+}
+
 /* Those pieces become functions with which the text is shorter. */
 void dag_flat_outline(struct flat *flat)
 {
@@ -186,5 +196,7 @@ void dag_flat_outline(struct flat *flat)
     }
     for (int p = 0; p < flat->shared_count; p++)
         print_function(flat, &flat->shared[p]);
+    for (int p = 0; p < flat->shared_count && flat->watched; p++)
+        print_watched_name(flat, &flat->shared[p]);
     label_again(flat);
 }

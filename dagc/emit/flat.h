@@ -14,6 +14,7 @@ struct flat {
     enum flavour flavour;
     const unsigned char *terms; /* see emit_options; NULL: all */
     int lines, directives;      /* likewise */
+    int watched;                /* calls of outlined functions are marked, for --prove */
     int parts;                  /* how many functions; 1: all is in one */
     const char *at, *of;        /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
     int most;                   /* copies of a node */

@@ -39,7 +39,7 @@ struct prove_record {
     int calls;             /* of tools */
     int events;            /* calls, and terms and externs that arguments read */
     int *what;             /* by event: a tool, ~term, or ~(terms + extern) */
-    int *site;             /* by event: from which place in its text or step it came */
+    long long *site;       /* by event: from which place in its text or step it came */
     double *arguments;     /* [width] by event; of a term the level that is asked for */
     unsigned char *levels; /* [terms] by event: what is known then */
     double *terms;         /* at the end: all numbers of all terms */

@@ -1,7 +1,8 @@
 /* scripted.c - the C text of a proof: the catalog with tools that answer from a script and note how
  * they were asked, the oracles as they are emitted, and the runtime's interpreter.
  *
- * Each tool notes from where in the text it was called (its line; a step of the interpreter), and
+ * Each tool notes from where in the text it was called (its line, and that of the call of an
+ * outlined function around it; a step of the interpreter), and
  * what is known of all terms then. Emitted text keeps nothing else from one call to the next, so
  * these two are its state (states.c). Terms have values by level alone; a tool that declares to
  * write one writes it, and one that arguments read is noted as it is read. What the text tells the
@@ -97,12 +98,13 @@ static void print_callback(const struct dag *dag, struct text *out, int number, 
 /* The record and how events get into it. */
 static void print_notes(const struct dag *dag, struct text *out, int width)
 {
-    dag_print(out, "extern int prove_site, prove_untrue;\n"
+    dag_print(out, "extern int prove_site, prove_outer, prove_untrue;\n"
                    "static inline void prove_note(const struct discussion *d, int what, const "
                    "double *given)\n{\n"
                    "    struct prove_record *r = d->record;\n    int at = r->events;\n"
                    "    if (at >= r->room)\n        return;\n    r->events++;\n"
-                   "    r->what[at] = what;\n    r->site[at] = prove_site;\n");
+                   "    r->what[at] = what;\n    r->site[at] = ((long long)prove_outer << 32) + "
+                   "prove_site;\n");
     dag_print(out, "    memcpy(r->arguments + at * %d, given, %d * sizeof *given);\n", width,
               width);
     for (int i = 0; i < dag->term_count; i++)
@@ -180,7 +182,10 @@ static void print_releases(struct dag *dag, struct text *out, int width)
 /* Before the oracles: each call of a tool says its line first, each fact is looked at. */
 static const char *watch_text(struct dag *dag)
 {
-    const char *text = "\n#undef KNOWN\n#define KNOWN(fact) ((void)(prove_untrue |= !(fact)))\n";
+    const char *text =
+        "\n#undef KNOWN\n#define KNOWN(fact) ((void)(prove_untrue |= !(fact)))\n"
+        "static inline int prove_left(int exit)\n{\n    prove_outer = 0;\n    return exit;\n}\n"
+        "#define WATCHED(call) (prove_outer = __LINE__, prove_left(call))\n";
     for (int i = 0; i < dag->tool_count; i++) {
         const char *name = dag->tools[i].name;
         text = dag_format(&dag->arena,

@@ -19,10 +19,11 @@
 enum { STATES_MAX = 500000 };
 
 struct state {
-    int from, node, site, depth; /* from: in states; -1: it is where a discussion begins */
-    unsigned char answer;        /* that led here from there */
-    unsigned char *levels;       /* by term */
-    const unsigned char *start;  /* what the discussion came with */
+    int from, node, depth; /* from: in states; -1: it is where a discussion begins */
+    long long site;
+    unsigned char answer;       /* that led here from there */
+    unsigned char *levels;      /* by term */
+    const unsigned char *start; /* what the discussion came with */
 };
 
 struct exploring {
@@ -34,17 +35,19 @@ struct exploring {
     struct prove_extent *extent;
 };
 
-static uint64_t hash_of(const struct exploring *s, int node, int site, const unsigned char *levels)
+static uint64_t hash_of(const struct exploring *s, int node, long long site,
+                        const unsigned char *levels)
 {
     uint64_t hash = UINT64_C(14695981039346656037);
     hash = (hash ^ (uint64_t)node) * UINT64_C(1099511628211);
-    hash = (hash ^ (uint64_t)(unsigned)site) * UINT64_C(1099511628211);
+    hash = (hash ^ (uint64_t)site) * UINT64_C(1099511628211);
     for (int i = 0; i < s->proof->dag->term_count; i++)
         hash = (hash ^ levels[i]) * UINT64_C(1099511628211);
     return hash ^ hash >> 29;
 }
 
-static size_t slot_of(const struct exploring *s, int node, int site, const unsigned char *levels)
+static size_t slot_of(const struct exploring *s, int node, long long site,
+                      const unsigned char *levels)
 {
     size_t slot = (size_t)hash_of(s, node, site, levels) & (s->size - 1);
     for (; s->table[slot] != 0; slot = (slot + 1) & (s->size - 1)) {
@@ -95,7 +98,11 @@ static void run(struct exploring *s, enum prove_flavour flavour, int from,
         }
         s->states = dag_grow(&dag->arena, s->states, s->count, sizeof *s->states);
         struct state *state = &s->states[s->count];
-        *state = (struct state){from, proof->nodes[call], got->site[event], call, 0, NULL, start};
+        *state = (struct state){.from = from,
+                                .node = proof->nodes[call],
+                                .site = got->site[event],
+                                .depth = call,
+                                .start = start};
         if (call > 0)
             state->answer = proof->script[call - 1];
         state->levels = dag_alloc(&dag->arena, terms + 1);

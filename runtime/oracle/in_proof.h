@@ -13,7 +13,7 @@
 
 extern const struct prove_compiled prove_compiled[];
 
-int prove_site, prove_untrue;
+int prove_site, prove_outer, prove_untrue;
 
 static struct prove_host host;
 static int opened;
@@ -190,7 +190,7 @@ static int prove_run(enum prove_flavour flavour, struct prove_record *record)
     struct refiner *r = releases[flavour == PROVE_INTERPRETED ? PROVE_DAG : PROVE_FLAT];
     memset(&d, 0, sizeof d);
     d.record = record;
-    prove_site = prove_untrue = 0;
+    prove_site = prove_outer = prove_untrue = 0;
     prove_begin(&d, flavour != PROVE_INTERPRETED);
     int decision = flavour == PROVE_PLAIN || flavour == PROVE_INTERPRETED
                        ? (int)r->refine(r->state, &d)
