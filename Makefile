@@ -61,7 +61,8 @@ SUPPORT   = $(call objects,$(wildcard tests/support/*/))
 TESTS     = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/*/check_*.c))
 SCRIPTS   = $(wildcard tests/check_*.sh tests/*/check_*.sh)
 # Of what goes into the library, each object is compiled once, for the archive, the shared library, the commands and the tests.
-SHARED    = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
+EMBEDDED  = $(patsubst %,$(BUILD)/gen/%_text.o,catalog headers interpreter)
+SHARED    = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(EMBEDDED)
 ARCHIVE   = $(BUILD)/libradiosity.a
 LIBRARY_VERSION = $(shell sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' runtime/radiosity.h)
 SONAME    = libradiosity.so.$(basename $(LIBRARY_VERSION))
@@ -84,7 +85,7 @@ dagc: $(BUILD)/bin/dagc $(LIBDAGC)
 $(BUILD)/bin/dagc: $(BUILD)/dagc/command/main.o $(LIBDAGC)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -ldl -lm
-$(LIBDAGC): $(call objects,$(wildcard dagc/*/)) $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
+$(LIBDAGC): $(call objects,$(wildcard dagc/*/)) $(EMBEDDED)
 	rm -f $@
 	ar rcs $@ $^
 $(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/emit/embed.sh
@@ -93,7 +94,13 @@ $(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/emit/embed.sh
 HEADERS   = discussion.h geometry.h oracle.h standalone.h $(patsubst runtime/%,%,$(wildcard runtime/kernel/*.h runtime/terms/*.h runtime/tools/*.h))
 $(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/emit/embed_headers.sh
 	@mkdir -p $(@D)
-	sh dagc/emit/embed_headers.sh runtime $(HEADERS) > $@
+	sh dagc/emit/embed_headers.sh dagc_headers runtime $(HEADERS) > $@
+# --prove compiles the interpreter along with what it interprets.
+PROVED    = $(addprefix oracle/,interpreter.c arguments.c refiner.c load_graph.h program.h refiner.h tool_table.h in_proof.h) util/messages.c util/messages.h
+PROVING   = dag.h prove/proof.h
+$(BUILD)/gen/interpreter_text.c: $(PROVED:%=runtime/%) $(PROVING:%=dagc/%) dagc/emit/embed_headers.sh
+	@mkdir -p $(@D)
+	sh dagc/emit/embed_headers.sh dagc_interpreter runtime $(PROVED) -- dagc $(PROVING) > $@
 $(BUILD)/gen/catalog.h: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-h -o $@ $<
 $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc

@@ -15,7 +15,7 @@ GRAPHS    = $(wildcard examples/oracles/*.dag)
 OF_DAGC   = bin/dagc lib/libdagc.a lib/pkgconfig/dagc.pc \
             $(addprefix lib/cmake/dagc/,dagcConfig.cmake dagcConfigVersion.cmake) \
             $(addprefix include/dagc/,dag.h catalog.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk $(GRAPHS:examples/%=%)) \
-            share/man/man1/dagc.1 share/man/man5/dagc-language.5
+            share/man/man1/dagc.1 share/man/man5/dagc-language.5 share/man/man5/dagc-runtime.5
 OF_RADIOSITY = bin/radiosity include/dagc/radiosity.h lib/pkgconfig/radiosity.pc \
             $(addprefix lib/,libradiosity.a libradiosity.so.$(LIBRARY_VERSION) $(SONAME) libradiosity.so) \
             $(addprefix lib/cmake/radiosity/,radiosityConfig.cmake radiosityConfigVersion.cmake) share/man/man1/radiosity.1
@@ -25,7 +25,7 @@ folders   = $(INSTALL) -d $(addprefix $(TO)/,$(sort $(dir $(1))))
 
 .PHONY: install install-dagc install-radiosity uninstall
 install: install-dagc install-radiosity
-install-dagc: dagc $(BUILD)/gen/catalog.h $(addprefix $(BUILD)/install/,dagc.pc dagcConfigVersion.cmake dagc.1 dagc-language.5)
+install-dagc: dagc $(BUILD)/gen/catalog.h $(addprefix $(BUILD)/install/,dagc.pc dagcConfigVersion.cmake dagc.1 dagc-language.5 dagc-runtime.5)
 	$(call folders,$(OF_DAGC))
 	$(INSTALL) -m 755 $(BUILD)/bin/dagc $(TO)/bin
 	$(INSTALL) -m 644 $(LIBDAGC) $(TO)/lib
@@ -38,7 +38,7 @@ install-dagc: dagc $(BUILD)/gen/catalog.h $(addprefix $(BUILD)/install/,dagc.pc 
 	$(INSTALL) -m 644 runtime/catalog.dag dagc/package/dagc.mk $(TO)/share/dagc
 	$(INSTALL) -m 644 $(GRAPHS) $(TO)/share/dagc/oracles
 	$(INSTALL) -m 644 $(BUILD)/install/dagc.1 $(TO)/share/man/man1
-	$(INSTALL) -m 644 $(BUILD)/install/dagc-language.5 $(TO)/share/man/man5
+	$(INSTALL) -m 644 $(BUILD)/install/dagc-language.5 $(BUILD)/install/dagc-runtime.5 $(TO)/share/man/man5
 install-radiosity: install-dagc commands library $(addprefix $(BUILD)/install/,radiosity.pc radiosityConfig.cmake radiosityConfigVersion.cmake radiosity.1)
 	$(call folders,$(OF_RADIOSITY))
 	$(INSTALL) -m 755 $(BUILD)/bin/radiosity $(TO)/bin

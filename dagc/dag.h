@@ -60,6 +60,18 @@ struct import {
 enum { UNIT_BASES = 7 };
 struct unit {
     signed char exponent[UNIT_BASES];
+    double size; /* in those units: of ms 0.001; 0: 1 */
+};
+
+/* unit NAME = NUMBER UNIT; a unit of the catalog's own. */
+struct own_unit {
+    const char *name;
+    struct where where;
+    double number;
+    const char *text; /* what it is a multiple of, as written: "m/s" */
+    struct where text_where;
+    struct unit unit;
+    unsigned char known; /* unit is set */
 };
 
 enum base { BASE_REAL, BASE_INTEGER };
@@ -71,7 +83,9 @@ struct type {
     enum base base;        /* double or int in C */
     int length;            /* 1: a scalar; N: a vector of N */
     const char *unit_text; /* as written: "W/m2" */
-    struct unit unit;      /* the same, comparable */
+    struct where unit_where;
+    struct unit unit;       /* the same, comparable */
+    unsigned char any_unit; /* "?": whatever it is given; only of a tool's parameters */
 };
 
 /* One step of a term's precision, coarsest first. */
@@ -376,6 +390,10 @@ struct dag {
     int lost;                   /* a declaration lost its name to a syntax error: a name that
                                    seems unknown may be that one */
     struct where runtime_where;
+    const char *verb; /* an oracle's function is NAME_VERB; "refine" when not declared */
+    struct where verb_where;
+    struct own_unit *units;
+    int unit_count;
     struct type *types;
     int type_count;
     struct level *levels;
@@ -424,11 +442,11 @@ struct dag {
     int branch_count;
 
     /* Names, filled by resolve. */
-    struct table type_names, term_names, tool_names, decision_names, oracle_names;
+    struct table unit_names, type_names, term_names, tool_names, decision_names, oracle_names;
     struct table fact_names, callback_names, branch_names, role_names;
     /* how many are */
     struct {
-        int types, terms, tools, decisions, facts, roles, callbacks;
+        int units, types, terms, tools, decisions, facts, roles, callbacks;
     } resolved;
     unsigned char recursive; /* some branch uses itself: none is expanded */
     int use;                 /* in uses: of the branch that a pass looks at, for messages; -1 */
@@ -443,6 +461,7 @@ struct dag {
     int folder_count;                /* where to look for imports */
     const char *const *replacements; /* [replacement_count], as in struct dag_options */
     int replacement_count;
+    char *opened;  /* a catalog's bytes, until it is a source */
     char *reading; /* a file's bytes on their way into sources */
     struct diagnostic *diagnostics;
     int diagnostic_count;

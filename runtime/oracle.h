@@ -2,13 +2,17 @@
  *
  * Every C file that dagc emits for an oracle NAME defines, next to NAME_refine and
  * NAME_defaults, one `const struct oracle NAME_oracle`; a loader (dlsym) or a table of
- * built-in oracles needs no more to list parameters, set them and refine.
+ * built-in oracles needs no more to list parameters, set them and refine. (A catalog with a verb of
+ * its own has that in place of `refine`.) It is of no domain: what a decision and a discussion are,
+ * the runtime's header says, which comes first.
  * SPDX-License-Identifier: MIT */
 #ifndef ORACLE_H
 #define ORACLE_H
 
 #include <stddef.h>
+#ifndef RUNTIME_ABI /* no runtime has been included: radiosity's is meant */
 #include "discussion.h"
+#endif
 
 /* One parameter of an oracle and where it lives in the oracle's parameter structure. */
 struct oracle_parameter {

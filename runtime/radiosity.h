@@ -787,6 +787,11 @@ RAD_API int radGetOracleAnswer(RadOracle oracle, int node, int answer, struct Ra
  * -1: there is no such way. */
 RAD_API int radGetOracleWay(RadOracle oracle, uint64_t way, struct RadAnswer *out, int most);
 
+/* radAskOracle; *way gets the way that it took. Safe from many threads once radGetOracleWay has
+ * been called: with no room for answers it only makes ready. */
+RAD_API enum decision radAskOracleWay(RadOracle oracle, struct discussion *discussion,
+                                      uint64_t *way);
+
 /* One discussion of a refinement. */
 struct RadTraced {
     int pass;                   /* 1: before the first solve */

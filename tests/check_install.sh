@@ -235,21 +235,29 @@ check "radiosity: an oracle called as a built-in one is" \
 cd ..
 
 # ---- the pages
-pages="$prefix/share/man/man1/dagc.1 $prefix/share/man/man1/radiosity.1 $prefix/share/man/man5/dagc-language.5"
+pages="$prefix/share/man/man1/dagc.1 $prefix/share/man/man1/radiosity.1 $prefix/share/man/man5/dagc-language.5 $prefix/share/man/man5/dagc-runtime.5"
 if have groff; then
     for page in $pages; do
         check "groff $page" sh -c "groff -mandoc -ww -z $page 2>&1 | tee said; [ ! -s said ]"
-        check "words of $page" sh -c "groff -mdoc -Tascii -P-cbou $page | grep -q REFINEMENT -i"
+        check "words of $page" sh -c "groff -mdoc -Tascii -P-cbou $page | grep -q -e refinement -e decision -i"
     done
 fi
 if have man; then
-    for page in "1 dagc" "1 radiosity" "5 dagc-language"; do
+    for page in "1 dagc" "1 radiosity" "5 dagc-language" "5 dagc-runtime"; do
         # shellcheck disable=SC2086
         check "man $page" sh -c "man $page | grep -q DESCRIPTION"
     done
 fi
 sed -n -e '/^\.Bd/,/^\.Ed/{/^\./!p' -e '/^\.Ed/q' -e '}' "$prefix/share/man/man5/dagc-language.5" >example.dag
 check "the example of dagc-language(5)" dagc --emit=none -Werror example.dag
+# The ten minutes of dagc-runtime(5), word for word.
+block() { awk -v wanted="$1" '/^\.Bd/ { n++; on = n == wanted; next } /^\.Ed/ { on = 0 } on' "$prefix/share/man/man5/dagc-runtime.5" | sed 's/\\&//g'; }
+mkdir ten && cd ten || exit 2
+block 1 >net.dag
+block 2 | sed 's/^make /make -s /' >commands
+check "the ten minutes of dagc-runtime(5)" sh -e ./commands
+check "its decision" is pass filter/first
+cd ..
 dagc --help | sed -n 's/^  \(-[-a-zA-Z]*\).*/\1/p' | sort -u >options
 for name in $(cat options) $(dagc -W | sed -n 's/^  *\([a-z]*-[a-z-]*\) .*/\1/p'); do
     check "dagc(1) knows $name" sh -c "sed -e 's/\\\\-/-/g' -e 's/Fl -/--/g' -e 's/Fl /-/g' $prefix/share/man/man1/dagc.1 | grep -q -e '^\.It .*$name' -e '^\.Ic $name'"

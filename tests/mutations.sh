@@ -46,6 +46,17 @@ times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)t
 rays of all nodes before | runtime/oracle/counting.c | s/t->host.rays - rays/t->host.rays + 0 * rays/ | runtime/check_instrumented
 dead arcs alive | solver/output/graph_drawing.c | s/.dead = counted \&\& count == 0/.dead = 0/ | solver/check_draw
 arcs to the first leaf | solver/output/graph_drawing.c | s/            a->leaf = (int)i;/            a->leaf = 0;/ | solver/check_draw
+an interpreter that links | runtime/oracle/interpreter.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | dagc/check_prove
+interpreter: arcs of the first | runtime/oracle/interpreter.c | s/: dag->nodes\[t->index\].order;/: dag->nodes[t->index].order + (i == 0 \&\& k == 0);/ | dagc/check_prove
+defaults emitted 7 | dagc/emit/emit_c.c | /static void print_value/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove
+tables emitted 7 | dagc/emit/emit_c.c | /static void print_parameter_table/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove
+offsets of the first | dagc/emit/emit_c.c | s/is_integer(dag, parameter), oracle->name, parameter->name);/is_integer(dag, parameter), oracle->name, dag->parameters[oracle->parameters.first].name);/ | dagc/check_prove
+fingerprints of nothing | dagc/emit/emit_c.c | s/dag_fingerprint_text(oracle, fingerprint);/memset(fingerprint, '0', 16), fingerprint[16] = 0;/ | dagc/check_prove
+last answers go first | dagc/emit/emit_flat.c | s/print_jump(flat, node->order, target);/print_jump(flat, node->order, left == 0 ? \&arc_of(flat, node, 0)->target : target);/ | dagc/check_prove
+known too early | dagc/emit/emit_flat.c | s/level_name(dag, t, low));$/level_name(dag, t, t->levels.count > 0 ? t->levels.count : 1));/ | dagc/check_prove
+counted and decided otherwise | runtime/oracle/counting.c | s/return (enum decision) ~p->next\[at\];/return (enum decision)(~p->next[at] == 1 ? 0 : ~p->next[at]);/ | runtime/check_releases
+followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | runtime/check_releases
+differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/    if (1)/; s/    if (panel.differences) {/    if (0) {/ | solver/check_compare
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
 panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/strchr("\&", *at)/ | solver/check_panel

@@ -115,7 +115,7 @@ struct dag *dag_new(void)
     if (dag == NULL)
         return NULL;
     void *none = &nothing;
-    dag->types = none, dag->levels = none, dag->terms = none, dag->needs = none;
+    dag->units = none, dag->types = none, dag->levels = none, dag->terms = none, dag->needs = none;
     dag->answers = none, dag->tools = none, dag->decisions = none, dag->facts = none;
     dag->callbacks = none, dag->parameters = none, dag->expressions = none;
     dag->arguments = none, dag->labels = none, dag->rules = none, dag->arcs = none;
@@ -123,6 +123,8 @@ struct dag *dag_new(void)
     dag->oracles = none, dag->branches = none, dag->sources = none, dag->imports = none;
     dag->diagnostics = none;
     dag->use = -1;
+    dag->verb = "refine";
+    dag->verb_where.source = -1;
     return dag;
 }
 
@@ -136,6 +138,7 @@ void dag_free(struct dag *dag)
         free(block);
         block = next;
     }
+    free(dag->opened);
     free(dag->reading);
     free(dag);
 }

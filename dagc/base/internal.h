@@ -29,6 +29,7 @@ enum {
     NODES_MAX = 1 << 16, /* of a file's oracles that use branches, these expanded */
     ANSWERS_MAX = 256    /* an answer's number fits a byte */
 };
+#define PI 3.14159265358979323846 /* `pi` of the language */
 
 /* ---- arena.c */
 
@@ -97,6 +98,15 @@ int dag_read_text(struct dag *dag, const char *name, const char *text, size_t le
 
 /* Reads the next import that names a new source: its index; -1: there is none left. */
 int dag_next_import(struct dag *dag);
+
+/* ---- catalog_name.c */
+
+/* The path that a text names by `catalog "PATH";`, in the arena; NULL: it names none. */
+const char *dag_named_catalog(struct dag *dag, const struct input *file);
+/* Opens the catalog that a file at `beside` names; 0: there is none of this name. */
+int dag_open_catalog(struct dag *dag, const char *path, const char *beside, struct input *input);
+/* NULL: the catalog that was read is this one (path NULL: the standard one); else what is wrong. */
+const char *dag_other_catalog(struct dag *dag, const char *path, int source);
 
 /* ---- diag.c */
 
@@ -182,12 +192,18 @@ void dag_fingerprint(struct dag *dag);
 struct emit_options {
     int counted;        /* --instrument: NAME_refine_counted */
     int traced;         /* --trace: NAME_refine_traced */
+    int copies;         /* --copies: of a node for what paths know, at most; 0: one */
+    int outline;        /* --outline: graphs used more than once are functions */
     int lines;          /* --lines: a comment at each node says where it stands in its source */
+    int directives;     /* --line-directives: #line (line_directives.h) */
     int standalone;     /* --standalone: all that it needs, in one .c and one .h */
     const char *prefix; /* of every name in it; NULL: the first oracle's name */
     const char *const *folders; /* -I: where headers are looked for before the built-in ones */
     int folder_count;
+    const char *const *host; /* --host: headers that --standalone leaves to the program */
+    int host_count;
     const unsigned char *terms; /* by term: is it in struct terms? NULL: all are */
+    const char *before; /* of --prove: text before the first oracle; NULL: none */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */
@@ -200,6 +216,9 @@ void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availab
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
 /* terms: as above */
 void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms);
+/* likewise; tools, by tool: are its answers in it? NULL: all are */
+void dag_emit_catalog_part(const struct dag *dag, struct text *out, const unsigned char *terms,
+                           const unsigned char *tools);
 void dag_emit_catalog_c(const struct dag *dag, struct text *out);
 /* a tool's or term's header */
 void dag_emit_stub(struct dag *dag, struct text *out, const char *name);
@@ -221,7 +240,10 @@ int dag_check_expression(struct dag *dag, int expression);
 
 /* ---- unit.c, names.c */
 
-int dag_parse_unit(const char *text, struct unit *unit); /* -1, or the offset of what is wrong */
+int dag_parse_unit(const struct dag *dag, const char *text,
+                   struct unit *unit);        /* -1, or the offset of what is wrong */
+const char *dag_known_units(struct dag *dag); /* "m kg s ..." */
+int dag_is_si_unit(const char *name);
 /* for messages: "W/m2", "a plain number" */
 const char *dag_unit_name(const struct type *type);
 int dag_same_unit(const struct unit *a, const struct unit *b);

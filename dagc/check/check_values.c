@@ -73,7 +73,7 @@ static void check_reference(struct dag *dag, const struct expression *expression
     if (given->bad)
         return;
     const struct type *from = &dag->types[given->type], *to = &dag->types[wanted->type];
-    if (!dag_same_unit(&from->unit, &to->unit)) {
+    if (!to->any_unit && !dag_same_unit(&from->unit, &to->unit)) {
         dag_error(dag, expression->where, "'%s' of %s is of type %s (%s), but '%s' is %s (%s)",
                   wanted->name, tool, to->name, dag_unit_name(to), given->name, from->name,
                   dag_unit_name(from));
@@ -99,7 +99,7 @@ static void check_computed(struct dag *dag, const struct expression *e,
 {
     const struct type *to = &dag->types[wanted->type];
     const char *text = dag_expression_text(dag, (int)(e - dag->expressions));
-    if (!e->any_unit && !dag_same_unit(&e->unit, &to->unit)) {
+    if (!to->any_unit && !e->any_unit && !dag_same_unit(&e->unit, &to->unit)) {
         dag_error(dag, e->where, "'%s' of %s is of type %s (%s), but '%s' is %s", wanted->name,
                   tool, to->name, dag_unit_name(to), text, dag_unit_text(dag, &e->unit));
         dag_note(dag, wanted->where, "declared here");
@@ -140,8 +140,32 @@ static void check_argument(struct dag *dag, const struct argument *argument, con
         check_reference(dag, expression, wanted, tool);
     else
         check_computed(dag, expression, wanted, tool);
-    if (expression->any_unit)
+    if (expression->any_unit && !dag->types[wanted->type].any_unit)
         expression->unit = dag->types[wanted->type].unit;
+}
+
+/* What a tool takes in any unit, it takes in one: numbers alone have that of the others. */
+static void check_any_units(struct dag *dag, const struct node *node, const char *tool)
+{
+    const struct argument *first = NULL;
+    for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++) {
+        const struct argument *a = &dag->arguments[i];
+        const struct parameter *wanted = &dag->parameters[a->parameter];
+        if (a->expression < 0 || wanted->bad || !dag->types[wanted->type].any_unit)
+            continue;
+        const struct expression *e = &dag->expressions[a->expression];
+        if (e->bad || e->any_unit)
+            continue;
+        if (first == NULL)
+            first = a;
+        const struct expression *one = &dag->expressions[first->expression];
+        if (dag_same_unit(&one->unit, &e->unit))
+            continue;
+        dag_error(dag, e->where, "'%s' of %s is %s, but '%s' is %s", wanted->name, tool,
+                  dag_unit_text(dag, &e->unit), dag->parameters[first->parameter].name,
+                  dag_unit_text(dag, &one->unit));
+        dag_note(dag, dag_nowhere, "%s compares numbers of one unit, whichever it is", tool);
+    }
 }
 
 static void check_graph(struct dag *dag, const struct oracle_graph *graph)
@@ -155,6 +179,7 @@ static void check_graph(struct dag *dag, const struct oracle_graph *graph)
         for (int a = node->arguments.first; a < node->arguments.first + node->arguments.count; a++)
             if (dag->arguments[a].expression >= 0)
                 check_argument(dag, &dag->arguments[a], callee);
+        check_any_units(dag, node, callee);
     }
     dag->use = -1;
 }

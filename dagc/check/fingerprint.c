@@ -40,6 +40,8 @@ static void add_parameter(const struct dag *dag, uint64_t *hash, const struct pa
     add_byte(hash, type->base);
     for (int i = 0; i < UNIT_BASES; i++)
         add_byte(hash, (unsigned char)type->unit.exponent[i]);
+    if (type->unit.size != 0 && type->unit.size != 1)
+        add_number(hash, type->unit.size);
     add_number(hash, parameter->value);
     add_number(hash, parameter->low);
     add_number(hash, parameter->high);

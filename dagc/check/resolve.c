@@ -55,6 +55,8 @@ static void declare_parameters(struct dag *dag, struct scope *scope)
 {
     struct span span = scope->graph->parameters;
     dag_resolve_parameters(dag, span, !scope->graph->branch);
+    for (int i = span.first; i < span.first + span.count; i++)
+        dag_refuse_any_unit(dag, dag->parameters[i].type, dag->parameters[i].type_where);
     for (int i = span.first; i < span.first + span.count; i++) {
         struct parameter *parameter = &dag->parameters[i];
         dag_put(&dag->arena, &scope->parameters, parameter->name, i);

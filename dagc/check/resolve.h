@@ -15,6 +15,8 @@ void dag_resolve_expression(struct dag *dag, const struct scope *scope, int expr
 void dag_resolve_answers(struct dag *dag, struct span answers, const char *what);
 void dag_resolve_twice(struct dag *dag, const char *what, const char *name, struct where where,
                        struct where first);
+/* An error where the type has any unit. */
+void dag_refuse_any_unit(struct dag *dag, int type, struct where where);
 int dag_resolve_type(struct dag *dag, const char *name, struct where where);
 /* may they have roles? */
 void dag_resolve_parameters(struct dag *dag, struct span span, int roles);

@@ -88,9 +88,16 @@ void dag_resolve_parameters(struct dag *dag, struct span span, int roles)
     }
 }
 
+void dag_refuse_any_unit(struct dag *dag, int type, struct where where)
+{
+    if (type >= 0 && dag->types[type].any_unit)
+        dag_error(dag, where, "only a tool's parameter may have any unit (\"?\")");
+}
+
 static void resolve_term(struct dag *dag, struct term *term)
 {
     term->type = dag_resolve_type(dag, term->type_name, term->type_where);
+    dag_refuse_any_unit(dag, term->type, term->type_where);
     if (term->levels.count >= ANSWERS_MAX) {
         dag_error(dag, term->where, "a term has at most %d levels", ANSWERS_MAX - 1);
         return;
@@ -158,6 +165,7 @@ void dag_resolve_answers(struct dag *dag, struct span span, const char *what)
 static int scalar_type(struct dag *dag, const char *name, struct where where)
 {
     int type = dag_resolve_type(dag, name, where);
+    dag_refuse_any_unit(dag, type, where);
     if (type < 0 || dag->types[type].length == 1)
         return type;
     dag_error(dag, where, "'%s' is a vector: an expression is made of single numbers", name);
@@ -213,8 +221,73 @@ static void resolve_tool(struct dag *dag, const struct tool *tool)
     dag_resolve_answers(dag, tool->answers, "answer");
 }
 
+/* ---- units */
+
+static void wrong_unit(struct dag *dag, struct where where, const char *text, int at, int quoted)
+{
+    where.offset += quoted + at;
+    where.length = 1;
+    dag_error(dag, where, "\"%s\" is not a unit that can be read from here on", text);
+    dag_note(dag, dag_nowhere, "write a product of these, such as \"W/m2\" or \"kg m s-2\": %s",
+             dag_known_units(dag));
+    dag_note(dag, dag_nowhere, "or declare one: unit ms = 1e-3 s;");
+}
+
+static int has_letters_only(const char *name)
+{
+    for (; *name != '\0'; name++)
+        if (!((*name >= 'a' && *name <= 'z') || (*name >= 'A' && *name <= 'Z')))
+            return 0;
+    return 1;
+}
+
+static void resolve_units(struct dag *dag)
+{
+    int progress = 1, first = dag->resolved.units;
+    for (int i = first; i < dag->unit_count; i++) {
+        struct own_unit *u = &dag->units[i];
+        u->known = 1; /* should it be wrong, that has been said */
+        if (!has_letters_only(u->name))
+            dag_error(dag, u->where, "a unit's name has letters alone: digits are exponents");
+        else if (dag_is_si_unit(u->name))
+            dag_error(dag, u->where, "the unit '%s' is known already", u->name);
+        else if (!(u->number > 0 && u->number <= 1e300))
+            dag_error(dag, u->where, "a unit is a positive multiple of others");
+        else
+            u->known = 0;
+    }
+    while (progress) { /* one may be made of others that stand behind it */
+        progress = 0;
+        for (int i = first; i < dag->unit_count; i++) {
+            struct own_unit *u = &dag->units[i];
+            if (u->known || dag_parse_unit(dag, u->text, &u->unit) >= 0)
+                continue;
+            u->unit.size *= u->number;
+            u->known = 1;
+            progress = 1;
+        }
+    }
+    for (int i = first; i < dag->unit_count; i++) {
+        struct own_unit *u = &dag->units[i];
+        if (!u->known)
+            wrong_unit(dag, u->text_where, u->text, dag_parse_unit(dag, u->text, &u->unit), 0);
+        u->known = 1;
+    }
+    for (int i = dag->resolved.types; i < dag->type_count; i++) {
+        struct type *type = &dag->types[i];
+        int wrong = type->any_unit ? -1 : dag_parse_unit(dag, type->unit_text, &type->unit);
+        if (wrong >= 0)
+            wrong_unit(dag, type->unit_where, type->unit_text, wrong, 1);
+        if (type->any_unit && (type->base == BASE_INTEGER || type->length > 1))
+            dag_error(dag, type->unit_where, "only a single real number may have any unit");
+    }
+    dag->resolved.units = dag->unit_count;
+}
+
 void dag_resolve_catalog(struct dag *dag)
 {
+    DECLARE(dag, unit_names, units, unit_count, "unit")
+    resolve_units(dag);
     DECLARE(dag, type_names, types, type_count, "type")
     DECLARE(dag, term_names, terms, term_count, "term")
     DECLARE(dag, tool_names, tools, tool_count, "tool")

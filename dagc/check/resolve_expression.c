@@ -84,7 +84,10 @@ void dag_resolve_expression(struct dag *dag, const struct scope *scope, int expr
         e->kind = EXPRESSION_EXTERN;
     else if ((e->index = dag_find(&dag->fact_names, e->name)) >= 0)
         e->kind = EXPRESSION_FACT;
-    else if (!resolve_term(dag, e)) {
+    else if (strcmp(e->name, "pi") == 0 && dag_find(&dag->term_names, e->name) < 0) {
+        e->kind = EXPRESSION_NUMBER;
+        e->number = PI;
+    } else if (!resolve_term(dag, e)) {
         e->bad = 1;
         if (!scope->graph->bad && !dag->lost)
             unknown(dag, scope, e);

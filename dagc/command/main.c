@@ -9,8 +9,19 @@
 #include "command/depfile.h"
 #include "prove/diff.h"
 #include "emit/emit_svg.h"
+#include "emit/line_directives.h"
 #include "command/options.h"
+#include "command/write_skeleton.h"
 #include "prove/prove.h"
+
+/* What #line calls a text that goes to standard output: as if it were a file beside its source. */
+static const char *name_of(struct dag *dag, const struct job *job, int which)
+{
+    const char *path = job->outputs[which].path;
+    if (path != NULL && strcmp(path, "-") != 0)
+        return path;
+    return dag_format(&dag->arena, "%s.%s", dag->oracles[0].name, which == OUTPUT_TEXT ? "c" : "h");
+}
 
 static void emit(struct dag *dag, struct job *job)
 {
@@ -25,6 +36,8 @@ static void emit(struct dag *dag, struct job *job)
         else
             dag_emit_c(dag, out, name == NULL ? NULL : &job->outputs[OUTPUT_HEADER].text, name,
                        &job->c);
+        for (int i = OUTPUT_TEXT; job->c.directives && i <= OUTPUT_HEADER; i++)
+            dag_number_lines(&job->outputs[i].text, name_of(dag, job, i));
         break;
     case EMIT_DOT:
     case EMIT_SVG: /* run() has it drawn, outside of dag_protect */
@@ -46,6 +59,7 @@ static void emit(struct dag *dag, struct job *job)
         dag_emit_catalog_c(dag, out);
         break;
     case EMIT_STUB:
+    case EMIT_STUB_CXX:
     case EMIT_NONE:
     case EMITS:
         break;
@@ -57,6 +71,20 @@ static const char *from_environment(const char *name)
 {
     const char *value = getenv(name);
     return value != NULL && *value != '\0' ? value : NULL;
+}
+
+static const char *folder_of(const struct job *job)
+{
+    const char *path = job->outputs[OUTPUT_TEXT].path;
+    return strcmp(path, "-") == 0 ? "." : path;
+}
+
+static void make_skeleton(struct dag *dag, struct job *job)
+{
+    job->files.dag = dag;
+    job->files.cxx = job->emit == EMIT_STUB_CXX;
+    job->files.catalog = dag_seen_from(dag, folder_of(job), job->input_path);
+    dag_emit_skeleton(&job->files);
 }
 
 static void passes(struct dag *dag, void *context)
@@ -72,7 +100,9 @@ static void passes(struct dag *dag, void *context)
                    is_catalog || job->emit == EMIT_STUB ? NULL : &job->input, job->stop);
     if (dag->error_count > 0)
         return;
-    if (job->emit == EMIT_STUB)
+    if (job->skeleton)
+        make_skeleton(dag, job);
+    else if (job->emit == EMIT_STUB)
         dag_emit_stub(dag, text, job->input_path);
     else if (job->stop != PASSES)
         dag_emit_text(dag, text, job->stop);
@@ -88,7 +118,7 @@ static int run(struct job *job)
     struct dag *dag = dag_new();
     struct text *out = &job->outputs[OUTPUT_TEXT].text;
     int result = 1;
-    if (job->emit != EMIT_STUB) /* there FILE.dag is the name of a tool */
+    if (job->emit != EMIT_STUB || job->skeleton) /* there FILE.dag is the name of a tool */
         dag_input_open(&job->input, job->input_path);
     if (job->catalog_path != NULL)
         dag_input_open(&job->catalog, job->catalog_path);
@@ -105,7 +135,9 @@ static int run(struct job *job)
             int draws = job->emit == EMIT_SVG && job->stop == PASSES;
             if (job->prove || (job->emit == EMIT_NONE && job->stop == PASSES))
                 job->outputs[OUTPUT_TEXT].path = NULL;
-            if (job->prove)
+            if (job->skeleton)
+                result = dag_write_skeleton(&job->files, folder_of(job)) != 0;
+            else if (job->prove)
                 result = job->proved != 0 || fflush(stdout) != 0;
             else if (!draws || dag_draw_svg(out) == 0)
                 result = dag_write_outputs(job->outputs, OUTPUTS) != 0;
@@ -113,6 +145,8 @@ static int run(struct job *job)
     }
     for (int i = 0; i < OUTPUTS; i++)
         dag_text_free(&job->outputs[i].text);
+    for (int i = 0; i < job->files.file_count; i++)
+        dag_text_free(&job->files.files[i].text);
     dag_input_close(&job->input);
     dag_input_close(&job->catalog);
     dag_free(dag);
@@ -134,8 +168,11 @@ int main(int count, char **arguments)
     int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
     struct job job = {0};
     job.folders = calloc((size_t)count, sizeof *job.folders);
-    if (job.folders == NULL) {
+    job.host = calloc((size_t)count, sizeof *job.host);
+    if (job.folders == NULL || job.host == NULL) {
         fprintf(stderr, "dagc: error: out of memory\n");
+        free(job.folders);
+        free(job.host);
         return diff ? 2 : 1;
     }
     int status =
@@ -145,5 +182,6 @@ int main(int count, char **arguments)
     else if (status < 0)
         status = diff ? run_diff(&job) : run(&job);
     free(job.folders);
+    free(job.host);
     return status;
 }

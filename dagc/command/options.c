@@ -3,6 +3,7 @@
  * The options are the rows of options.def, emits.def and passes.def: parsing and help both read
  * them. Values come as `--name VALUE` or `--name=VALUE`.
  * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -49,7 +50,7 @@ static const struct {
 
 int dag_job_is_catalog(const struct job *job)
 {
-    return emits[job->emit].source == SOURCE_CATALOG;
+    return emits[job->emit].source == SOURCE_CATALOG || job->skeleton;
 }
 
 /* ---- help */
@@ -81,7 +82,7 @@ static const char lesson[] =
     "small_oracle\n"
     "    dagc --emit=svg -o small.svg small.dag         a drawing of the graph\n"
     "    dagc --emit=none -Werror small.dag             only look for mistakes, and be strict\n"
-    "    dagc --prove small.dag                         does the C text what the graph says?\n"
+    "    dagc --prove small.dag                         does what runs do what it says?\n"
     "\n"
     "Every warning and error shows where it is, the path that proves it, and how to mend it.\n"
     "`dagc diff` says which answers make the oracles of two files decide differently; exit status\n"
@@ -208,6 +209,17 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_TRACE:
         job->c.traced = 1;
         return -1;
+    case OPTION_COPIES:
+        job->c.copies = atoi(value);
+        if (job->c.copies < 1 || job->c.copies > 64 || strspn(value, "0123456789") != strlen(value))
+            return wrong("--copies takes a number from 1 to 64, not", value);
+        return -1;
+    case OPTION_DIRECTIVES:
+        job->c.directives = 1;
+        return -1;
+    case OPTION_OUTLINE:
+        job->c.outline = 1;
+        return -1;
     case OPTION_LINES:
         job->c.lines = 1;
         return -1;
@@ -216,6 +228,9 @@ static int set_option(struct job *job, enum option option, const char *value)
         return -1;
     case OPTION_PREFIX:
         job->c.prefix = value;
+        return -1;
+    case OPTION_HOST:
+        job->host[job->c.host_count++] = value;
         return -1;
     case OPTION_PROVE:
         job->prove = 1;
@@ -328,18 +343,26 @@ static const char *contradiction(const struct job *job)
         return "the source and the catalog cannot both be standard input";
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
-    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove)
+    if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove
+         || job->c.copies || job->c.directives || job->c.outline)
         && (job->emit != EMIT_C || job->stop != PASSES))
-        return "--instrument, --trace, --lines, --standalone and --prove belong to C text";
+        return "--instrument, --trace, --copies, --outline, --lines, --line-directives, "
+               "--standalone and "
+               "--prove belong to C text";
+    if (job->c.outline && job->c.copies > 1)
+        return "--outline makes the text shorter, --copies longer: take one";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))
         return "--prove writes nothing";
     if (job->c.standalone && header == NULL)
         return "--standalone needs --header";
     if (job->c.prefix != NULL && !job->c.standalone)
         return "--prefix belongs to --standalone";
+    if (job->c.host_count > 0 && !job->c.standalone)
+        return "--host belongs to --standalone";
     if (header != NULL && (job->emit != EMIT_C || job->stop != PASSES))
         return "--header belongs to C text";
-    if (job->emit == EMIT_STUB && (job->stop != PASSES || depfile != NULL))
+    if ((job->emit == EMIT_STUB || job->emit == EMIT_STUB_CXX)
+        && (job->stop != PASSES || depfile != NULL))
         return "--dump and --depfile mean nothing with --emit=stub";
     if (dag_job_is_catalog(job) && job->stop != PASSES)
         return "--dump shows oracles, not a catalog";
@@ -373,6 +396,13 @@ int dag_parse_arguments(struct job *job, int count, char **arguments)
         job->outputs[OUTPUT_TEXT].path = "-";
     job->c.folders = job->folders;
     job->c.folder_count = job->folder_count;
+    job->c.host = job->host;
+    size_t length = strlen(job->input_path);
+    if (job->emit == EMIT_STUB || job->emit == EMIT_STUB_CXX)
+        job->skeleton = strchr(job->input_path, '/') != NULL
+                        || (length > 4 && strcmp(job->input_path + length - 4, ".dag") == 0);
+    if (job->emit == EMIT_STUB_CXX && !job->skeleton)
+        return wrong("--emit=stub-c++ takes a catalog, not", job->input_path);
     const char *why = contradiction(job);
     return why != NULL ? wrong(why, "") : -1;
 }

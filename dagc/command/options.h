@@ -5,6 +5,7 @@
 
 #include "base/warn.h"
 #include "base/write.h"
+#include "emit/skeleton.h"
 
 enum emit {
 #define EMIT(number, name, source, says) EMIT_##number,
@@ -22,10 +23,13 @@ struct job {
     struct warnings warnings;
     struct emit_options c; /* of C text */
     int prove;             /* --prove */
+    int skeleton;          /* --emit=stub of a catalog */
     int proved;            /* what it found */
     struct input input, catalog;
     const char **folders; /* of -I; room for as many as there are arguments */
     int folder_count;
+    struct skeleton files;   /* when it makes one */
+    const char **host;       /* of --host; likewise */
     const char *second_path; /* of diff */
     struct output outputs[OUTPUTS];
 };

@@ -53,6 +53,16 @@ static int run(struct dag *dag, const struct input *input, enum content content,
 void dag_run_passes(struct dag *dag, const struct input *catalog, const struct input *file,
                     enum pass stop)
 {
-    if (run(dag, catalog, CONTENT_CATALOG, on_catalog, COUNT(on_catalog), PASSES) && file != NULL)
+    struct input named = {0};
+    const char *path = file != NULL && catalog->bytes == dagc_standard_catalog
+                           ? dag_named_catalog(dag, file)
+                           : NULL;
+    if (path != NULL && dag_open_catalog(dag, path, file->name, &named))
+        catalog = &named;      /* else the parser says that it is missing */
+    dag->opened = named.owned; /* should memory run out, dag_free frees it */
+    int ok = run(dag, catalog, CONTENT_CATALOG, on_catalog, COUNT(on_catalog), PASSES);
+    dag->opened = NULL;
+    dag_input_close(&named);
+    if (ok && file != NULL)
         run(dag, file, CONTENT_ORACLES, on_oracles, COUNT(on_oracles), stop);
 }

@@ -5,11 +5,12 @@
 
 #include "base/internal.h"
 
-/* The three functions that one graph can become; their decisions are the same. */
+/* The functions that one graph can become; their decisions are the same. */
 enum flavour {
     FLAVOUR_PLAIN,   /* NAME_refine */
     FLAVOUR_COUNTED, /* NAME_refine_counted: calls, time, answers (--instrument) */
-    FLAVOUR_TRACED   /* NAME_refine_traced: a callback per node (--trace) */
+    FLAVOUR_TRACED,  /* NAME_refine_traced: a callback per node (--trace) */
+    FLAVOUR_FIRST    /* NAME_refine_first: the plain one, entered with nothing known (--copies) */
 };
 
 /* Beyond so many nodes tools are called, not inlined, and the graph becomes functions of so many
@@ -20,7 +21,8 @@ enum { PART_NODES = 100 };
  * is used, and of one oracle all but its `struct oracle`. */
 void dag_emit_banner(const struct dag *dag, struct text *out);
 unsigned char *dag_emit_reached_tools(struct dag *dag); /* by tool */
-void dag_emit_known_macro(struct dag *dag, struct text *out);
+unsigned char *dag_emit_reached_terms(struct dag *dag); /* by term: some argument reads it */
+void dag_emit_known_macro(struct dag *dag, struct text *out, const struct emit_options *options);
 void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                        const struct emit_options *options);
 void dag_emit_oracle_c(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
@@ -29,17 +31,21 @@ void dag_emit_oracle_c(struct dag *dag, struct text *out, const struct oracle_gr
 /* One function (emit_flat.c). */
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                    enum flavour flavour, const struct emit_options *options);
-int dag_emit_states_facts(struct dag *dag); /* does the text use the macro KNOWN? */
+/* Does the text use the macro KNOWN? */
+int dag_emit_states_facts(struct dag *dag, const struct emit_options *options);
 /* What functions of many parts call instead of the tools; nothing when no oracle is that large. */
-void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned char *reached);
+void dag_emit_callers(struct dag *dag, struct text *out, const unsigned char *reached,
+                      const struct emit_options *options);
 
 /* The declarations and tables that counted and traced functions need (emit_counters.c). */
 void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                          const struct emit_options *options);
 void dag_emit_counters_c(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                          const struct emit_options *options);
-/* The head of NAME_refine, NAME_refine_counted or NAME_refine_traced, up to its `)`. */
-void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enum flavour flavour);
+/* The head of NAME_refine, NAME_refine_counted or NAME_refine_traced, up to its `)`; the catalog's
+ * verb may be another than `refine`. */
+void dag_emit_prototype(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                        enum flavour flavour);
 
 /* emit_expression.c: the constants that a node's arguments read (how many), then each argument
  * over them, *value counting on from 0; `at` is the discussion's address there; and what the C file

@@ -90,11 +90,18 @@ void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct ora
     dag_print(out, "\n/* Fills in the defaults. */\n");
     dag_print(out, "void %s_defaults(struct %s_parameters *parameters);\n", name, name);
     dag_print(out,
-              "\n/* Discusses one pair and decides. Terms that some decision reads are taken"
+              "\n/* Discusses and decides. Terms that some decision reads are taken"
               " from the\n * discussion: all zero when nothing is known yet. Afterwards it"
               " holds the terms that the\n * decision reads; the others are unspecified. */\n");
-    dag_emit_prototype(out, oracle, FLAVOUR_PLAIN);
+    dag_emit_prototype(dag, out, oracle, FLAVOUR_PLAIN);
     dag_print(out, ";\n");
+    if (options->copies > 1) {
+        dag_print(out,
+                  "\n/* The same where nothing is known yet, the discussion's terms being all zero:"
+                  " they are\n * not looked at. */\n");
+        dag_emit_prototype(dag, out, oracle, FLAVOUR_FIRST);
+        dag_print(out, ";\n");
+    }
     dag_emit_counters_h(dag, out, oracle, options);
 }
 
@@ -261,10 +268,10 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
               "    %s_defaults((struct %s_parameters *)parameters);\n}\n",
               name, name, name);
     dag_print(out,
-              "\nstatic enum decision %s_refine_any(const void *parameters,\n"
+              "\nstatic enum decision %s_%s_any(const void *parameters,\n"
               "    struct discussion *discussion)\n{\n"
-              "    return %s_refine((const struct %s_parameters *)parameters, discussion);\n}\n",
-              name, name, name);
+              "    return %s_%s((const struct %s_parameters *)parameters, discussion);\n}\n",
+              name, dag->verb, name, dag->verb, name);
     dag_print(out, "\nconst struct oracle %s_oracle = {\n    RUNTIME_ABI,\n    \"%s\",\n    ", name,
               name);
     dag_print_string(out, oracle->doc);
@@ -273,8 +280,8 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
         dag_print(out, "%s_parameter_table,\n    %d,\n", name, oracle->parameters.count);
     else
         dag_print(out, "NULL,\n    0,\n");
-    dag_print(out, "    sizeof(struct %s_parameters),\n    %s_defaults_any,\n    %s_refine_any,\n",
-              name, name, name);
+    dag_print(out, "    sizeof(struct %s_parameters),\n    %s_defaults_any,\n    %s_%s_any,\n",
+              name, name, name, dag->verb);
     if (reads > 0)
         dag_print(out, "    %s_reads,\n    %d\n};\n", name, reads);
     else
@@ -282,9 +289,9 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
 }
 
 /* What analyse_terms.c proved and a compiler may not see. */
-void dag_emit_known_macro(struct dag *dag, struct text *out)
+void dag_emit_known_macro(struct dag *dag, struct text *out, const struct emit_options *options)
 {
-    if (!dag_emit_states_facts(dag))
+    if (!dag_emit_states_facts(dag, options))
         return;
     dag_print(out, "\n#if defined __GNUC__\n"
                    "#define KNOWN(fact) do { if (!(fact)) __builtin_unreachable(); } while (0)\n"
@@ -318,11 +325,13 @@ void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char
     else
         print_declarations(dag, c, options);
     print_checks(dag, c, reached);
-    dag_print(c, "\n#include <stddef.h>\n");
+    dag_print(c, "\n#include <math.h>\n#include <stddef.h>\n");
     print_tool_headers(dag, c, reached);
     dag_emit_accessors(dag, c);
-    dag_emit_callers(dag, c, reached);
-    dag_emit_known_macro(dag, c);
+    dag_emit_callers(dag, c, reached, options);
+    dag_emit_known_macro(dag, c, options);
+    if (options->before != NULL)
+        dag_print(c, "%s", options->before);
     for (int i = 0; i < dag->oracle_count; i++) {
         dag_emit_oracle_c(dag, c, &dag->oracles[i], options);
         print_oracle(dag, c, &dag->oracles[i]);

@@ -139,14 +139,22 @@ static void print_terms(const struct dag *dag, struct text *out, const unsigned 
 
 void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms)
 {
+    dag_emit_catalog_part(dag, out, terms, NULL);
+}
+
+void dag_emit_catalog_part(const struct dag *dag, struct text *out, const unsigned char *terms,
+                           const unsigned char *tools)
+{
     print_banner(dag, out,
                  "Decisions, the answers of each tool, the levels of each term, the data manager.");
     dag_print(out, "#ifndef CATALOG_H\n#define CATALOG_H\n");
     print_decisions(dag, out);
     for (int i = 0; i < dag->tool_count; i++)
-        print_answers(dag, out, &dag->tools[i]);
+        if (tools == NULL || tools[i])
+            print_answers(dag, out, &dag->tools[i]);
     for (int i = 0; i < dag->term_count; i++)
-        print_levels(dag, out, &dag->terms[i]);
+        if (terms == NULL || terms[i])
+            print_levels(dag, out, &dag->terms[i]);
     if (terms == NULL)
         print_numbers(dag, out);
     print_terms(dag, out, terms);

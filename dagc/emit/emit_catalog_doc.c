@@ -27,9 +27,12 @@ static void print_doc(struct text *out, const char *doc)
 
 /* The comment that opens a header, without its frame and its licence line; nothing when there is
  * none. */
-static void print_comment(struct dag *dag, struct text *out, const char *header)
+static void print_comment(struct dag *dag, struct text *out, const char *header,
+                          struct where declared)
 {
-    const char *text = dag_header_text(dag, header), *end;
+    const char *path, *end,
+        *text = dag_find_header(dag, header, dag_source_folder(dag, declared.source), BESIDE_LAST,
+                                dag_runtime_is_ours(dag), &path);
     if (text == NULL || strncmp(text, "/*", 2) != 0 || (end = strstr(text, "*/")) == NULL)
         return;
     dag_print(out, "```text\n");
@@ -116,7 +119,7 @@ static void print_tools(struct dag *dag, struct text *out)
                       tool->keeps == KEEPS_COUNT
                           ? "how often its argument has each value"
                           : "a histogram of its first argument, by the second");
-        print_comment(dag, out, tool->header);
+        print_comment(dag, out, tool->header, tool->where);
         print_parameters(dag, out, tool->parameters);
         dag_print(out, "| answer | kind |\n|---|---|\n");
         for (int a = tool->answers.first; a < tool->answers.first + tool->answers.count; a++)
@@ -152,7 +155,7 @@ static void print_terms(struct dag *dag, struct text *out)
             gap = " < ";
         }
         dag_print(out, "%s\n\n", term->levels.count > 0 ? "." : "");
-        print_comment(dag, out, term->header);
+        print_comment(dag, out, term->header, term->where);
     }
 }
 

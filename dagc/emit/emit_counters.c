@@ -7,14 +7,15 @@
  * SPDX-License-Identifier: MIT */
 #include "emit/emit.h"
 
-void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enum flavour flavour)
+void dag_emit_prototype(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                        enum flavour flavour)
 {
     const char *name = oracle->name;
-    static const char *const suffixes[] = {"", "_counted", "_traced"};
+    static const char *const suffixes[] = {"", "_counted", "_traced", "_first"};
     dag_print(out,
-              "enum decision %s_refine%s(const struct %s_parameters *parameters,\n"
+              "enum decision %s_%s%s(const struct %s_parameters *parameters,\n"
               "    struct discussion *discussion",
-              name, suffixes[flavour], name);
+              name, dag->verb, suffixes[flavour], name);
     if (flavour == FLAVOUR_COUNTED)
         dag_print(out, ", struct %s_counters *counters", name);
     else if (flavour == FLAVOUR_TRACED)
@@ -55,19 +56,20 @@ void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct o
             "    double time[%d];              /* by node, in the unit of clock */\n"
             "    unsigned long long calls[%d]; /* by node */\n"
             "    unsigned long long arcs[%d];  /* by arc: how often the answer was given */\n"
+            "    unsigned long long checks;    /* looks at a term that may be known or not */\n"
             "};\n",
             name, oracle->order.count, oracle->order.count, arcs);
-        dag_print(out, "\n/* Decides as %s_refine does, and counts. */\n", name);
-        dag_emit_prototype(out, oracle, FLAVOUR_COUNTED);
+        dag_print(out, "\n/* Decides as %s_%s does, and counts. */\n", name, dag->verb);
+        dag_emit_prototype(dag, out, oracle, FLAVOUR_COUNTED);
         dag_print(out, ";\n");
     }
     if (options->traced) {
         dag_print(out,
-                  "\n/* Decides as %s_refine does, and calls trace after every node with its "
+                  "\n/* Decides as %s_%s does, and calls trace after every node with its "
                   "number and the\n"
                   " * arc that its answer takes; the discussion is then as the node left it. */\n",
-                  name);
-        dag_emit_prototype(out, oracle, FLAVOUR_TRACED);
+                  name, dag->verb);
+        dag_emit_prototype(dag, out, oracle, FLAVOUR_TRACED);
         dag_print(out, ";\n");
     }
 }

@@ -215,6 +215,11 @@ static struct reached reach_all(struct dag *dag)
     return reached;
 }
 
+unsigned char *dag_emit_reached_terms(struct dag *dag)
+{
+    return reach_all(dag).terms;
+}
+
 void dag_emit_externs(struct dag *dag, struct text *out)
 {
     struct reached reached = reach_all(dag);

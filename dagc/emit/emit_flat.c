@@ -12,29 +12,15 @@
  * than PART_NODES nodes becomes several functions over one discussion, as compilers need more
  * than linear time for a function.
  * SPDX-License-Identifier: MIT */
-#include "analyse/analyse.h"
-#include "emit/emit.h"
+#include "emit/flat.h"
+#include "emit/line_directives.h"
 
-struct flat {
-    struct dag *dag;
-    struct text *out;
-    const struct oracle_graph *oracle;
-    enum flavour flavour;
-    const unsigned char *terms; /* see emit_options; NULL: all */
-    int lines;                  /* likewise */
-    int parts;                  /* how many functions; 1: all is in one */
-    const char *at, *of;        /* the discussion: "&d" and "d.", or in a part "d" and "d->" */
-    /* by term and order (place_of): its level on every path to the node */
-    unsigned char *sure;
-    unsigned char *possible;   /* likewise: may it be there at all? */
-    int *arcs_in;              /* by order: how many arcs lead to the node */
-    int *first_arc;            /* by order: the number of the node's first arc */
-    unsigned char *entry;      /* by order: does an arc from another part lead to it? */
-    unsigned char *node_label; /* by order: is there a goto to it? */
-    unsigned char *leaf_label; /* by decision */
-    unsigned char *leaf_used;  /* by decision: does an arc lead to its shared leaf? */
-    int first_leaf;            /* the first decision whose leaf is used; -1: none */
-};
+/* For compilers and debuggers: what follows stands there in the source. */
+void dag_flat_directive(const struct flat *flat, struct where where)
+{
+    if (flat->directives)
+        dag_line_at(flat->dag, flat->out, where);
+}
 
 static int same_target(const struct target *a, const struct target *b)
 {
@@ -55,7 +41,7 @@ static int decides_nothing(const struct flat *flat, const struct node *node)
     return 1;
 }
 
-static int has_shared_leaf(const struct flat *flat, const struct target *target)
+int dag_flat_has_leaf(const struct flat *flat, const struct target *target)
 {
     return target->kind == TARGET_DECISION && flat->dag->decisions[target->index].reads.count > 0;
 }
@@ -65,58 +51,86 @@ static int part_of(const struct flat *flat, int place)
     return flat->parts == 1 ? 0 : place / PART_NODES;
 }
 
-/* What stands next needs no goto when nothing is asked before it: the node at the next place, or,
- * after the last one, the first of the shared leaves. */
-static int falls_through(const struct flat *flat, const struct node *node)
-{
-    const struct target *target = &arc_of(flat, node, 0)->target;
-    if (!decides_nothing(flat, node))
-        return 0;
-    if (target->kind == TARGET_NODE)
-        return flat->dag->nodes[target->index].order == node->order + 1
-               && part_of(flat, node->order) == part_of(flat, node->order + 1);
-    return flat->parts == 1 && node->order == flat->oracle->order.count - 1
-           && target->index == flat->first_leaf;
-}
-
 static const struct node *node_at(const struct flat *flat, int place)
 {
     return &flat->dag->nodes[flat->dag->order[flat->oracle->order.first + place]];
 }
 
+/* The copy that stands behind this one; -1: it is the last. */
+int dag_flat_behind(const struct flat *flat, int copy)
+{
+    const struct copy *c = &flat->copies.items[copy];
+    if (c->next >= 0)
+        return c->next;
+    return c->place + 1 < flat->oracle->order.count ? flat->copies.first[c->place + 1] : -1;
+}
+
+/* What stands next needs no goto when nothing is asked before it: the copy behind, or, after the
+ * last one, the first of the shared leaves. */
+static int falls_through(const struct flat *flat, int copy)
+{
+    const struct copy *c = &flat->copies.items[copy];
+    const struct node *node = node_at(flat, c->place);
+    const struct target *target = &arc_of(flat, node, 0)->target;
+    int behind = dag_flat_behind(flat, copy);
+    if (!decides_nothing(flat, node) || flat->shared_count > 0)
+        return 0;
+    if (target->kind == TARGET_NODE) {
+        const struct way *way = &flat->copies.ways[c->ways[0]];
+        return way->cut == 0 && way->below == behind
+               && part_of(flat, c->place) == part_of(flat, flat->copies.items[behind].place);
+    }
+    return flat->parts == 1 && behind < 0 && target->index == flat->first_leaf;
+}
+
+static void label_way(struct flat *flat, int number)
+{
+    const struct way *way = &flat->copies.ways[number];
+    if (way->cut == 0)
+        flat->node_label[way->below] = 1;
+    else {
+        label_way(flat, way->below);
+        label_way(flat, way->above);
+    }
+}
+
+void dag_flat_mark_labels(struct flat *flat, int copy)
+{
+    const struct copy *c = &flat->copies.items[copy];
+    const struct node *node = node_at(flat, c->place);
+    int through = falls_through(flat, copy);
+    for (int a = 0; a < node->arcs.count && !through; a++) {
+        const struct target *target = &arc_of(flat, node, a)->target;
+        if (target->kind == TARGET_NODE)
+            label_way(flat, c->ways[a]);
+        else if (dag_flat_has_leaf(flat, target))
+            flat->leaf_label[target->index] = 1;
+    }
+}
+
 static void find_labels(struct flat *flat)
 {
-    for (int i = 0; i < flat->oracle->order.count; i++) {
-        const struct node *node = node_at(flat, i);
-        for (int a = 0; a < node->arcs.count; a++) {
-            const struct target *target = &arc_of(flat, node, a)->target;
-            if (has_shared_leaf(flat, target)) {
-                flat->leaf_used[target->index] = 1;
-                if (flat->first_leaf < 0 || target->index < flat->first_leaf)
-                    flat->first_leaf = target->index;
-            }
-        }
-    }
     int arcs = 0;
     flat->entry[0] = 1;
     for (int i = 0; i < flat->oracle->order.count; i++) {
         const struct node *node = node_at(flat, i);
-        int through = falls_through(flat, node);
         flat->first_arc[i] = arcs;
         arcs += node->arcs.count;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &arc_of(flat, node, a)->target;
+            if (dag_flat_has_leaf(flat, target)) {
+                flat->leaf_used[target->index] = 1;
+                if (flat->first_leaf < 0 || target->index < flat->first_leaf)
+                    flat->first_leaf = target->index;
+            }
             if (target->kind == TARGET_NODE) {
                 int to = flat->dag->nodes[target->index].order;
-                flat->arcs_in[to]++;
                 flat->entry[to] |= part_of(flat, i) != part_of(flat, to);
             }
-            if (target->kind == TARGET_NODE && !through)
-                flat->node_label[flat->dag->nodes[target->index].order] = 1;
-            else if (has_shared_leaf(flat, target) && !through)
-                flat->leaf_label[target->index] = 1;
         }
     }
+    for (int i = 0; i < flat->copies.count; i++)
+        dag_flat_mark_labels(flat, i);
 }
 
 static void print_constant(struct text *out, const char *prefix, const char *name)
@@ -139,13 +153,63 @@ static void print_jump_in_part(const struct flat *flat, int from, const struct t
         dag_print(flat->out, "return %d;\n", flat->dag->nodes[target->index].order);
 }
 
-static void print_jump(const struct flat *flat, int from, const struct target *target)
+/* "node_NAME", or of its copies but the first "copyN_NAME". */
+void dag_flat_label(const struct flat *flat, int copy)
+{
+    const struct copy *c = &flat->copies.items[copy];
+    if (c->number == 0)
+        dag_print(flat->out, "node_%s", node_at(flat, c->place)->name);
+    else
+        dag_print(flat->out, "copy%d_%s", c->number + 1, node_at(flat, c->place)->name);
+}
+
+static const char *level_name(const struct dag *dag, const struct term *term, int level)
+{
+    return term->levels.count == 0 ? "present" : dag->levels[term->levels.first + level - 1].name;
+}
+
+/* goto the copy, or by a look to one of more; behind `indent` spaces, which stand already. */
+static void print_way(const struct flat *flat, int number, int indent)
+{
+    const struct way *way = &flat->copies.ways[number];
+    if (way->cut == 0) {
+        dag_print(flat->out, "goto ");
+        dag_flat_label(flat, way->below);
+        dag_print(flat->out, ";\n");
+        return;
+    }
+    const struct term *term = &flat->dag->terms[way->term];
+    const struct way *above = &flat->copies.ways[way->above];
+    if (flat->flavour == FLAVOUR_COUNTED && way->checked)
+        dag_print(flat->out, "counters->checks++;\n%*s", indent, "");
+    dag_print(flat->out, "if (%sterms.%s_level >= ", flat->of, term->name);
+    print_constant(flat->out, term->name, level_name(flat->dag, term, way->cut));
+    dag_print(flat->out, ")%s\n%*s", above->cut > 0 ? " {" : "", indent + 4, "");
+    print_way(flat, way->above, indent + 4);
+    if (above->cut > 0)
+        dag_print(flat->out, "%*s}\n", indent, "");
+    dag_print(flat->out, "%*s", indent, "");
+    print_way(flat, way->below, indent);
+}
+
+/* Out of a function for a piece of the graph: which exit; 0: the target is in it. */
+static int print_exit(const struct flat *flat, int from, int answer)
+{
+    const struct shared *s = flat->inside;
+    int exit = s == NULL ? -1 : s->exit_of[s->first_answer[flat->member[from]] + answer];
+    if (exit >= 0)
+        dag_print(flat->out, "return %d;\n", exit);
+    return exit >= 0;
+}
+
+void dag_flat_jump(const struct flat *flat, int from, const struct target *target, int way,
+                   int indent)
 {
     if (flat->parts > 1)
         print_jump_in_part(flat, from, target);
     else if (target->kind == TARGET_NODE)
-        dag_print(flat->out, "goto node_%s;\n", flat->dag->nodes[target->index].name);
-    else if (has_shared_leaf(flat, target))
+        print_way(flat, way, indent);
+    else if (dag_flat_has_leaf(flat, target))
         dag_print(flat->out, "goto leaf_%s;\n", flat->dag->decisions[target->index].name);
     else {
         dag_print(flat->out, "return ");
@@ -160,16 +224,22 @@ static void print_call(const struct flat *flat, const struct node *node)
     dag_print(flat->out, "%s_%s(%s", flat->parts > 1 ? "ask" : "tool",
               flat->dag->tools[node->tool].name, flat->at);
     for (int i = 0; i < node->arguments.count; i++) {
+        int given = flat->inside == NULL
+                        ? -1
+                        : dag_shared_argument(flat->inside, node->arguments.first + i);
         dag_print(flat->out, ", ");
-        dag_emit_expression(flat->dag, flat->out, &flat->dag->arguments[node->arguments.first + i],
-                            flat->at, &value);
+        if (given >= 0)
+            dag_print(flat->out, "argument_%d", given + 1);
+        else
+            dag_emit_expression(flat->dag, flat->out,
+                                &flat->dag->arguments[node->arguments.first + i], flat->at, &value);
     }
     dag_print(flat->out, ")");
 }
 
 /* The answers that share a target share a jump; the last ones are the default, so that the
  * compiler need not think of an answer that does not exist. */
-static void print_switch(const struct flat *flat, const struct node *node)
+static void print_switch(const struct flat *flat, const struct node *node, const struct copy *copy)
 {
     const struct tool *tool = &flat->dag->tools[node->tool];
     const struct answer *answers = &flat->dag->answers[tool->answers.first];
@@ -192,8 +262,11 @@ static void print_switch(const struct flat *flat, const struct node *node)
                 left--;
             }
         if (done[i] == 2) {
-            dag_print(flat->out, "%s        ", left == 0 ? "    default:\n" : "");
-            print_jump(flat, node->order, target);
+            dag_print(flat->out, "%s", left == 0 ? "    default:\n" : "");
+            dag_flat_directive(flat, arc_of(flat, node, i)->where);
+            dag_print(flat->out, "        ");
+            if (!print_exit(flat, node->order, i))
+                dag_flat_jump(flat, node->order, target, copy->ways[i], 8);
         }
         for (int j = i; j < node->arcs.count; j++)
             done[j] = done[j] != 0;
@@ -214,31 +287,22 @@ static int term_of(const struct dag *dag, const struct node *node, int need)
     return need < tool->writes.count ? dag->needs[tool->writes.first + need].term : -1;
 }
 
-static const char *level_name(const struct dag *dag, const struct term *term, int level)
-{
-    return term->levels.count == 0 ? "present" : dag->levels[term->levels.first + level - 1].name;
-}
-
-static size_t place_of(const struct flat *flat, int term, int order)
-{
-    return (size_t)term * (size_t)flat->oracle->order.count + (size_t)order;
-}
-
 /* Is it worth telling the compiler that a term is known? With one arc it has seen why. */
-static int is_fact(const struct flat *flat, const struct node *node, int low)
+static int is_fact(const struct flat *flat, const struct copy *copy, int term)
 {
-    return low > 0 && flat->arcs_in[node->order] > 1 && flat->parts == 1;
+    return copy->known.low[term] > 0 && copy->arcs_in > 1 && flat->parts == 1
+           && flat->inside == NULL;
 }
 
 /* What the analysis knows of the terms that the node handles, for the reader as a comment
  * and, where several arcs meet, for the compiler as a fact. */
-static void print_known(const struct flat *flat, const struct node *node)
+static void print_known(const struct flat *flat, const struct copy *copy)
 {
     const struct dag *dag = flat->dag;
+    const struct node *node = node_at(flat, copy->place);
     for (int i = 0, term; (term = term_of(dag, node, i)) >= 0; i++) {
         const struct term *t = &dag->terms[term];
-        size_t at = place_of(flat, term, node->order);
-        int low = flat->sure[at];
+        int low = copy->known.low[term], high = copy->known.high[term];
         int seen = 0;
         for (int j = 0; j < i; j++)
             seen |= term_of(dag, node, j) == term;
@@ -249,9 +313,8 @@ static void print_known(const struct flat *flat, const struct node *node)
                       level_name(dag, t, low), low < t->levels.count ? " or better" : "");
         else
             dag_print(flat->out, "    /* %s: %s */\n", t->name,
-                      !flat->possible[at] ? "absent on every path"
-                                          : "checked: not every path has it");
-        if (is_fact(flat, node, low)) {
+                      high == 0 ? "absent on every path" : "checked: not every path has it");
+        if (is_fact(flat, copy, term)) {
             dag_print(flat->out, "    KNOWN(%sterms.%s_level >= ", flat->of, t->name);
             print_constant(flat->out, t->name, level_name(dag, t, low));
             dag_print(flat->out, ");\n");
@@ -292,25 +355,35 @@ static void print_place(const struct flat *flat, const struct node *node)
     dag_print(flat->out, " */\n");
 }
 
-static void print_node(const struct flat *flat, const struct node *node)
+void dag_flat_node(const struct flat *flat, int at)
 {
+    const struct copy *copy = &flat->copies.items[at];
+    const struct node *node = node_at(flat, copy->place);
     int block = dag_has_reads(flat->dag, node);
     dag_print(flat->out, "\n");
-    if (flat->node_label[node->order] || (flat->parts > 1 && flat->entry[node->order]))
-        dag_print(flat->out, "node_%s:\n", node->name);
+    dag_flat_directive(flat, node->where);
+    if (flat->node_label[at] || (flat->parts > 1 && flat->entry[node->order])) {
+        dag_flat_label(flat, at);
+        dag_print(flat->out, ":\n");
+    }
     if (flat->lines)
         print_place(flat, node);
-    print_known(flat, node);
+    print_known(flat, copy);
     if (block) /* C++ may not jump past a constant: it gets a block */
         dag_print(flat->out, "    {\n");
     if (flat->flavour == FLAVOUR_COUNTED) /* what the arguments compute is the node's time, too */
         dag_print(flat->out, "    began = %s_clock(counters);\n", flat->oracle->name);
-    if (block)
+    if (block) {
+        dag_flat_directive(flat, node->tool_where);
         dag_emit_reads(flat->dag, flat->out, node, flat->at);
+    }
+    if (flat->flavour == FLAVOUR_COUNTED && copy->checks > 0)
+        dag_print(flat->out, "    counters->checks += %d;\n", copy->checks);
+    dag_flat_directive(flat, node->tool_where);
     if (flat->flavour != FLAVOUR_PLAIN)
         print_watched(flat, node);
     if (!decides_nothing(flat, node)) {
-        print_switch(flat, node);
+        print_switch(flat, node, copy);
         dag_print(flat->out, "%s", block ? "    }\n" : "");
         return;
     }
@@ -320,9 +393,11 @@ static void print_node(const struct flat *flat, const struct node *node)
         dag_print(flat->out, ";\n");
     }
     dag_print(flat->out, "%s", block ? "    }\n" : "");
-    if (!falls_through(flat, node)) {
+    if (!falls_through(flat, at)) {
+        dag_flat_directive(flat, arc_of(flat, node, 0)->where);
         dag_print(flat->out, "    ");
-        print_jump(flat, node->order, &arc_of(flat, node, 0)->target);
+        if (!print_exit(flat, node->order, 0))
+            dag_flat_jump(flat, node->order, &arc_of(flat, node, 0)->target, copy->ways[0], 4);
     }
 }
 
@@ -363,26 +438,50 @@ static int uses_parameters(const struct flat *flat)
     return 0;
 }
 
-/* Terms that no decision reads are unknown at first. The values are cleared, too: a register is
- * then never filled from the caller's memory only because the compiler cannot see that the value
- * is not used. */
+/* The term is unknown. The value is cleared, too: a register is then never filled from the caller's
+ * memory only because the compiler cannot see that the value is not used. */
+static void print_unknown(const struct flat *flat, int number, const char *indent)
+{
+    const struct term *term = &flat->dag->terms[number];
+    int length = flat->dag->types[term->type].length;
+    dag_print(flat->out, "%s", indent);
+    for (int k = 0; length > 1 && k < length; k++)
+        dag_print(flat->out, "d.terms.%s[%d] = ", term->name, k);
+    if (length == 1)
+        dag_print(flat->out, "d.terms.%s = ", term->name);
+    dag_print(flat->out, "0;\n%sd.terms.%s_level = ", indent, term->name);
+    print_constant(flat->out, term->name, "absent");
+    dag_print(flat->out, ";\n");
+}
+
+/* Who counts has one entry: the discussion itself says whether it is the first. */
+static void print_is_first(const struct flat *flat)
+{
+    dag_print(flat->out, "    int first = 1;\n");
+    for (int i = 0; i < flat->dag->term_count; i++)
+        if (dag_is_kept(flat->dag, i))
+            dag_print(flat->out, "    first &= d.terms.%s_level == 0;\n", flat->dag->terms[i].name);
+}
+
+/* Terms that no decision reads are unknown at first; with copies, so are the others in a first
+ * discussion, which enters where they are. */
 static void print_absent(const struct flat *flat)
 {
-    const struct dag *dag = flat->dag;
-    for (int i = 0; i < dag->term_count; i++) {
-        const struct term *term = &dag->terms[i];
-        int length = dag->types[term->type].length;
-        if (dag_is_kept(dag, i) || (flat->terms != NULL && !flat->terms[i]))
-            continue;
-        dag_print(flat->out, "    ");
-        for (int k = 0; length > 1 && k < length; k++)
-            dag_print(flat->out, "d.terms.%s[%d] = ", term->name, k);
-        if (length == 1)
-            dag_print(flat->out, "d.terms.%s = ", term->name);
-        dag_print(flat->out, "0;\n    d.terms.%s_level = ", term->name);
-        print_constant(flat->out, term->name, "absent");
-        dag_print(flat->out, ";\n");
-    }
+    for (int i = 0; i < flat->dag->term_count; i++)
+        if (!dag_is_kept(flat->dag, i) && (flat->terms == NULL || flat->terms[i]))
+            print_unknown(flat, i, "    ");
+    if (flat->most == 1)
+        return;
+    if (flat->flavour == FLAVOUR_COUNTED)
+        print_is_first(flat);
+    dag_print(flat->out, "    if (first) {\n");
+    for (int i = 0; i < flat->dag->term_count; i++)
+        if (dag_is_kept(flat->dag, i))
+            print_unknown(flat, i, "        ");
+    dag_print(flat->out, "        ");
+    print_way(flat, flat->copies.entry[ENTRY_FIRST], 8);
+    dag_print(flat->out, "    }\n    ");
+    print_way(flat, flat->copies.entry[ENTRY_AGAIN], 4);
 }
 
 static void print_watch_variables(const struct flat *flat)
@@ -435,7 +534,8 @@ static void print_part(const struct flat *flat, int part)
                       --left == 0 ? "    default:\n" : "", node_at(flat, i)->name);
     dag_print(out, "    }\n");
     for (int i = first; i < end; i++)
-        print_node(flat, node_at(flat, i));
+        dag_flat_node(flat, flat->copies.first[i]);
+    dag_flat_directive(flat, dag_nowhere);
     dag_print(out, "}\n");
 }
 
@@ -466,8 +566,23 @@ static void print_parts_loop(const struct flat *flat)
     dag_print(out, "    return (enum decision)~at;\n");
 }
 
+/* How many functions the graph becomes, not counting those of --outline: one, if with these none is
+ * too large. */
+static int count_parts(struct dag *dag, const struct oracle_graph *oracle, enum flavour flavour,
+                       const struct emit_options *options)
+{
+    struct shared *shared;
+    int nodes = oracle->order.count, left = nodes, most = 0;
+    if (nodes > PART_NODES && options->outline && flavour == FLAVOUR_PLAIN)
+        for (int i = dag_find_shared(dag, oracle, &shared) - 1; i >= 0; i--) {
+            left -= shared[i].uses * (shared[i].nodes - 1);
+            most = shared[i].nodes > most ? shared[i].nodes : most;
+        }
+    return left <= PART_NODES && most <= PART_NODES ? 1 : (nodes + PART_NODES - 1) / PART_NODES;
+}
+
 static struct flat open_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
-                             enum flavour flavour)
+                             enum flavour flavour, const struct emit_options *options)
 {
     size_t nodes = (size_t)oracle->order.count;
     struct flat flat = {0};
@@ -476,33 +591,32 @@ static struct flat open_flat(struct dag *dag, struct text *out, const struct ora
     flat.oracle = oracle;
     flat.flavour = flavour;
     flat.first_leaf = -1;
-    flat.parts = nodes > PART_NODES ? (int)((nodes + PART_NODES - 1) / PART_NODES) : 1;
+    flat.parts = count_parts(dag, oracle, flavour, options);
     flat.at = flat.parts > 1 ? "d" : "&d";
     flat.of = flat.parts > 1 ? "d->" : "d.";
-    flat.sure = dag_alloc(&dag->arena, nodes * (size_t)dag->term_count);
-    flat.possible = dag_alloc(&dag->arena, nodes * (size_t)dag->term_count);
-    for (int t = 0; t < dag->term_count; t++) {
-        dag_sure_levels(dag, oracle, t, flat.sure + place_of(&flat, t, 0));
-        dag_possible_terms(dag, oracle, t, flat.possible + place_of(&flat, t, 0));
-    }
-    flat.arcs_in = dag_alloc(&dag->arena, nodes * sizeof(int));
+    flat.most =
+        flat.parts > 1 || flavour == FLAVOUR_TRACED || options->copies < 1 ? 1 : options->copies;
+    flat.copies = dag_copies(dag, oracle, flat.most);
     flat.first_arc = dag_alloc(&dag->arena, nodes * sizeof(int));
     flat.entry = dag_alloc(&dag->arena, nodes);
-    flat.node_label = dag_alloc(&dag->arena, nodes);
+    flat.node_label = dag_alloc(&dag->arena, (size_t)flat.copies.count);
     flat.leaf_label = dag_alloc(&dag->arena, (size_t)dag->decision_count);
     flat.leaf_used = dag_alloc(&dag->arena, (size_t)dag->decision_count);
     find_labels(&flat);
+    for (int e = 0; flat.most > 1 && e < ENTRIES; e++)
+        label_way(&flat, flat.copies.entry[e]);
     return flat;
 }
 
-int dag_emit_states_facts(struct dag *dag)
+int dag_emit_states_facts(struct dag *dag, const struct emit_options *options)
 {
     for (int i = 0; i < dag->oracle_count; i++) {
-        struct flat flat = open_flat(dag, NULL, &dag->oracles[i], FLAVOUR_PLAIN);
-        for (int n = 0; n < flat.oracle->order.count; n++) {
-            const struct node *node = node_at(&flat, n);
+        struct flat flat = open_flat(dag, NULL, &dag->oracles[i], FLAVOUR_PLAIN, options);
+        for (int n = 0; n < flat.copies.count; n++) {
+            const struct copy *copy = &flat.copies.items[n];
+            const struct node *node = node_at(&flat, copy->place);
             for (int k = 0, term; (term = term_of(dag, node, k)) >= 0; k++)
-                if (is_fact(&flat, node, flat.sure[place_of(&flat, term, n)]))
+                if (is_fact(&flat, copy, term))
                     return 1;
         }
     }
@@ -512,23 +626,36 @@ int dag_emit_states_facts(struct dag *dag)
 void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                    enum flavour flavour, const struct emit_options *options)
 {
-    struct flat flat = open_flat(dag, out, oracle, flavour);
+    struct flat flat = open_flat(dag, out, oracle, flavour, options);
     flat.terms = options->terms;
     flat.lines = options->lines;
+    flat.watched = options->before != NULL;
+    flat.directives = options->directives;
     for (int i = 0; flat.parts > 1 && i < flat.parts; i++)
         print_part(&flat, i);
+    if (options->outline && flavour == FLAVOUR_PLAIN && flat.parts == 1)
+        dag_flat_outline(&flat);
     dag_print(out, "\n");
-    dag_emit_prototype(out, oracle, flavour);
+    /* two entries to one body */
+    int entries = flavour == FLAVOUR_PLAIN && options->copies > 1;
+    if (entries)
+        dag_print(out,
+                  "static enum decision %s_discuss(const struct %s_parameters *parameters,\n"
+                  "    struct discussion *discussion%s)",
+                  oracle->name, oracle->name, flat.most > 1 ? ", int first" : "");
+    else
+        dag_emit_prototype(dag, out, oracle, flavour);
     dag_print(out, "\n{\n    struct discussion d = *discussion;\n");
     if (flat.parts > 1)
         print_parts_loop(&flat);
     else {
         print_watch_variables(&flat);
-        print_absent(&flat);
         if (!uses_parameters(&flat))
             dag_print(out, "    (void)parameters;\n");
-        for (int i = 0; i < oracle->order.count; i++)
-            print_node(&flat, node_at(&flat, i));
+        print_absent(&flat);
+        for (int i = flat.copies.first[0]; i >= 0; i = dag_flat_behind(&flat, i))
+            dag_flat_node_or_call(&flat, i);
+        dag_flat_directive(&flat, dag_nowhere);
     }
     for (int i = 0; i < dag->decision_count; i++)
         if (flat.leaf_used[i]) {
@@ -536,13 +663,25 @@ void dag_emit_flat(struct dag *dag, struct text *out, const struct oracle_graph 
             print_leaf(&flat, &dag->decisions[i]);
         }
     dag_print(out, "}\n");
+    for (int first = 0; entries && first < 2; first++) {
+        dag_print(out, "\n");
+        dag_emit_prototype(dag, out, oracle, first ? FLAVOUR_FIRST : FLAVOUR_PLAIN);
+        dag_print(out, "\n{\n    return %s_discuss(parameters, discussion%s);\n}\n", oracle->name,
+                  flat.most == 1 ? ""
+                  : first        ? ", 1"
+                                 : ", 0");
+    }
 }
 
-void dag_emit_callers(const struct dag *dag, struct text *out, const unsigned char *reached)
+void dag_emit_callers(struct dag *dag, struct text *out, const unsigned char *reached,
+                      const struct emit_options *options)
 {
     int any = 0;
     for (int i = 0; i < dag->oracle_count; i++)
-        any |= dag->oracles[i].order.count > PART_NODES;
+        any |= count_parts(dag, &dag->oracles[i],
+                           options->counted || options->traced ? FLAVOUR_COUNTED : FLAVOUR_PLAIN,
+                           options)
+               > 1;
     if (!any)
         return;
     dag_print(out,

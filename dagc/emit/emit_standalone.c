@@ -1,58 +1,26 @@
-/* emit_standalone.c - an oracle with all it needs: one .c and one .h, no other header but libc's.
+/* emit_standalone.c - an oracle with all it needs: one .c and one .h, no other header but libc's
+ * and the program's own.
  *
- * The texts of the runtime's header, of the tools' and of whatever they include (from the folders
- * of -I, else those built into the command, headers.c) and the generated catalog are taken apart
- * into items (c_items.c). Kept is what the oracles' functions need, no more: to know which terms
- * that are, all is done twice, at first without those that nothing but their own clearing names.
- * What the prototypes need goes to the header. Every name that is declared gets the prefix, so that
- * the two files can be dropped into any program, beside others of their kind.
+ * Into the header go the runtime's header, the generated catalog and the prototypes; into the C
+ * file the headers of the tools and terms that the oracles reach, and the functions. Files go in
+ * whole (amalgam.c), from the folders of -I, from beside the catalog, or from those built into the
+ * command when the runtime's header is one of these. Of the catalog only what those texts name is
+ * generated, so all is done twice, at first without it. Every name that is defined gets the prefix
+ * (c_names.c), so that the two files can be dropped into any program, beside others of their kind.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "emit/c_items.h"
+#include "emit/amalgam.h"
 #include "emit/emit.h"
 #include "emit/headers.h"
 
 struct standalone {
     struct dag *dag;
     struct emit_options options;
-    const char *catalog; /* the text of catalog.h */
-    struct table seen;   /* headers that were included */
-    struct table read;   /* headers that were read: in texts */
-    const char **texts;
-    int text_count;
+    const unsigned char *tools; /* by tool: is its answers' enum in the catalog? */
+    const unsigned char *reached;
+    struct amalgam files;
 };
-
-static void include(struct c_items *items, const char *name, void *context);
-
-/* Takes the header in, once; 0: there is none of this name. */
-static int include_once(struct standalone *s, struct c_items *items, const char *name)
-{
-    if (dag_put(&s->dag->arena, &s->seen, name, 1) >= 0)
-        return 1;
-    const char *text = s->catalog;
-    if (strcmp(name, "catalog.h") != 0) {
-        int known = dag_find(&s->read, name);
-        if (known < 0) {
-            known = s->text_count;
-            s->texts = dag_grow(&s->dag->arena, s->texts, s->text_count, sizeof *s->texts);
-            s->texts[s->text_count++] = dag_header_text(s->dag, name);
-            dag_put(&s->dag->arena, &s->read, name, known);
-        }
-        text = s->texts[known];
-    }
-    if (text != NULL)
-        dag_items_add(items, name, text, include, s);
-    return text != NULL;
-}
-
-static void include(struct c_items *items, const char *name, void *context)
-{
-    struct standalone *s = context;
-    if (!include_once(s, items, name))
-        dag_error(s->dag, dag_nowhere, "no header \"%s\" for --standalone: name its folder with -I",
-                  name);
-}
 
 /* The text in the arena; the buffer is freed. A text that was cut short must not go on. */
 static const char *text_kept(struct dag *dag, struct text *text)
@@ -61,68 +29,115 @@ static const char *text_kept(struct dag *dag, struct text *text)
         dag_text_free(text);
         dag_out_of_memory(&dag->arena);
     }
-    const char *copy = text->bytes == NULL ? "" : dag_copy(&dag->arena, text->bytes, text->length);
+    const char *copy = dag_copy(&dag->arena, text->bytes == NULL ? "" : text->bytes, text->length);
     dag_text_free(text);
     return copy;
 }
 
-static const char public_name[] = "<declarations>", private_name[] = "<functions>";
+static const char declarations_name[] = "<declarations>", functions_name[] = "<functions>";
 
-static void collect(struct standalone *s, struct c_items *items)
+/* What dagc writes itself. */
+static void add_generated(struct standalone *s)
 {
     struct dag *dag = s->dag;
-    const unsigned char *reached = dag_emit_reached_tools(dag);
     struct text catalog = {0}, declarations = {0}, functions = {0};
-    s->seen = (struct table){NULL, NULL, 0, 0};
-    dag_emit_catalog_h(dag, &catalog, s->options.terms);
-    s->catalog = text_kept(dag, &catalog);
+    dag_emit_catalog_part(dag, &catalog, s->options.terms, s->tools);
+    dag_amalgam_text(&s->files, "catalog.h", text_kept(dag, &catalog));
     dag_emit_externs(dag, &declarations);
     for (int i = 0; i < dag->oracle_count; i++)
         dag_emit_oracle_h(dag, &declarations, &dag->oracles[i], &s->options);
+    dag_amalgam_text(&s->files, declarations_name, text_kept(dag, &declarations));
     dag_emit_accessors(dag, &functions);
-    dag_emit_callers(dag, &functions, reached);
-    dag_emit_known_macro(dag, &functions);
+    dag_emit_callers(dag, &functions, s->reached, &s->options);
+    dag_emit_known_macro(dag, &functions, &s->options);
     for (int i = 0; i < dag->oracle_count; i++)
         dag_emit_oracle_c(dag, &functions, &dag->oracles[i], &s->options);
-
-    include(items, dag->runtime_header, s);
-    include(items, "catalog.h", s);
-    include_once(s, items, "standalone.h"); /* a runtime need not have one */
-    for (int i = 0; i < dag->tool_count; i++)
-        if (reached[i])
-            include(items, dag->tools[i].header, s);
-    dag_items_add(items, public_name, text_kept(dag, &declarations), include, s);
-    dag_items_add(items, private_name, text_kept(dag, &functions), include, s);
+    dag_amalgam_text(&s->files, functions_name, text_kept(dag, &functions));
+    for (int i = 0; i < dag->callback_count; i++) /* each refiner has its own kind of discussion */
+        dag_put(&dag->arena, &s->files.names.ordinary, dag->callbacks[i].name, 1);
 }
 
-static void keep(struct c_items *items)
+static void put(struct standalone *s, struct text *out, const char *name, struct where declared)
 {
-    dag_items_keep(items, private_name, C_PRIVATE);
-    dag_items_keep(items, public_name, C_PUBLIC);
-    dag_items_keep(items, "standalone.h", C_PUBLIC);
+    struct dag *dag = s->dag;
+    const char *beside = dag_source_folder(dag, declared.source);
+    if (dag_amalgam_put(&s->files, out, name, beside))
+        return;
+    dag_error(dag, declared, "no header \"%s\" for --standalone", name);
+    dag_note(dag, dag_nowhere, "looked for in the folders given with -I%s",
+             beside == NULL ? "" : " and beside this file");
 }
 
-/* By term: does the text that is kept name it? The catalog says what a tool reads and writes of the
- * data manager, but its function may use more. */
-static unsigned char *find_terms(struct dag *dag, const struct c_items *items)
+static void put_public(struct standalone *s, struct text *out)
+{
+    put(s, out, s->dag->runtime_header, s->dag->runtime_where);
+    put(s, out, "catalog.h", dag_nowhere);
+    (void)dag_amalgam_put(&s->files, out, "standalone.h", NULL); /* a runtime need not have one */
+}
+
+static void put_private(struct standalone *s, struct text *out)
+{
+    struct dag *dag = s->dag;
+    const unsigned char *terms = dag_emit_reached_terms(dag);
+    for (int i = 0; i < dag->tool_count; i++)
+        if (s->reached[i])
+            put(s, out, dag->tools[i].header, dag->tools[i].where);
+    for (int i = 0; i < dag->term_count; i++)
+        if (terms[i])
+            put(s, out, dag->terms[i].header, dag->terms[i].where);
+    put(s, out, functions_name, dag_nowhere);
+}
+
+/* All files are found and the names they define gathered. */
+static void open_files(struct standalone *s, const char *prefix)
+{
+    s->files = (struct amalgam){0};
+    s->files.dag = s->dag;
+    s->files.prefix = prefix;
+    s->files.directives = s->options.directives;
+    s->files.host = s->options.host;
+    s->files.host_count = s->options.host_count;
+    s->files.built_in = dag_runtime_is_ours(s->dag);
+    add_generated(s);
+    put_public(s, NULL);
+    put_private(s, NULL);
+    dag_amalgam_again(&s->files);
+}
+
+/* By term: do the texts name it? The catalog says what a tool reads and writes of the data manager,
+ * but its function may use more. */
+static unsigned char *find_terms(struct dag *dag, const struct amalgam *files)
 {
     unsigned char *found = dag_alloc(&dag->arena, (size_t)dag->term_count);
     for (int i = 0; i < dag->term_count; i++)
-        found[i] =
-            dag_find(&items->members, dag->terms[i].name) >= 0
-            || dag_find(&items->members, dag_format(&dag->arena, "%s_level", dag->terms[i].name))
-                   >= 0;
+        found[i] = dag_find(&files->members, dag->terms[i].name) >= 0
+                   || dag_find(&files->names.expanded,
+                               dag_format(&dag->arena, "%s_level", dag->terms[i].name))
+                          >= 0;
     return found;
 }
 
-static void print_items(struct c_items *items, struct text *out, const char *prefix,
-                        int public_part)
+/* By tool: do the texts name one of its answers? */
+static unsigned char *find_tools(struct dag *dag, const struct amalgam *files)
 {
-    for (int i = 0; i < items->item_count; i++) {
-        struct c_item *item = &items->items[i];
-        if (item->kept && !item->shown && ((item->reached_by & C_PUBLIC) != 0) == public_part)
-            dag_items_print(items, item, out, prefix);
+    unsigned char *found = dag_alloc(&dag->arena, (size_t)dag->tool_count);
+    for (int i = 0; i < dag->tool_count; i++) {
+        const struct tool *tool = &dag->tools[i];
+        struct text upper = {0};
+        dag_print_upper(&upper, tool->name);
+        const char *name = text_kept(dag, &upper);
+        found[i] =
+            dag_find(&files->names.expanded, dag_format(&dag->arena, "%s_answer", tool->name)) >= 0;
+        found[i] |=
+            dag_find(&files->names.expanded, dag_format(&dag->arena, "%s_ANSWERS", name)) >= 0;
+        for (int a = 0; a < tool->answers.count; a++) {
+            dag_print_upper(&upper, dag->answers[tool->answers.first + a].name);
+            const char *answer = dag_format(&dag->arena, "%s_%s", name, text_kept(dag, &upper));
+            upper = (struct text){0};
+            found[i] |= dag_find(&files->names.expanded, answer) >= 0;
+        }
     }
+    return found;
 }
 
 static int is_prefix(const char *text)
@@ -142,37 +157,40 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
 {
     const char *prefix = options->prefix != NULL ? options->prefix : dag->oracles[0].name;
     struct standalone s = {0};
-    struct c_items first = {0}, items = {0};
     if (!is_prefix(prefix)) {
         dag_error(dag, dag_nowhere, "'%s' cannot begin a C name", prefix);
         return;
     }
-    s.dag = first.dag = items.dag = dag;
+    s.dag = dag;
     s.options = *options;
-    /* none: what is still named is needed */
-    s.options.terms = dag_alloc(&dag->arena, (size_t)dag->term_count);
-    collect(&s, &first);
+    s.reached = dag_emit_reached_tools(dag);
+    s.options.terms = dag_alloc(&dag->arena, (size_t)dag->term_count); /* none */
+    s.tools = dag_alloc(&dag->arena, (size_t)dag->tool_count);
+    open_files(&s, prefix);
     if (dag->error_count > 0)
         return;
-    keep(&first);
-    s.options.terms = find_terms(dag, &first);
-    collect(&s, &items);
-    keep(&items);
+    s.options.terms = find_terms(dag, &s.files);
+    s.tools = find_tools(dag, &s.files);
+    open_files(&s, prefix);
 
     dag_emit_banner(dag, header);
     dag_print(header, "#ifndef ");
     dag_print_upper(header, prefix);
     dag_print(header, "_H\n#define ");
     dag_print_upper(header, prefix);
-    dag_print(header, "_H\n\n");
-    for (int i = 0; i < items.system_count; i++)
-        if (strcmp(items.system[i], "<math.h>") != 0)
-            dag_print(header, "#include %s\n", items.system[i]);
+    dag_print(header, "_H\n");
+    put_public(&s, header);
     dag_print(header, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
-    print_items(&items, header, prefix, 1);
+    put(&s, header, declarations_name, dag_nowhere);
     dag_print(header, "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
 
     dag_emit_banner(dag, c);
-    dag_print(c, "#include \"%s\"\n\n#include <math.h>\n", header_name);
-    print_items(&items, c, prefix, 0);
+    dag_print(c,
+              "#include \"%s\"\n\n#include <math.h>\n#include <stddef.h>\n\n"
+              "/* Whole files are in here; no graph uses all that is in them. */\n"
+              "#if defined __GNUC__ || defined __clang__\n"
+              "#pragma GCC diagnostic ignored \"-Wunused-function\"\n"
+              "#pragma GCC diagnostic ignored \"-Wunused-macros\"\n#endif\n",
+              header_name);
+    put_private(&s, c);
 }

@@ -65,7 +65,7 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     }
     print_needs(dag, out, tool->reads, "may read");
     print_needs(dag, out, tool->writes, "leaves behind");
-    dag_print(out, " * It reads the pair and the host and writes nothing but terms. */\n");
+    dag_print(out, " * It reads the discussion and writes nothing but terms. */\n");
     print_frame(out, "TOOL", tool->name);
     print_includes(dag, out, tool);
     dag_print(out, "\nTOOL enum %s_answer tool_%s(struct discussion *d", tool->name, tool->name);

@@ -26,6 +26,7 @@ extern char **environ;
 enum {
     PATH_SIZE = PATH_MAX + 64,
     FLAGS_MAX = 24,
+    SOURCES_MAX = 8,
     QUOTED = 2000 /* bytes of what the compiler says */
 };
 
@@ -122,18 +123,26 @@ static void quote(char *message, size_t size, const char *output)
     fclose(stream);
 }
 
-static int compile(const char *folder, const char *source, const char *library,
-                   const char *const *flags, const char *command, char *message, size_t size)
+static int is_source(const struct c_file *file)
+{
+    size_t length = strlen(file->name);
+    return length > 2 && strcmp(file->name + length - 2, ".c") == 0;
+}
+
+static int compile(const char *folder, char sources[SOURCES_MAX][PATH_SIZE], int source_count,
+                   const char *library, const char *const *flags, const char *command,
+                   char *message, size_t size)
 {
     char include[PATH_SIZE + 2], output[PATH_SIZE];
-    const char *arguments[FLAGS_MAX + 16] = {
+    const char *arguments[FLAGS_MAX + SOURCES_MAX + 16] = {
         command, "-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic", "-ffp-contract=off", include};
     int count = 7;
     for (; *flags != NULL && count < FLAGS_MAX; flags++)
         arguments[count++] = *flags;
     arguments[count++] = "-o";
     arguments[count++] = library;
-    arguments[count++] = source;
+    for (int i = 0; i < source_count; i++)
+        arguments[count++] = sources[i];
     arguments[count++] = "-lm";
     snprintf(include, sizeof include, "-I%s", folder);
     if (!path_of(output, folder, output_name))
@@ -158,9 +167,9 @@ void *dag_compile(const struct c_file *files, int count, const char *const *flag
     const char *parent =
         compiler != NULL && compiler->temporary != NULL ? compiler->temporary : "/tmp";
     const char *command = compiler != NULL && compiler->command != NULL ? compiler->command : "cc";
-    char folder[PATH_MAX], source[PATH_SIZE], library[PATH_SIZE];
+    char folder[PATH_MAX], sources[SOURCES_MAX][PATH_SIZE], library[PATH_SIZE];
     void *handle = NULL;
-    int length = snprintf(folder, sizeof folder, "%s/dagc.XXXXXX", parent), bad = 0;
+    int length = snprintf(folder, sizeof folder, "%s/dagc.XXXXXX", parent), bad = 0, count_c = 0;
     errno = ENAMETOOLONG;
     if (length >= (int)sizeof folder || mkdtemp(folder) == NULL) {
         snprintf(message, size,
@@ -168,12 +177,15 @@ void *dag_compile(const struct c_file *files, int count, const char *const *flag
                  strerror(errno));
         return NULL;
     }
-    for (int i = 0; i < count && !bad; i++)
+    for (int i = 0; i < count && !bad; i++) {
         bad = write_file(folder, &files[i]) < 0;
-    if (bad || !path_of(source, folder, files[0].name) || !path_of(library, folder, library_name))
+        if (!bad && is_source(&files[i]) && count_c < SOURCES_MAX)
+            bad = !path_of(sources[count_c++], folder, files[i].name);
+    }
+    if (bad || !path_of(library, folder, library_name))
         snprintf(message, size, "cannot write to %s: %s; set TMPDIR to another place", folder,
                  strerror(errno));
-    else if (compile(folder, source, library, flags, command, message, size) == 0) {
+    else if (compile(folder, sources, count_c, library, flags, command, message, size) == 0) {
         handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
         if (handle == NULL)
             snprintf(message, size, "cannot load what was compiled: %s", dlerror());

@@ -11,9 +11,9 @@ struct c_file {
     size_t length;
 };
 
-/* Compiles files[0], which may include the others, and loads it: dlopen's handle, or NULL with the
- * cause in `message`, a sentence and below it what the compiler printed. `flags` ends with NULL.
- * Prints nothing and leaves no file. */
+/* Compiles those whose names end in .c, which may include the others, and loads what comes of it:
+ * dlopen's handle, or NULL with the cause in `message`, a sentence and below it what the compiler
+ * printed. `flags` ends with NULL. Prints nothing and leaves no file. */
 void *dag_compile(const struct c_file *files, int count, const char *const *flags,
                   const struct dag_compiler *compiler, char *message, size_t size);
 

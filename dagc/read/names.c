@@ -172,9 +172,23 @@ static void claim(struct dag *dag, struct claims *claims, struct where where, co
     claims->where[claims->count++] = where;
 }
 
+/* What else generated text calls NAME_something. */
+static void check_verb(struct dag *dag)
+{
+    static const char *const taken[] = {"arc_kinds", "arc_names",       "arc_nodes",    "arcs",
+                                        "clock",     "count",           "counted_part", "counters",
+                                        "defaults",  "defaults_any",    "node_names",   "nodes",
+                                        "oracle",    "parameter_table", "parameters",   "part",
+                                        "reads",     "traced_part"};
+    if (is_in(taken, sizeof taken / sizeof *taken, dag->verb))
+        dag_error(dag, dag->verb_where, "the C text has another NAME_%s already: take another verb",
+                  dag->verb);
+}
+
 void dag_check_names(struct dag *dag)
 {
     struct claims claims = {{NULL, NULL, 0, 0}, NULL, 0};
+    check_verb(dag);
     if (dag->error_count > 0) /* what is declared twice has been named already */
         return;
     for (int i = 0; i < dag->decision_count; i++)

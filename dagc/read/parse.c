@@ -113,10 +113,10 @@ int dag_expect_string(struct parser *parser, const char *what, const char **stri
 int dag_at_number(const struct parser *parser)
 {
     return parser->token.kind == TOKEN_NUMBER || dag_at_word(parser, "inf")
-           || dag_at_mark(parser, '-');
+           || dag_at_word(parser, "pi") || dag_at_mark(parser, '-');
 }
 
-/* number = [ "-" ] ( NUMBER | "inf" ) */
+/* number = [ "-" ] ( NUMBER | "inf" | "pi" ) */
 int dag_expect_number(struct parser *parser, double *number, struct where *where)
 {
     struct where first = parser->token.where;
@@ -125,6 +125,8 @@ int dag_expect_number(struct parser *parser, double *number, struct where *where
         *number = parser->token.number;
     else if (dag_at_word(parser, "inf"))
         *number = INFINITY;
+    else if (dag_at_word(parser, "pi"))
+        *number = PI;
     else
         return dag_expected(parser, "a number");
     if (negative)
@@ -191,9 +193,10 @@ int dag_parse_parameter(struct parser *parser)
     return 1;
 }
 
-static const char *const item_words[] = {"import", "graph", "oracle", "runtime", "type",    "term",
-                                         "fact",   "role",  "extern", "tool",    "decision"};
-enum { ITEM_WORDS = 11, CATALOG_WORD = 3 /* the first of the catalog's */ };
+static const char *const item_words[] = {"import", "graph",  "oracle", "catalog", "runtime",
+                                         "verb",   "unit",   "type",   "term",    "fact",
+                                         "role",   "extern", "tool",   "decision"};
+enum { ITEM_WORDS = 14, CATALOG_WORD = 4 /* the first of the catalog's */ };
 
 static int at_catalog_word(const struct parser *parser)
 {
@@ -206,7 +209,8 @@ static int at_catalog_word(const struct parser *parser)
 /* The start of a declaration, seen while skipping: its word and what must follow it. */
 static int at_item(const struct parser *parser)
 {
-    int string = dag_at_word(parser, "runtime") || dag_at_word(parser, "import");
+    int string = dag_at_word(parser, "runtime") || dag_at_word(parser, "import")
+                 || dag_at_word(parser, "catalog");
     if (!dag_at_word(parser, "oracle") && !dag_at_word(parser, "graph") && !string
         && !at_catalog_word(parser))
         return 0;
@@ -235,9 +239,10 @@ static void unknown_item(struct parser *parser)
 {
     int catalog = parser->content == CONTENT_CATALOG;
     struct suggestion suggestion = {parser->token.text, NULL, 0};
-    dag_expected(parser, catalog
-                             ? "import, runtime, type, term, fact, extern, tool, decision or graph"
-                             : "'oracle', 'graph', 'import' or a declaration");
+    dag_expected(
+        parser,
+        catalog ? "import, runtime, verb, unit, type, term, fact, extern, tool, decision or graph"
+                : "'oracle', 'graph', 'import', 'catalog' or a declaration");
     if (parser->token.kind == TOKEN_NAME) {
         for (int i = 0; i < ITEM_WORDS; i++)
             dag_suggest(&suggestion, item_words[i]);
@@ -263,6 +268,30 @@ static int parse_import(struct parser *parser)
     return dag_expect(parser, ';', "after an import");
 }
 
+/* catalog = "catalog" ( STRING | "standard" ) ";": what the file is for. Which one was taken is
+ * settled; with another, nothing else that the file says could be understood. */
+static int parse_catalog_name(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct where where = parser->token.where;
+    const char *path = NULL;
+    if (!dag_take_word(parser, "standard")
+        && !dag_expect_string(parser, "a catalog's file, a string, or 'standard'", &path))
+        return 0;
+    const char *wrong = dag_other_catalog(dag, path, where.source);
+    if (wrong == NULL)
+        return dag_expect(parser, ';', "after a catalog's name");
+    if (parser->content == CONTENT_CATALOG)
+        dag_error(dag, where, "a catalog is for no other: write import to extend one");
+    else
+        dag_error(dag, where, "this file is for the catalog %s%s%s, %s", path == NULL ? "" : "\"",
+                  path == NULL ? "standard" : path, path == NULL ? "" : "\"", wrong);
+    while (parser->token.kind != TOKEN_END)
+        dag_advance(parser);
+    dag->oracle_count = dag->branch_count = 0; /* nor what it said before */
+    return 1;
+}
+
 /* An imported file, or a catalog, lends its graphs and declarations; an oracle in it is checked
  * for its syntax and left out. */
 static int parse_oracle(struct parser *parser, int wanted)
@@ -284,7 +313,7 @@ struct parser dag_parser(struct dag *dag, int source, enum content content)
     return parser;
 }
 
-/* file = { import | graph | oracle | catalog_item } */
+/* file = { catalog | import | graph | oracle | catalog_item } */
 static void parse_file(struct dag *dag, int source, enum content content)
 {
     struct parser parser = dag_parser(dag, source, content);
@@ -298,6 +327,8 @@ static void parse_file(struct dag *dag, int source, enum content content)
             ok = dag_parse_branch(&parser);
         else if (dag_take_word(&parser, "import"))
             ok = parse_import(&parser);
+        else if (dag_take_word(&parser, "catalog"))
+            ok = parse_catalog_name(&parser);
         else if (at_catalog_word(&parser))
             ok = dag_parse_catalog_item(&parser);
         else {

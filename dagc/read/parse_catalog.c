@@ -50,6 +50,57 @@ static int parse_runtime(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
+/* verb = "verb" NAME ";" */
+static int parse_verb(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    const char *verb;
+    struct where where;
+    if (!dag_expect_name(parser, "what the function of an oracle does, a name such as 'decide'",
+                         &verb, &where))
+        return 0;
+    if (dag->verb_where.source >= 0 && strcmp(verb, dag->verb) != 0) {
+        dag_error(dag, where, "a second verb");
+        dag_note(dag, dag->verb_where, "the first is here");
+    } else {
+        dag->verb = verb;
+        dag->verb_where = where;
+    }
+    return dag_expect(parser, ';', "after a declaration");
+}
+
+/* unit = "unit" NAME "=" [ NUMBER ] UNIT ";" with UNIT as in a type, without its quotes */
+static int parse_unit(struct parser *parser)
+{
+    struct dag *dag = parser->dag;
+    struct own_unit unit = {0};
+    unit.number = 1;
+    if (!dag_expect_name(parser, "the name of a unit", &unit.name, &unit.where)
+        || !dag_expect(parser, '=', "after the unit's name"))
+        return 0;
+    struct where where;
+    if (dag_at_number(parser) && !dag_expect_number(parser, &unit.number, &where))
+        return 0;
+    if (parser->token.kind == TOKEN_STRING) {
+        dag_error(dag, parser->token.where, "a unit's size is written without quotes");
+        dag_note(dag, dag_nowhere, "write: unit %s = 1e-3 s;", unit.name);
+        return 0;
+    }
+    unit.text_where = parser->token.where;
+    while (parser->token.kind != TOKEN_END && !dag_at_mark(parser, ';') && !dag_at_mark(parser, '{')
+           && !dag_at_mark(parser, '}'))
+        dag_advance(parser);
+    int end = parser->last.offset + parser->last.length, from = unit.text_where.offset;
+    if (end < from) /* nothing: a multiple of a plain number */
+        end = from;
+    unit.text_where.length = end - from;
+    unit.text = dag_copy(&dag->arena, dag->sources[where.source = unit.where.source].text + from,
+                         (size_t)(end - from));
+    int index = ADD(dag, units, unit_count);
+    dag->units[index] = unit;
+    return dag_expect(parser, ';', "after a declaration");
+}
+
 /* type = "type" NAME "=" ( "real" [ "[" NUMBER "]" ] | "integer" ) STRING ";" */
 static int parse_type(struct parser *parser)
 {
@@ -86,14 +137,8 @@ static int parse_type(struct parser *parser)
     if (!dag_expect_string(parser, "a unit, a string such as \"W/m2\" (\"\" for a plain number)",
                            &t->unit_text))
         return 0;
-    int wrong = dag_parse_unit(t->unit_text, &t->unit);
-    if (wrong >= 0) {
-        where.offset += 1 + wrong;
-        where.length = 1;
-        dag_error(dag, where, "\"%s\" is not a unit that can be read from here on", t->unit_text);
-        dag_note(dag, dag_nowhere,
-                 "write a product of SI units, such as \"W/m2\", \"W m-2\", \"kg m s-2\"");
-    }
+    t->unit_where = where;
+    t->any_unit = strcmp(t->unit_text, "?") == 0;
     return dag_expect(parser, ';', "after a declaration");
 }
 
@@ -369,7 +414,10 @@ static int parse_extern(struct parser *parser)
     int index = ADD(dag, callbacks, callback_count);
     struct callback *c = &dag->callbacks[index];
     *c = callback;
-    if (dag_at_mark(parser, '(') && dag_peek(parser).mark == ')') {
+    if (dag_at_mark(parser, ':')) {
+        dag_error(dag, c->where, "'%s' is a function: expected '(' and what it reads", c->name);
+        dag_note(dag, dag_nowhere, "write: extern %s() : TYPE \"doc\";", c->name);
+    } else if (dag_at_mark(parser, '(') && dag_peek(parser).mark == ')') {
         dag_advance(parser);
         dag_advance(parser);
     } else if (!parse_needs(parser, &c->reads))
@@ -383,15 +431,16 @@ static int parse_extern(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
-/* catalog_item = runtime | type | term | fact | role | extern | tool | decision */
+/* catalog_item = runtime | verb | unit | type | term | fact | role | extern | tool | decision */
 int dag_parse_catalog_item(struct parser *parser)
 {
     static const struct {
         const char *word;
         int (*parse)(struct parser *parser);
-    } items[] = {{"runtime", parse_runtime}, {"type", parse_type},        {"term", parse_term},
-                 {"fact", parse_fact},       {"role", parse_role},        {"extern", parse_extern},
-                 {"tool", parse_tool},       {"decision", parse_decision}};
+    } items[] = {{"runtime", parse_runtime},  {"verb", parse_verb},     {"unit", parse_unit},
+                 {"type", parse_type},        {"term", parse_term},     {"fact", parse_fact},
+                 {"role", parse_role},        {"extern", parse_extern}, {"tool", parse_tool},
+                 {"decision", parse_decision}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++)
         if (dag_take_word(parser, items[i].word))
             return items[i].parse(parser);

@@ -66,6 +66,10 @@ static int parse_call(struct parser *parser, int *expression)
     if (f == FUNCTIONS) {
         dag_error(parser->dag, first, "unknown function '%s'", parser->token.text);
         dag_note_suggestion(parser->dag, &suggestion);
+        for (int i = 0; i < parser->dag->callback_count; i++)
+            if (strcmp(parser->dag->callbacks[i].name, parser->token.text) == 0)
+                dag_note(parser->dag, dag_nowhere, "an extern is read without parentheses: %s",
+                         parser->token.text);
         if (suggestion.best == NULL)
             dag_note(parser->dag, dag_nowhere,
                      "the functions are min(a, b), max(a, b), sqrt(x) and abs(x)");

@@ -7,213 +7,22 @@
 #include "refiner.h"
 
 #include <math.h>
+#include <stddef.h>
 
-static inline double refiner_dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline void refiner_sub3(double out[3], const double a[3], const double b[3])
-{
-    out[0] = a[0] - b[0];
-    out[1] = a[1] - b[1];
-    out[2] = a[2] - b[2];
-}
-
-static inline void refiner_cross3(double out[3], const double a[3], const double b[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static inline double refiner_length3(const double a[3])
-{
-    return sqrt(refiner_dot3(a, a));
-}
-
-/* Signed distance of p from the plane through `on` with unit normal n, positive in front (m). */
-static inline double refiner_height3(const double p[3], const double on[3], const double n[3])
-{
-    return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
-}
-
-/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they
- * have heights h: what lies above goes to `above`, what lies below to `below`, corners at height 0
- * to both; either may be NULL. Returns how many corners are above, and below in *n_below. Each has
- * room for `most`; rounding may make a bent polygon cross more than twice, then corners are left
- * out. [Sutherland and Hodgman 1974] */
-static inline int refiner_polygon_divide(const double *v, int n, int size, const double *h, int most,
-                                 double *above, double *below, int *n_below)
-{
-    int i, j, up = 0, down = 0;
-    for (i = 0, j = n - 1; i < n; j = i++) {
-        if ((h[j] > 0 && h[i] < 0) || (h[j] < 0 && h[i] > 0)) {
-            const double t = h[j] / (h[j] - h[i]);
-            for (int k = 0; k < size; k++) {
-                const double x = v[j * size + k] + t * (v[i * size + k] - v[j * size + k]);
-                if (above && up < most)
-                    above[up * size + k] = x;
-                if (below && down < most)
-                    below[down * size + k] = x;
-            }
-            up += up < most;
-            down += down < most;
-        }
-        if (above && h[i] >= 0 && up < most) {
-            for (int k = 0; k < size; k++)
-                above[up * size + k] = v[i * size + k];
-            up++;
-        }
-        if (below && h[i] <= 0 && down < most) {
-            for (int k = 0; k < size; k++)
-                below[down * size + k] = v[i * size + k];
-            down++;
-        }
-    }
-    if (below)
-        *n_below = down;
-    return above ? up : 0;
-}
-
-/* The part of the convex polygon v[n], n <= 4, in front of the plane. */
-static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
-                                const double on[3], const double normal[3])
-{
-    double h[REFINER_POLYGON_MAX];
-    int front = 0;
-    for (int i = 0; i < n; i++) {
-        h[i] = refiner_height3(v[i], on, normal);
-        front += h[i] >= 0;
-    }
-    out->n = n;
-    if (front < n)
-        out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
-    else /* most planes cut nothing */
-        for (int i = 0; i < n; i++)
-            for (int k = 0; k < 3; k++)
-                out->v[i][k] = v[i][k];
-    if (out->n < 3)
-        out->n = 0;
-}
-
-/* Area of a convex flat polygon with unit normal n (m2). */
-static inline double refiner_polygon_area(const struct refiner_polygon *p, const double n[3])
-{
-    double twice = 0;
-    for (int i = 2; i < p->n; i++) {
-        double a[3], b[3], c[3];
-        refiner_sub3(a, p->v[i - 1], p->v[0]);
-        refiner_sub3(b, p->v[i], p->v[0]);
-        refiner_cross3(c, a, b);
-        twice += refiner_dot3(c, n);
-    }
-    return 0.5 * twice;
-}
-
-/* Distance from p to the convex polygon v[n] with unit normal `normal` (m). */
-static inline double refiner_polygon_distance(const double p[3], const double (*v)[3], int n,
-                                      const double normal[3])
-{
-    double best = INFINITY;
-    int inside = 1;
-    for (int i = 0; i < n; i++) {
-        const double *a = v[i], *b = v[i + 1 < n ? i + 1 : 0];
-        double e[3], w[3], side[3];
-        refiner_sub3(e, b, a);
-        refiner_sub3(w, p, a);
-        refiner_cross3(side, e, w);
-        if (refiner_dot3(side, normal) >= 0)
-            continue;
-        inside = 0;
-        double ee = refiner_dot3(e, e);
-        double t = ee > 0 ? refiner_dot3(w, e) / ee : 0;
-        t = t < 0 ? 0 : t > 1 ? 1 : t;
-        w[0] -= t * e[0];
-        w[1] -= t * e[1];
-        w[2] -= t * e[2];
-        double q = refiner_dot3(w, w);
-        if (q < best)
-            best = q;
-    }
-    return inside ? fabs(refiner_height3(p, v[0], normal)) : sqrt(best);
-}
-
-/* Are both elements surfaces? If not: do they exchange no light (apart), or which of the two is to be opened? */
-enum refiner_clusters_answer {
-    REFINER_CLUSTERS_SURFACES, /* precise */
-    REFINER_CLUSTERS_APART, /* precise */
-    REFINER_CLUSTERS_RECEIVER, /* precise */
-    REFINER_CLUSTERS_EMITTER /* precise */
-};
-
-/* How do two surfaces lie to each other's support planes? When both cross, the larger is named. */
-enum refiner_support_planes_answer {
-    REFINER_SUPPORT_PLANES_TOWARD, /* precise */
-    REFINER_SUPPORT_PLANES_AWAY, /* precise */
-    REFINER_SUPPORT_PLANES_RECEIVER_CROSSES, /* precise */
-    REFINER_SUPPORT_PLANES_EMITTER_CROSSES /* precise */
-};
-
-/* May the emitter's radiosity times F_rs exceed the larger of `absolute` and `relative` times the scene's mean irradiance? dark: this emitter never sends light. */
-enum refiner_transfer_answer {
-    REFINER_TRANSFER_DARK, /* precise */
-    REFINER_TRANSFER_BELOW, /* approximate */
-    REFINER_TRANSFER_ABOVE /* approximate */
-};
-
-/* Which of the two stay at or above `min_area`, and above `min_share` of the scene's area, when split? */
-enum refiner_can_split_answer {
-    REFINER_CAN_SPLIT_BOTH, /* precise */
-    REFINER_CAN_SPLIT_RECEIVER, /* precise */
-    REFINER_CAN_SPLIT_EMITTER, /* precise */
-    REFINER_CAN_SPLIT_NEITHER /* precise */
-};
-
-/* Which element has the larger area? Its own form factor is the smaller: A_r F_rs = A_s F_sr. */
-enum refiner_larger_answer {
-    REFINER_LARGER_RECEIVER, /* precise */
-    REFINER_LARGER_EMITTER /* precise */
-};
-
-/* Cast at least `rays` rays (4, 16, 64, 256 or 1024) between the elements: how many arrive? */
-enum refiner_visibility_answer {
-    REFINER_VISIBILITY_NONE, /* approximate */
-    REFINER_VISIBILITY_PARTIAL, /* precise */
-    REFINER_VISIBILITY_ALL /* approximate */
-};
-
-/* Compute the form factor from the clipped polygon, averaged over the receiver. */
-enum refiner_form_factor_answer {
-    REFINER_FORM_FACTOR_DONE /* other */
-};
-
-/* Mark the pair; links are counted by their marks. 1: a link that could not be split though it should. */
-enum refiner_mark_answer {
-    REFINER_MARK_DONE /* other */
-};
-
-/* from the receiver's centre to the emitter's */
-enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
-
-/* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
-enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_INVERSE_SQUARE, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_HEMICUBE, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_RAYS, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
-
-/* visible fraction of segments between the two elements' mutually facing parts */
-enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_PRESUMED, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
-
-/* what the graph marked the pair with, kept by its link; 0: nothing */
-enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
-
-/* Everything a tool calls is inlined into the flat release, so that its local discussion can
- * live in registers; what is too large for that takes elements, never the discussion. */
-#if defined __GNUC__
-#define REFINER_TOOL static inline __attribute__((always_inline))
-#define REFINER_OUTLINE static __attribute__((noinline, unused))
-#else
-#define REFINER_TOOL static inline
-#define REFINER_OUTLINE static
+/* Whole files are in here; no graph uses all that is in them. */
+#if defined __GNUC__ || defined __clang__
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-macros"
 #endif
+
+/* clusters.h - question: are both elements surfaces, and if not, which cluster is to be opened?
+ *
+ * apart is true only when no normal of the one, taken anywhere in its normal cone, makes an acute
+ * angle with any direction from its box to the other's. For a normal at angle theta from the cone's
+ * axis a, and v from one box to the other with a.v <= m, |v| <= l:  n.v <= m cos(theta) + sqrt(l^2
+ * - m^2) sin(theta). A surface is a cone of angle 0 and a box of its own. [D: derived here] */
+#ifndef REFINER_TOOL_CLUSTERS_H
+#define REFINER_TOOL_CLUSTERS_H
 
 /* constants.h - every threshold that decides an answer: its value, unit, and reason.
  *
@@ -221,6 +30,8 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
  * the command that measured it; "chosen" says that there is none yet. What merely bounds work
  * (buffers, chunks of a loop) stays where it is used. Headers of tools and terms may use these:
  * dagc --standalone copies the ones that a graph reaches. */
+#ifndef REFINER_KERNEL_CONSTANTS_H
+#define REFINER_KERNEL_CONSTANTS_H
 
 /* ---- geometry of a pair (kernel, terms, tools) */
 
@@ -230,38 +41,44 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 /* of the sum of both radii. Corners no farther from a plane lie in it, besides host.flat. Chosen:
  * 256 roundings of floats */
 #define REFINER_PLANE_FLAT (1 / 65536.0)
+/* of the way from a corner to the centre. F at a corner is taken so far within, for where two
+ * elements touch it has no value at the corner itself. Chosen: a float's rounding is 2^-24 */
+#define REFINER_CORNER_INSET (1 / 1048576.0)
+/* of the largest distance. What rounding does to a distance: 512 roundings, more than the sums
+ * that lead to it have */
+#define REFINER_DISTANCE_ROUNDING (1 / 17592186044416.0) /* 2^-44 */
+
+/* of the pair's size. Corners no farther from the plane lie in it, and corners so near are one.
+ * Chosen: 2^13 roundings, of which a direction between such corners would be made */
+#define REFINER_COSINE_BOUND_FLAT (1 / 1099511627776.0) /* 2^-40 */
+/* relative, of a distance's square. A step that wins less is the last. The bound holds after any */
+#define REFINER_COSINE_BOUND_ENOUGH 1e-9
+#define REFINER_COSINE_BOUND_ROUNDING 1e-12 /* of a cosine. Above the rounding of the sums before */
+/* radians. A cluster's cone leaves out so much as rounding: acos(1 - CONE_EQUAL) = 1.4e-7 */
+#define REFINER_COSINE_BOUND_CONE 2e-7
 
 /* radii of the smaller polygon. Farther off than NEAR a rule of six points is enough, than MIDDLE
  * of three, than FAR of one: each keeps the relative error near 1e-5
  * (tests/runtime/check_form_factor.c) */
 #define REFINER_POLYGON_FACTOR_NEAR 3.0
-
 #define REFINER_POLYGON_FACTOR_MIDDLE 8.0
-
 #define REFINER_POLYGON_FACTOR_FAR 60.0
-
 /* the same at the exact level: nearer, contours are integrated; beyond, they would lose digits and
  * points are better */
 #define REFINER_POLYGON_FACTOR_EXACT 60.0
-
 /* F both ways. Less may be rounding's alone, and is 0 when nothing rises above the other's plane */
 #define REFINER_POLYGON_FACTOR_FAINT 1e-6
-
 /* of the coordinates. What rounding leaves of a corner's height: 16 roundings */
 #define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
 /* of F, by one pair of edges. What levels polygon and contour aim at: a hundredth of the errors
  * that they promise, for edges are many (tests/runtime/check_closed_forms.c) */
 #define REFINER_CONTOUR_FACTOR_FAIR 1e-7
-
 #define REFINER_CONTOUR_FACTOR_EXACT 1e-11
-
 /* of a unit length. What rounding leaves of an integral of ln; to aim lower would not end */
 #define REFINER_CONTOUR_FACTOR_ROUNDING 2e-15
-
 /* cosine of two edges. At less they count as perpendicular and bring nothing: a rounding */
 #define REFINER_CONTOUR_FACTOR_PERPENDICULAR 1e-16
-
 /* square of a sine. Edges at no more are parallel, whose integral is closed: 1000 roundings of a
  * sine */
 #define REFINER_CONTOUR_FACTOR_PARALLEL 1e-26
@@ -270,28 +87,395 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
  * pixels take little from what one point is off by: 9.9 % of the exchange instead of 9.0 % over the
  * links of the room in examples/scenes (radiosity study form-factors) */
 #define REFINER_FORM_FACTOR_PIXELS 128
-
 /* rays of either kind; a power of two. chosen: F is off by 2 % over pairs near and far, by a
  * twentieth of what one point is (tests/runtime/check_form_factor_levels.c) */
 #define REFINER_FORM_FACTOR_RAYS_EACH 256
 
+/* of F, and absolute. The bound of F over a receiver is widened so far, for the rounding of sums
+ * over edges */
+#define REFINER_FORM_FACTOR_RANGE_ROUNDING 1e-12
+#define REFINER_FORM_FACTOR_RANGE_LEAST 4e-15
+
+/* of host.ray_offset. `grow` of shaft.h: 32 times what the coordinates lose in single precision */
+#define REFINER_SHAFT_GROW 0.25
+/* of host.ray_offset. A quad bent by more is taken for two triangles: an eighth of SHAFT_GROW */
+#define REFINER_SHAFT_BENT 0.03125
+/* of host.ray_offset. `margin` of pairs of whole faces, and how much of it the deepest lose */
+#define REFINER_SHAFT_MARGIN 0.5
+#define REFINER_SHAFT_MARGIN_FALL 0.25
+/* of host.ray_offset. Heights that differ by less, twice or three times, are rounding. Chosen:
+ * far below `grow`, above the rounding of doubles */
+#define REFINER_SHAFT_SLACK (1 / 65536.0)
+/* square of a sine. An end turned less to a face lies flat on it: 2^-10, 0.06 degrees; chosen */
+#define REFINER_SHAFT_PARALLEL (1 / 1048576.0)
+/* square of a sine. A corner nearer to the line of an edge makes no plane with it; chosen: its
+ * normal has nine digits left */
+#define REFINER_SHAFT_LINE 1e-14
+
+/* of A_r F_rs, per area. Triangles whose two rules differ by less are not halved: a fifth of the
+ * error that the header promises */
+#define REFINER_VISIBLE_PART_ERROR 2e-7
+/* of the smaller radius. A cell that rises no higher over a plane is not cut by it; chosen */
+#define REFINER_VISIBLE_PART_NEAR 1e-9
+/* square of a sine. As SHAFT_LINE, but a plane left out only costs halving */
+#define REFINER_VISIBLE_PART_LINE 1e-20
+/* of A_r F_rs. No more than that hidden, or seen, is none; chosen, below VISIBLE_PART_ERROR */
+#define REFINER_VISIBLE_PART_NONE 1e-9
+
+/* of a cell's area. Less of it left is nothing, less of it gone is nothing; chosen */
+#define REFINER_OUTLINE_LEAST (1 / 65536.0)
+/* of the eye's height over the plane. Of a face only what is lower casts a shadow, which would
+ * have no end; chosen */
+#define REFINER_OUTLINE_BELOW_EYE 1e-6
+
 /* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
 #define REFINER_SAMPLER_PARALLELOGRAM 1e-12
+/* choices per segment. Then fewer segments than were asked for must do; chosen */
+#define REFINER_CLUSTER_TRIES 8
+/* of r R / d^2 times A B / (pi d^2). The irradiance that links of groups misplace, for the kernel
+ * is taken for a product; above all of 2,640 pairs of bodies of like size, at most .2, half of them
+ * below .003, and 97 of 100 where one is a speck, which on the other's horizon leaves
+ * 2.5e-3 (r + R) / d: THOROUGH=1 build/tests/runtime/check_separable_links */
+#define REFINER_SEPARABLE_ERROR 0.25
+/* sums of radii. Nearer clusters are not points: there (d - a)^-2 exceeds (d + a)^-2 by 25 times;
+ * chosen */
+#define REFINER_CLUSTER_GAP_APART 1.5
+/* of the distance of the centres. A blocker is no nearer to the source, so that its umbra is
+ * finite; chosen */
+#define REFINER_FEATURE_SIZE_NEAREST (1 / 1048576.0)
+/* times. Where a shadow's edge crosses, the emitter's spread may count so much more than its mean
+ * says, for both vary together; chosen */
+#define REFINER_POWER_GAP_ALIGNED 16.0
+/* of F + dF. What visibility may be wrong by when all of a few rays agree; the Stanford radiosity
+ * program in SPLASH-3 */
+#define REFINER_BFV_ERROR_DOUBT 0.1
 
+/* ---- scenes (hierarchy) */
+
+/* Coordinates are off by at most their relative rounding times the largest of them. */
+/* relative. Rounding of a float: half a unit in its last place [IEEE 754] */
+#define REFINER_SCENE_SINGLE 0x1p-24
+#define REFINER_SCENE_DOUBLE 0x1p-53 /* relative. The same of a double */
+/* of a quad's size. Corners no farther from its mean plane make it flat, else it is two
+ * triangles. Chosen */
+#define REFINER_SCENE_FLAT_QUAD 1e-4
+/* of the scene's extent. Where corners have been floats, they must be no farther either: rays
+ * keep 2^-18 of the extent off surfaces, four times that, so that none meets the quad it leaves */
+#define REFINER_SCENE_FLAT_ROUNDED 0x1p-20
+/* of its longest diagonal. A polygon no wider than that has no area. Chosen: far above the
+ * rounding of its area */
+#define REFINER_SCENE_THIN 1e-7
+/* roundings of its largest coordinate. The same: of two corners, each may be off by one */
+#define REFINER_SCENE_THIN_ROUNDINGS 2
+
+/* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
+ * face that is cut. */
+/* of the size. Nearer than that to a plane is in it, and lengths that differ by less are equal;
+ * what is nearer to a face stands on it (pictures).
+ * Chosen: modellers leave gaps of a tenth of a millimetre in rooms of metres */
+#define REFINER_CUT_TOUCH 1e-4
+/* roundings of the largest coordinate. The same: both faces may be off, each by two corners */
+#define REFINER_CUT_TOUCH_ROUNDINGS 4
+/* radians, and of the size. Lines that near to each other are one. As CUT_TOUCH */
+#define REFINER_CUT_SAME_LINE 1e-4
+#define REFINER_CUT_SLIVER 1e-4 /* of the size. No cut leaves less than that on a side. As CUT_TOUCH */
+/* of the size. A cut that near to a corner goes through it, so that no edge is shorter. Chosen,
+ * below CUT_SLIVER */
+#define REFINER_CUT_CORNER 1e-5
+/* sine. Planes at a smaller angle have no line of contact to speak of. Chosen */
+#define REFINER_CUT_PARALLEL 0.01
+/* of a chord. Contacts that cover less of it do not cut: a wall with a door does, the leg of a
+ * table does not. Chosen */
+#define REFINER_CUT_COVER 0.5
+
+/* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below
+ * this no shipped graph links clusters, and the tree decides only in which order pairs are
+ * found; chosen */
+#define REFINER_CLUSTERS_FACES 1000
+/* of a cluster's area: a mean normal no longer than that, times area, points nowhere; rounding
+ * of a sum */
+#define REFINER_CONE_LEAST 1e-9
+/* of a cosine: normals no farther apart count as equal, so that flat clusters have a cone of
+ * angle 0; what rounding leaves of two unit vectors' product */
+#define REFINER_CONE_EQUAL 1e-14
+/* between the normals of a coplanar group's faces, least: 0.26 degrees. chosen; heights decide
+ * before it */
+#define REFINER_GROUP_COSINE 0.99999
+/* of a unit normal: neighbours in the order of one coordinate that are farther apart are not in
+ * one plane; chosen, above the rounding of corners given as floats */
+#define REFINER_GROUP_NORMAL_GAP 1e-5
+/* of host.flat: the same of heights; half, since a corner may be off either way */
+#define REFINER_GROUP_HEIGHT_GAP 0.5
+/* of a group's rectangle: so much may its faces' areas be off and still tile it; chosen, above
+ * what GROUP_COSINE and rounding of corners make of areas */
+#define REFINER_GROUP_GAPS 1e-5
+/* of the scene's size: middles of faces no farther apart are in one row, which is not cut;
+ * chosen */
+#define REFINER_GROUP_SAME_PLACE 1e-6
+/* faces of a lowest group. Shadows are found group by group: 16 are as good as 8 or 32, by the
+ * seconds of `radiosity viewfactors` on rooms of make_room.h */
+#define REFINER_LOWEST_GROUP 16
+
+/* ---- visibility */
+
+/* of the scene's size. Rays start so far off their surface: 32 units in the last place of a
+ * float of that size, which Embree's rounding does not cross */
+#define REFINER_RAY_OFFSET 0x1p-18
+/* of the ray offset: a point this near to a plane lies in it, so that no ray that starts off the
+ * one surface starts behind the other; chosen */
+#define REFINER_RAY_FLAT 0.5
+#define REFINER_CONTACT_RAYS 8 /* rays per point. chosen: cosine-spread, enough that two may go astray */
+/* of CONTACT_RAYS that must meet backs for a point to lie inside a solid. chosen: two may meet
+ * fronts of what reaches into the solid; points outside meet backs of closed solids never */
+#define REFINER_CONTACT_BACKS 6
+/* of the rays from a point: when so many meet backs, it lies inside a solid. As CONTACT_BACKS of
+ * CONTACT_RAYS */
+#define REFINER_ENVIRONMENT_BACKS 0.75
+/* of the steps of all walks: so many may end and the scene still counts as closed, for rounding
+ * lets a ray through a crack between faces now and then. What can be missed is an opening of
+ * that share of all area; one of 1e-4 is found with a probability of 99.99 %
+ * (visibility/enclosure.c) */
+#define REFINER_ENCLOSURE_CRACKS 2e-5
+
+/* ---- links and transport (engine) */
+
+/* relative. What an oracle sees of radiosity, spread and importance lags this far behind the
+ * truth, so that passes end; chosen, below the 5 % that the oracles' own thresholds decide by */
+#define REFINER_HYSTERESIS 0.02
+/* share. The same of deviations, which are bounds: that a bound grew by less is no reason to ask
+ * again. Passes over soda fall from 9 to 7 with it; chosen */
+#define REFINER_DEVIATION_HYSTERESIS 0.25
+/* relative L1 error of B that iteration may leave, least, when nobody says: links hold V in steps
+ * of 2^-14, so that their own rounding is half of it. derived from LINK_VISIBLE */
+#define REFINER_SOLVE_TOLERANCE 1e-4
+/* the same at the most. Constants' errors partly cancel, what iteration leaves is all missing: to
+ * this, 5e-5 to 4e-4 of the reflected light is (cornell, room, panels, furnace, maze_8, each over
+ * its last links) */
+#define REFINER_SOLVE_TOLERANCE_MOST 1e-3
+/* of what constants on leaves leave (engine/variation.c): so much iteration may leave beside it.
+ * chosen: a tenth is little beside the whole */
+#define REFINER_SOLVE_SHARE 0.1
+/* relative L1 error of B. Where groups are linked, passes before the last ones solve to this: a
+ * quarter of HYSTERESIS, so that oracles do not notice; must stay below it */
+#define REFINER_ROUGH_TOLERANCE 0.005
+/* links per changed link. Passes solve to the tolerance once no more links change than one in
+ * this many, and with linear elements passes end; chosen: so few cannot bring many others to
+ * change. The last that soda so leaves changing carry 2.5e-3 of its light */
+#define REFINER_SETTLED 1000
+/* of 1 - rho: how far the cap may exceed 1 where a face's mean row does. Below 1 the iteration
+ * converges, rho (1 + (1 - rho)) < 1; half of it leaves it a rate. derived in row_sums.c */
+#define REFINER_ROW_EXCESS 0.5
+/* of the cap. Leaves whose row is below this take nothing of what is capped off others: their
+ * row is small because something stands before them, not by error; chosen */
+#define REFINER_ROW_SHADOW 0.5
+/* of the largest importance. What oracles see is no less, so that nothing divides by 0; chosen,
+ * far below what a picture of 8 bits shows */
+#define REFINER_IMPORTANCE_LEAST 1e-4
+/* factor by which an error tolerance falls per pass; Bekaert and Willems 1996 */
+#define REFINER_ERROR_STEP 1.4
+/* of the error to be held: the most that all links of a leaf may bring together by the oracle's
+ * own measure before the leaf is given up; chosen */
+#define REFINER_ERROR_ENOUGH 0.25
+/* of what is between lower and upper solution. A sweep that brings them no nearer than by this is
+ * the last of a pass; every further one would bring the largest reflectance of it. chosen */
+#define REFINER_BRACKET_ENOUGH 1e-3
+/* cosine. A side whose mean normal is turned less than this to the other side is seen on edge:
+ * that normal says nothing of what passes, only the place does; chosen */
+#define REFINER_PIVOT_RELIABLE 0.3
+
+/* ---- measured error (engine) */
+
+/* of the reflected light. A polygon that reflects so much is a large face to a reader of the
+ * summary; chosen: there can be a hundred of them at most */
+#define REFINER_FACE_ERROR_LARGE 0.01
+/* standard errors. A large face is surely wrong beyond this: 97.5 % of Student's t with 15 degrees
+ * of freedom for the worst of a hundred */
+#define REFINER_FACE_ERROR_SURE 4.44
+/* standard errors. An error so far out is what it is seen as: noise neither hides it nor makes it
+ * in a thousand polygons */
+#define REFINER_FACE_ERROR_CERTAIN 5.0
+/* power of |e^| / s. The most uneven that errors below noise are thought to be: cubes, whose
+ * largest tenth has nine tenths of the sum when |e^| is normal; chosen */
+#define REFINER_FACE_ERROR_SHAPE 3.0
+/* particles. Where a polygon is met by so many, what its replicates say of its noise has half the
+ * weight that it has where many land: their own variance is then twice as uncertain */
+#define REFINER_FACE_ERROR_FEW 16.0
+/* standard errors. How far a solution may draw the mean that chance is computed from: 95 % */
+#define REFINER_FACE_ERROR_DRAWN 2.0
+/* of an element's own squares against those that its class expects: 1 is James and Stein's rule for
+ * each alone, 0 one factor for all of a class. Of 0, 1/4, 1/2 and 1 the best for leaves on four
+ * scenes of very different kind at 30,000 and 300,000 particles, between 0 and 1/2 by little */
+#define REFINER_MEND_OWN 0.25
+/* standard deviations. How far the squares of a class must be above noise before its links are
+ * mended, 2: one class in forty is by chance */
+#define REFINER_MEND_EVIDENCE 2.0
+/* the same for one element: what is so far out is believed whatever its class says; 3, as is usual
+ * for outliers */
+#define REFINER_MEND_OUTLIER 3.0
+/* particles. Leaves on which more are to land are quartered for them. Cells of soda are off by
+ * 6.0 % with the leaves that links need, by 5.1, 4.5 and 4.5 with 1024, 256 and 64, and leaves are
+ * 1, 8 and 46 % more; corridor, maze_8 and cube are within .1 % for all: tests/tables/judge.sh */
+#define REFINER_MEND_DETAIL 256.0
+/* of the scene's area. What links and particles are compared on: the cells that solutions are
+ * judged by, tests/tables/cell_error.c */
+#define REFINER_PLACE_SHARE 1e-4
+/* of the rays of mending. So many show first whether links are worth theirs; chosen: a thirtieth of
+ * the links' rays, whose noise on some thousand places is then known to less than what is asked */
+#define REFINER_SPLIT_LOOK 0.125
+/* ---- account of error (engine) */
+
+/* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats
+ * leave cracks of 1e-7 of a length, holes are larger */
+#define REFINER_WINDING_WHOLE 1e-6
+/* of the way from a leaf's centre to its corners, where its winding number is asked for: chosen, a
+ * leaf belongs to one volume but for such a rim */
+#define REFINER_WINDING_INSET 0.98
+/* of a scene's mean irradiance. An emitter that may bring no more than that in doubt is not taken
+ * by parts: 0.002 takes half as long again for bounds of 0.55 instead of 0.63 of the reflected
+ * light, 0.01 three quarters for 0.76 (radiosity solve cornell.obj --errors=all) */
+#define REFINER_RANGE_DETAIL 0.005
+/* of RANGE_DETAIL. Ranges of form factors that differ by less as they come are not narrowed; the
+ * same measurement: 0.1 instead of 1 takes a tenth longer, for bounds narrower by a sixteenth */
+#define REFINER_RANGE_FINE 0.3
+/* of a range of shares. What lies so far outside is rounding: of a float, twice */
+#define REFINER_RANGE_ROUNDING 0x1p-22
+/* of the bound. Bounds are iterated until what iteration may still take off them, or must add, is
+ * no more: chosen */
+#define REFINER_BOUND_ENOUGH 0.01
+/* of a radiosity: what policies are not improved for, since their weights are floats: 16
+ * roundings */
+#define REFINER_BOUND_WEIGHTS 1e-6
+/* of a radiosity: what rounding may have done to the sums of its bound; as DISTANCE_ROUNDING */
+#define REFINER_BOUND_ROUNDING 1e-12
+/* relative. What iteration may leave of an estimate: chosen, below the digits that are told */
+#define REFINER_ACCOUNT_TOLERANCE 1e-3
+/* of F, by the level of a link: what the term's header promises as typical, and as the most */
+#define REFINER_FORM_FACTOR_POLYGON_TYPICAL 1e-5
+#define REFINER_FORM_FACTOR_POLYGON_MOST 4e-4
+#define REFINER_FORM_FACTOR_CONTOUR_MOST 1e-9
+/* ---- linear elements (engine) */
+
+/* of the radius. An element has no slope across where its root-mean-square width is less: rounding
+ * of its corners would decide it. chosen */
+#define REFINER_LINEAR_THIN 1e-6
+/* sums of radii. Cells farther apart than FAR have 2 x 2 points each, than NEAR 3 x 3, nearer ones
+ * are quartered. So couplings of elements apart are within 2e-3 of F, slope to slope within 4e-3:
+ * tests/runtime/check_linear.c, where FAR below NEAR, 2 x 2 points throughout, fails */
+#define REFINER_LINEAR_NEAR 1.0
+#define REFINER_LINEAR_FAR 1.5
+/* of the smaller element's radius: cells of that size that are still near are not quartered. Where
+ * elements touch, couplings of a mean are then within 3e-2 of F and slope to slope within .15; at
+ * half the size 4e-3 and .02 for five times the work, and solutions of a cube and of rooms are no
+ * better (tests/runtime/check_linear.c) */
+#define REFINER_LINEAR_CELL 0.51
+/* of 1 - rho: how far the row of a nonnegative kernel may exceed 1 at a corner of a leaf; more, and
+ * the slopes of that leaf are made less. Above ROW_EXCESS, by which means may, and at most 1, so
+ * that rho times the row is below 1; derived in linear_transport.c */
+#define REFINER_LINEAR_ROW_EXCESS 0.75
+/* of what all links between surfaces carry. The weakest, so much together, stay constant: that
+ * moves at most four times as much light (linear_links.c), a thousandth, a tenth of the error that
+ * rays and shadows leave in the best scenes; of soda it is two thirds of the links */
+#define REFINER_LINEAR_FAINT 2.5e-4
+/* times. Sweeps whose change has grown so far over the least before do not converge; chosen: the
+ * change of a convergent one may rise in norms that are not its own, by a few times */
+#define REFINER_LINEAR_GROWS 10.0
+/* particles. A part of the tree that so many have met is mended by what they measured there, a
+ * quarter of its H uncertain: many directions end in many parts. Chosen */
+#define REFINER_POINT_ERROR_MET 16.0
+
+/* times the rays of a point of the first stage, at the most, for one of the second: beyond, the
+ * noise that the first has measured is too uncertain to save points by; chosen */
+#define REFINER_SURFACE_ERROR_RAYS 6.0
+/* landings of particles. So many make one cell of where light lands; chosen: half of it uncertain
+ */
+#define REFINER_ERROR_PLACES_CELL 4
+/* rays. Fewer would make no interval: 20 points in the first stage and as many in the second */
+#define REFINER_SURFACE_ERROR_LEAST 4000.0
+
+/* ---- light gathered at points (particles) */
+
+/* radii of the element that a ray meets. Nearer than that the ray goes on: the element is seen as
+ * large as it is, and so is what it cannot hold. Derived: at one diameter a square fills .18 of
+ * what a point before its middle receives, so that no element counts for more than that */
+#define REFINER_GATHER_NEAR 2.0
+/* of the mean B of all surfaces. Elements that reflect more are looked for as lamps are, and a ray
+ * that meets one goes on, as so many rays as it weighs: light that is so much more in one place
+ * than in others varies in it. Chosen; without it the spot behind the lamps of scenes/panels, which
+ * nobody sees, leaks out of elements that reach beyond the lamp, and in td the noise of 256 rays is
+ * 10 % for 4 (make picture-table) */
+#define REFINER_GATHER_BRIGHT 4.0
+/* rays. As so many a ray goes on at the most; chosen: what one of them finds then weighs less than
+ * a ray of the first step */
+#define REFINER_GATHER_AGAIN 64
+
+/* ---- exchange areas (engine) */
+
+/* of a row's sum. The default, and the tolerance that the limits of
+ * examples/oracles/viewfactors.dag are made for: chosen */
+#define REFINER_EXCHANGE_TOLERANCE 3e-4
+/* sums of two faces' radii. Pairs nearer than that have the contour integral at
+ * EXCHANGE_TOLERANCE; the error of the others falls with the fourth power of distance */
+#define REFINER_EXCHANGE_NEAR 2.5
+/* the same at any tolerance. chosen: nearer, the series in size over distance need not converge */
+#define REFINER_EXCHANGE_NEAR_LEAST 1.5
+/* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
+#define REFINER_EXCHANGE_NEAR_FALL 0.25
+/* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
+#define REFINER_CLOSURE_ENOUGH 1e-12
+
+/* ---- references (engine) */
+
+/* particles. Where fewer than these are to be expected, how replicates differ does not say how sure
+ * they are: their variance then depends on their mean, and weights by it favour what is dark by
+ * chance, by a share of the standard error that falls with the root of this: 3 % here; chosen */
+#define REFINER_REFERENCE_FEW 1000
+/* of the mean over its standard error, squared: so many paths at the least have found light, and
+ * their spread is known to a tenth. Others do not judge whether two methods agree; chosen */
+#define REFINER_REFERENCE_SURE 100
+
+/* ---- pictures and meshes (solver/output) */
+
+/* cosine of one degree: faces turned less are one surface. chosen: flat when shaded */
+#define REFINER_OUTPUT_SAME_PLANE 0.99985
+#define REFINER_OUTPUT_SAME_LINE 0.999998 /* cosine of a tenth of a degree: one direction. chosen */
+#define REFINER_OUTPUT_REACH 4            /* CUT_TOUCHes along a wall and ... */
+/* ... up it, where it must be to stand here. chosen: clear of what touches, near enough to be
+ * local */
+#define REFINER_OUTPUT_RISE 3
+/* rays. A sample of a pixel gathers by one of each kind at the least */
+#define REFINER_GATHERING_LEAST 2
+/* rays of all corners per pixel: a pixel gathers by as many at the least, were it asked to. Chosen
+ */
+#define REFINER_GATHERING_SHARE 8
+/* rays by which one corner gathers, half of them towards what is bright, at the most and at the
+ * least. Chosen; make picture-table tells what comes of it */
+#define REFINER_GATHERING_MOST 256
+#define REFINER_GATHERING_FEWEST 64
+/* corners. So many of a face say what gathering is worth on it: known to a third; chosen */
+#define REFINER_GATHERING_TELLING 16
+/* of the way from a corner to the centre of the smallest leaf there. Chosen: between 1/64 and 1/2
+ * pictures are equally good; what stands at the corner is clear of it */
+#define REFINER_GATHERING_INWARD 0.25
+/* where the log-mean of a picture goes. chosen: 0.18 is a film's middle grey, rooms with bright
+ * walls want more */
+#define REFINER_EXPOSURE_MIDDLE 0.34
+/* share of a picture that is darker than what the shoulder is measured by. chosen: lamps and
+ * highlights are less */
+#define REFINER_EXPOSURE_BRIGHT 0.98
+
+#endif
 /* wider.h - which of two elements has the larger bounding sphere? A tie is broken by identity, so
  * that a pair opens the same element both ways round. */
+#ifndef REFINER_KERNEL_WIDER_H
+#define REFINER_KERNEL_WIDER_H
+
 
 static inline int refiner_wider(const struct refiner_element *a, const struct refiner_element *b)
 {
     return a->radius > b->radius || (a->radius == b->radius && a->id <= b->id);
 }
 
-/* clusters.h - question: are both elements surfaces, and if not, which cluster is to be opened?
- *
- * apart is true only when no normal of the one, taken anywhere in its normal cone, makes an acute
- * angle with any direction from its box to the other's. For a normal at angle theta from the cone's
- * axis a, and v from one box to the other with a.v <= m, |v| <= l:  n.v <= m cos(theta) + sqrt(l^2
- * - m^2) sin(theta). A surface is a cone of angle 0 and a box of its own. [D: derived here] */
+#endif
 
 /* Does all of `e` face away from all of `other`? `v` leads from e's centre to the other's. */
 static inline int refiner_clusters_turned(const struct refiner_element *e, const struct refiner_element *other,
@@ -339,9 +523,23 @@ REFINER_TOOL enum refiner_clusters_answer refiner_tool_clusters(struct refiner_d
     return refiner_wider(r, s) ? REFINER_CLUSTERS_RECEIVER : REFINER_CLUSTERS_EMITTER;
 }
 
+#endif
+
+/* support_planes.h - question: how do two surfaces lie to each other's support planes?
+ *
+ * away when one has no part in front of the other: no light can pass. A corner nearer to a
+ * plane than rounding puts it lies in the plane, so coplanar and adjoining surfaces get a precise
+ * answer.
+ * [Turbet & Sillion, section 3.1.3 and figure 2] */
+#ifndef REFINER_TOOL_SUPPORT_PLANES_H
+#define REFINER_TOOL_SUPPORT_PLANES_H
+
 /* plane_side.h - how an element lies to another's support plane.
  * A corner nearer to the plane than `flat` lies in it, so elements that are coplanar or adjoin get
  * an exact answer. */
+#ifndef REFINER_KERNEL_PLANE_SIDE_H
+#define REFINER_KERNEL_PLANE_SIDE_H
+
 
 /* How near to a plane is in it, for this pair (m): rounding of the scene's coordinates, and of
  * the elements' corners. */
@@ -366,12 +564,28 @@ static inline void refiner_plane_side_heights(const struct refiner_element *e, c
     }
 }
 
-/* support_planes.h - question: how do two surfaces lie to each other's support planes?
- *
- * away when one has no part in front of the other: no light can pass. A corner nearer to a
- * plane than rounding puts it lies in the plane, so coplanar and adjoining surfaces get a precise
- * answer.
- * [Turbet & Sillion, section 3.1.3 and figure 2] */
+/* 1: e, or the box of the cluster e, has parts on both sides of the plane of `plane`. A cluster
+ * has no plane. */
+static inline int refiner_plane_side_crosses(const struct refiner_element *e, const struct refiner_element *plane,
+                                     double flat)
+{
+    if (plane->vertices == 0)
+        return 0;
+    double low, high;
+    if (e->vertices) {
+        refiner_plane_side_heights(e, plane, &low, &high);
+    } else {
+        double half = 0;
+        for (int k = 0; k < 3; k++)
+            half += 0.5 * fabs(plane->normal[k]) * (e->vertex[1][k] - e->vertex[0][k]);
+        low = high = refiner_height3(e->centre, plane->centre, plane->normal);
+        low -= half;
+        high += half;
+    }
+    return low < -flat && high > flat;
+}
+
+#endif
 
 /* -1: e lies behind the plane of `plane`, 0: crosses it, 1: lies in front. */
 static inline int refiner_support_planes_side(const struct refiner_element *e, const struct refiner_element *plane,
@@ -397,8 +611,18 @@ REFINER_TOOL enum refiner_support_planes_answer refiner_tool_support_planes(stru
     return side_s == 0 ? REFINER_SUPPORT_PLANES_EMITTER_CROSSES : REFINER_SUPPORT_PLANES_TOWARD;
 }
 
+#endif
+
+/* transfer.h - question: is the irradiance that the emitter brings to the receiver, B_s F_rs with
+ * nothing between them, above the threshold (W/m2)? The "BF criterion". Approximate: F is the
+ * estimate at hand, the disc when nothing better is known. [Hanrahan et al. 1991, section 5] */
+#ifndef REFINER_TOOL_TRANSFER_H
+#define REFINER_TOOL_TRANSFER_H
+
 /* threshold.h - the larger of `absolute` and `relative` times the scene's mean, in the unit of
  * both: what most questions hold an error against. */
+#ifndef REFINER_KERNEL_THRESHOLD_H
+#define REFINER_KERNEL_THRESHOLD_H
 
 static inline double refiner_threshold(double absolute, double relative, double mean)
 {
@@ -406,7 +630,52 @@ static inline double refiner_threshold(double absolute, double relative, double 
     return absolute > share ? absolute : share;
 }
 
+#endif
+/* form_factor.h - term: F_rs, the fraction of the light leaving r that would meet s if nothing
+ * stood between, mean over r. Dimensionless, in [0, 1] but for level inverse_square.
+ *
+ * inverse_square  Lambert's kernel at both centres, cos_r cos_s A_s / (pi d^2), cosines cut off at
+ *          0. Fails: near pairs, without bound (unit squares .1 apart: 31.8); elements that cross
+ *          each other's planes. [Lambert 1760]
+ * disc     the emitter as a disc of its area seen from the receiver's centre,
+ *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and
+ *          more; a wall's strip beside a wide ceiling loses most), so where the bounding spheres
+ *          meet the polygon is computed instead; elements that cross each other's planes.
+ *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
+ * hemicube the emitter projected on a hemicube of FORM_FACTOR_PIXELS^2 at the receiver's centre
+ *          (hemicube.h). Fails: as one point does; and by its pixels, the more the farther: +-14 %
+ *          of F at 11 times the size. [Cohen and Greenberg 1985]
+ * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the
+ *          receiver's plane (point_factor.h). Fails: where F varies over the receiver, as all
+ *          one-point rules do: -5 % for unit squares at right angles with a common edge, +33 % for
+ *          parallel ones at half their side (tests/runtime/check_terms.c).
+ *          [Baum et al. 1989]
+ * rays     FORM_FACTOR_RAYS_EACH rays from points of the smaller to points of the other, and as
+ *          many in directions spread by the cosine (ray_factor.h). No bias but what F <= 1 cuts
+ *          off. Fails: by noise, 2 to 3 % near by, 1e-3 far off; beyond 15 sizes point is better.
+ *          A_r F_rs = A_s F_sr to rounding. [Veach and Guibas 1995]
+ * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
+ *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
+ *          by a rule of as many points as the distance asks for; where they are nearer than their
+ *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963],
+ *          closed for parallel edges, else its inner integral closed and the outer one adaptive
+ *          (contour_factor.h). Relative error about 1e-5, 4e-4 at the most (far pairs); 1e-6 by
+ *          contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
+ * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond:
+ *          F to 1e-9.
+ *
+ * The order is that of the error summed over the links of a scene, A_r |F - F*|: of the exchange
+ * in the room of examples/scenes 13, 12, 9.9, 9.0, 1.2, .00014 and 3e-10 %, in the same order in
+ * cornell and maze_8 (`radiosity study form-factors`). Pair by pair no order holds: far off a
+ * hemicube is worse than 1 / d^2, and a disc near by is no better than one point. Nor is it that of
+ * cost: rays cost more than the polygon. */
+#ifndef REFINER_TERM_FORM_FACTOR_H
+#define REFINER_TERM_FORM_FACTOR_H
+
 /* axis.h - term: the vector from the receiver's centre to the emitter's (m). */
+#ifndef REFINER_TERM_AXIS_H
+#define REFINER_TERM_AXIS_H
+
 
 REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
 {
@@ -417,12 +686,33 @@ REFINER_TOOL const double *refiner_term_axis(struct refiner_discussion *d)
     return d->terms.axis;
 }
 
+#endif
+/* hemicube.h - the form factor from the receiver's centre to a flat convex polygon, projected on a
+ * hemicube.
+ *
+ * Half a cube of side 2 stands over the centre, its five faces divided into pixels: n x n on top, n
+ * x n/2 on each side. A pixel of area a that a ray from the centre meets at (x, y, 1), seen from
+ * its face, has the delta form factor a / (pi (1 + x^2 + y^2)^2) on top, and that times its height
+ * on a side; F is the sum over the pixels whose middle the polygon covers. Polygons that share an
+ * edge share no pixel, so rows of a closed scene sum to what all pixels do, 1 to 1 / n^2.
+ * [Cohen and Greenberg 1985]
+ * What made the method is missing here: one projection for all emitters, the nearest hiding the
+ * others. A row's pixels that a polygon covers are found by its edges, since these are planes
+ * through the centre: one interval per row.
+ * Fails: as all one-point rules do where F varies over the receiver; and by pixels, which small or
+ * far polygons slip between (F below 1 / n^2 is noise) and whose steps show at every edge. */
+#ifndef REFINER_KERNEL_HEMICUBE_H
+#define REFINER_KERNEL_HEMICUBE_H
+
 /* hemisphere.h - directions above a surface, spread by the cosine: a spiral of golden angles.
  *
  * Direction m of n has the radius sqrt((m + 1/2) / n) on the unit disc, so that each stands for the
  * same share of the irradiance.
  * [H. Vogel 1979, A better way to construct the sunflower head, on the disc; lifted to the
  * hemisphere as Nusselt's analog] */
+#ifndef REFINER_KERNEL_HEMISPHERE_H
+#define REFINER_KERNEL_HEMISPHERE_H
+
 
 struct refiner_hemisphere {
     /* the normal and two unit vectors across it, u square to the axis that is most across it */
@@ -444,6 +734,17 @@ static inline struct refiner_hemisphere refiner_hemisphere_over(const double n[3
     return h;
 }
 
+/* Direction m of `count`; `turn`: by which part of a golden angle the whole spiral is turned. */
+static inline void refiner_hemisphere_direction(double out[3], const struct refiner_hemisphere *h, int m, int count,
+                                        double turn)
+{
+    double angle = 2.39996322972865332 * (m + turn), r = sqrt((m + 0.5) / count),
+           z = sqrt(1 - r * r);
+    for (int k = 0; k < 3; k++)
+        out[k] = z * h->n[k] + r * (cos(angle) * h->u[k] + sin(angle) * h->v[k]);
+}
+
+#endif
 /* lambert.h - Lambert's kernel: what two pieces of surface exchange.
  *
  * Of points x, y with unit normals n, m, r = y - x, s = r.r, the kernel is (n.r)(-m.r) / (pi s^2),
@@ -454,6 +755,9 @@ static inline struct refiner_hemisphere refiner_hemisphere_over(const double n[3
  * a = n.r, b = m.r, m here the normal of j turned round; n M_i = 0 and m M_j = 0 because faces are
  * flat. What that leaves out is of fourth order.
  * [Taylor's formula for Lambert's kernel, derived here] */
+#ifndef REFINER_KERNEL_LAMBERT_H
+#define REFINER_KERNEL_LAMBERT_H
+
 
 #define REFINER_LAMBERT_PI 3.14159265358979323846
 
@@ -493,6 +797,33 @@ static inline double refiner_lambert_sum(const double x[3], const double n[3], c
     return sum * (-0.5 / REFINER_LAMBERT_PI);
 }
 
+/* pi k of two faces: a = n.r, b = m.r, t = 1 / s, quad = r.Qr, trace = tr Q, skew = a m.M_i r + b
+ * n.M_j r. Inlined always, so that loops over faces run several at a time. */
+REFINER_TOOL double refiner_lambert_second_order(double a, double b, double t, double quad, double trace,
+                                 double skew)
+{
+    return t * t * (a * b * (1 + t * (12 * t * quad - 2 * trace)) - 4 * t * skew);
+}
+
+#endif
+/* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
+ *
+ * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i
+ * subtends at x, Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et
+ * al. 1989]. The polygon is clipped at the receiver's plane; a point behind the emitter's plane
+ * sees nothing of it: F = 0. Dimensionless.
+ * Fails: at the polygon's own edges F jumps; there the edge is left out. */
+#ifndef REFINER_KERNEL_POINT_FACTOR_H
+#define REFINER_KERNEL_POINT_FACTOR_H
+
+/* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
+ *
+ * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
+ * in its own radii; each limit keeps the relative error near 1e-5
+ * (tests/runtime/check_form_factor.c). Source of the formulas: form_factor.h. */
+#ifndef REFINER_KERNEL_POLYGON_FACTOR_H
+#define REFINER_KERNEL_POLYGON_FACTOR_H
+
 /* contour_factor.h - the exchange area of two flat convex polygons by the double contour integral,
  *     A_p F_pq = (1 / 2 pi) sum over edges e of p, f of q of  e.f / |e||f|  int int ln |x - y| ds
  *     dt    (m2),
@@ -513,9 +844,11 @@ static inline double refiner_lambert_sum(const double x[3], const double n[3], c
  * Fails: rounding costs as many digits as the ratio of the longest side to the shortest has: 2e-6
  * at 1 : 1,000,000. Not Schroeder and Hanrahan's closed form of the whole [1993]: this is as exact
  * as doubles let it be. */
+#ifndef REFINER_KERNEL_CONTOUR_FACTOR_H
+#define REFINER_KERNEL_CONTOUR_FACTOR_H
+
 
 #define REFINER_CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
-
 enum { REFINER_CONTOUR_FACTOR_DEPTH = 40 };
 
 /* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
@@ -549,18 +882,16 @@ struct refiner_contour_factor_edge {
 static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from,
                                           double to)
 {
-    static const double node[5] = {-0.90617984593866399280, -0.53846931010568309104, 0,
-                                   0.53846931010568309104, 0.90617984593866399280};
-    static const double weight[5] = {0.23692688505618908751, 0.47862867049936646804,
-                                     0.56888888888888888889, 0.47862867049936646804,
+    static const double node[2] = {0.53846931010568309104, 0.90617984593866399280};
+    static const double weight[3] = {0.56888888888888888889, 0.47862867049936646804,
                                      0.23692688505618908751};
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    for (int i = 0; i < 5; i++) {
-        double s = middle + half * node[i], p[3];
+    for (int i = -2; i <= 2; i++) {
+        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
         p[0] = g->p[0] + s * g->e[0];
         p[1] = g->p[1] + s * g->e[1];
         p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
+        sum += weight[i < 0 ? -i : i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
     }
     return sum * half;
 }
@@ -669,11 +1000,7 @@ REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, c
     return sum / REFINER_CONTOUR_FACTOR_TWO_PI;
 }
 
-/* polygon_factor.h - the form factor of two flat convex polygons, nothing between them.
- *
- * The method is chosen by how far the smaller polygon (by bounding radius) is from the larger,
- * in its own radii; each limit keeps the relative error near 1e-5
- * (tests/runtime/check_form_factor.c). Source of the formulas: form_factor.h. */
+#endif
 
 /* Multiply a polygon's corners by a power of two. */
 static inline void refiner_polygon_factor_scale(struct refiner_polygon *p, double factor)
@@ -727,26 +1054,21 @@ static inline double refiner_polygon_factor_quad(const double (*v)[3], const dou
                                       {0.21132486540518711775, 0.78867513459481288225, 0},
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
-    double sum = 0, near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
-    refiner_sub3(near, v[1], v[0]);
-    refiner_sub3(far, v[2], v[3]);
-    for (int i = 0; i <= order; i++) {
-        double s = node[order][i], low[3], dt[3];
-        for (int k = 0; k < 3; k++) {
-            low[k] = v[0][k] + s * near[k];
-            dt[k] = v[3][k] + s * far[k] - low[k];
-        }
+    double sum = 0;
+    for (int i = 0; i <= order; i++)
         for (int j = 0; j <= order; j++) {
-            double t = node[order][j], p[3], ds[3], jacobian[3];
+            double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
             for (int k = 0; k < 3; k++) {
-                p[k] = low[k] + t * dt[k];
-                ds[k] = (1 - t) * near[k] + t * far[k];
+                double low = v[0][k] + s * (v[1][k] - v[0][k]),
+                       high = v[3][k] + s * (v[2][k] - v[3][k]);
+                p[k] = low + t * (high - low);
+                dt[k] = high - low;
+                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
             }
             refiner_cross3(jacobian, ds, dt);
             sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n)
                    * refiner_lambert_sum(p, n, (const double(*)[3])q->v, q->n);
         }
-    }
     return sum;
 }
 
@@ -848,13 +1170,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     return (exchange < least ? exchange : least) / r->area;
 }
 
-/* point_factor.h - the form factor from a point of the receiver to a flat convex polygon.
- *
- * F(x) = -(1/2pi) sum theta_i Gamma_i.n over the polygon's edges: theta_i is the angle that edge i
- * subtends at x, Gamma_i the unit normal of the plane through x and the edge [Lambert 1760; Baum et
- * al. 1989]. The polygon is clipped at the receiver's plane; a point behind the emitter's plane
- * sees nothing of it: F = 0. Dimensionless.
- * Fails: at the polygon's own edges F jumps; there the edge is left out. */
+#endif
 
 /* The part of s that the receiver's plane leaves in view; no corners: nothing. */
 static inline void refiner_point_factor_clip(struct refiner_polygon *q, const struct refiner_element *r,
@@ -884,20 +1200,7 @@ REFINER_OUTLINE double refiner_point_factor(const struct refiner_element *r, con
     return q.n == 0 || refiner_polygon_factor_hidden(r, s, f * r->area) ? 0 : f;
 }
 
-/* hemicube.h - the form factor from the receiver's centre to a flat convex polygon, projected on a
- * hemicube.
- *
- * Half a cube of side 2 stands over the centre, its five faces divided into pixels: n x n on top, n
- * x n/2 on each side. A pixel of area a that a ray from the centre meets at (x, y, 1), seen from
- * its face, has the delta form factor a / (pi (1 + x^2 + y^2)^2) on top, and that times its height
- * on a side; F is the sum over the pixels whose middle the polygon covers. Polygons that share an
- * edge share no pixel, so rows of a closed scene sum to what all pixels do, 1 to 1 / n^2.
- * [Cohen and Greenberg 1985]
- * What made the method is missing here: one projection for all emitters, the nearest hiding the
- * others. A row's pixels that a polygon covers are found by its edges, since these are planes
- * through the centre: one interval per row.
- * Fails: as all one-point rules do where F varies over the receiver; and by pixels, which small or
- * far polygons slip between (F below 1 / n^2 is noise) and whose steps show at every edge. */
+#endif
 
 /* A face of the hemicube: its pixels' middles lie at out + a along + b up, -1 < a < 1, and b the
  * same on top, 0 < b < 1 on the sides. */
@@ -988,11 +1291,31 @@ REFINER_OUTLINE double refiner_hemicube_factor(const struct refiner_element *r, 
     return refiner_polygon_factor_hidden(r, s, sum * r->area) ? 0 : fmin(sum, 1);
 }
 
+#endif
+/* ray_factor.h - the form factor of two flat convex polygons by rays, nothing between them.
+ *
+ * F_pq = (1 / A_p) int_p int_q k dy dx, k Lambert's kernel, is a mean over points x of p, of what
+ * meets q; it can be had by rays to points y of q, evenly spread (F = mean of A_q k: good far off,
+ * without bound where the two touch), or by rays in directions spread by the cosine (F = the share
+ * that meets q: good near by, blind far off). Here each point x of the smaller casts one ray of
+ * either kind, and both count by the balance heuristic, A_q k / (1 + A_q k), which is what a disc
+ * of q's area would show: no ray counts more than 1, and their sum has no bias. What noise takes
+ * above F = 1 or A_q / A_p is cut off. [Malley's method for the second kind; Veach and Guibas 1995,
+ * for how the two are joined]
+ *
+ * The points are a net shifted by a hash of both identities: the same in every run, and A_p F_pq =
+ * A_q F_qp to rounding. */
+#ifndef REFINER_KERNEL_RAY_FACTOR_H
+#define REFINER_KERNEL_RAY_FACTOR_H
+
 /* sampler.h - evenly spread points of the part of a surface that another surface's plane leaves in
  * front.
  *
  * (s, t) of the unit square is mapped so that area is kept: straight for a parallelogram, else over
  * a fan of triangles from corner 0. */
+#ifndef REFINER_KERNEL_SAMPLER_H
+#define REFINER_KERNEL_SAMPLER_H
+
 
 /* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
  * written out: at -O2 they cost a quarter more otherwise.) */
@@ -1056,9 +1379,26 @@ static inline void refiner_sampler_point(double out[3], const struct refiner_sam
     out[2] = a[2] + s * (b[2] - a[2]) + s * t * (c[2] - b[2]);
 }
 
+#endif
+/* sobol.h - points spread evenly over four dimensions: Sobol's net, its digits shifted.
+ *
+ * The first 2^m points stand one each in the boxes of many subdivisions, so that means over them
+ * are off by less than those of chance. A hash shifts the digits (exclusive or), which keeps that,
+ * and nets of different hashes have nothing to do with each other. [direction numbers: Joe & Kuo
+ * 2008; the order of Gray codes: Antonov and Saleev 1979; the shift: L'Ecuyer and Lemieux 2002] */
+#ifndef REFINER_KERNEL_SOBOL_H
+#define REFINER_KERNEL_SOBOL_H
+
 /* hash.h - 64 bits that have nothing to do with each other for numbers that are neighbours: the
  * finaliser of splitmix64.
  * [Steele, Lea, Flood 2014] */
+#ifndef REFINER_KERNEL_HASH_H
+#define REFINER_KERNEL_HASH_H
+
+#include <stdint.h>
+
+/* What splitmix64 adds from one number to the next: 2^64 over the golden ratio, odd. */
+#define REFINER_HASH_STEP 0x9e3779b97f4a7c15u
 
 static inline uint64_t refiner_hash64(uint64_t x)
 {
@@ -1067,12 +1407,9 @@ static inline uint64_t refiner_hash64(uint64_t x)
     return x ^ x >> 31;
 }
 
-/* sobol.h - points spread evenly over four dimensions: Sobol's net, its digits shifted.
- *
- * The first 2^m points stand one each in the boxes of many subdivisions, so that means over them
- * are off by less than those of chance. A hash shifts the digits (exclusive or), which keeps that,
- * and nets of different hashes have nothing to do with each other. [direction numbers: Joe & Kuo
- * 2008; the order of Gray codes: Antonov and Saleev 1979; the shift: L'Ecuyer and Lemieux 2002] */
+#endif
+
+enum { REFINER_SOBOL_MOST = 4096 }; /* points that there are digits for */
 
 struct refiner_sobol {
     uint32_t digit[4];
@@ -1123,19 +1460,7 @@ static inline double refiner_sobol_at(const struct refiner_sobol *net, int k)
     return net->digit[k] * (1 / 4294967296.0);
 }
 
-/* ray_factor.h - the form factor of two flat convex polygons by rays, nothing between them.
- *
- * F_pq = (1 / A_p) int_p int_q k dy dx, k Lambert's kernel, is a mean over points x of p, of what
- * meets q; it can be had by rays to points y of q, evenly spread (F = mean of A_q k: good far off,
- * without bound where the two touch), or by rays in directions spread by the cosine (F = the share
- * that meets q: good near by, blind far off). Here each point x of the smaller casts one ray of
- * either kind, and both count by the balance heuristic, A_q k / (1 + A_q k), which is what a disc
- * of q's area would show: no ray counts more than 1, and their sum has no bias. What noise takes
- * above F = 1 or A_q / A_p is cut off. [Malley's method for the second kind; Veach and Guibas 1995,
- * for how the two are joined]
- *
- * The points are a net shifted by a hash of both identities: the same in every run, and A_p F_pq =
- * A_q F_qp to rounding. */
+#endif
 
 /* What a ray counts whose ends have cosines of this product, at this square of a distance. */
 static inline double refiner_ray_factor_weight(double area, double cosines, double square)
@@ -1210,44 +1535,7 @@ REFINER_OUTLINE double refiner_ray_factor(const struct refiner_element *r, const
     return (exchange < least ? exchange : least) / r->area;
 }
 
-/* form_factor.h - term: F_rs, the fraction of the light leaving r that would meet s if nothing
- * stood between, mean over r. Dimensionless, in [0, 1] but for level inverse_square.
- *
- * inverse_square  Lambert's kernel at both centres, cos_r cos_s A_s / (pi d^2), cosines cut off at
- *          0. Fails: near pairs, without bound (unit squares .1 apart: 31.8); elements that cross
- *          each other's planes. [Lambert 1760]
- * disc     the emitter as a disc of its area seen from the receiver's centre,
- *          A_s cos_r cos_s / (pi d^2 + A_s), cosines cut off at 0. Fails: near pairs (+17 % and
- *          more; a wall's strip beside a wide ceiling loses most), so where the bounding spheres
- *          meet the polygon is computed instead; elements that cross each other's planes.
- *          [Hanrahan et al. 1991, section 4; Wallace et al. 1989]
- * hemicube the emitter projected on a hemicube of FORM_FACTOR_PIXELS^2 at the receiver's centre
- *          (hemicube.h). Fails: as one point does; and by its pixels, the more the farther: +-14 %
- *          of F at 11 times the size. [Cohen and Greenberg 1985]
- * point    the point-to-polygon factor at the receiver's centre, the polygon clipped at the
- *          receiver's plane (point_factor.h). Fails: where F varies over the receiver, as all
- *          one-point rules do: -5 % for unit squares at right angles with a common edge, +33 % for
- *          parallel ones at half their side (tests/runtime/check_terms.c).
- *          [Baum et al. 1989]
- * rays     FORM_FACTOR_RAYS_EACH rays from points of the smaller to points of the other, and as
- *          many in directions spread by the cosine (ray_factor.h). No bias but what F <= 1 cuts
- *          off. Fails: by noise, 2 to 3 % near by, 1e-3 far off; beyond 15 sizes point is better.
- *          A_r F_rs = A_s F_sr to rounding. [Veach and Guibas 1995]
- * polygon  both elements clipped at each other's plane, then the mean over the smaller of the
- *          point-to-polygon factor (1/2pi) sum theta_i Gamma_i.n [Lambert 1760; Baum et al. 1989]
- *          by a rule of as many points as the distance asks for; where they are nearer than their
- *          size, the contour integral (1 / 2 pi A_r) oint oint ln r dx_r.dx_s [Sparrow 1963],
- *          closed for parallel edges, else its inner integral closed and the outer one adaptive
- *          (contour_factor.h). Relative error about 1e-5, 4e-4 at the most (far pairs); 1e-6 by
- *          contour. A_r F_rs = A_s F_sr to rounding, since both come from the smaller.
- * contour  the same with the contour integral up to 60 radii away, and nine or more points beyond:
- *          F to 1e-9.
- *
- * The order is that of the error summed over the links of a scene, A_r |F - F*|: of the exchange
- * in the room of examples/scenes 13, 12, 9.9, 9.0, 1.2, .00014 and 3e-10 %, in the same order in
- * cornell and maze_8 (`radiosity study form-factors`). Pair by pair no order holds: far off a
- * hemicube is worse than 1 / d^2, and a disc near by is no better than one point. Nor is it that of
- * cost: rays cost more than the polygon. */
+#endif
 
 REFINER_TOOL double refiner_form_factor_inverse_square(struct refiner_discussion *d)
 {
@@ -1300,9 +1588,7 @@ REFINER_TOOL double refiner_term_form_factor(struct refiner_discussion *d, enum 
     return d->terms.form_factor;
 }
 
-/* transfer.h - question: is the irradiance that the emitter brings to the receiver, B_s F_rs with
- * nothing between them, above the threshold (W/m2)? The "BF criterion". Approximate: F is the
- * estimate at hand, the disc when nothing better is known. [Hanrahan et al. 1991, section 5] */
+#endif
 
 REFINER_TOOL enum refiner_transfer_answer refiner_tool_transfer(struct refiner_discussion *d, double absolute, double relative)
 {
@@ -1315,10 +1601,15 @@ REFINER_TOOL enum refiner_transfer_answer refiner_tool_transfer(struct refiner_d
                                                                                  : REFINER_TRANSFER_BELOW;
 }
 
+#endif
+
 /* can_split.h - question: which of the two may still be split? The guard that makes refinement end:
  * B F on the receiver's side does not shrink when the receiver is split, so a threshold on it
  * alone need not (Turbet & Sillion, section 2; measured: 64 to 1024 elements, same error).
  * Quarters must stay at or above both limits. */
+#ifndef REFINER_TOOL_CAN_SPLIT_H
+#define REFINER_TOOL_CAN_SPLIT_H
+
 
 /* 24 halvings leave a face's coordinates 29 bits of a double's 53. */
 enum { REFINER_CAN_SPLIT_DEPTH = 24 };
@@ -1332,9 +1623,14 @@ REFINER_TOOL enum refiner_can_split_answer refiner_tool_can_split(struct refiner
     return r ? s ? REFINER_CAN_SPLIT_BOTH : REFINER_CAN_SPLIT_RECEIVER : s ? REFINER_CAN_SPLIT_EMITTER : REFINER_CAN_SPLIT_NEITHER;
 }
 
+#endif
+
 /* larger.h - question: which element has the larger area? Since A_r F_rs = A_s F_sr, splitting the
  * larger is splitting the target of the larger form factor. Equal areas are told apart by identity,
  * so that a pair splits the same element both ways round. [Hanrahan et al. 1991, section 4] */
+#ifndef REFINER_TOOL_LARGER_H
+#define REFINER_TOOL_LARGER_H
+
 
 REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discussion *d)
 {
@@ -1343,7 +1639,43 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
                                                                        : REFINER_LARGER_EMITTER;
 }
 
+#endif
+
+/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
+ * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
+ * "partial"; "none" and "all" are the rays' opinion. What a shaft has settled (level exact) casts
+ * none. [Turbet & Sillion, section 3.1.2] */
+#ifndef REFINER_TOOL_VISIBILITY_H
+#define REFINER_TOOL_VISIBILITY_H
+
+/* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In
+ * [0, 1].
+ *
+ * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see
+ * each other and far parts do not, as along a corridor, most light passes though most segments are
+ * blocked. `a`, the smaller area over the number of segments, bounds the weight of parts that
+ * touch.
+ *
+ * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
+ * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
+ * it. Who asks
+ *             for one of these two here gets four rays.
+ * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
+ * facing
+ *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits
+ *             are shifted by a hash of both path identities: no shared random state, so the
+ *             answer depends on the pair alone, and is the same both ways. Fails: a blocker that
+ *             shades the fraction p of the segments is missed with probability (1-p)^N.
+ * exact       from a shaft (tools/shaft.h) or an integral over the visible part
+ * (tools/exact_visibility.h), which alone
+ *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
+#ifndef REFINER_TERM_VISIBILITY_H
+#define REFINER_TERM_VISIBILITY_H
+
 /* segments.h - visibility by segments, each with the weight of what it would carry. */
+#ifndef REFINER_KERNEL_SEGMENTS_H
+#define REFINER_KERNEL_SEGMENTS_H
+
 
 /* Move both ends off the surfaces they are on, whose normals are n and m, as far as rays start. */
 static inline void refiner_segment_clear(struct refiner_segment *g, const double n[3], const double m[3],
@@ -1367,27 +1699,7 @@ static inline void refiner_segments_cast(const struct refiner_host *host, int co
     }
 }
 
-/* visibility.h - term: V, the visible fraction of the light that two surfaces would exchange. In
- * [0, 1].
- *
- * Each segment counts by what it would carry, cos_r cos_s / d^2 (pi d^2 + a): where near parts see
- * each other and far parts do not, as along a corridor, most light passes though most segments are
- * blocked. `a`, the smaller area over the number of segments, bounds the weight of parts that
- * touch.
- *
- * presumed    1, nobody having looked (tools/presume_visible.h); only that command makes it.
- * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
- * it. Who asks
- *             for one of these two here gets four rays.
- * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
- * facing
- *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits
- *             are shifted by a hash of both path identities: no shared random state, so the
- *             answer depends on the pair alone, and is the same both ways. Fails: a blocker that
- *             shades the fraction p of the segments is missed with probability (1-p)^N.
- * exact       from a shaft (tools/shaft.h) or an integral over the visible part
- * (tools/exact_visibility.h), which alone
- *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
+#endif
 
 /* The visible fraction by `count` segments, a power of two up to SOBOL_MOST, cast in batches of
  * SEGMENTS_MAX. */
@@ -1454,10 +1766,7 @@ REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum r
     return d->terms.visibility;
 }
 
-/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
- * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
- * "partial"; "none" and "all" are the rays' opinion. What a shaft has settled (level exact) casts
- * none. [Turbet & Sillion, section 3.1.2] */
+#endif
 
 REFINER_TOOL enum refiner_visibility_answer refiner_tool_visibility(struct refiner_discussion *d, int rays)
 {
@@ -1465,8 +1774,13 @@ REFINER_TOOL enum refiner_visibility_answer refiner_tool_visibility(struct refin
     return v <= 0 ? REFINER_VISIBILITY_NONE : v < 1 ? REFINER_VISIBILITY_PARTIAL : REFINER_VISIBILITY_ALL;
 }
 
+#endif
+
 /* form_factor.h - command: have the form factor at the level that a link deserves, the clipped
  * polygon. */
+#ifndef REFINER_TOOL_FORM_FACTOR_H
+#define REFINER_TOOL_FORM_FACTOR_H
+
 
 REFINER_TOOL enum refiner_form_factor_answer refiner_tool_form_factor(struct refiner_discussion *d)
 {
@@ -1474,9 +1788,14 @@ REFINER_TOOL enum refiner_form_factor_answer refiner_tool_form_factor(struct ref
     return REFINER_FORM_FACTOR_DONE;
 }
 
+#endif
+
 /* mark.h - command: mark the pair, so that its link can be counted among those that the graph
  * treats apart. By convention 1 says that the link was too large for the oracle and could not be
  * split. [D: derived here] */
+#ifndef REFINER_TOOL_MARK_H
+#define REFINER_TOOL_MARK_H
+
 
 REFINER_TOOL enum refiner_mark_answer refiner_tool_mark(struct refiner_discussion *d, int as)
 {
@@ -1484,6 +1803,9 @@ REFINER_TOOL enum refiner_mark_answer refiner_tool_mark(struct refiner_discussio
     d->terms.mark_level = REFINER_MARK_PRESENT;
     return REFINER_MARK_DONE;
 }
+
+#endif
+
 
 void refiner_bf_guarded_defaults(struct refiner_bf_guarded_parameters *parameters)
 {
@@ -1502,6 +1824,8 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     struct refiner_discussion d = *discussion;
     d.terms.axis[0] = d.terms.axis[1] = d.terms.axis[2] = 0;
     d.terms.axis_level = REFINER_AXIS_ABSENT;
+    d.terms.blockers = 0;
+    d.terms.blockers_level = REFINER_BLOCKERS_ABSENT;
 
     switch (refiner_tool_clusters(&d)) {
     case REFINER_CLUSTERS_SURFACES:

@@ -7,48 +7,6 @@
 #ifndef REFINER_H
 #define REFINER_H
 
-#include <stddef.h>
-#include <stdint.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* geometry.h - vectors, planes and clipped convex polygons, for tools and terms.
- *
- * Every expression here scales exactly: multiplying all coordinates by a power of two changes
- * no comparison and no dimensionless result by a single bit. */
-
-/* A quad cut by one plane has at most 5 corners. */
-enum { REFINER_POLYGON_MAX = 5 };
-
-struct refiner_polygon {
-    int n; /* 0, or 3 to POLYGON_MAX */
-    double v[REFINER_POLYGON_MAX][3];
-};
-
-/* The leaves of every graph. */
-enum refiner_decision {
-    REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
-    REFINER_DECISION_STOP, /* The pair exchanges no light worth keeping. */
-    REFINER_DECISION_SUBDIVIDE_RECEIVER, /* Ask again for each child of the receiver. */
-    REFINER_DECISION_SUBDIVIDE_EMITTER, /* Ask again for each child of the emitter. */
-    REFINER_DECISION_SUBDIVIDE_BOTH, /* Ask again for each child of the one with each child of the other. */
-    REFINER_DECISION_LINK_CLUSTERS /* Let the emitter light the receiver, one of which is a cluster, each face by its own orientation. */
-};
-
-/* The data manager: every term and the level it is known at. All zero: nothing is known. */
-struct refiner_terms {
-    double axis[3]; /* m */
-    double form_factor; /* a plain number */
-    double visibility; /* a plain number */
-    int mark; /* a plain number */
-    unsigned char axis_level; /* enum axis_level */
-    unsigned char form_factor_level; /* enum form_factor_level */
-    unsigned char visibility_level; /* enum visibility_level */
-    unsigned char mark_level; /* enum mark_level */
-};
-
 /* discussion.h - what a tool sees of the world: one pair of elements, the data manager and the
  * host.
  *
@@ -63,6 +21,276 @@ struct refiner_terms {
  * the same.
  *
  * This header is C11 and C++11, needs libm only, and allocates nothing. Units: metres, W/m2. */
+#ifndef REFINER_DISCUSSION_H
+#define REFINER_DISCUSSION_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* geometry.h - vectors, planes and clipped convex polygons, for tools and terms.
+ *
+ * Every expression here scales exactly: multiplying all coordinates by a power of two changes
+ * no comparison and no dimensionless result by a single bit. */
+#ifndef REFINER_GEOMETRY_H
+#define REFINER_GEOMETRY_H
+
+#include <math.h>
+#include <stddef.h>
+
+static inline double refiner_dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void refiner_sub3(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[0] - b[0];
+    out[1] = a[1] - b[1];
+    out[2] = a[2] - b[2];
+}
+
+static inline void refiner_cross3(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline double refiner_length3(const double a[3])
+{
+    return sqrt(refiner_dot3(a, a));
+}
+
+/* Signed distance of p from the plane through `on` with unit normal n, positive in front (m). */
+static inline double refiner_height3(const double p[3], const double on[3], const double n[3])
+{
+    return n[0] * (p[0] - on[0]) + n[1] * (p[1] - on[1]) + n[2] * (p[2] - on[2]);
+}
+
+/* Divide a convex polygon of n corners, `size` coordinates each, by a line or plane over which they
+ * have heights h: what lies above goes to `above`, what lies below to `below`, corners at height 0
+ * to both; either may be NULL. Returns how many corners are above, and below in *n_below. Each has
+ * room for `most`; rounding may make a bent polygon cross more than twice, then corners are left
+ * out. [Sutherland and Hodgman 1974] */
+static inline int refiner_polygon_divide(const double *v, int n, int size, const double *h, int most,
+                                 double *above, double *below, int *n_below)
+{
+    int i, j, up = 0, down = 0;
+    for (i = 0, j = n - 1; i < n; j = i++) {
+        if ((h[j] > 0 && h[i] < 0) || (h[j] < 0 && h[i] > 0)) {
+            const double t = h[j] / (h[j] - h[i]);
+            for (int k = 0; k < size; k++) {
+                const double x = v[j * size + k] + t * (v[i * size + k] - v[j * size + k]);
+                if (above && up < most)
+                    above[up * size + k] = x;
+                if (below && down < most)
+                    below[down * size + k] = x;
+            }
+            up += up < most;
+            down += down < most;
+        }
+        if (above && h[i] >= 0 && up < most) {
+            for (int k = 0; k < size; k++)
+                above[up * size + k] = v[i * size + k];
+            up++;
+        }
+        if (below && h[i] <= 0 && down < most) {
+            for (int k = 0; k < size; k++)
+                below[down * size + k] = v[i * size + k];
+            down++;
+        }
+    }
+    if (below)
+        *n_below = down;
+    return above ? up : 0;
+}
+
+/* A quad cut by one plane has at most 5 corners. */
+enum { REFINER_POLYGON_MAX = 5 };
+
+struct refiner_polygon {
+    int n; /* 0, or 3 to POLYGON_MAX */
+    double v[REFINER_POLYGON_MAX][3];
+};
+
+/* The part of the convex polygon v[n], n <= 4, in front of the plane. */
+static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
+                                const double on[3], const double normal[3])
+{
+    double h[REFINER_POLYGON_MAX];
+    for (int i = 0; i < n; i++)
+        h[i] = refiner_height3(v[i], on, normal);
+    out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
+    if (out->n < 3)
+        out->n = 0;
+}
+
+/* Area of a convex flat polygon with unit normal n (m2). */
+static inline double refiner_polygon_area(const struct refiner_polygon *p, const double n[3])
+{
+    double twice = 0;
+    for (int i = 2; i < p->n; i++) {
+        double a[3], b[3], c[3];
+        refiner_sub3(a, p->v[i - 1], p->v[0]);
+        refiner_sub3(b, p->v[i], p->v[0]);
+        refiner_cross3(c, a, b);
+        twice += refiner_dot3(c, n);
+    }
+    return 0.5 * twice;
+}
+
+/* Distance from p to the convex polygon v[n] with unit normal `normal` (m). */
+static inline double refiner_polygon_distance(const double p[3], const double (*v)[3], int n,
+                                      const double normal[3])
+{
+    double best = INFINITY;
+    int inside = 1;
+    for (int i = 0; i < n; i++) {
+        const double *a = v[i], *b = v[i + 1 < n ? i + 1 : 0];
+        double e[3], w[3], side[3];
+        refiner_sub3(e, b, a);
+        refiner_sub3(w, p, a);
+        refiner_cross3(side, e, w);
+        if (refiner_dot3(side, normal) >= 0)
+            continue;
+        inside = 0;
+        double ee = refiner_dot3(e, e);
+        double t = ee > 0 ? refiner_dot3(w, e) / ee : 0;
+        t = t < 0 ? 0 : t > 1 ? 1 : t;
+        w[0] -= t * e[0];
+        w[1] -= t * e[1];
+        w[2] -= t * e[2];
+        double q = refiner_dot3(w, w);
+        if (q < best)
+            best = q;
+    }
+    return inside ? fabs(refiner_height3(p, v[0], normal)) : sqrt(best);
+}
+
+#endif
+
+/* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
+#define REFINER_RUNTIME_ABI 7
+
+/* Generated by dagc 0.1.0 from the standard catalog: do not edit, change that and run dagc again.
+ * Decisions, the answers of each tool, the levels of each term, the data manager. */
+#ifndef REFINER_CATALOG_H
+#define REFINER_CATALOG_H
+
+/* The leaves of every graph. */
+enum refiner_decision {
+    REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
+    REFINER_DECISION_STOP, /* The pair exchanges no light worth keeping. */
+    REFINER_DECISION_SUBDIVIDE_RECEIVER, /* Ask again for each child of the receiver. */
+    REFINER_DECISION_SUBDIVIDE_EMITTER, /* Ask again for each child of the emitter. */
+    REFINER_DECISION_SUBDIVIDE_BOTH, /* Ask again for each child of the one with each child of the other. */
+    REFINER_DECISION_LINK_CLUSTERS /* Let the emitter light the receiver, one of which is a cluster, each face by its own orientation. */
+};
+#define REFINER_DECISIONS 6
+
+/* Are both elements surfaces? If not: do they exchange no light (apart), or which of the two is to be opened? */
+enum refiner_clusters_answer {
+    REFINER_CLUSTERS_SURFACES, /* precise */
+    REFINER_CLUSTERS_APART, /* precise */
+    REFINER_CLUSTERS_RECEIVER, /* precise */
+    REFINER_CLUSTERS_EMITTER /* precise */
+};
+#define REFINER_CLUSTERS_ANSWERS 4
+
+/* How do two surfaces lie to each other's support planes? When both cross, the larger is named. */
+enum refiner_support_planes_answer {
+    REFINER_SUPPORT_PLANES_TOWARD, /* precise */
+    REFINER_SUPPORT_PLANES_AWAY, /* precise */
+    REFINER_SUPPORT_PLANES_RECEIVER_CROSSES, /* precise */
+    REFINER_SUPPORT_PLANES_EMITTER_CROSSES /* precise */
+};
+#define REFINER_SUPPORT_PLANES_ANSWERS 4
+
+/* May the emitter's radiosity times F_rs exceed the larger of `absolute` and `relative` times the scene's mean irradiance? dark: this emitter never sends light. */
+enum refiner_transfer_answer {
+    REFINER_TRANSFER_DARK, /* precise */
+    REFINER_TRANSFER_BELOW, /* approximate */
+    REFINER_TRANSFER_ABOVE /* approximate */
+};
+#define REFINER_TRANSFER_ANSWERS 3
+
+/* Which of the two stay at or above `min_area`, and above `min_share` of the scene's area, when split? */
+enum refiner_can_split_answer {
+    REFINER_CAN_SPLIT_BOTH, /* precise */
+    REFINER_CAN_SPLIT_RECEIVER, /* precise */
+    REFINER_CAN_SPLIT_EMITTER, /* precise */
+    REFINER_CAN_SPLIT_NEITHER /* precise */
+};
+#define REFINER_CAN_SPLIT_ANSWERS 4
+
+/* Which element has the larger area? Its own form factor is the smaller: A_r F_rs = A_s F_sr. */
+enum refiner_larger_answer {
+    REFINER_LARGER_RECEIVER, /* precise */
+    REFINER_LARGER_EMITTER /* precise */
+};
+#define REFINER_LARGER_ANSWERS 2
+
+/* Cast at least `rays` rays (4, 16, 64, 256 or 1024) between the elements: how many arrive? */
+enum refiner_visibility_answer {
+    REFINER_VISIBILITY_NONE, /* approximate */
+    REFINER_VISIBILITY_PARTIAL, /* precise */
+    REFINER_VISIBILITY_ALL /* approximate */
+};
+#define REFINER_VISIBILITY_ANSWERS 3
+
+/* Compute the form factor from the clipped polygon, averaged over the receiver. */
+enum refiner_form_factor_answer {
+    REFINER_FORM_FACTOR_DONE /* other */
+};
+#define REFINER_FORM_FACTOR_ANSWERS 1
+
+/* Mark the pair; links are counted by their marks. 1: a link that could not be split though it should. */
+enum refiner_mark_answer {
+    REFINER_MARK_DONE /* other */
+};
+#define REFINER_MARK_ANSWERS 1
+
+/* from the receiver's centre to the emitter's */
+enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
+
+/* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
+enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_INVERSE_SQUARE, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_HEMICUBE, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_RAYS, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
+
+/* visible fraction of segments between the two elements' mutually facing parts */
+enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_PRESUMED, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
+
+/* faces that may stand between the two; 9: too many to list */
+enum refiner_blockers_level { REFINER_BLOCKERS_ABSENT, REFINER_BLOCKERS_PRESENT };
+
+/* what the graph marked the pair with, kept by its link; 0: nothing */
+enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
+
+/* The data manager: every term and the level it is known at. All zero: nothing is known. */
+struct refiner_terms {
+    double axis[3]; /* m */
+    double form_factor; /* a plain number */
+    double visibility; /* a plain number */
+    int blockers; /* a plain number */
+    int mark; /* a plain number */
+    unsigned char axis_level; /* enum axis_level */
+    unsigned char form_factor_level; /* enum form_factor_level */
+    unsigned char visibility_level; /* enum visibility_level */
+    unsigned char blockers_level; /* enum blockers_level */
+    unsigned char mark_level; /* enum mark_level */
+};
+
+#endif
+
+/* Everything a tool calls is inlined into the flat release, so that its local discussion can
+ * live in registers; what is too large for that takes elements, never the discussion. */
+#if defined __GNUC__
+#define REFINER_TOOL static inline __attribute__((always_inline))
+#define REFINER_OUTLINE static __attribute__((noinline, unused))
+#else
+#define REFINER_TOOL static inline
+#define REFINER_OUTLINE static
+#endif
 
 /* One node of the hierarchy: a cluster of faces, a face, or a part of a face.
  * Surfaces are convex planar polygons, counter-clockwise seen from the front. */
@@ -110,7 +338,6 @@ enum { REFINER_SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is g
 
 /* The convex hull of two surfaces: what light between them may cross (kernel/shaft.h). */
 enum { REFINER_SHAFT_PLANES = 28 };
-
 struct refiner_shaft {
     int planes;
     /* inside: normal . p <= offset, normals of length 1 */
@@ -125,7 +352,7 @@ struct refiner_shaft {
 
 /* The faces that may stand between the two elements of a pair, in ascending order. */
 enum { REFINER_BLOCKERS_MAX = 8, REFINER_BLOCKERS_TOO_MANY = REFINER_BLOCKERS_MAX + 1 };
-
+enum { REFINER_BLOCKERS_UNKNOWN, REFINER_BLOCKERS_INHERITED, REFINER_BLOCKERS_OWN };
 struct refiner_blockers {
     int count;            /* or BLOCKERS_TOO_MANY */
     unsigned char known;  /* not at all; of a pair that holds this one; of this pair */
@@ -177,6 +404,8 @@ struct refiner_discussion {
     struct refiner_blockers *blockers;
 };
 
+#endif
+
 /* standalone.h - the callbacks by which a program that ships a generated refiner describes itself.
  * dagc --standalone puts this into the generated header; within the project rays.c fills in the
  * host.
@@ -189,6 +418,9 @@ struct refiner_discussion {
  * closely itself. Let discussion.blockers point at a structure that lives as long as the
  * discussion; with `known` 0 nothing is inherited, and BLOCKERS_INHERITED says that it holds the
  * list of a pair of which these two elements are parts. */
+#ifndef REFINER_STANDALONE_H
+#define REFINER_STANDALONE_H
+
 
 /* The most segments that one call of `occluded` is given. */
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
@@ -215,8 +447,14 @@ static inline void refiner_host_open(struct refiner_host *host,
     totals(host);
 }
 
-/* bf_guarded: BF, split where support planes cut and where shadows fall */
+#endif
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+
+/* bf_guarded: BF, split where support planes cut and where shadows fall */
 struct refiner_bf_guarded_parameters {
     double epsilon; /* W/m2: largest irradiance one link may bring; 0: only `relative` counts */
     double relative; /* the same as a share of the scene's mean irradiance; the larger of the two holds */
@@ -230,7 +468,7 @@ struct refiner_bf_guarded_parameters {
 /* Fills in the defaults. */
 void refiner_bf_guarded_defaults(struct refiner_bf_guarded_parameters *parameters);
 
-/* Discusses one pair and decides. Terms that some decision reads are taken from the
+/* Discusses and decides. Terms that some decision reads are taken from the
  * discussion: all zero when nothing is known yet. Afterwards it holds the terms that the
  * decision reads; the others are unspecified. */
 enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_parameters *parameters,

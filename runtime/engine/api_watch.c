@@ -35,6 +35,13 @@ int radGetOracleWay(RadOracle oracle, uint64_t way, struct RadAnswer *out, int m
                : -1;
 }
 
+enum decision radAskOracleWay(RadOracle oracle, struct discussion *discussion, uint64_t *way)
+{
+    return oracle && discussion && way && follow(oracle) == 0
+               ? follow_ask(oracle->refiner, discussion, way)
+               : DECISION_STOP;
+}
+
 int radTraceSolution(RadSolution solution, RadTraceFunction function, void *user)
 {
     if (api_not_dead(solution) < 0 || (function && follow(solution->oracle) < 0))

@@ -4,7 +4,10 @@
 #ifndef TOOL_TABLE_H
 #define TOOL_TABLE_H
 
+#include <stddef.h>
+#ifndef RUNTIME_ABI /* as in oracle.h */
 #include "discussion.h"
+#endif
 
 struct tool_entry {
     const char *name;

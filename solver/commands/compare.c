@@ -2,7 +2,8 @@
  * where there is one.
  *
  * First one solve by an oracle made of all of them: each discusses every pair on a copy, and
- * decisions and what links would store are compared bit by bit. Then each release solves alone, in
+ * decisions and what links would store are compared bit by bit. It ends with the first round in
+ * which they differ: what follows would tell of other links. Else each release solves alone, in
  * turn, several times, and the medians of the refinement's seconds are compared.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -29,21 +30,25 @@ struct kept {
     unsigned char levels[2], mark;
 };
 
+/* The first pair that they do not do the same with: by identities, so the same on any number of
+ * threads. */
 struct difference {
-    int release;
     uint64_t receiver, emitter; /* identities */
-    uint32_t face[2];
-    int depth[2];
-    enum decision decision[2]; /* the yardstick's, the release's */
-    struct kept link[2];
+    uint32_t element[2];
+    char name[2][RAD_NAME];
+    uint64_t way;                     /* of the interpreted release */
+    enum decision decision[RELEASES]; /* as panel.releases */
+    struct kept link[RELEASES];
 };
 
 /* The state of an oracle that asks all releases. */
 struct panel {
     RadOracle releases[RELEASES];
-    int count;
+    int count, interpreted; /* which of them keeps its graph */
     uint64_t decisions, differences;
-    struct difference first; /* by identities, so the same on any number of threads */
+    struct difference first;
+    RadSolution solution;
+    struct progress *progress;
 };
 
 static int links(enum decision decision)
@@ -69,23 +74,22 @@ static int same(const struct kept *a, const struct kept *b)
            && memcmp(a->levels, b->levels, sizeof a->levels) == 0 && a->mark == b->mark;
 }
 
-static void record(struct panel *p, int k, const struct discussion *d,
-                   const enum decision decision[2], const struct kept link[2])
+static void record(struct panel *p, const struct discussion *start, const enum decision *decision,
+                   const struct kept *link)
 {
     struct difference *f = &p->first;
+    struct discussion again = *start;
     if (p->differences++
-        && (d->receiver->id > f->receiver
-            || (d->receiver->id == f->receiver && d->emitter->id >= f->emitter)))
+        && (start->receiver->id > f->receiver
+            || (start->receiver->id == f->receiver && start->emitter->id >= f->emitter)))
         return;
-    f->release = k;
-    f->receiver = d->receiver->id;
-    f->emitter = d->emitter->id;
-    f->face[0] = d->receiver->face;
-    f->face[1] = d->emitter->face;
-    f->depth[0] = d->receiver->vertices ? d->receiver->depth : -1;
-    f->depth[1] = d->emitter->vertices ? d->emitter->depth : -1;
+    f->receiver = start->receiver->id;
+    f->emitter = start->emitter->id;
+    f->element[0] = (uint32_t)(start->receiver - *start->host->elements);
+    f->element[1] = (uint32_t)(start->emitter - *start->host->elements);
     memcpy(f->decision, decision, sizeof f->decision);
     memcpy(f->link, link, sizeof f->link);
+    (void)radAskOracleWay(p->releases[p->interpreted], &again, &f->way);
 }
 
 /* The parameters of the oracle that asks all: where the panel stands. An oracle's defaults have no
@@ -103,28 +107,20 @@ static enum decision ask_all(const void *parameters, struct discussion *d)
     struct panel *p;
     struct discussion start = *d;
     memcpy(&p, parameters, sizeof p);
-    enum decision decision[2];
-    decision[0] = radAskOracle(p->releases[0], d);
-    struct kept link[2];
-    link[0] = keep(decision[0], &d->terms);
+    enum decision decision[RELEASES] = {radAskOracle(p->releases[0], d)};
+    struct kept link[RELEASES] = {keep(decision[0], &d->terms)};
+    int different = 0;
     for (int k = 1; k < p->count; k++) {
         struct discussion other = start;
-        decision[1] = radAskOracle(p->releases[k], &other);
-        link[1] = keep(decision[1], &other.terms);
-        if (decision[0] != decision[1] || !same(&link[0], &link[1])) {
+        decision[k] = radAskOracle(p->releases[k], &other);
+        link[k] = keep(decision[k], &other.terms);
+        different |= decision[0] != decision[k] || !same(&link[0], &link[k]);
+    }
+    if (different) {
 #pragma omp critical(difference)
-            record(p, k, d, decision, link);
-        }
+        record(p, &start, decision, link);
     }
     return decision[0];
-}
-
-static void print_side(const struct difference *f, int side)
-{
-    if (f->depth[side] < 0)
-        printf("a cluster");
-    else
-        printf("face %u at depth %d", f->face[side], f->depth[side]);
 }
 
 /* What release k of the panel is called. */
@@ -133,23 +129,86 @@ static const char *name_of(const struct panel *p, int k)
     return release_words[order[RELEASES - p->count + k]];
 }
 
+/* The answers that led the interpreted release to its decision; the last of them is the one to look
+ * at. NULL: out of memory, or none. */
+static struct RadAnswer *way_of(const struct panel *p, int *count)
+{
+    RadOracle oracle = p->releases[p->interpreted];
+    *count = radGetOracleWay(oracle, p->first.way, NULL, 0);
+    struct RadAnswer *way = *count > 0 ? malloc((size_t)*count * sizeof *way) : NULL;
+    if (way)
+        (void)radGetOracleWay(oracle, p->first.way, way, *count);
+    return way;
+}
+
 static void print_difference(const struct panel *p)
 {
     const struct difference *f = &p->first;
-    printf("different: %llu of %llu discussions; first, receiver ",
-           (unsigned long long)p->differences, (unsigned long long)p->decisions);
-    print_side(f, 0);
-    printf(", emitter ");
-    print_side(f, 1);
-    printf(":\n");
-    for (int i = 0; i < 2; i++) {
-        printf("  %-4s %s", name_of(p, i ? f->release : 0), decision_names[f->decision[i]]);
-        if (links(f->decision[i]))
+    int count;
+    struct RadAnswer *way = way_of(p, &count);
+    printf("different: %llu of the first %llu discussions; of receiver %s, emitter %s\n",
+           (unsigned long long)p->differences, (unsigned long long)p->decisions, f->name[0],
+           f->name[1]);
+    for (int k = 0; k < p->count; k++) {
+        printf("  %-4s %s", name_of(p, k), decision_names[f->decision[k]]);
+        if (links(f->decision[k]))
             printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d",
-                   (double)f->link[i].form_factor, f->link[i].levels[0], f->link[i].visibility,
-                   f->link[i].levels[1], f->link[i].mark);
+                   (double)f->link[k].form_factor, f->link[k].levels[0], f->link[k].visibility,
+                   f->link[k].levels[1], f->link[k].mark);
         printf("\n");
     }
+    printf("the graph's way there, as release dag goes it:\n");
+    for (int i = 0; way && i < count; i++)
+        printf("  node %s = %s: %s -> %s\n", way[i].node, way[i].tool, way[i].answer,
+               way[i].target);
+    printf("stopped there; nothing is timed\n");
+    free(way);
+}
+
+/* Where it was, while its elements can be named. */
+static void note_place(struct panel *p, uint64_t pairs)
+{
+    p->decisions = pairs;
+    for (int i = 0; i < 2; i++)
+        if (radGetElementName(p->solution, p->first.element[i], p->first.name[i]) < 0)
+            snprintf(p->first.name[i], RAD_NAME, "%u", p->first.element[i]);
+}
+
+/* Between rounds: what is different ends the solve. */
+static int show_and_stop(void *user, const struct RadProgress *at)
+{
+    struct panel *p = user;
+    if (!p->differences)
+        return progress_show(p->progress, at);
+    note_place(p, at->pairs);
+    return 1;
+}
+
+/* Solve with all of them at once, up to where they differ. Returns 0, or -1 after a message. */
+static int solve_all(const struct options *o, const struct open_scene *scene, RadOracle all,
+                     struct progress *progress, struct RadReport *report)
+{
+    const struct RadSolveOptions how = solve_options(o);
+    struct solved s;
+    *report = (struct RadReport){0};
+    if (solved_begin(&s, scene->device, o->scene, scene->scene, all, &how) < 0)
+        return -1;
+    panel.solution = s.solution;
+    panel.progress = progress;
+    radSetDeviceProgressFunction(scene->device, show_and_stop, &panel);
+    int status = solved_finish(&s, &how);
+    radSetDeviceProgressFunction(scene->device, progress_show, progress);
+    progress_end(progress);
+    if (status < 0 && panel.differences)
+        return (void)radGetDeviceError(scene->device), 0; /* it was cancelled */
+    if (status < 0)
+        return report_device(scene->device, o->scene);
+    panel.decisions = s.report.pairs;
+    if (panel.differences) /* in the last round */
+        note_place(&panel, s.report.pairs);
+    *report = s.report;
+    solved_close(&s);
+    return 0;
 }
 
 /* Solve the scene with one oracle. Returns the refinement's seconds, or -1 after a message. */
@@ -201,6 +260,24 @@ static int time_releases(const struct options *o, const struct open_scene *scene
     return result;
 }
 
+static json_t *difference_json(const struct panel *p)
+{
+    const struct difference *f = &p->first;
+    json_t *decisions = json_object(), *asked = json_array();
+    int count;
+    struct RadAnswer *way = way_of(p, &count);
+    for (int k = 0; k < p->count; k++)
+        json_object_set_new(decisions, name_of(p, k), json_string(decision_names[f->decision[k]]));
+    for (int i = 0; way && i < count; i++)
+        json_array_append_new(
+            asked, json_pack("{s:s, s:s}", "node", way[i].node, "answer", way[i].answer));
+    free(way);
+    return json_pack("{s:b, s:I, s:I, s:{s:s, s:s, s:o, s:o}}", "identical", 0, "decisions",
+                     (json_int_t)p->decisions, "differences", (json_int_t)p->differences, "first",
+                     "receiver", f->name[0], "emitter", f->name[1], "way", asked, "decides",
+                     decisions);
+}
+
 static json_t *compare_json(const struct panel *p, uint64_t link_count,
                             const double seconds[RELEASES])
 {
@@ -226,9 +303,12 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
         panel.releases[k] = open_asked_oracle(o, device, order[RELEASES - panel.count + k]);
         if (!panel.releases[k])
             return NULL;
+        if (order[RELEASES - panel.count + k] == RAD_RELEASE_DAG)
+            panel.interpreted = k;
     }
     struct RadOracleReport report;
     radGetOracleReport(panel.releases[0], &report);
+    (void)radGetOracleWay(panel.releases[panel.interpreted], 0, NULL, 0); /* from now on */
     *all = (struct oracle){.abi = RUNTIME_ABI,
                            .name = o->oracle,
                            .doc = report.doc,
@@ -247,14 +327,16 @@ static int compare(const struct options *o, const struct open_scene *scene, RadO
 {
     struct progress progress;
     progress_start(&progress, o->quiet);
-    radSetDeviceProgressFunction(scene->device, progress_show, &progress);
     struct RadReport report;
-    if (solve_once(o, scene, all, &progress, &report) < 0)
+    if (solve_all(o, scene, all, &progress, &report) < 0)
         return 1;
-    panel.decisions = report.pairs;
-    if (panel.differences)
+    if (panel.differences) {
         print_difference(&panel);
-    else if (!o->quiet)
+        if (o->json)
+            (void)json_file_write(o->json, difference_json(&panel));
+        return 1;
+    }
+    if (!o->quiet)
         printf("identical: %llu decisions, %llu links\n", (unsigned long long)panel.decisions,
                (unsigned long long)report.links);
     double seconds[RELEASES];
@@ -262,9 +344,7 @@ static int compare(const struct options *o, const struct open_scene *scene, RadO
         return 1;
     for (int k = 0; k < panel.count && !o->quiet; k++)
         printf("  %-4s %9.3f s  %.3f\n", name_of(&panel, k), seconds[k], seconds[k] / seconds[0]);
-    if (o->json && json_file_write(o->json, compare_json(&panel, report.links, seconds)) < 0)
-        return 1;
-    return panel.differences != 0;
+    return o->json && json_file_write(o->json, compare_json(&panel, report.links, seconds)) < 0;
 }
 
 int command_compare(const struct options *o, const struct open_scene *scene)

@@ -131,6 +131,8 @@ mkdir made
 check "made anew" sh -c "cd made && $dagc --standalone --prefix refiner -o refiner.c --header refiner.h $top/examples/oracles/bf_guarded.dag"
 check "refiner.c is what dagc makes" cmp made/refiner.c "$embed/refiner.c"
 check "refiner.h is what dagc makes" cmp made/refiner.h "$embed/refiner.h"
+check "a host finds levels in the header" grep -q REFINER_FORM_FACTOR_CONTOUR "$embed/refiner.h"
+check "a host finds what lists are" grep -q REFINER_BLOCKERS_INHERITED "$embed/refiner.h"
 [ -x "$engine" ] && check "the engine's decisions" sh -c "$engine $top/examples/oracles/bf_guarded.dag >wanted"
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 # Without a term, with one: struct terms has no more than that.

@@ -15,7 +15,7 @@
 struct counters {
     double (*clock)(void *context);
     void *context;
-    double numbers[]; /* time[nodes], then unsigned long long calls[nodes], arcs[arcs] */
+    double numbers[]; /* time[nodes], then unsigned long long calls[nodes], arcs[arcs], checks */
 };
 
 static struct counters *counters;
@@ -32,19 +32,21 @@ static double rays_so_far(void *solve)
 }
 
 /* The instrumented flat release, compiled now; good until the program ends. */
-static const struct oracle *instrumented(const char *name)
+static const struct oracle *instrumented(const char *name, int copies)
 {
     const char *dagc = getenv("DAGC");
-    char command[2048], symbol[64];
+    char command[2048], symbol[64], library_name[64];
+    snprintf(library_name, sizeof library_name, "%s_%d", name, copies);
     ck_assert_msg(dagc != NULL, "DAGC names the command");
     snprintf(command, sizeof command,
-             "%s --instrument -Wno-all -o %s --header %s examples/oracles/%s.dag && "
+             "%s --instrument --copies=%d -Wno-all -o %s --header %s examples/oracles/%s.dag && "
              "${CC:-cc} -std=c11 -O1 -ffp-contract=off -shared -fPIC -Wl,-Bsymbolic -Iruntime "
              "-I%.*s/../gen -I%s -o %s %s -lm",
-             dagc, in_folder("flat.c"), in_folder("flat.h"), name, (int)(strrchr(dagc, '/') - dagc),
-             dagc, folder, in_folder(name), in_folder("flat.c"));
+             dagc, copies, in_folder("flat.c"), in_folder("flat.h"), name,
+             (int)(strrchr(dagc, '/') - dagc), dagc, folder, in_folder(library_name),
+             in_folder("flat.c"));
     ck_assert_int_eq(system(command), 0);
-    void *library = dlopen(in_folder(name), RTLD_NOW | RTLD_LOCAL);
+    void *library = dlopen(in_folder(library_name), RTLD_NOW | RTLD_LOCAL);
     ck_assert_msg(library != NULL, "%s", dlerror());
     snprintf(symbol, sizeof symbol, "%s_refine_counted", name);
     void *found = dlsym(library, symbol);
@@ -85,9 +87,9 @@ START_TEST(test_instrumented)
     size_t nodes = (size_t)shown->node_count, arcs = 0;
     for (size_t i = 0; i < nodes; i++)
         arcs += (size_t)shown->nodes[i].answer_count;
-    struct oracle watched = *instrumented(name);
+    struct oracle watched = *instrumented(name, 1);
     watched.refine = refine;
-    counters = calloc(1, sizeof *counters + (2 * nodes + arcs) * sizeof(double));
+    counters = calloc(1, sizeof *counters + (2 * nodes + arcs + 1) * sizeof(double));
     counters->clock = rays_so_far;
     struct refiner *f = refiner_compiled(&watched, "flat");
     ck_assert_ptr_nonnull(f);
@@ -124,6 +126,55 @@ START_TEST(test_instrumented)
 }
 END_TEST
 
+/* How often a solve by the oracle looks at a term that may be known or not, its nodes copied up to
+ * `copies` times. */
+static unsigned long long checks_of(struct solve *s, const struct scene *scene, const char *name,
+                                    int copies)
+{
+    struct refiner *r = oracles_open(name, RELEASE_DAG);
+    struct statistics graph;
+    size_t arcs = 0;
+    ck_assert_int_eq(refiner_count(r), 0);
+    ck_assert_int_eq(statistics_take(&graph, r), 0);
+    size_t nodes = (size_t)graph.shown.node_count;
+    for (size_t i = 0; i < nodes; i++)
+        arcs += (size_t)graph.shown.nodes[i].answer_count;
+    struct oracle watched = *instrumented(name, copies);
+    watched.refine = refine;
+    counters = calloc(1, sizeof *counters + (2 * nodes + arcs + 1) * sizeof(double));
+    struct refiner *f = refiner_compiled(&watched, "flat");
+    ck_assert_ptr_nonnull(f);
+    solve_by(s, scene, f);
+    unsigned long long calls, checks;
+    memcpy(&calls, counters->numbers + nodes, sizeof calls);
+    memcpy(&checks, counters->numbers + 2 * nodes + arcs, sizeof checks);
+    printf("%-10s %d copies: %.3f checks of %llu discussions\n", name, copies,
+           (double)checks / (double)calls, calls);
+    free(counters);
+    counters = NULL;
+    refiner_close(f);
+    statistics_free(&graph);
+    refiner_close(r);
+    return checks;
+}
+
+/* Copies leave a fifth of the checks, and the links as they are. */
+START_TEST(test_copies)
+{
+    struct scene scene;
+    struct solve one, more;
+    ck_assert_int_eq(
+        scene_read(&scene, "examples/scenes/room.obj", &(struct scene_options){.quiet = 1}), 0);
+    unsigned long long checks = checks_of(&one, &scene, "bf_guarded", 1),
+                       left = checks_of(&more, &scene, "bf_guarded", 16);
+    same_links(&one, &more);
+    ck_assert_msg(5 * left <= checks, "%llu of %llu checks are left", left, checks);
+    solve_close(&one);
+    solve_close(&more);
+    scene_free(&scene);
+}
+END_TEST
+
 int main(void)
 {
     if (folder_make("instrumented") < 0)
@@ -135,6 +186,7 @@ int main(void)
         count++;
     tcase_set_timeout(c, 600);
     tcase_add_loop_test(c, test_instrumented, 0, thorough() ? count : 2);
+    tcase_add_test(c, test_copies);
     suite_add_tcase(suite, c);
     int failed = suite_failures(suite);
     folder_remove();

@@ -1,5 +1,5 @@
-/* check_oracles.c - every oracle of examples/oracles: its releases decide alike, its error falls
- * with its threshold, and thermal keeps its promise.
+/* check_oracles.c - every oracle of examples/oracles: its error falls with its threshold, and
+ * thermal keeps its promise. That releases decide alike, at every node: check_releases.c.
  *
  * References: closed forms where there are some, else path tracing (path_reference.h).
  * SPDX-License-Identifier: MIT */
@@ -58,24 +58,6 @@ static double power_error(const struct solve *s, const double *reference, uint32
 }
 
 /* ---- releases */
-
-/* Every built-in oracle on small scenes, coarsely: interpreted, compiled and hand-written
- * release decide alike. */
-START_TEST(test_releases)
-{
-    static const char *const scenes[] = {"cornell", "furnace", "room"};
-    const char *program = getenv("RADIOSITY");
-    for (const struct builtin *b = builtins; b->name; b++) {
-        char command[512];
-        snprintf(command, sizeof command,
-                 "%s compare examples/scenes/%s.obj --oracle %s --repeats 1 --set min_share=%s > "
-                 "/dev/null",
-                 program ? program : "build/bin/radiosity", scenes[_i], b->name,
-                 _i == 2 ? "1" : "3e-2");
-        ck_assert_msg(system(command) == 0, "%s", command);
-    }
-}
-END_TEST
 
 /* The default is what programs run: its releases decide alike, by hand too, where groups are
  * linked, where shafts and outlines come after rays, where emitters are uneven, and where nothing
@@ -308,7 +290,6 @@ int main(void)
     Suite *suite = suite_create("oracles");
     TCase *c = tcase_create("oracles");
     tcase_set_timeout(c, 600);
-    tcase_add_loop_test(c, test_releases, 0, thorough() ? 3 : 1);
     tcase_add_loop_test(c, test_default_by_hand, 0, thorough() ? 8 : 4);
     tcase_add_test(c, test_declared);
     tcase_add_loop_test(c, test_falling, 0, 3 * FALLING);

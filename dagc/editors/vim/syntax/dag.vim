@@ -4,7 +4,7 @@ if exists("b:current_syntax")
   finish
 endif
 
-syntax keyword dagStructure import graph oracle runtime type term fact role extern tool decision
+syntax keyword dagStructure import graph oracle catalog runtime verb unit type term fact role extern tool decision
 syntax keyword dagStatement node start fixed param exits
 syntax keyword dagModifier answers reads writes guards counts records header levels subdivides question command abi in standard
 syntax keyword dagKind precise approximate other

@@ -1,0 +1,314 @@
+/* copies.c - what paths know of the terms, with a node copied where they disagree.
+ *
+ * Knowledge of a term is an interval of levels. Forward from the entries, in topological order,
+ * each node exists once for each knowledge that a path brings to it, so that a check whose outcome
+ * hangs on the path is none: a path that knows and one that does not run through different copies.
+ * Where a tool leaves open what it computed, one look at the level, just behind the call, says
+ * which copy is next (a compiler that has inlined the tool knows, and takes the look out); where
+ * the host left it open, the look is taken when somebody first asks. Two rules keep the text short:
+ * levels that nobody below asks for are not told apart, and beyond `most` copies of a node the
+ * nearest serves all others.
+ *
+ * `low` is what writes declare, and may be stated as a fact. `high` is a guess, since a tool may
+ * compute terms on its way that it does not name: it decides where copies are made, never what
+ * they do.
+ * [specialisation of a program to what is known of its input: Jones, Gomard and Sestoft 1993;
+ * splitting paths at merges: Mueller and Whalley, Avoiding conditional branches by code
+ * replication, PLDI 1995]
+ * SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "analyse/copies.h"
+
+enum { CUTS = 64 }; /* levels above are not told apart */
+
+struct making {
+    struct dag *dag;
+    const struct oracle_graph *oracle;
+    struct copies *copies;
+    uint64_t
+        *cuts; /* by term and place: bit L, somebody from here on asks whether level L is there */
+    int terms, most;
+};
+
+static int finest(const struct dag *dag, int term)
+{
+    int levels = dag->terms[term].levels.count;
+    return levels > 0 ? levels : 1;
+}
+
+static uint64_t bit_of(int level)
+{
+    return level > 0 && level < CUTS ? UINT64_C(1) << level : 0;
+}
+
+static uint64_t *cuts_at(const struct making *m, int place)
+{
+    return m->cuts + (size_t)place * (size_t)m->terms;
+}
+
+/* ---- what is asked for */
+
+/* The levels of a term that the node itself asks for. Without a level any may be asked for: whether
+ * there is one at all is what matters. */
+static uint64_t own_cuts(const struct dag *dag, const struct node *node, int term)
+{
+    const struct tool *tool = &dag->tools[node->tool];
+    const struct span spans[] = {node->reads, tool->reads, tool->writes};
+    uint64_t cuts = 0;
+    for (int s = 0; s < 3; s++)
+        for (int i = spans[s].first; i < spans[s].first + spans[s].count; i++)
+            if (dag->needs[i].term == term)
+                cuts |= bit_of(dag->needs[i].level > 0 ? dag->needs[i].level : 1);
+    return cuts;
+}
+
+/* Those asked for below it. */
+static uint64_t cuts_below(const struct making *m, const struct node *node, int term)
+{
+    uint64_t cuts = 0;
+    for (int a = 0; a < node->arcs.count; a++) {
+        const struct target *target = &m->dag->arcs[node->arcs.first + a].target;
+        if (target->kind == TARGET_NODE)
+            cuts |= cuts_at(m, m->dag->nodes[target->index].order)[term];
+    }
+    /* what the node leaves there needs no asking */
+    int left = dag_left_level(m->dag, node, term);
+    return left >= CUTS - 1 ? 0 : cuts & ~((UINT64_C(2) << left) - 1);
+}
+
+static void find_cuts(struct making *m)
+{
+    for (int place = m->oracle->order.count - 1; place >= 0; place--) {
+        const struct node *node = dag_node_at(m->dag, m->oracle, place);
+        for (int t = 0; t < m->terms; t++)
+            cuts_at(m, place)[t] = own_cuts(m->dag, node, t) | cuts_below(m, node, t);
+    }
+}
+
+/* ---- what is known */
+
+static struct knowledge new_knowledge(const struct making *m)
+{
+    struct knowledge known = {dag_alloc(&m->dag->arena, (size_t)m->terms),
+                              dag_alloc(&m->dag->arena, (size_t)m->terms)};
+    return known;
+}
+
+static void copy_knowledge(const struct making *m, struct knowledge to, struct knowledge from)
+{
+    memcpy(to.low, from.low, (size_t)m->terms);
+    memcpy(to.high, from.high, (size_t)m->terms);
+}
+
+/* After the node was asked. A tool that writes a term may also make it coarser. */
+static void pass_node(const struct making *m, const struct node *node, struct knowledge known)
+{
+    for (int t = 0; t < m->terms; t++) {
+        int written = dag_written_level(m->dag, &m->dag->tools[node->tool], t);
+        int left = dag_left_level(m->dag, node, t);
+        if (own_cuts(m->dag, node, t) == 0)
+            continue;
+        known.high[t] = (unsigned char)finest(m->dag, t);
+        if (written > 0)
+            known.low[t] = (unsigned char)written;
+        else if (left > known.low[t])
+            known.low[t] = (unsigned char)left;
+    }
+}
+
+/* ---- copies */
+
+/* The cuts that lie between two knowledges of the terms: what one of them is told, and not the
+ * other. */
+static int distance(const struct making *m, int place, struct knowledge a, struct knowledge b)
+{
+    int cuts = 0;
+    for (int t = 0; t < m->terms; t++)
+        for (int level = 1; level <= finest(m->dag, t) && level < CUTS; level++)
+            if (cuts_at(m, place)[t] & bit_of(level))
+                cuts += ((a.low[t] >= level) != (b.low[t] >= level))
+                        + ((a.high[t] >= level) != (b.high[t] >= level));
+    return cuts;
+}
+
+static void widen(const struct making *m, struct knowledge known, struct knowledge by)
+{
+    for (int t = 0; t < m->terms; t++) {
+        if (by.low[t] < known.low[t])
+            known.low[t] = by.low[t];
+        if (by.high[t] > known.high[t])
+            known.high[t] = by.high[t];
+    }
+}
+
+/* The copy of the node at this place for what is known: one that is there, a new one, or, when
+ * there are `most`, the nearest, which then knows less. */
+static int copy_for(struct making *m, int place, struct knowledge known)
+{
+    struct copies *copies = m->copies;
+    int last = -1, count = 0, nearest = -1, least = 0;
+    for (int i = copies->first[place]; i >= 0; i = copies->items[i].next, count++) {
+        int d = distance(m, place, copies->items[i].known, known);
+        if (nearest < 0 || d < least) {
+            nearest = i;
+            least = d;
+        }
+        last = i;
+    }
+    if (nearest >= 0 && (least == 0 || count == m->most)) {
+        widen(m, copies->items[nearest].known, known);
+        return nearest;
+    }
+    copies->items = dag_grow(&m->dag->arena, copies->items, copies->count, sizeof *copies->items);
+    struct copy *copy = &copies->items[copies->count];
+    *copy = (struct copy){place, count, -1, 0, 0, NULL, new_knowledge(m)};
+    copy_knowledge(m, copy->known, known);
+    if (last >= 0)
+        copies->items[last].next = copies->count;
+    else
+        copies->first[place] = copies->count;
+    return copies->count++;
+}
+
+/* Where the arc from `from` (NULL: an entry) to `to` looks at a level: 0 nowhere, else the cut. */
+static int look_at(const struct making *m, const struct node *from, const struct node *to, int term,
+                   struct knowledge known)
+{
+    uint64_t cuts = cuts_at(m, to->order)[term];
+    uint64_t here = own_cuts(m->dag, to, term) ? cuts_below(m, to, term) : 0;
+    if (from != NULL && own_cuts(m->dag, from, term))
+        here |= cuts;
+    for (int level = known.low[term] + 1; level <= known.high[term] && level < CUTS; level++)
+        if (here & bit_of(level))
+            return level;
+    return 0;
+}
+
+/* Does a path leave open whether the need is met? */
+static int is_left_open(const struct dag *dag, const struct need *need, int any,
+                        struct knowledge known)
+{
+    int low = known.low[need->term], high = known.high[need->term];
+    if (any && need->level_name == NULL && finest(dag, need->term) > 1)
+        return high > 0 && low == 0;
+    return low < need->level && high >= need->level;
+}
+
+static int count_checks(const struct dag *dag, const struct node *node, struct knowledge known)
+{
+    const struct tool *tool = &dag->tools[node->tool];
+    const struct span spans[] = {node->reads, tool->reads, tool->writes};
+    int checks = 0;
+    for (int s = 0; s < 3; s++)
+        for (int i = spans[s].first; i < spans[s].first + spans[s].count; i++)
+            checks += is_left_open(dag, &dag->needs[i], s > 0, known);
+    return checks;
+}
+
+static int new_way(struct making *m, struct way way)
+{
+    struct copies *copies = m->copies;
+    copies->ways = dag_grow(&m->dag->arena, copies->ways, copies->way_count, sizeof *copies->ways);
+    copies->ways[copies->way_count] = way;
+    return copies->way_count++;
+}
+
+/* The way from `from` to `to` with this knowledge, which is changed on the way and put back. */
+static int make_way(struct making *m, const struct node *from, const struct node *to, int term,
+                    struct knowledge known)
+{
+    for (; term < m->terms && m->most > 1; term++) {
+        int cut = look_at(m, from, to, term, known);
+        if (cut == 0)
+            continue;
+        unsigned char low = known.low[term], high = known.high[term];
+        known.high[term] = (unsigned char)(cut - 1);
+        int below = make_way(m, from, to, term, known);
+        known.high[term] = high;
+        known.low[term] = (unsigned char)cut;
+        int above = make_way(m, from, to, term, known);
+        known.low[term] = low;
+        const struct way *a = &m->copies->ways[below], *b = &m->copies->ways[above];
+        if (a->cut == 0 && b->cut == 0 && a->below == b->below)
+            return below;
+        return new_way(m, (struct way){term, cut, below, above, 0});
+    }
+    return new_way(m, (struct way){-1, 0, copy_for(m, to->order, known), -1, 0});
+}
+
+/* A look behind a tool that was asked with the level known is none: the tool has settled it. */
+static void note_looks(struct making *m, const struct node *from, int way, struct knowledge known)
+{
+    struct way *w = &m->copies->ways[way];
+    if (w->cut == 0)
+        return;
+    w->checked =
+        !own_cuts(m->dag, from, w->term) || (known.low[w->term] == 0 && known.high[w->term] > 0);
+    note_looks(m, from, w->below, known);
+    note_looks(m, from, w->above, known);
+}
+
+static void note_entries(struct copies *copies, int way)
+{
+    const struct way *w = &copies->ways[way];
+    if (w->cut == 0)
+        copies->items[w->below].arcs_in++;
+    else {
+        note_entries(copies, w->below);
+        note_entries(copies, w->above);
+    }
+}
+
+/* The ways out of a copy; all that lead to it have been made. */
+static void make_ways(struct making *m, int at)
+{
+    const struct node *node = dag_node_at(m->dag, m->oracle, m->copies->items[at].place);
+    struct knowledge known = new_knowledge(m);
+    int *ways = dag_alloc(&m->dag->arena, (size_t)node->arcs.count * sizeof *ways);
+    copy_knowledge(m, known, m->copies->items[at].known);
+    pass_node(m, node, known);
+    m->copies->items[at].ways = ways;
+    m->copies->items[at].checks = count_checks(m->dag, node, m->copies->items[at].known);
+    for (int a = 0; a < node->arcs.count; a++) {
+        const struct target *target = &m->dag->arcs[node->arcs.first + a].target;
+        ways[a] = -1;
+        for (int b = 0; b < a; b++) {
+            const struct target *other = &m->dag->arcs[node->arcs.first + b].target;
+            if (other->kind == TARGET_NODE && target->kind == TARGET_NODE
+                && other->index == target->index)
+                ways[a] = ways[b];
+        }
+        if (target->kind == TARGET_NODE && ways[a] < 0)
+            ways[a] = make_way(m, node, &m->dag->nodes[target->index], 0, known);
+        if (target->kind == TARGET_NODE) {
+            note_entries(m->copies, ways[a]);
+            note_looks(m, node, ways[a], m->copies->items[at].known);
+        }
+    }
+}
+
+struct copies dag_copies(struct dag *dag, const struct oracle_graph *oracle, int most)
+{
+    struct copies copies = {0};
+    struct making m = {dag, oracle, &copies, NULL, dag->term_count, most};
+    size_t nodes = (size_t)oracle->order.count;
+    m.cuts = dag_alloc(&dag->arena, nodes * (size_t)m.terms * sizeof *m.cuts);
+    copies.first = dag_alloc(&dag->arena, nodes * sizeof *copies.first);
+    for (size_t i = 0; i < nodes; i++)
+        copies.first[i] = -1;
+    find_cuts(&m);
+    struct knowledge known = new_knowledge(&m);
+    const struct node *start = dag_node_at(dag, oracle, 0);
+    copies.entry[ENTRY_FIRST] = make_way(&m, NULL, start, 0, known);
+    for (int t = 0; t < m.terms; t++)
+        if (dag_is_kept(dag, t))
+            known.high[t] = (unsigned char)finest(dag, t);
+    copies.entry[ENTRY_AGAIN] = make_way(&m, NULL, start, 0, known);
+    for (int e = 0; e < ENTRIES; e++)
+        note_entries(&copies, copies.entry[e]);
+    for (int place = 0; place < oracle->order.count; place++)
+        for (int i = copies.first[place]; i >= 0; i = copies.items[i].next)
+            make_ways(&m, i);
+    return copies;
+}

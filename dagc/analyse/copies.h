@@ -1,0 +1,46 @@
+/* copies.h - the nodes of a graph, each once for each knowledge of the terms that paths bring.
+ * SPDX-License-Identifier: MIT */
+#ifndef COPIES_H
+#define COPIES_H
+
+#include "analyse/analyse.h"
+
+/* By term: the least and the highest level that it may have. */
+struct knowledge {
+    unsigned char *low, *high;
+};
+
+struct copy {
+    int place;   /* of its node, in the oracle's order */
+    int number;  /* among that node's copies, from 0 */
+    int next;    /* the next of them, in items; -1 */
+    int arcs_in; /* how many arcs and entries lead to it */
+    int checks;  /* how many of the node's needs its paths leave open */
+    int *ways;   /* by answer, in ways; -1: a decision */
+    struct knowledge known;
+};
+
+/* Where an arc leads: to a copy, or to one of two ways, by a look at a level. */
+struct way {
+    int term, cut; /* cut 0: to the copy `below`; else the term is looked at: is it at `cut`? */
+    int below, above;
+    int checked; /* the look is a check of the data manager: no tool before it has settled it */
+};
+
+/* A discussion begins with nothing known; or with what an earlier one left, or not. */
+enum entry { ENTRY_FIRST, ENTRY_AGAIN, ENTRIES };
+
+struct copies {
+    struct copy *items;
+    int count;
+    int *first; /* by place: its first copy, the others by `next` */
+    struct way *ways;
+    int way_count;
+    int entry[ENTRIES]; /* in ways */
+};
+
+/* At most `most` copies of each node. With one there are no looks, and each node has what is known
+ * on every path. */
+struct copies dag_copies(struct dag *dag, const struct oracle_graph *oracle, int most);
+
+#endif

@@ -1,0 +1,48 @@
+#!/bin/sh
+# check_compare.sh - radiosity compare where releases differ: a C compiler that changes one arc of the flat release stands
+# for an emitter that errs. It stops there, tells where, and times nothing. RADIOSITY names the command.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+count=0 bad=0
+
+check() { # NAME COMMAND...
+    name=$1
+    shift
+    count=$((count + 1))
+    "$@" >said 2>&1 && return
+    bad=$((bad + 1))
+    echo "failed: $name"
+    head -n 12 out
+}
+
+compare() { # CHANGE THREADS: of bf's flat release, on the room; the status is kept
+    printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" $f;; esac; done\nexec cc "$@" -O0\n' "$1" >cc && chmod +x cc
+    CC=$tmp/cc "$radiosity" compare "$top/examples/scenes/cornell.obj" --oracle "$top/examples/oracles/bf.dag" \
+        --set min_share=1e-2 --repeats 1 --threads "$2" --json out.json >out 2>err
+    status=$?
+}
+
+compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/RECEIVER;/BOTH;/' 2
+check "the status" [ $status = 1 ]
+check "it tells how many, and of which elements" grep -q '^different: [1-9][0-9]* of the first [0-9]* discussions; of receiver [0-9/b]*, emitter [0-9/b]*$' out
+check "what the graph decides" grep -q '^  dag  subdivide_receiver$' out
+check "what the other one does" grep -q '^  flat subdivide_both$' out
+check "the node and its answer" grep -q '^  node split__side = larger: receiver -> subdivide_receiver$' out
+check "the way there" grep -q '^  node energy = transfer: above -> split__guard$' out
+check "nothing is timed" sh -c '! grep -q " s  " out && ! grep -q seconds out.json'
+check "the same in JSON" sh -c 'grep -q "\"identical\": false" out.json && grep -q "\"node\": \"split__side\"" out.json && grep -q "\"flat\": \"subdivide_both\"" out.json'
+check "no other error" [ ! -s err ]
+cp out two
+compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/RECEIVER;/BOTH;/' 1
+check "the same by one thread" cmp out two
+compare 's/discussion->terms.visibility = /&0.5 * /' 2
+check "a link of other visibility" sh -c "[ $status = 1 ] && grep -q '^  dag  link, F = .*, V = 0[.]4131' out && grep -q '^  flat link, F = .*, V = 0[.]20655' out && grep -q 'node seen__form = form_factor: done -> link' out"
+compare 's/nothing/to change/' 2
+check "no difference" sh -c "[ $status = 0 ] && grep -q '^identical: ' out && grep -q '^  flat .* s  ' out"
+echo "compare: $count checks, $bad failed"
+[ $bad = 0 ]
