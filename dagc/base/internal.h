@@ -193,6 +193,7 @@ struct emit_options {
     int counted;        /* --instrument: NAME_refine_counted */
     int traced;         /* --trace: NAME_refine_traced */
     int lines;          /* --lines: a comment at each node says where it stands in its source */
+    int cxx;            /* for C++: functions have its linkage */
     int standalone;     /* --standalone: all that it needs, in one .c and one .h */
     const char *prefix; /* of every name in it; NULL: the first oracle's name */
     const char *const *folders; /* -I: where headers are looked for before the built-in ones */

@@ -235,6 +235,17 @@ for compiler; do
     check "$compiler p runs" sh -c './program | cmp - wanted'
     check "$compiler two of one catalog" $compiler $warnings -Imade -o both both.c
 done
+# For C++ alone: its linkage, by option or by name.
+check "--emit=c++" $run --emit=c++ --instrument -o made/cxx.text --header made/cxx.h gate.dag
+check ".cpp" $run --standalone --prefix x -o made/x.cpp --header made/x.h gate.dag
+check "no other linkage" sh -c '! grep -n "extern \"C\"" made/cxx.text made/cxx.h made/x.cpp made/x.h'
+for compiler in "g++ -std=c++17" "clang++ -std=c++17"; do
+    command -v "${compiler%% *}" >/dev/null || { echo "skipped: ${compiler%% *} is not installed"; continue; }
+    check "$compiler c++" $compiler $warnings -Imade -Inet -x c++ -D'HEADER="cxx.h"' -D'NAME(x)=x' -DLEVEL=LOAD_GUESS -o program main.c made/cxx.text -lm
+    check "$compiler c++ runs" sh -c './program | cmp - wanted'
+    check "$compiler x" $compiler $warnings -Imade -x c++ -D'HEADER="x.h"' -D'NAME(x)=x_##x' -DLEVEL=X_LOAD_GUESS -o program main.c made/x.cpp -lm
+    check "$compiler x runs" sh -c './program | cmp - wanted'
+done
 # The program's header may stay where it is: then its types are the program's.
 sed -i 's/^struct queue;/struct queue { int length; };/' net/host.h
 check "--host host.h" $run --standalone --prefix h --host host.h -o made/h.c --header made/h.h gate.dag
