@@ -282,6 +282,23 @@ check "a catalog without tools" fails 1 "declares no tool" "$dagc" --emit=stub -
 check "and nothing is made" [ ! -e none ]
 check "not of a tool" fails 2 "takes a catalog, not" "$dagc" --emit=stub-c++ weigh
 
+# ---- examples/poisson: an adaptive mesh, whose cells are 40 times as well placed as those of an even one
+set -- "tcc" "g++ -x c++"
+[ -z "${THOROUGH-}" ] || set -- "gcc -std=c11" "clang -std=c11" "tcc" "g++ -x c++" "clang++ -x c++"
+for compiler; do
+    command -v "${compiler%% *}" >/dev/null || { echo "skipped: ${compiler%% *} is not installed"; continue; }
+    rm -rf poisson && mkdir poisson
+    check "$compiler poisson" make -s -C "$top/examples/poisson" OUT="$tmp/poisson" DAGC="$dagc" CC="$compiler" CFLAGS="-O1 $warnings"
+    check "$compiler poisson runs" sh -c 'poisson/poisson poisson/mesh.svg >poisson/said'
+    check "$compiler poisson adapts" awk '/^adapted/ { cells = $2; error = $6 } /^even/ { exit !(cells < $2 && 20 * error < $6) }' poisson/said
+    check "$compiler poisson draws" sh -c '[ "$(grep -c "<path" poisson/mesh.svg)" = "$(awk "/^adapted/ { print \$2 }" poisson/said)" ]'
+done
+check "nothing of radiosity" sh -c '! grep -wniE "radiosity|W/m2|element|emitter|receiver|shaft" poisson/refine.[ch]'
+check "prove poisson" "$dagc" --prove "$top/examples/poisson/refine.dag"
+grep -o 'M[^"]*' "$top/examples/poisson/mesh.svg" | sort >had
+grep -o 'M[^"]*' poisson/mesh.svg | sort >have
+check "the picture is of this mesh" cmp had have
+
 # ---- the verb
 verb() { sed "s/^verb .*/$1/" net/net.dag >verb.dag; }
 verb 'verb while;' && check "a keyword may be a verb: gate_while" "$dagc" --catalog verb.dag --emit=none gate.dag
