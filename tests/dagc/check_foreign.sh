@@ -221,6 +221,7 @@ check "two of one catalog" sh -c 'printf "#include \"p.h\"\n#include \"q.h\"\nin
 cp "$top/runtime/oracle.h" "$top/runtime/oracle/tool_table.h" made
 check "no word of radiosity" sh -c '! grep -wniE "radiosity|refine[a-z_]*|W/m2|element|emitter|receiver|shaft|pair|host\.area" made/gate.[ch] made/one.c made/[pq].[ch] made/catalog.[ch]'
 check "no header of radiosity" sh -c '! gcc -Imade -Inet -M made/gate.c made/catalog.c | grep -E "discussion.h|geometry.h"'
+check "a type of functions has the prefix" grep -qF 'typedef int (*p_compare)(const void *, const void *);' made/p.h
 check "functions of the program keep their names" grep -q 'double queue_room(const struct queue' made/p.c
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 [ -n "${THOROUGH-}" ] || set -- "gcc -std=c11" "clang++ -x c++ -std=c++17"
