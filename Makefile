@@ -30,6 +30,8 @@ CFLAGS   = -std=c11 $(OPT) $(WARN) -ffp-contract=off $(PARALLEL) $(SANITIZE)
 PARALLEL = -fopenmp
 CPPFLAGS = -D_XOPEN_SOURCE=700 -I$(BUILD)/gen
 LDFLAGS  = $(SANITIZE) -fopenmp
+# Which headers an object was made of.
+DEPEND   = $(if $(findstring tcc,$(CC)),-MD,-MMD -MP)
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # What the library is linked with, and what the command needs besides.
 ENGINE_LIBS = $(EMBREE) -llapacke -lpthread -ldl -lm
@@ -84,7 +86,7 @@ dagc: $(BUILD)/bin/dagc $(LIBDAGC)
 # What is built by what: catalog.dag -> libdagc -> dagc -> everything that includes discussion.h.
 $(BUILD)/bin/dagc: $(BUILD)/dagc/command/main.o $(LIBDAGC)
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -o $@ $^ -ldl -lm
+	$(CC) $(SANITIZE) -o $@ $^ -ldl -lm
 $(LIBDAGC): $(call objects,$(wildcard dagc/*/)) $(EMBEDDED)
 	rm -f $@
 	ar rcs $@ $^
@@ -139,6 +141,9 @@ $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUI
 $(foreach room,$(ROOMS),$(eval $(BUILD)/runtime/$(room)/%.o: CPPFLAGS += -I$(WALLS)/$(room)))
 $(BUILD)/runtime/oracle/%.o $(BUILD)/runtime/engine/%.o: CPPFLAGS += -Idagc
 $(BUILD)/dagc/%.o: CPPFLAGS += -Idagc
+# dagc needs a C compiler and nothing else.
+DAGC_OBJECTS = $(call objects,$(wildcard dagc/*/)) $(BUILD)/dagc/command/main.o $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
+$(DAGC_OBJECTS): PARALLEL =
 $(BUILD)/solver/%.o: CPPFLAGS += -Isolver -I$(WALLS)/solver -Itests/hand
 $(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/support -Itests/hand -Isolver -Iruntime -Idagc
 $(BUILD)/examples/%.o: CPPFLAGS += -Iruntime
@@ -156,9 +161,9 @@ $(RUNTIME): PARALLEL = -fopenmp-simd
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(DEPEND) -c -o $@ $<
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
-	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(DEPEND) -c -o $@ $<
 $(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o: $(BUILD)/gen/catalog.h
 
 packages:

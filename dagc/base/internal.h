@@ -196,6 +196,7 @@ struct emit_options {
     int outline;        /* --outline: graphs used more than once are functions */
     int lines;          /* --lines: a comment at each node says where it stands in its source */
     int directives;     /* --line-directives: #line (line_directives.h) */
+    int cxx;            /* for C++: functions have its linkage */
     int standalone;     /* --standalone: all that it needs, in one .c and one .h */
     const char *prefix; /* of every name in it; NULL: the first oracle's name */
     const char *const *folders; /* -I: where headers are looked for before the built-in ones */

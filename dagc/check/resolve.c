@@ -411,6 +411,35 @@ static void resolve_uses(struct dag *dag, const struct oracle_graph *graph, int 
     }
 }
 
+/* Two names of tools or more, none of them known or like one that is: the file is for another
+ * catalog, and that is all to be said. */
+static int is_for_another(struct dag *dag)
+{
+    const struct node *first = NULL;
+    int unknown = 0;
+    for (int i = 0; i < dag->draft_count; i++) {
+        const struct node *node = &dag->drafts[i];
+        if (node->tool_name == NULL || node->branch >= 0)
+            continue;
+        struct suggestion suggestion = {node->tool_name, NULL, 0};
+        for (int t = 0; t < dag->tool_count; t++)
+            dag_suggest(&suggestion, dag->tools[t].name);
+        if (node->tool >= 0 || suggestion.best != NULL)
+            return 0;
+        first = first == NULL ? node : first;
+        unknown |= strcmp(node->tool_name, first->tool_name) != 0;
+    }
+    if (!unknown || dag->lost || dag->error_count > 0)
+        return 0;
+    dag_error(dag, first->tool_where, "%s has none of the tools that this file asks",
+              dag->sources[0].name);
+    dag_note(dag, dag_nowhere,
+             "if the file is for another catalog, let it say so: catalog "
+             "\"FILE\";  or give --catalog FILE");
+    dag->oracle_count = dag->branch_count = 0;
+    return 1;
+}
+
 void dag_resolve(struct dag *dag)
 {
     int *queue = dag_alloc(&dag->arena, ((size_t)dag->branch_count + 1) * sizeof *queue),
@@ -423,6 +452,8 @@ void dag_resolve(struct dag *dag)
     for (int i = 0; i < dag->branch_count; i++)
         if (dag->branches[i].use < 0)
             resolve_uses(dag, &dag->branches[i], NULL, NULL);
+    if (is_for_another(dag))
+        return;
     for (int i = 0; i < dag->oracle_count; i++) {
         struct oracle_graph *oracle = &dag->oracles[i];
         int first = dag_put(&dag->arena, &dag->oracle_names, oracle->name, i);

@@ -58,6 +58,7 @@ static void emit(struct dag *dag, struct job *job)
     case EMIT_CATALOG_C:
         dag_emit_catalog_c(dag, out);
         break;
+    case EMIT_CXX: /* set_emit has made C text of it */
     case EMIT_STUB:
     case EMIT_STUB_CXX:
     case EMIT_NONE:

@@ -153,6 +153,11 @@ static int wrong_name(const char *what, const char *name, const char *nearest)
 static int set_emit(struct job *job, const char *name)
 {
     struct suggestion suggestion = {name, NULL, 0};
+    job->c.cxx = strcmp(name, emits[EMIT_CXX].name) == 0;
+    if (job->c.cxx) {
+        job->emit = EMIT_C; /* all that belongs to C text belongs to it */
+        return -1;
+    }
     for (int i = 0; i < EMITS; i++) {
         if (strcmp(name, emits[i].name) == 0) {
             job->emit = (enum emit)i;
@@ -371,6 +376,17 @@ static const char *contradiction(const struct job *job)
     return NULL;
 }
 
+static int has_cxx_name(const char *path)
+{
+    static const char *const ends[] = {".cpp", ".cc", ".cxx"};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        size_t length = strlen(path), end = strlen(ends[i]);
+        if (length > end && strcmp(path + length - end, ends[i]) == 0)
+            return 1;
+    }
+    return 0;
+}
+
 int dag_parse_arguments(struct job *job, int count, char **arguments)
 {
     int only_files = 0;
@@ -403,6 +419,8 @@ int dag_parse_arguments(struct job *job, int count, char **arguments)
                         || (length > 4 && strcmp(job->input_path + length - 4, ".dag") == 0);
     if (job->emit == EMIT_STUB_CXX && !job->skeleton)
         return wrong("--emit=stub-c++ takes a catalog, not", job->input_path);
+    if (job->emit == EMIT_C && has_cxx_name(job->outputs[OUTPUT_TEXT].path))
+        job->c.cxx = 1;
     const char *why = contradiction(job);
     return why != NULL ? wrong(why, "") : -1;
 }

@@ -60,7 +60,7 @@ static void print_line(struct table_of *table, const struct node *node, const st
 static void print_node(struct table_of *table, const struct node *node)
 {
     const struct tool *tool = &table->dag->tools[node->tool];
-    const struct span spans[] = {node->reads, tool->reads, tool->writes};
+    const struct span spans[3] = {node->reads, tool->reads, tool->writes};
     int lines = 0;
     for (int s = WISH_ARGUMENT; s <= WISH_WRITE; s++)
         for (int i = spans[s].first; i < spans[s].first + spans[s].count; i++)

@@ -109,17 +109,23 @@ static void print_declarations(struct dag *dag, struct text *out,
                                const struct emit_options *options)
 {
     dag_print(out, "#include \"%s\"\n#include \"oracle.h\"\n", dag->runtime_header);
-    dag_print(out, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
+    if (!options->cxx)
+        dag_print(out, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
     dag_emit_externs(dag, out);
     for (int i = 0; i < dag->oracle_count; i++) {
         dag_emit_oracle_h(dag, out, &dag->oracles[i], options);
         dag_print(out, "\nextern const struct oracle %s_oracle;\n", dag->oracles[i].name);
     }
-    dag_print(out, "\n#ifdef __cplusplus\n}\n#endif\n");
+    if (!options->cxx)
+        dag_print(out, "\n#ifdef __cplusplus\n}\n#endif\n");
 }
 
-static void print_guard(struct text *out, const char *header_name)
+/* FILE_H, and where that is not FILE's the oracle: two graphs of one name may stand in two folders.
+ */
+static void print_guard(struct text *out, const char *header_name, const char *oracle)
 {
+    size_t length = strlen(oracle);
+    int same = strncmp(header_name, oracle, length) == 0 && header_name[length] == '.';
     int first = 1;
     for (; *header_name != '\0'; header_name++) {
         char c = *header_name;
@@ -130,6 +136,10 @@ static void print_guard(struct text *out, const char *header_name)
         dag_print_upper(out, upper);
         first = 0;
     }
+    if (!same) {
+        dag_print(out, "_");
+        dag_print_upper(out, oracle);
+    }
 }
 
 static void print_header(struct dag *dag, struct text *out, const char *header_name,
@@ -137,9 +147,9 @@ static void print_header(struct dag *dag, struct text *out, const char *header_n
 {
     dag_emit_banner(dag, out);
     dag_print(out, "#ifndef ");
-    print_guard(out, header_name);
+    print_guard(out, header_name, dag->oracles[0].name);
     dag_print(out, "\n#define ");
-    print_guard(out, header_name);
+    print_guard(out, header_name, dag->oracles[0].name);
     dag_print(out, "\n\n");
     print_declarations(dag, out, options);
     dag_print(out, "\n#endif\n");

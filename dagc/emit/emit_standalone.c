@@ -180,9 +180,12 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
     dag_print_upper(header, prefix);
     dag_print(header, "_H\n");
     put_public(&s, header);
-    dag_print(header, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
+    if (!options->cxx)
+        dag_print(header, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
     put(&s, header, declarations_name, dag_nowhere);
-    dag_print(header, "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
+    if (!options->cxx)
+        dag_print(header, "\n#ifdef __cplusplus\n}\n#endif\n");
+    dag_print(header, "\n#endif\n");
 
     dag_emit_banner(dag, c);
     dag_print(c,

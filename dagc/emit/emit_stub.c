@@ -40,7 +40,7 @@ static void print_needs(const struct dag *dag, struct text *out, struct span nee
 
 static void print_includes(const struct dag *dag, struct text *out, const struct tool *tool)
 {
-    const struct span needs[] = {tool->reads, tool->writes};
+    const struct span needs[2] = {tool->reads, tool->writes};
     dag_print(out, "#include \"%s\"\n", dag->runtime_header);
     for (int k = 0; k < 2; k++)
         for (int i = needs[k].first; i < needs[k].first + needs[k].count; i++)

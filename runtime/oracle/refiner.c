@@ -1,5 +1,6 @@
 /* refiner.c - parameters by name, for every release alike.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
