@@ -312,16 +312,25 @@
 /* the same for one element: what is so far out is believed whatever its class says; 3, as is usual
  * for outliers */
 #define REFINER_MEND_OUTLIER 3.0
-/* particles. Leaves on which more are to land are quartered for them. Cells of soda are off by
- * 6.0 % with the leaves that links need, by 5.1, 4.5 and 4.5 with 1024, 256 and 64, and leaves are
- * 1, 8 and 46 % more; corridor, maze_8 and cube are within .1 % for all: tests/tables/judge.sh */
-#define REFINER_MEND_DETAIL 256.0
+/* particles. Leaves on which more are to land are quartered for them. Chosen: on a quarter of so
+ * few, chance says more than they do, so finer leaves would show nothing. Cells of corridor, whose
+ * faces are long, are off by 8.7 % with 256, by 4.8 with 64, by 3.5 with 16: tests/tables/judge.sh */
+#define REFINER_MEND_DETAIL 16.0
+/* of the fewest rays of mending: leaves are made for so many landings at the least, as it shows only
+ * later how many rays are cast. Chosen: two doublings */
+#define REFINER_DETAIL_LANDINGS 4.0
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
 #define REFINER_PLACE_SHARE 1e-4
-/* of the rays of mending. So many show first whether links are worth theirs; chosen: a thirtieth of
- * the links' rays, whose noise on some thousand places is then known to less than what is asked */
-#define REFINER_SPLIT_LOOK 0.125
+/* of the scene's area. A polygon above is judged by its own light, however dim; chosen with
+ * FACE_ERROR_LARGE: there can be a hundred at most */
+#define REFINER_DIM_LARGE 0.01
+/* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
+ * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
+#define REFINER_DIM_GOAL 0.0255
+/* of the rays of mending. So many may be spent on dim polygons, all together; chosen: mending loses
+ * a twentieth of its accuracy by them where all are spent */
+#define REFINER_DIM_RAYS 0.1
 /* ---- account of error (engine) */
 
 /* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats
@@ -882,16 +891,18 @@ struct refiner_contour_factor_edge {
 static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from,
                                           double to)
 {
-    static const double node[2] = {0.53846931010568309104, 0.90617984593866399280};
-    static const double weight[3] = {0.56888888888888888889, 0.47862867049936646804,
+    static const double node[5] = {-0.90617984593866399280, -0.53846931010568309104, 0,
+                                   0.53846931010568309104, 0.90617984593866399280};
+    static const double weight[5] = {0.23692688505618908751, 0.47862867049936646804,
+                                     0.56888888888888888889, 0.47862867049936646804,
                                      0.23692688505618908751};
     double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    for (int i = -2; i <= 2; i++) {
-        double s = middle + (i < 0 ? -half * node[-i - 1] : i > 0 ? half * node[i - 1] : 0), p[3];
+    for (int i = 0; i < 5; i++) {
+        double s = middle + half * node[i], p[3];
         p[0] = g->p[0] + s * g->e[0];
         p[1] = g->p[1] + s * g->e[1];
         p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i < 0 ? -i : i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
+        sum += weight[i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
     }
     return sum * half;
 }
@@ -1054,21 +1065,26 @@ static inline double refiner_polygon_factor_quad(const double (*v)[3], const dou
                                       {0.21132486540518711775, 0.78867513459481288225, 0},
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
-    double sum = 0;
-    for (int i = 0; i <= order; i++)
+    double sum = 0, near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
+    refiner_sub3(near, v[1], v[0]);
+    refiner_sub3(far, v[2], v[3]);
+    for (int i = 0; i <= order; i++) {
+        double s = node[order][i], low[3], dt[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = v[0][k] + s * near[k];
+            dt[k] = v[3][k] + s * far[k] - low[k];
+        }
         for (int j = 0; j <= order; j++) {
-            double s = node[order][i], t = node[order][j], p[3], ds[3], dt[3], jacobian[3];
+            double t = node[order][j], p[3], ds[3], jacobian[3];
             for (int k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]),
-                       high = v[3][k] + s * (v[2][k] - v[3][k]);
-                p[k] = low + t * (high - low);
-                dt[k] = high - low;
-                ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+                p[k] = low[k] + t * dt[k];
+                ds[k] = (1 - t) * near[k] + t * far[k];
             }
             refiner_cross3(jacobian, ds, dt);
             sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n)
                    * refiner_lambert_sum(p, n, (const double(*)[3])q->v, q->n);
         }
+    }
     return sum;
 }
 

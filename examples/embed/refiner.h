@@ -119,9 +119,18 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
                                 const double on[3], const double normal[3])
 {
     double h[REFINER_POLYGON_MAX];
-    for (int i = 0; i < n; i++)
+    int front = 0;
+    for (int i = 0; i < n; i++) {
         h[i] = refiner_height3(v[i], on, normal);
-    out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
+        front += h[i] >= 0;
+    }
+    out->n = n;
+    if (front < n)
+        out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
+    else /* most planes cut nothing */
+        for (int i = 0; i < n; i++)
+            for (int k = 0; k < 3; k++)
+                out->v[i][k] = v[i][k];
     if (out->n < 3)
         out->n = 0;
 }
