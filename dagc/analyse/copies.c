@@ -54,10 +54,10 @@ static uint64_t *cuts_at(const struct making *m, int place)
 static uint64_t own_cuts(const struct dag *dag, const struct node *node, int term)
 {
     const struct tool *tool = &dag->tools[node->tool];
-    const struct span spans[] = {node->reads, tool->reads, tool->writes};
+    const struct span *const spans[] = {&node->reads, &tool->reads, &tool->writes};
     uint64_t cuts = 0;
     for (int s = 0; s < 3; s++)
-        for (int i = spans[s].first; i < spans[s].first + spans[s].count; i++)
+        for (int i = spans[s]->first; i < spans[s]->first + spans[s]->count; i++)
             if (dag->needs[i].term == term)
                 cuts |= bit_of(dag->needs[i].level > 0 ? dag->needs[i].level : 1);
     return cuts;

@@ -33,7 +33,9 @@ struct watched {
 static int tell(void *context, double share)
 {
     const struct watched *w = context;
-    double rays = (double)w->before + share * w->now;
+    /* what is foretold of a stretch may be a little more than it takes: never less is told */
+    double rays = fmax((double)w->before + share * w->now, w->solve->told);
+    w->solve->told = rays;
     const struct counting counting = {(uint64_t)rays, rays < w->all ? rays / w->all : 1};
     w->solve->counting = &counting;
     int quit = solve_tell(w->solve, "particles");
@@ -123,6 +125,7 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     uint64_t each = surfaces ? rays * 3 / 10 : 0, counted = rays - 2 * each;
     double start = seconds();
     struct tracer t = solve_tracer(s);
+    s->told = 0;
     struct tally tally = {0};
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
@@ -244,6 +247,7 @@ int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, cons
     uint32_t elements = s->hierarchy.count;
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
+    s->told = 0;
     int failed = tracer_open(&t) < 0 || detail_places(s) < 0
                  || tally_open(&tally, &t, MEND_STREAM, 1) < 0
                  || trace_rays(s, &t, &tally, rays, (double)rays) < 0
@@ -308,6 +312,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
 {
     double start = seconds();
     struct tracer t = solve_tracer(s);
+    s->told = 0;
     struct tally tally = {0};
     uint64_t spent = 0;
     *alone = (struct measured_error){0};

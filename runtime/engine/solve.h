@@ -67,6 +67,7 @@ struct solve {
     struct report report;
     struct trace *trace;             /* whoever is told of discussions, borrowed; NULL: nobody */
     const struct counting *counting; /* NULL: no particles are traced now */
+    double told;                     /* the most rays that counting has told of */
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;
     uint32_t started;

@@ -122,7 +122,7 @@ says 2 "takes no --release but dag" solve "$scene" --statistics - --release flat
 # An abbreviation is good as long as it is clear, with --name=value as well; one that is not names what it could be.
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol 7
 says 2 "--tolerance takes a number above 0 and below 1, not 7" solve "$scene" --tol=7
-says 2 "--s could be --set, --solver, --size, --statistics" solve "$scene" --s 7
+says 2 "--s could be --set, --scale, --solver, --size, --statistics" solve "$scene" --s 7
 says 2 "--t could be --tolerance, --two-sided, --threads, --trace" solve "$scene" --t=7
 # Options may stand before and behind the scene, whatever POSIX says of others.
 count=$((count + 1))
