@@ -1,0 +1,61 @@
+#!/bin/sh
+# check_scale.sh - `radiosity solve`, links as coarse as they pay for: what is chosen, and when nothing is; --scale.
+# RADIOSITY names the command.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+scenes=$top/examples/scenes
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+count=0 bad=0
+
+failed() { bad=$((bad + 1)); echo "failed: $1"; cat err; }
+solve() { "$radiosity" solve "$@" -q --no-errors --json json --faces faces 2>err; }
+value() { tr -d '\n' <json | sed -n "s/.*\"$1\": *\([^,} ]*\).*/\1/p"; }
+# SCENE TIMES CHOSEN [OPTION...]: thresholds so many times what is set, chosen or not
+scaled() {
+    scene=$1 times=$2 chosen=$3
+    shift 3
+    count=$((count + 1))
+    solve "$scene" "$@" && [ "$(value chosen)" = "$chosen" ] && [ "$(value thresholds_times | sed 's/\.0$//')" = "$times" ] \
+        || failed "$(basename "$scene") $*: $(value thresholds_times) $(value chosen), not $times $chosen"
+}
+# TEXT OPTIONS...: wrong usage that says this
+wrong() {
+    text=$1
+    shift
+    count=$((count + 1))
+    solve "$scenes/furnace.obj" "$@"
+    [ $? = 2 ] && grep -qF -- "$text" err || failed "$*: not said: $text"
+}
+
+# In a room links pay; among boxes that hide each other in part they do not.
+printf 'newmtl wall\nKd .7 .7 .7\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n' >boxes.mtl
+awk -v N=3 -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
+scaled boxes.obj 16 true
+scaled "$scenes/room.obj" 1 true
+cp faces once
+scaled "$scenes/room.obj" 1 true --threads 1
+count=$((count + 1))
+cmp -s faces once || failed "another number of threads, another answer"
+scaled "$scenes/room.obj" 1 false --set bend=5e-6
+scaled "$scenes/room.obj" 1 false --oracle bf_guarded
+scaled "$scenes/room.obj" 1 false --no-correct
+scaled "$scenes/room.obj" 1 false --basis constant
+scaled "$scenes/room.obj" 1 false --statistics out
+scaled "$scenes/room.obj" 4 false --scale 4 --no-correct
+count=$((count + 1))
+cp faces by_scale
+solve "$scenes/room.obj" --no-correct --set energy=8e-5 --set bend=2e-5 --set shadow=1.2e-4 --set noise=3.2e-5 --set spot=1.2e-6 \
+    --set product=1e-4 && cmp -s faces by_scale || failed "--scale 4 is not all thresholds times 4"
+wrong "--scale" --scale 0
+wrong "--scale" --scale 1e9
+wrong "--scale" --scale x
+count=$((count + 1))
+"$radiosity" solve "$scenes/furnace.obj" --scale 2 --accuracy 1% 2>err
+[ $? = 2 ] && grep -qF -- "--accuracy chooses the scale" err || failed "--scale goes with --accuracy"
+
+echo "scale: $count checks, $bad failed"
+[ "$bad" = 0 ]
