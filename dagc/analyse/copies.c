@@ -198,10 +198,10 @@ static int is_left_open(const struct dag *dag, const struct need *need, int any,
 static int count_checks(const struct dag *dag, const struct node *node, struct knowledge known)
 {
     const struct tool *tool = &dag->tools[node->tool];
-    const struct span spans[] = {node->reads, tool->reads, tool->writes};
+    const struct span *const spans[] = {&node->reads, &tool->reads, &tool->writes};
     int checks = 0;
     for (int s = 0; s < 3; s++)
-        for (int i = spans[s].first; i < spans[s].first + spans[s].count; i++)
+        for (int i = spans[s]->first; i < spans[s]->first + spans[s]->count; i++)
             checks += is_left_open(dag, &dag->needs[i], s > 0, known);
     return checks;
 }

@@ -314,10 +314,11 @@
 #define REFINER_MEND_OUTLIER 3.0
 /* particles. Leaves on which more are to land are quartered for them. Chosen: on a quarter of so
  * few, chance says more than they do, so finer leaves would show nothing. Cells of corridor, whose
- * faces are long, are off by 8.7 % with 256, by 4.8 with 64, by 3.5 with 16: tests/tables/judge.sh */
+ * faces are long, are off by 8.7 % with 256, by 4.8 with 64 and by 3.5 with 16:
+ * tests/tables/judge.sh */
 #define REFINER_MEND_DETAIL 16.0
-/* of the fewest rays of mending: leaves are made for so many landings at the least, as it shows only
- * later how many rays are cast. Chosen: two doublings */
+/* of the fewest rays of mending: leaves are made for so many landings at the least, as it shows
+ * only later how many rays are cast. Chosen: two doublings */
 #define REFINER_DETAIL_LANDINGS 4.0
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
