@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_scale.sh - `radiosity solve`, links as coarse as they pay for: what is chosen, and when nothing is; --scale.
+# check_coarse_first.sh - `radiosity solve`, links as coarse as they pay for: what is chosen, and when nothing is; --scale.
 # RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
 set -u
@@ -57,5 +57,5 @@ count=$((count + 1))
 "$radiosity" solve "$scenes/furnace.obj" --scale 2 --accuracy 1% 2>err
 [ $? = 2 ] && grep -qF -- "--accuracy chooses the scale" err || failed "--scale goes with --accuracy"
 
-echo "scale: $count checks, $bad failed"
+echo "coarse first: $count checks, $bad failed"
 [ "$bad" = 0 ]
