@@ -541,6 +541,18 @@ const char *dag_kind_name(enum kind kind);
 /* Is it made of numbers and parameters alone? Then it is the same in every discussion of a run. */
 int dag_is_fixed(const struct dag *dag, int expression);
 
+/* May an argument of a node be no number of its parameter's range, as p / q where both may be 0?
+ * Then it is looked at when it is computed: a value that is not from `low` to `high` is replaced by
+ * `instead`, the number of the range next to 0, and the discussion's terms.no_number becomes
+ * `what`, unless it says something already. */
+struct dag_doubt {
+    double low, high, instead;
+    const char *what; /* a sentence, the dag's */
+};
+int dag_is_doubtful(const struct dag *dag, const struct argument *argument);
+struct dag_doubt dag_doubt(struct dag *dag, const struct node *node,
+                           const struct argument *argument);
+
 /* Does an argument of some node that the oracle reaches read this fact? */
 int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact);
 

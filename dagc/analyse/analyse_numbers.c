@@ -2,10 +2,19 @@
  *
  * With branches in place and parameters as they are when nobody sets them more is known than when
  * an expression was checked as written: a branch's p / q may be 0 / 0 in one of its uses, and
- * share * most be 0 * inf by their defaults.
+ * share * most be 0 * inf by their defaults. What remains open is looked at when it is computed, by
+ * the flat release and by the interpreter, which say the same: dag_doubt.
  * SPDX-License-Identifier: MIT */
 #include "analyse/analyse.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
 #include "check/interval.h"
+
+/* characters of an expression in a sentence that a C compiler must take as one string */
+enum { TEXT_MOST = 200 };
 
 static void check_argument(struct dag *dag, const struct node *node, int place)
 {
@@ -28,4 +37,29 @@ void dag_analyse_numbers(struct dag *dag)
         for (int a = 0; a < node->arguments.count; a++)
             check_argument(dag, node, a);
     }
+}
+
+int dag_is_doubtful(const struct dag *dag, const struct argument *argument)
+{
+    const struct interval value = dag_interval(dag, argument->expression, INTERVAL_RANGES);
+    return value.none != NONE_NEVER;
+}
+
+struct dag_doubt dag_doubt(struct dag *dag, const struct node *node,
+                           const struct argument *argument)
+{
+    const struct parameter *parameter = &dag->parameters[argument->parameter];
+    const char *text = dag_value_text(dag, argument->expression);
+    struct dag_doubt doubt = {parameter->low, parameter->high, 0, NULL};
+    char low[32], high[32];
+    if (dag->types[parameter->type].base == BASE_INTEGER) { /* what a C int can hold */
+        doubt.low = fmax(doubt.low, INT_MIN);
+        doubt.high = fmin(doubt.high, INT_MAX);
+    }
+    doubt.instead = doubt.low > 0 ? doubt.low : doubt.high < 0 ? doubt.high : 0;
+    doubt.what = dag_format(&dag->arena, "'%s' of node '%s' is no number from %s to %s: %.*s%s",
+                            parameter->name, node->name, dag_number(doubt.low, low),
+                            dag_number(doubt.high, high), TEXT_MOST, text,
+                            strlen(text) > TEXT_MOST ? "..." : "");
+    return doubt;
 }

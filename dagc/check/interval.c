@@ -118,7 +118,7 @@ static struct interval operate(enum expression_kind kind, struct interval a, str
     return r;
 }
 
-/* May the operation make no number of two that are? */
+/* May the operation make no number of two that are, or one beyond the bounds? */
 static int may_be_none(enum expression_kind kind, struct interval a, struct interval b)
 {
     switch (kind) {
@@ -131,10 +131,19 @@ static int may_be_none(enum expression_kind kind, struct interval a, struct inte
     case EXPRESSION_MULTIPLY:
         return (holds_zero(a) && holds_infinity(b)) || (holds_infinity(a) && holds_zero(b));
     case EXPRESSION_DIVIDE:
-        return (holds_zero(a) && holds_zero(b)) || (holds_infinity(a) && holds_infinity(b));
+        return holds_zero(b) || (holds_infinity(a) && holds_infinity(b));
     default:
         return 0;
     }
+}
+
+/* What the operations that may be none make of two numbers. */
+static double one_of(enum expression_kind kind, double a, double b)
+{
+    return kind == EXPRESSION_ADD        ? a + b
+           : kind == EXPRESSION_SUBTRACT ? a - b
+           : kind == EXPRESSION_MULTIPLY ? a * b
+                                         : a / b;
 }
 
 struct interval interval_operate(enum expression_kind kind, struct interval a, struct interval b)
@@ -144,7 +153,10 @@ struct interval interval_operate(enum expression_kind kind, struct interval a, s
     if (a.none == NONE_ALWAYS || b.none == NONE_ALWAYS)
         r.none = NONE_ALWAYS;
     else if (may_be_none(kind, a, b))
-        r.none = certain && a.none == NONE_NEVER && b.none == NONE_NEVER ? NONE_ALWAYS : NONE_MAYBE;
+        r.none = certain && a.none == NONE_NEVER && b.none == NONE_NEVER
+                         && isnan(one_of(kind, a.low, b.low))
+                     ? NONE_ALWAYS
+                     : NONE_MAYBE;
     else
         r.none = a.none || b.none ? NONE_MAYBE : NONE_NEVER;
     return r;

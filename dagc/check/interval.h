@@ -5,7 +5,8 @@
 
 #include "base/internal.h"
 
-/* Is the value no number, as 0 * inf? */
+/* Is the value no number, as 0 * inf; or, maybe, one beyond its bounds, as 1 / x where x may be -0?
+ */
 enum none { NONE_NEVER, NONE_MAYBE, NONE_ALWAYS };
 
 struct interval {

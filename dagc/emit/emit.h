@@ -47,8 +47,10 @@ void dag_emit_prototype(struct text *out, const struct oracle_graph *oracle, enu
 int dag_has_reads(const struct dag *dag, const struct node *node); /* there are such constants */
 int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node,
                    const char *at);
-void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
-                         const char *at, int *value);
+void dag_emit_expression(struct dag *dag, struct text *out, const struct node *node,
+                         const struct argument *argument, const char *at, int *value);
+/* May some argument of a reached node be no number? The discussion must be able to say so. */
+int dag_emit_has_doubts(const struct dag *dag);
 void dag_emit_externs(struct dag *dag, struct text *out);   /* prototypes */
 void dag_emit_accessors(struct dag *dag, struct text *out); /* headers of terms, small functions */
 void dag_emit_fact(const struct dag *dag, struct text *out, int fact);

@@ -5,6 +5,8 @@
  * double with the source's association. min and max are functions, so that each operand stands
  * once, and facts are functions of the discussion, so that a catalog's C text needs no rewriting.
  * SPDX-License-Identifier: MIT */
+#include <string.h>
+
 #include "emit/emit.h"
 
 static int precedence(enum expression_kind kind)
@@ -98,8 +100,21 @@ void dag_emit_fact_number(const struct dag *dag, struct text *out, int fact)
     }
 }
 
-void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
-                         const char *at, int *value)
+/* The rest of a value_checked's arguments. */
+static void print_doubt(struct text *out, struct dag_doubt doubt)
+{
+    const double numbers[] = {doubt.low, doubt.high, doubt.instead};
+    for (int i = 0; i < 3; i++) {
+        dag_print(out, ", ");
+        dag_print_number(out, numbers[i]);
+    }
+    dag_print(out, ",\n        ");
+    dag_print_string(out, doubt.what);
+    dag_print(out, ")");
+}
+
+void dag_emit_expression(struct dag *dag, struct text *out, const struct node *node,
+                         const struct argument *argument, const char *at, int *value)
 {
     const struct expression *e = &dag->expressions[argument->expression];
     int integer = dag->types[dag->parameters[argument->parameter].type].base == BASE_INTEGER;
@@ -108,8 +123,13 @@ void dag_emit_expression(const struct dag *dag, struct text *out, const struct a
     else if (integer && e->kind == EXPRESSION_NUMBER)
         dag_print_integer(out, e->number);
     else {
+        int doubtful = dag_is_doubtful(dag, argument);
         dag_print(out, "%s", integer ? "(int)(" : "");
+        if (doubtful) /* a local copy of the discussion does not come back: its owner's is told */
+            dag_print(out, "value_checked(%s, ", strcmp(at, "d") == 0 ? at : "discussion");
         print(dag, out, argument->expression, 0, at, value);
+        if (doubtful)
+            print_doubt(out, dag_doubt(dag, node, argument));
         dag_print(out, "%s", integer ? ")" : "");
     }
 }
@@ -199,6 +219,17 @@ static void reach(const struct dag *dag, struct reached *reached, int expression
         reach(dag, reached, e->right);
 }
 
+int dag_emit_has_doubts(const struct dag *dag)
+{
+    for (int i = 0; i < dag->order_count; i++) {
+        const struct span arguments = dag->nodes[dag->order[i]].arguments;
+        for (int a = arguments.first; a < arguments.first + arguments.count; a++)
+            if (dag_is_doubtful(dag, &dag->arguments[a]))
+                return 1;
+    }
+    return 0;
+}
+
 static struct reached reach_all(struct dag *dag)
 {
     struct reached reached = {0};
@@ -240,11 +271,24 @@ void dag_emit_accessors(struct dag *dag, struct text *out)
     if (reached.arithmetic) /* a * b + c must round twice, as in the interpreter; gcc has a flag */
         dag_print(out, "\n#ifdef __clang__\n#pragma STDC FP_CONTRACT OFF\n#endif\n");
     if (reached.minimum)
-        dag_print(out, "\nstatic inline double value_min(double a, double b)\n{\n"
-                       "    return a < b ? a : b;\n}\n");
+        dag_print(out,
+                  "\nstatic inline double value_min(double a, double b)\n{\n"
+                  "    return a < b || a != a || (a == b && 1 / a < 0) ? a : b; /* -0 < 0; none of "
+                  "no number */\n}\n");
     if (reached.maximum)
-        dag_print(out, "\nstatic inline double value_max(double a, double b)\n{\n"
-                       "    return a > b ? a : b;\n}\n");
+        dag_print(out,
+                  "\nstatic inline double value_max(double a, double b)\n{\n"
+                  "    return a > b || a != a || (a == b && 1 / a > 0) ? a : b; /* 0 > -0; none of "
+                  "no number */\n}\n");
+    if (dag_emit_has_doubts(dag))
+        dag_print(
+            out,
+            "\n/* An argument that may be no number, as 0 / 0: the discussion keeps which. */\n"
+            "static inline double value_checked(struct discussion *d, double value, double low,\n"
+            "    double high, double instead, const char *what)\n{\n"
+            "    if (value >= low && value <= high)\n        return value;\n"
+            "    if (d->terms.no_number == NULL)\n        d->terms.no_number = what;\n"
+            "    return instead;\n}\n");
     for (int i = 0; i < dag->fact_count; i++)
         if (reached.facts[i]) {
             dag_print(out, "\nstatic inline ");

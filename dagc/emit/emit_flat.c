@@ -161,8 +161,8 @@ static void print_call(const struct flat *flat, const struct node *node)
               flat->dag->tools[node->tool].name, flat->at);
     for (int i = 0; i < node->arguments.count; i++) {
         dag_print(flat->out, ", ");
-        dag_emit_expression(flat->dag, flat->out, &flat->dag->arguments[node->arguments.first + i],
-                            flat->at, &value);
+        dag_emit_expression(flat->dag, flat->out, node,
+                            &flat->dag->arguments[node->arguments.first + i], flat->at, &value);
     }
     dag_print(flat->out, ")");
 }
@@ -457,6 +457,8 @@ static void print_parts_loop(const struct flat *flat)
                                                     : "");
     }
     dag_print(out, "        }\n    }\n");
+    if (dag_emit_has_doubts(flat->dag))
+        dag_print(out, "    discussion->terms.no_number = d.terms.no_number;\n");
     for (int i = 0; i < flat->dag->decision_count; i++)
         if (flat->leaf_used[i]) {
             dag_print(out, "    if (~at == (int)");

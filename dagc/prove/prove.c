@@ -324,9 +324,9 @@ static double value_of(const struct proof *proof, struct prove_record *r, int ex
     case EXPRESSION_DIVIDE:
         return a / b;
     case EXPRESSION_MIN:
-        return a < b ? a : b;
+        return a < b || isnan(a) || (a == b && signbit(a)) ? a : b;
     case EXPRESSION_MAX:
-        return a > b ? a : b;
+        return a > b || isnan(a) || (a == b && !signbit(a)) ? a : b;
     case EXPRESSION_NAME:
         break;
     }
@@ -338,9 +338,15 @@ static void note_call(const struct proof *proof, const struct node *node, struct
     const struct tool *tool = &proof->dag->tools[node->tool];
     double *arguments = r->arguments + r->calls * proof->width;
     memset(arguments, 0, (size_t)proof->width * sizeof *arguments);
-    for (int i = 0; i < node->arguments.count; i++)
-        arguments[i] =
-            value_of(proof, r, proof->dag->arguments[node->arguments.first + i].expression);
+    for (int i = 0; i < node->arguments.count; i++) {
+        const struct argument *argument = &proof->dag->arguments[node->arguments.first + i];
+        arguments[i] = value_of(proof, r, argument->expression);
+        if (!dag_is_doubtful(proof->dag, argument))
+            continue;
+        const struct dag_doubt doubt = dag_doubt(proof->dag, node, argument);
+        if (!(arguments[i] >= doubt.low && arguments[i] <= doubt.high))
+            arguments[i] = doubt.instead;
+    }
     for (int i = 0; i < tool->writes.count; i++) {
         const struct need *need = &proof->dag->needs[tool->writes.first + i];
         r->terms[need->term] = r->calls + 1;
