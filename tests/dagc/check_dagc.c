@@ -309,6 +309,7 @@ struct record {
 };
 struct discussion {
     struct {
+        const char *no_number;
         double where[3], size;
         int times;
         unsigned char where_level, size_level, times_level;
