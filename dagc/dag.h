@@ -108,8 +108,8 @@ struct term {
     const char *doc;
 };
 
-/* fact NAME[.NAME] : TYPE [in [a, b]] = "C" "doc"; a number that is there for the asking: of an
- * element, of the scene. */
+/* fact NAME[.NAME] : TYPE [in [a, b]] [fixed] = "C" "doc"; a number that is there for the asking:
+ * of an element, of the scene. */
 struct fact {
     const char *name; /* "receiver.area" */
     struct where where;
@@ -117,7 +117,8 @@ struct fact {
     const char *type_name;
     int type;
     double low, high;
-    const char *c; /* its value as a C expression over `const struct discussion *d` */
+    const char *c;       /* its value as a C expression over `const struct discussion *d` */
+    unsigned char fixed; /* one number for all pairs */
     const char *doc;
 };
 
@@ -191,8 +192,22 @@ enum keeps {
     KEEPS_RECORD
 };
 
-/* tool NAME(parameters) question|command answers (...) [reads] [writes] [guards]
- * [counts|records] [header] "doc"; */
+/* A name as written where its meaning is looked up later: an answer, a parameter. */
+struct label {
+    const char *name;
+    struct where where;
+};
+
+/* answer -> decision, in a tool's `guards`: with this answer the decision lowers the guard's
+ * measure, which no subdivision raises. */
+struct guard {
+    struct label answer, decision;
+    int answer_index;   /* of the tool */
+    int decision_index; /* in decisions */
+};
+
+/* tool NAME(parameters) question|command answers (...) [reads] [writes]
+ * [guards (...) [by (...)] [after TOOL(...)]] [counts|records] [header] "doc"; */
 struct tool {
     const char *name;
     struct where where;
@@ -201,8 +216,13 @@ struct tool {
     struct span answers;    /* in answers; their numbers, from 0, are the C enum's values */
     struct span reads;      /* in needs */
     struct span writes;     /* in needs */
-    /* says that a subdivision may go on: every way to one passes a guard */
-    unsigned char guards;
+    struct span guards;     /* in guards: what its answers allow */
+    /* in labels, its parameters: one of them must be above 0, and the same for a pair and what
+     * becomes of it, or its answers allow nothing; empty: they always do */
+    struct span by;
+    struct label after; /* a tool; name NULL: none. Its answers allow something only behind */
+    struct span after_answers; /* these of it, in labels */
+    int after_index;           /* in tools */
     enum keeps keeps;
     struct where keeps_where; /* of the word that says so */
     const char *header;       /* C header with `tool_NAME`, "tools/NAME.h" when not written */
@@ -220,7 +240,8 @@ struct decision_tool {
 };
 
 /* The value of an argument: a tree of these. All arithmetic is in double, operands are evaluated
- * from left to right, both of them always; min is (a < b ? a : b), max is (a > b ? a : b). */
+ * from left to right, both of them always. min and max are the same either way round: of no number
+ * (0 * inf) and another they make no number, and -0 is less than 0. */
 enum expression_kind {
     EXPRESSION_NUMBER,
     EXPRESSION_PARAMETER,
@@ -254,6 +275,7 @@ struct expression {
     double low, high;       /* bounds of the value, by interval arithmetic */
     unsigned char any_unit; /* numbers alone: it has the unit that it is used with */
     unsigned char whole;    /* an integer */
+    unsigned char none;     /* enum none: may it be no number, as 0 * inf? */
     unsigned char checked, bad;
 };
 enum { EXPRESSION_SIZE = 1000, EXPRESSION_DEPTH = 200 };
@@ -277,12 +299,6 @@ enum target_kind {
 struct target {
     enum target_kind kind; /* NONE: unresolved, an error has been reported */
     int index;             /* in nodes (before expand: in drafts), in decisions, or which exit */
-    const char *name;
-    struct where where;
-};
-
-/* An answer's name as written in a node. */
-struct label {
     const char *name;
     struct where where;
 };
@@ -406,6 +422,8 @@ struct dag {
     int answer_count;
     struct tool *tools;
     int tool_count;
+    struct guard *guards;
+    int guard_count;
     struct decision_tool *decisions;
     int decision_count; /* their numbers are the C enum's values */
     struct fact *facts;
@@ -414,6 +432,8 @@ struct dag {
     int role_count; /* their numbers, from 1, are the C enum's values */
     struct callback *callbacks;
     int callback_count;
+    struct label *labels; /* of graphs, too */
+    int label_count;
 
     /* The graphs. */
     struct parameter *parameters;
@@ -422,8 +442,6 @@ struct dag {
     int expression_count;
     struct argument *arguments;
     int argument_count;
-    struct label *labels;
-    int label_count;
     struct rule *rules;
     int rule_count;
     struct arc *arcs;
@@ -549,6 +567,18 @@ const char *dag_kind_name(enum kind kind);
 
 /* Is it made of numbers and parameters alone? Then it is the same in every discussion of a run. */
 int dag_is_fixed(const struct dag *dag, int expression);
+
+/* May an argument of a node be no number of its parameter's range, as p / q where both may be 0?
+ * Then it is looked at when it is computed: a value that is not from `low` to `high` is replaced by
+ * `instead`, the number of the range next to 0, and the discussion's terms.no_number becomes
+ * `what`, unless it says something already. */
+struct dag_doubt {
+    double low, high, instead;
+    const char *what; /* a sentence, the dag's */
+};
+int dag_is_doubtful(const struct dag *dag, const struct argument *argument);
+struct dag_doubt dag_doubt(struct dag *dag, const struct node *node,
+                           const struct argument *argument);
 
 /* Does an argument of some node that the oracle reaches read this fact? */
 int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact);

@@ -34,6 +34,7 @@ struct oracle {
     int parameter_count;
     size_t parameters_size;             /* sizeof the parameter structure */
     void (*defaults)(void *parameters); /* fills a parameter structure */
+    /* where discussion->terms.no_number is not NULL afterwards, an argument was no number */
     enum decision (*refine)(const void *parameters, struct discussion *discussion);
     /* [read_count], enum catalog_fact: the facts that its arguments read, ascending */
     const int *reads;

@@ -67,7 +67,8 @@ enum RadError {
     RAD_ERROR_OUT_OF_MEMORY,
     /* no device of Embree's on this processor, no C compiler for a flat release */
     RAD_ERROR_UNSUPPORTED,
-    RAD_ERROR_CANCELLED /* by the progress function */
+    RAD_ERROR_CANCELLED, /* by the progress function */
+    RAD_ERROR_LIMIT      /* refinement did not end: see struct RadLimits */
 };
 
 struct RadDeviceOptions {
@@ -344,6 +345,17 @@ enum RadBasis {
     RAD_BASIS_LINEAR    /* refined as for constants; over the final links, linear in each surface */
 };
 
+/* Where refinement ends with RAD_ERROR_LIMIT: an oracle need not end, and what it has left by then
+ * is no answer. The message says what was reached and, of an oracle with a graph, which node
+ * decides most of the last subdivisions. 0: the default, which no oracle meets that ends (20
+ * splits; 2 million parts of faces more than twice the links and stops; what half of the memory
+ * holds; 1e11 discussions, 1e7 rounds). A solution that was refused can only be released. */
+struct RadLimits {
+    int depth;                     /* splits below a face, at most 250 */
+    uint64_t elements;             /* parts of faces */
+    uint64_t links, pairs, rounds; /* pairs: discussions. Over all passes of the solution */
+};
+
 struct RadSolveOptions {
     /* Relative L1 error of B that iteration may leave; 0: a tenth of what constants on the leaves
      * leave of it, estimated, within 1e-4 and 1e-3 (RadReport.solved says what it came to).
@@ -359,6 +371,7 @@ struct RadSolveOptions {
     const struct RadCamera *camera;
     int unit; /* 1: every face has B = 1 and stays so: links and rows alone */
     enum RadBasis basis;
+    struct RadLimits limits;
 };
 /* NULL-terminated; constant. */
 RAD_API const char *const *radGetClusteringNames(void);

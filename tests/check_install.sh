@@ -59,7 +59,7 @@ cat >user/when_large.dag <<'END2'
 graph large(share : ratio = 0.05 in [0, inf]) exits (small precise, both precise) {
   start energy;
   node energy = transfer(relative = share) { dark | below -> small;  above -> guard; }
-  node guard  = can_split(min_share = 1e-5) { neither -> small;  receiver | both | emitter -> both; }
+  node guard  = can_split(min_share = 1e-5) { neither | receiver -> small;  both | emitter -> both; }
 }
 END2
 cat >user/own.dag <<'END2'

@@ -10,6 +10,7 @@ void dag_analyse(struct dag *dag)
         return;
     dag_analyse_use(dag);
     dag_analyse_answers(dag);
+    dag_analyse_numbers(dag);
     dag_analyse_guards(dag);
     dag_analyse_terms(dag);
     dag_analyse_repeats(dag);

@@ -53,13 +53,18 @@ const char *dag_call_text(struct dag *dag, const struct node *node);
 const char *dag_need_text(struct dag *dag, const struct need *need); /* "form_factor >= polygon" */
 /* ", a, b or c": appends a name to a list, for sentences. */
 const char *dag_join(struct dag *dag, const char *list, const char *name);
+/* Can asking a node change what the question of node `asked` answers the next time? `same`: it is
+ * the same question, its tool and all arguments. */
+int dag_may_change(const struct dag *dag, const struct node *node, const struct node *asked,
+                   int same);
 
 /* ---- the passes of dag_analyse */
 
 void dag_analyse_use(struct dag *dag);     /* what nothing leads to or uses */
 void dag_analyse_answers(struct dag *dag); /* answers that are hidden or make no difference */
+void dag_analyse_numbers(struct dag *dag); /* arguments that are no number */
 void dag_analyse_terms(struct dag *dag);   /* terms that paths lack, or compute for nothing */
-void dag_analyse_guards(struct dag *dag);  /* subdivisions without a guard */
+void dag_analyse_guards(struct dag *dag);  /* subdivisions that nothing allows */
 void dag_analyse_repeats(struct dag *dag); /* what has been asked before */
 
 /* The level, by place in the oracle's order, at which the term is surely known when the node is

@@ -82,6 +82,13 @@ static int arguments_may_change(const struct dag *dag, const struct node *node,
            || raises_any(dag, node, asked->writes);
 }
 
+int dag_may_change(const struct dag *dag, const struct node *node, const struct node *asked,
+                   int same)
+{
+    return may_change(dag, &dag->tools[node->tool], asked, same)
+           || (!same && arguments_may_change(dag, node, asked));
+}
+
 static const struct node *node_of(const struct repeats *repeats, const struct question *question)
 {
     return dag_node_at(repeats->dag, repeats->oracle, question->first);

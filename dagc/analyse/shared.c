@@ -149,6 +149,18 @@ static int is_steady(const struct dag *dag, int expression)
            && (e->right < 0 || is_steady(dag, e->right));
 }
 
+static void add_doubt(struct dag *dag, struct shared *s, int node, int argument)
+{
+    for (int u = 0; u < s->uses; u++) {
+        int at = s->doubts * s->uses + u, of = s->node[u * s->nodes + node];
+        s->doubt = dag_grow(&dag->arena, s->doubt, at, sizeof *s->doubt);
+        s->doubt_node = dag_grow(&dag->arena, s->doubt_node, at, sizeof *s->doubt_node);
+        s->doubt[at] = dag->nodes[of].arguments.first + argument;
+        s->doubt_node[at] = of;
+    }
+    s->doubts++;
+}
+
 static int find_arguments(struct dag *dag, struct shared *s)
 {
     for (int i = 0; i < s->nodes; i++) {
@@ -157,12 +169,16 @@ static int find_arguments(struct dag *dag, struct shared *s)
             int value = dag->arguments[first->arguments.first + k].expression, differs = 0;
             const char *text = dag_value_text(dag, value);
             int steady = is_steady(dag, value);
+            int doubtful = dag_is_doubtful(dag, &dag->arguments[first->arguments.first + k]);
             for (int u = 1; u < s->uses; u++) {
                 const struct node *node = &dag->nodes[s->node[u * s->nodes + i]];
                 int other = dag->arguments[node->arguments.first + k].expression;
                 differs |= strcmp(text, dag_value_text(dag, other)) != 0;
                 steady &= is_steady(dag, other);
+                doubtful |= dag_is_doubtful(dag, &dag->arguments[node->arguments.first + k]);
             }
+            if (doubtful)
+                add_doubt(dag, s, i, k);
             if (!differs)
                 continue;
             if (!steady)
@@ -236,6 +252,14 @@ int dag_shared_argument(const struct shared *shared, int argument)
 {
     for (int i = 0; i < shared->different; i++)
         if (shared->argument[i * shared->uses] == argument)
+            return i;
+    return -1;
+}
+
+int dag_shared_doubt(const struct shared *shared, int argument)
+{
+    for (int i = 0; i < shared->doubts; i++)
+        if (shared->doubt[i * shared->uses] == argument)
             return i;
     return -1;
 }

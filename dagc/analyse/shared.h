@@ -17,6 +17,9 @@ struct shared {
     int *first_answer; /* [nodes] */
     int different;     /* arguments that differ */
     int *argument;     /* [uses * different], in arguments */
+    /* Arguments that may be no number in some use: what is said of them names the use's node. */
+    int doubts;
+    int *doubt, *doubt_node; /* [uses * doubts], in arguments and in nodes */
 };
 
 /* Of an oracle; they have no node in common. Returns how many. */
@@ -24,5 +27,6 @@ int dag_find_shared(struct dag *dag, const struct oracle_graph *oracle, struct s
 
 /* Which of the arguments that differ is it? Of the first use; -1: none of them. */
 int dag_shared_argument(const struct shared *shared, int argument);
+int dag_shared_doubt(const struct shared *shared, int argument); /* likewise of the doubts */
 
 #endif

@@ -1,66 +1,13 @@
 /* check_expression.c - units, wholeness and bounds of computed values.
  *
  * Units follow dimensional algebra; numbers alone have whatever unit they are used with, so that
- * `max(area, 1e-4)` needs no suffix. Bounds are intervals: every operation here is monotone in
- * the doubles too, so a bound computed with the same operations holds to the last bit, and an
- * argument that passes cannot leave its tool's range in any run (a NaN apart: inf - inf).
+ * `max(area, 1e-4)` needs no suffix. Bounds are intervals (interval.c): an argument that passes
+ * cannot leave its tool's range in any run. What is surely no number is an error here; what may be
+ * none, as p / q, is looked at when it is computed (emit/emit_expression.c).
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 
-#include "base/internal.h"
-
-static double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-/* 0 * inf is 0 here: the bound of 0 * x for every finite x. */
-static double product(double a, double b)
-{
-    return a == 0 || b == 0 ? 0 : a * b;
-}
-
-static void bounds_of_product(struct expression *e, const struct expression *a,
-                              const struct expression *b)
-{
-    double p[4] = {product(a->low, b->low), product(a->low, b->high), product(a->high, b->low),
-                   product(a->high, b->high)};
-    e->low = smaller(smaller(p[0], p[1]), smaller(p[2], p[3]));
-    e->high = larger(larger(p[0], p[1]), larger(p[2], p[3]));
-}
-
-/* By a divisor that may come near 0 from one side, the quotient may be anything of its sign. */
-static void bounds_of_quotient(struct expression *e, const struct expression *a,
-                               const struct expression *b)
-{
-    struct expression inverse = {0};
-    inverse.low = -INFINITY;
-    inverse.high = INFINITY;
-    if (b->low >= 0) {
-        inverse.low = 1 / b->high;
-        inverse.high = b->low > 0 ? 1 / b->low : INFINITY;
-    } else if (b->high <= 0) {
-        inverse.low = b->high < 0 ? 1 / b->high : -INFINITY;
-        inverse.high = 1 / b->low;
-    }
-    /* a / b and a * (1 / b) differ by rounding: only signs and infinities are certain, and the
-     * quotients of the ends where none of them is 0 or infinite. */
-    bounds_of_product(e, a, &inverse);
-    if (isfinite(a->low) && isfinite(a->high) && isfinite(b->low) && isfinite(b->high)
-        && (b->low > 0 || b->high < 0)) {
-        double q[4] = {a->low / b->low, a->low / b->high, a->high / b->low, a->high / b->high};
-        e->low = smaller(smaller(q[0], q[1]), smaller(q[2], q[3]));
-        e->high = larger(larger(q[0], q[1]), larger(q[2], q[3]));
-    } else {
-        e->low = e->low < 0 ? -INFINITY : 0;
-        e->high = e->high > 0 ? INFINITY : 0;
-    }
-}
+#include "check/interval.h"
 
 static const char *described(struct dag *dag, int expression)
 {
@@ -95,31 +42,20 @@ static int check_leaf(struct dag *dag, struct expression *e)
 {
     int type = -1;
     if (e->kind == EXPRESSION_NUMBER) {
-        e->low = e->high = e->number;
         e->any_unit = 1;
         e->whole = e->number == floor(e->number) && isfinite(e->number);
         return 1;
     }
     if (e->kind == EXPRESSION_PARAMETER) {
-        const struct parameter *parameter = &dag->parameters[e->parameter];
-        if (parameter->bad)
+        if (dag->parameters[e->parameter].bad)
             return 0;
-        type = parameter->type;
-        e->low = parameter->low;
-        e->high = parameter->high;
-    } else if (e->kind == EXPRESSION_FACT) {
+        type = dag->parameters[e->parameter].type;
+    } else if (e->kind == EXPRESSION_FACT)
         type = dag->facts[e->index].type;
-        e->low = dag->facts[e->index].low;
-        e->high = dag->facts[e->index].high;
-    } else if (e->kind == EXPRESSION_TERM) {
+    else if (e->kind == EXPRESSION_TERM)
         type = dag->terms[e->index].type;
-        e->low = dag->terms[e->index].low;
-        e->high = dag->terms[e->index].high;
-    } else if (e->kind == EXPRESSION_EXTERN) {
+    else if (e->kind == EXPRESSION_EXTERN)
         type = dag->callbacks[e->index].type;
-        e->low = dag->callbacks[e->index].low;
-        e->high = dag->callbacks[e->index].high;
-    }
     if (type < 0)
         return 0;
     e->unit = dag->types[type].unit;
@@ -145,8 +81,6 @@ static int check_root(struct dag *dag, struct expression *e)
                  dag_expression_text(dag, e->left));
         return 0;
     }
-    e->low = sqrt(a->low);
-    e->high = sqrt(a->high);
     return 1;
 }
 
@@ -156,22 +90,7 @@ static int check_unary(struct dag *dag, struct expression *e)
     e->unit = a->unit;
     e->any_unit = a->any_unit;
     e->whole = a->whole;
-    if (e->kind == EXPRESSION_SQRT)
-        return check_root(dag, e);
-    if (e->kind == EXPRESSION_NEGATE) {
-        e->low = -a->high;
-        e->high = -a->low;
-    } else {
-        e->low = a->low > 0 ? a->low : a->high < 0 ? -a->high : 0;
-        e->high = larger(fabs(a->low), fabs(a->high));
-    }
-    return 1;
-}
-
-/* inf - inf as a bound stands for "no bound". */
-static double bound(double value, double otherwise)
-{
-    return isnan(value) ? otherwise : value;
+    return e->kind != EXPRESSION_SQRT || check_root(dag, e);
 }
 
 static int check_binary(struct dag *dag, struct expression *e)
@@ -180,20 +99,11 @@ static int check_binary(struct dag *dag, struct expression *e)
     e->whole = a->whole && b->whole;
     switch (e->kind) {
     case EXPRESSION_ADD:
-        e->low = bound(a->low + b->low, -INFINITY);
-        e->high = bound(a->high + b->high, INFINITY);
         return same_unit(dag, e, "add");
     case EXPRESSION_SUBTRACT:
-        e->low = bound(a->low - b->high, -INFINITY);
-        e->high = bound(a->high - b->low, INFINITY);
         return same_unit(dag, e, "subtract");
     case EXPRESSION_MIN:
-        e->low = smaller(a->low, b->low);
-        e->high = smaller(a->high, b->high);
-        return same_unit(dag, e, "compare");
     case EXPRESSION_MAX:
-        e->low = larger(a->low, b->low);
-        e->high = larger(a->high, b->high);
         return same_unit(dag, e, "compare");
     default:
         break;
@@ -205,17 +115,40 @@ static int check_binary(struct dag *dag, struct expression *e)
                   dag_expression_text(dag, (int)(e - dag->expressions)));
         return 0;
     }
-    if (sign > 0) {
-        bounds_of_product(e, a, b);
+    if (sign > 0)
         return 1;
-    }
     e->whole = 0;
-    bounds_of_quotient(e, a, b);
     if (b->low == 0 && b->high == 0) {
         dag_error(dag, e->where, "a division by 0");
         return 0;
     }
     return 1;
+}
+
+static struct interval interval_of(const struct expression *e)
+{
+    struct interval r = {e->low, e->high, (enum none)e->none};
+    return r;
+}
+
+/* The bounds of e from those of its operands; is it a number? */
+static int check_bounds(struct dag *dag, struct expression *e)
+{
+    static const struct interval zero = {0, 0, NONE_NEVER};
+    struct interval r =
+        e->left < 0
+            ? interval_leaf(dag, e, INTERVAL_RANGES)
+            : interval_operate(e->kind, interval_of(&dag->expressions[e->left]),
+                               e->right < 0 ? zero : interval_of(&dag->expressions[e->right]));
+    e->low = r.low;
+    e->high = r.high;
+    e->none = (unsigned char)r.none;
+    if (r.none != NONE_ALWAYS)
+        return 1;
+    dag_error(dag, e->where, "'%s' is no number, whatever else is",
+              dag_expression_text(dag, (int)(e - dag->expressions)));
+    dag_note(dag, dag_nowhere, "no numbers are: 0 * inf, inf - inf, inf / inf and 0 / 0");
+    return 0;
 }
 
 int dag_check_expression(struct dag *dag, int expression)
@@ -230,6 +163,7 @@ int dag_check_expression(struct dag *dag, int expression)
         ok = e->left < 0    ? check_leaf(dag, e)
              : e->right < 0 ? check_unary(dag, e)
                             : check_binary(dag, e);
+    ok = ok && check_bounds(dag, e);
     e->checked = 1;
     e->bad = !ok;
     return ok;

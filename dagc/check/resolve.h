@@ -21,4 +21,7 @@ int dag_resolve_type(struct dag *dag, const char *name, struct where where);
 /* may they have roles? */
 void dag_resolve_parameters(struct dag *dag, struct span span, int roles);
 
+/* what a tool's answers allow; all tools' names are known (resolve_guards.c) */
+void dag_resolve_guards(struct dag *dag, struct tool *tool);
+
 #endif

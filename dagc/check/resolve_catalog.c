@@ -315,6 +315,8 @@ void dag_resolve_catalog(struct dag *dag)
         resolve_tool(dag, &dag->tools[i]);
     for (int i = dag->resolved.decisions; i < dag->decision_count; i++)
         resolve_needs(dag, dag->decisions[i].reads, 1);
+    for (int i = dag->resolved.tools; i < dag->tool_count; i++)
+        dag_resolve_guards(dag, &dag->tools[i]);
     dag->resolved.types = dag->type_count;
     dag->resolved.terms = dag->term_count;
     dag->resolved.tools = dag->tool_count;

@@ -47,14 +47,26 @@ void dag_emit_counters_c(const struct dag *dag, struct text *out, const struct o
 void dag_emit_prototype(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                         enum flavour flavour);
 
-/* emit_expression.c: the constants that a node's arguments read (how many), then each argument
- * over them, *value counting on from 0; `at` is the discussion's address there; and what the C file
- * must say of all this first. */
-int dag_has_reads(const struct dag *dag, const struct node *node); /* there are such constants */
-int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node,
-                   const char *at);
-void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
-                         const char *at, int *value);
+/* Where an argument is printed. */
+struct place {
+    const char *at;              /* the discussion's address */
+    const char *told;            /* that of the one that is told which argument is no number */
+    const struct shared *inside; /* the function for some uses of a graph; NULL: for the whole */
+};
+
+/* emit_expression.c: the constants that a node's arguments read or are, then each argument over
+ * them, *value counting on from 0, or a shared one as its call gives it; and what the C file must
+ * say of all this first. */
+int dag_has_reads(const struct dag *dag, const struct node *node,
+                  const struct place *place); /* there are such constants */
+void dag_emit_reads(struct dag *dag, struct text *out, const struct node *node,
+                    const struct place *place);
+void dag_emit_expression(struct dag *dag, struct text *out, const struct node *node,
+                         const struct argument *argument, const struct place *place, int *value);
+void dag_emit_shared_argument(struct dag *dag, struct text *out, const struct argument *argument,
+                              const char *at, int doubtful);
+/* May some argument of a reached node be no number? The discussion must be able to say so. */
+int dag_emit_has_doubts(const struct dag *dag);
 void dag_emit_externs(struct dag *dag, struct text *out);   /* prototypes */
 void dag_emit_accessors(struct dag *dag, struct text *out); /* headers of terms, small functions */
 void dag_emit_fact(const struct dag *dag, struct text *out, int fact);

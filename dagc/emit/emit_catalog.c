@@ -117,6 +117,11 @@ static void print_terms(const struct dag *dag, struct text *out, const unsigned 
     dag_print(out,
               "\n/* The data manager: every term and the level it is known at. All zero: nothing"
               " is known. */\nstruct terms {\n");
+    if (terms == NULL || dag_emit_has_doubts(dag)) {
+        any = 1;
+        dag_print(out, "    /* which argument of a node was no number, as 0 / 0; NULL: none */\n"
+                       "    const char *no_number;\n");
+    }
     for (int i = 0; i < dag->term_count; i++) {
         const struct term *term = &dag->terms[i];
         const struct type *type = &dag->types[term->type];

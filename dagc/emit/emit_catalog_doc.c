@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analyse/analyse.h"
+#include "analyse/guard.h"
 #include "emit/headers.h"
 
 /* Text that Markdown shows as it is, also in a table. */
@@ -74,7 +74,7 @@ static void print_decisions(struct dag *dag, struct text *out)
         print_doc(out, decision->doc);
         print_needs(dag, out, "Every path to it must provide", decision->reads);
         if (decision->subdivides)
-            dag_print(out, "Subdivides: every path to it must pass a guard.\n\n");
+            dag_print(out, "Subdivides: every path to it must hold an answer that allows it.\n\n");
     }
 }
 
@@ -113,7 +113,7 @@ static void print_tools(struct dag *dag, struct text *out)
         print_doc(out, tool->doc);
         dag_print(out, "%s%s, in `%s`.\n\n",
                   tool->kind == TOOL_COMMAND ? "A command" : "A question",
-                  tool->guards ? " and a guard" : "", tool->header);
+                  tool->guards.count > 0 ? " and a guard" : "", tool->header);
         if (tool->keeps != KEEPS_NOTHING)
             dag_print(out, "Statistics keep %s.\n\n",
                       tool->keeps == KEEPS_COUNT
@@ -121,10 +121,21 @@ static void print_tools(struct dag *dag, struct text *out)
                           : "a histogram of its first argument, by the second");
         print_comment(dag, out, tool->header, tool->where);
         print_parameters(dag, out, tool->parameters);
-        dag_print(out, "| answer | kind |\n|---|---|\n");
-        for (int a = tool->answers.first; a < tool->answers.first + tool->answers.count; a++)
-            dag_print(out, "| `%s` | %s |\n", dag->answers[a].name,
-                      dag_kind_name(dag->answers[a].kind));
+        int guards = tool->guards.count > 0;
+        dag_print(out, "| answer | kind |%s\n|---|---|%s\n", guards ? " allows |" : "",
+                  guards ? "---|" : "");
+        for (int a = 0; a < tool->answers.count; a++) {
+            const struct answer *answer = &dag->answers[tool->answers.first + a];
+            dag_print(out, "| `%s` | %s |", answer->name, dag_kind_name(answer->kind));
+            if (guards)
+                dag_print(out, " %s |", dag_guard_allows(dag, tool, a, -1));
+            dag_print(out, "\n");
+        }
+        if (tool->by.count > 0)
+            dag_print(out, "\nIt allows that where %s above 0.\n", dag_guard_limits(dag, tool, ""));
+        if (tool->after.name != NULL)
+            dag_print(out, "\nIt allows that behind `%s` of `%s`.\n",
+                      dag_label_list(dag, tool->after_answers), tool->after.name);
         dag_print(out, "\n");
         print_needs(dag, out, "Reads", tool->reads);
         print_needs(dag, out, "Writes", tool->writes);

@@ -87,7 +87,7 @@ static void print_node(const struct drawing *drawing, const struct node *node)
         }
         dag_print(out, "</font>");
     }
-    dag_print(out, ">%s%s];\n", tool->guards ? ", penwidth=2" : "",
+    dag_print(out, ">%s%s];\n", tool->guards.count > 0 ? ", penwidth=2" : "",
               tool->kind == TOOL_COMMAND ? ", style=\"filled\", fillcolor=\"#eef0f6\"" : "");
 }
 

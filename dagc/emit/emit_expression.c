@@ -1,10 +1,13 @@
 /* emit_expression.c - computed arguments in C.
  *
  * Terms and externs are read first, into constants, in the order of evaluation: reading a term may
- * compute it, and C leaves open which operand of + comes first. What is left is arithmetic in
- * double with the source's association. min and max are functions, so that each operand stands
- * once, and facts are functions of the discussion, so that a catalog's C text needs no rewriting.
+ * compute it, and C leaves open which operand of + comes first; so are arguments of one call of
+ * which several may be no number, as the discussion is told of the first. What is left is
+ * arithmetic in double with the source's association. min and max are functions, so that each
+ * operand stands once, and facts are functions of the discussion, so that a catalog's C text needs
+ * no rewriting.
  * SPDX-License-Identifier: MIT */
+#include "analyse/shared.h"
 #include "emit/emit.h"
 
 static int precedence(enum expression_kind kind)
@@ -98,20 +101,104 @@ void dag_emit_fact_number(const struct dag *dag, struct text *out, int fact)
     }
 }
 
-void dag_emit_expression(const struct dag *dag, struct text *out, const struct argument *argument,
-                         const char *at, int *value)
+static int count_values(const struct dag *dag, int expression)
+{
+    const struct expression *e = &dag->expressions[expression];
+    int count = e->kind == EXPRESSION_TERM || e->kind == EXPRESSION_EXTERN;
+    if (e->left >= 0)
+        count += count_values(dag, e->left);
+    return e->right >= 0 ? count + count_values(dag, e->right) : count;
+}
+
+static int number_of(const struct dag *dag, const struct argument *argument)
+{
+    return (int)(argument - dag->arguments);
+}
+
+static int is_doubtful(const struct dag *dag, const struct argument *argument,
+                       const struct place *place)
+{
+    return place->inside == NULL ? dag_is_doubtful(dag, argument)
+                                 : dag_shared_doubt(place->inside, number_of(dag, argument)) >= 0;
+}
+
+/* May more than one of the node's arguments be no number? */
+static int has_doubts(const struct dag *dag, const struct node *node, const struct place *place)
+{
+    int count = 0;
+    for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++)
+        count += is_doubtful(dag, &dag->arguments[i], place);
+    return count > 1;
+}
+
+/* Which of a shared function's it is, if its uses differ in it; -1. */
+static int given_of(const struct dag *dag, const struct argument *argument,
+                    const struct place *place)
+{
+    return place->inside == NULL ? -1
+                                 : dag_shared_argument(place->inside, number_of(dag, argument));
+}
+
+static void print_checked(struct dag *dag, struct text *out, const struct node *node,
+                          const struct argument *argument, const struct place *place, int *value)
+{
+    const struct dag_doubt doubt = dag_doubt(dag, node, argument);
+    const double numbers[] = {doubt.low, doubt.high, doubt.instead};
+    int given = given_of(dag, argument, place);
+    dag_print(out, "value_checked(%s, ", place->told);
+    if (given >= 0)
+        dag_print(out, "argument_%d", given + 1);
+    else
+        print(dag, out, argument->expression, 0, place->at, value);
+    for (int i = 0; i < 3; i++) {
+        dag_print(out, ", ");
+        dag_print_number(out, numbers[i]);
+    }
+    if (place->inside != NULL)
+        dag_print(out, ", what_%d", dag_shared_doubt(place->inside, number_of(dag, argument)) + 1);
+    else {
+        dag_print(out, ",\n        ");
+        dag_print_string(out, doubt.what);
+    }
+    dag_print(out, ")");
+}
+
+void dag_emit_expression(struct dag *dag, struct text *out, const struct node *node,
+                         const struct argument *argument, const struct place *place, int *value)
 {
     const struct expression *e = &dag->expressions[argument->expression];
     int integer = dag->types[dag->parameters[argument->parameter].type].base == BASE_INTEGER;
-    if (e->kind == EXPRESSION_PARAMETER)
+    int given = given_of(dag, argument, place), doubtful = is_doubtful(dag, argument, place);
+    if (given >= 0 && !doubtful)
+        dag_print(out, "argument_%d", given + 1);
+    else if (e->kind == EXPRESSION_PARAMETER && !doubtful)
         dag_print(out, "parameters->%s", dag->parameters[e->parameter].name);
-    else if (integer && e->kind == EXPRESSION_NUMBER)
+    else if (integer && e->kind == EXPRESSION_NUMBER && !doubtful)
         dag_print_integer(out, e->number);
     else {
         dag_print(out, "%s", integer ? "(int)(" : "");
-        print(dag, out, argument->expression, 0, at, value);
+        if (!doubtful)
+            print(dag, out, argument->expression, 0, place->at, value);
+        else if (!has_doubts(dag, node, place))
+            print_checked(dag, out, node, argument, place, value);
+        else {
+            dag_print(out, "checked_%d", number_of(dag, argument) - node->arguments.first + 1);
+            *value += count_values(dag, argument->expression);
+        }
         dag_print(out, "%s", integer ? ")" : "");
     }
+}
+
+/* What a use gives its function: of a doubtful one the bare number, the function looks at it. */
+void dag_emit_shared_argument(struct dag *dag, struct text *out, const struct argument *argument,
+                              const char *at, int doubtful)
+{
+    const struct place place = {at, NULL, NULL};
+    int value = 0;
+    if (doubtful)
+        print(dag, out, argument->expression, 0, at, &value);
+    else
+        dag_emit_expression(dag, out, NULL, argument, &place, &value);
 }
 
 /* term_NAME(&d, NAME_LEVEL), or term_NAME(&d) for a term without levels */
@@ -152,28 +239,31 @@ static void print_reads(const struct dag *dag, struct text *out, int expression,
         print_reads(dag, out, e->right, at, value);
 }
 
-int dag_emit_reads(const struct dag *dag, struct text *out, const struct node *node, const char *at)
+void dag_emit_reads(struct dag *dag, struct text *out, const struct node *node,
+                    const struct place *place)
 {
+    const struct argument *arguments = &dag->arguments[node->arguments.first];
     int value = 0;
-    for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++)
-        print_reads(dag, out, dag->arguments[i].expression, at, &value);
-    return value;
+    for (int i = 0; i < node->arguments.count; i++)
+        print_reads(dag, out, arguments[i].expression, place->at, &value);
+    value = 0;
+    for (int i = 0; has_doubts(dag, node, place) && i < node->arguments.count; i++) {
+        if (!is_doubtful(dag, &arguments[i], place)) {
+            value += count_values(dag, arguments[i].expression);
+            continue;
+        }
+        dag_print(out, "    const double checked_%d = ", i + 1);
+        print_checked(dag, out, node, &arguments[i], place, &value);
+        dag_print(out, ";\n");
+    }
 }
 
-static int has_reads(const struct dag *dag, int expression)
-{
-    const struct expression *e = &dag->expressions[expression];
-    return e->kind == EXPRESSION_TERM || e->kind == EXPRESSION_EXTERN
-           || (e->left >= 0 && has_reads(dag, e->left))
-           || (e->right >= 0 && has_reads(dag, e->right));
-}
-
-int dag_has_reads(const struct dag *dag, const struct node *node)
+int dag_has_reads(const struct dag *dag, const struct node *node, const struct place *place)
 {
     for (int i = node->arguments.first; i < node->arguments.first + node->arguments.count; i++)
-        if (has_reads(dag, dag->arguments[i].expression))
+        if (count_values(dag, dag->arguments[i].expression) > 0)
             return 1;
-    return 0;
+    return has_doubts(dag, node, place);
 }
 
 /* ---- what the expressions of all reached nodes call */
@@ -197,6 +287,17 @@ static void reach(const struct dag *dag, struct reached *reached, int expression
         reach(dag, reached, e->left);
     if (e->right >= 0)
         reach(dag, reached, e->right);
+}
+
+int dag_emit_has_doubts(const struct dag *dag)
+{
+    for (int i = 0; i < dag->order_count; i++) {
+        const struct span arguments = dag->nodes[dag->order[i]].arguments;
+        for (int a = arguments.first; a < arguments.first + arguments.count; a++)
+            if (dag_is_doubtful(dag, &dag->arguments[a]))
+                return 1;
+    }
+    return 0;
 }
 
 static struct reached reach_all(struct dag *dag)
@@ -245,11 +346,24 @@ void dag_emit_accessors(struct dag *dag, struct text *out)
     if (reached.arithmetic) /* a * b + c must round twice, as in the interpreter; gcc has a flag */
         dag_print(out, "\n#ifdef __clang__\n#pragma STDC FP_CONTRACT OFF\n#endif\n");
     if (reached.minimum)
-        dag_print(out, "\nstatic inline double value_min(double a, double b)\n{\n"
-                       "    return a < b ? a : b;\n}\n");
+        dag_print(out,
+                  "\nstatic inline double value_min(double a, double b)\n{\n"
+                  "    return a < b || a != a || (a == b && 1 / a < 0) ? a : b; /* -0 < 0; none of "
+                  "no number */\n}\n");
     if (reached.maximum)
-        dag_print(out, "\nstatic inline double value_max(double a, double b)\n{\n"
-                       "    return a > b ? a : b;\n}\n");
+        dag_print(out,
+                  "\nstatic inline double value_max(double a, double b)\n{\n"
+                  "    return a > b || a != a || (a == b && 1 / a > 0) ? a : b; /* 0 > -0; none of "
+                  "no number */\n}\n");
+    if (dag_emit_has_doubts(dag))
+        dag_print(
+            out,
+            "\n/* An argument that may be no number, as 0 / 0: the discussion keeps which. */\n"
+            "static inline double value_checked(struct discussion *d, double value, double low,\n"
+            "    double high, double instead, const char *what)\n{\n"
+            "    if (value >= low && value <= high)\n        return value;\n"
+            "    if (d->terms.no_number == NULL)\n        d->terms.no_number = what;\n"
+            "    return instead;\n}\n");
     for (int i = 0; i < dag->fact_count; i++)
         if (reached.facts[i]) {
             dag_print(out, "\nstatic inline ");

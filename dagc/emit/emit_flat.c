@@ -218,21 +218,22 @@ void dag_flat_jump(const struct flat *flat, int from, const struct target *targe
     }
 }
 
+/* A local copy of the discussion does not come back: its owner's is told what is no number. */
+static struct place place_of(const struct flat *flat)
+{
+    return (struct place){flat->at, flat->parts > 1 ? flat->at : "discussion", flat->inside};
+}
+
 static void print_call(const struct flat *flat, const struct node *node)
 {
+    const struct place place = place_of(flat);
     int value = 0;
     dag_print(flat->out, "%s_%s(%s", flat->parts > 1 ? "ask" : "tool",
               flat->dag->tools[node->tool].name, flat->at);
     for (int i = 0; i < node->arguments.count; i++) {
-        int given = flat->inside == NULL
-                        ? -1
-                        : dag_shared_argument(flat->inside, node->arguments.first + i);
         dag_print(flat->out, ", ");
-        if (given >= 0)
-            dag_print(flat->out, "argument_%d", given + 1);
-        else
-            dag_emit_expression(flat->dag, flat->out,
-                                &flat->dag->arguments[node->arguments.first + i], flat->at, &value);
+        dag_emit_expression(flat->dag, flat->out, node,
+                            &flat->dag->arguments[node->arguments.first + i], &place, &value);
     }
     dag_print(flat->out, ")");
 }
@@ -359,7 +360,8 @@ void dag_flat_node(const struct flat *flat, int at)
 {
     const struct copy *copy = &flat->copies.items[at];
     const struct node *node = node_at(flat, copy->place);
-    int block = dag_has_reads(flat->dag, node);
+    const struct place place = place_of(flat);
+    int block = dag_has_reads(flat->dag, node, &place);
     dag_print(flat->out, "\n");
     dag_flat_directive(flat, node->where);
     if (flat->node_label[at] || (flat->parts > 1 && flat->entry[node->order])) {
@@ -375,7 +377,7 @@ void dag_flat_node(const struct flat *flat, int at)
         dag_print(flat->out, "    began = %s_clock(counters);\n", flat->oracle->name);
     if (block) {
         dag_flat_directive(flat, node->tool_where);
-        dag_emit_reads(flat->dag, flat->out, node, flat->at);
+        dag_emit_reads(flat->dag, flat->out, node, &place);
     }
     if (flat->flavour == FLAVOUR_COUNTED && copy->checks > 0)
         dag_print(flat->out, "    counters->checks += %d;\n", copy->checks);
@@ -557,6 +559,8 @@ static void print_parts_loop(const struct flat *flat)
                                                     : "");
     }
     dag_print(out, "        }\n    }\n");
+    if (dag_emit_has_doubts(flat->dag))
+        dag_print(out, "    discussion->terms.no_number = d.terms.no_number;\n");
     for (int i = 0; i < flat->dag->decision_count; i++)
         if (flat->leaf_used[i]) {
             dag_print(out, "    if (~at == (int)");

@@ -196,7 +196,7 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     dag_print(out, "]");
     print_needs(dag, out, "reads", tool->reads);
     print_needs(dag, out, "writes", tool->writes);
-    print_flag(out, "guards", tool->guards);
+    print_flag(out, "guards", tool->guards.count > 0);
     if (tool->keeps != KEEPS_NOTHING)
         print_field(out, ", ", "keeps", tool->keeps == KEEPS_COUNT ? "count" : "record");
     print_field(out, ",\n       ", "header", tool->header);

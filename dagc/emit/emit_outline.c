@@ -24,6 +24,12 @@ static void print_shared_name(const struct flat *flat, const struct shared *s)
     dag_print(flat->out, "%s_branch_%s", flat->oracle->name, flat->dag->branches[s->branch].name);
 }
 
+/* Is the argument that uses differ in looked at in the function? */
+static int is_doubtful(const struct shared *s, int different)
+{
+    return dag_shared_doubt(s, s->argument[different * s->uses]) >= 0;
+}
+
 static void print_function(struct flat *flat, const struct shared *s)
 {
     const struct dag *dag = flat->dag;
@@ -47,10 +53,14 @@ static void print_function(struct flat *flat, const struct shared *s)
               flat->oracle->name);
     for (int i = 0; i < s->different; i++) {
         const struct argument *argument = &dag->arguments[s->argument[i * s->uses]];
-        int type = dag->parameters[argument->parameter].type;
+        int type = dag->parameters[argument->parameter].type, whole = !is_doubtful(s, i);
         dag_print(flat->out, ", %s argument_%d",
-                  dag->types[type].base == BASE_INTEGER ? "int" : "double", i + 1);
+                  whole && dag->types[type].base == BASE_INTEGER ? "int" : "double", i + 1);
     }
+    if (s->doubts > 0)
+        dag_print(flat->out, ",\n    struct discussion *discussion");
+    for (int i = 0; i < s->doubts; i++)
+        dag_print(flat->out, ", const char *what_%d", i + 1);
     dag_print(flat->out, ")\n{\n    (void)parameters;\n");
     for (int i = 0; i < s->nodes; i++)
         dag_flat_node(flat, flat->copies.first[dag->nodes[s->node[i]].order]);
@@ -76,8 +86,8 @@ static int way_of(const struct flat *flat, const struct shared *s, int use, int 
 /* In place of a use's first node. */
 static void print_use(const struct flat *flat, int copy)
 {
-    int place = flat->copies.items[copy].place, use = flat->use[place] - 1, value = 0;
-    const struct dag *dag = flat->dag;
+    int place = flat->copies.items[copy].place, use = flat->use[place] - 1;
+    struct dag *dag = flat->dag;
     const struct shared *s = &flat->shared[flat->piece[place] - 1];
     dag_print(flat->out, "\n");
     if (flat->node_label[copy]) {
@@ -90,8 +100,15 @@ static void print_use(const struct flat *flat, int copy)
     dag_print(flat->out, "(parameters, %s", flat->at);
     for (int i = 0; i < s->different; i++) {
         dag_print(flat->out, ", ");
-        dag_emit_expression(dag, flat->out, &dag->arguments[s->argument[i * s->uses + use]],
-                            flat->at, &value);
+        dag_emit_shared_argument(dag, flat->out, &dag->arguments[s->argument[i * s->uses + use]],
+                                 flat->at, is_doubtful(s, i));
+    }
+    dag_print(flat->out, s->doubts > 0 ? ", discussion" : "");
+    for (int i = 0; i < s->doubts; i++) {
+        const struct node *node = &dag->nodes[s->doubt_node[i * s->uses + use]];
+        dag_print(flat->out, ",\n        ");
+        dag_print_string(flat->out,
+                         dag_doubt(dag, node, &dag->arguments[s->doubt[i * s->uses + use]]).what);
     }
     dag_print(flat->out, s->exits > 1 ? ")) {\n" : ");\n    ");
     for (int e = 0; e < s->exits; e++) {

@@ -162,7 +162,7 @@ static int find_chain(const struct dag *dag, int decision, int *tools)
     const struct decision_tool *d = &dag->decisions[decision];
     int count = 0;
     for (int i = 0; d->subdivides && i < dag->tool_count && count == 0; i++)
-        if (dag->tools[i].guards)
+        if (dag->tools[i].guards.count > 0)
             tools[count++] = i;
     if (d->subdivides && count == 0)
         return -1;

@@ -3,7 +3,7 @@
  * The listing is in the oracle's own language as far as that goes; what a pass has found out
  * stands beside it in comments.
  * SPDX-License-Identifier: MIT */
-#include "analyse/analyse.h"
+#include "analyse/guard.h"
 
 struct listing {
     struct dag *dag;
@@ -11,7 +11,7 @@ struct listing {
     enum pass pass;
     const struct oracle_graph *oracle;
     unsigned char *sure;    /* by term * nodes + place: the level surely known before the node */
-    unsigned char *guarded; /* by place: every path to the node has passed a guard */
+    unsigned char *allowed; /* by decision * nodes + place: every path to the node allows it */
 };
 
 /* "x = 1, y = limit" before names are resolved. */
@@ -66,8 +66,12 @@ static void print_known(const struct listing *listing, const struct node *node)
             dag_print(listing->out, " >= %s", dag->levels[term->levels.first + level - 1].name);
         any = 1;
     }
-    dag_print(listing->out, "%s; %sguarded\n", any ? "" : " nothing",
-              listing->guarded[node->order] ? "" : "not ");
+    dag_print(listing->out, "%s; allowed:", any ? "" : " nothing");
+    any = 0;
+    for (int k = 0; k < dag->decision_count; k++)
+        if (listing->allowed[k * listing->oracle->order.count + node->order])
+            dag_print(listing->out, "%s %s", any++ ? "," : "", dag->decisions[k].name);
+    dag_print(listing->out, "%s\n", any ? "" : " no subdivision");
 }
 
 static void print_node(const struct listing *listing, const struct node *node)
@@ -120,18 +124,12 @@ static void analyse(struct listing *listing)
     struct dag *dag = listing->dag;
     int count = listing->oracle->order.count;
     listing->sure = dag_alloc(&dag->arena, (size_t)count * (size_t)dag->term_count);
-    listing->guarded = dag_alloc(&dag->arena, (size_t)count);
+    listing->allowed = dag_alloc(&dag->arena, (size_t)count * (size_t)dag->decision_count);
     for (int t = 0; t < dag->term_count; t++)
         dag_sure_levels(dag, listing->oracle, t, listing->sure + t * count);
-    for (int i = 1; i < count; i++)
-        listing->guarded[i] = 1;
-    for (int i = 0; i < count; i++) {
-        const struct node *node = dag_node_at(dag, listing->oracle, i);
-        for (int a = node->arcs.first; a < node->arcs.first + node->arcs.count; a++)
-            if (dag->arcs[a].target.kind == TARGET_NODE && !dag->tools[node->tool].guards)
-                listing->guarded[dag->nodes[dag->arcs[a].target.index].order] &=
-                    listing->guarded[i];
-    }
+    for (int k = 0; k < dag->decision_count; k++)
+        if (dag->decisions[k].subdivides)
+            dag_allowed(dag, listing->oracle, k, listing->allowed + k * count);
 }
 
 /* A branch as written; the passes after the parser have put it where it is used. */

@@ -9,7 +9,9 @@
 
 #include <stddef.h>
 
+struct argument;
 struct dag;
+struct dag_doubt;
 struct discussion;
 struct node;
 struct oracle;
@@ -44,6 +46,7 @@ struct prove_record {
     unsigned char *levels; /* [terms] by event: what is known then */
     double *terms;         /* at the end: all numbers of all terms */
     unsigned char *end;    /* by term: its level then */
+    const char *no_number; /* at the end: which argument was none, first of all; NULL: all were */
     int watched;           /* calls that the counters or the trace have seen */
     int untrue;            /* the text takes for known what is not */
 };
@@ -80,6 +83,9 @@ struct prove_host {
     int (*reads_fact)(const struct dag *dag, const struct oracle_graph *oracle, int fact);
     const struct node *(*node_at)(const struct dag *dag, const struct oracle_graph *oracle,
                                   int place);
+    int (*is_doubtful)(const struct dag *dag, const struct argument *argument);
+    struct dag_doubt (*doubt)(struct dag *dag, const struct node *node,
+                              const struct argument *argument);
 };
 
 /* The library's one symbol, prove_library. */

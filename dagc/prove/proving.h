@@ -23,6 +23,7 @@ struct proof {
     unsigned char *script, *start;
     struct prove_record wanted, got;
     int *nodes; /* by call of the path that was walked last: its node's place in the order */
+    unsigned char *told; /* by the same: some argument up to it was no number */
     uint64_t random;
     int different; /* a difference has been reported */
 };
@@ -35,8 +36,9 @@ int prove_build(struct proof *proof);
 void prove_prepare(struct proof *proof);
 
 /* The values that parameters, facts and terms have, in one of PROVE_VALUES ways: all apart; as the
- * author gave them; all others at random, within what is declared. */
-enum { PROVE_VALUES = 8 };
+ * author gave them; all at the low or at the high end of what is declared, or each at some end; all
+ * others at random, within what is declared. */
+enum { PROVE_LOW = 2, PROVE_HIGH, PROVE_ENDS, PROVE_VALUES = 8 };
 void prove_choose_values(struct proof *proof, int way);
 
 /* Walks the graph and runs a release along the script. 0, or 1 after a report of what they differ

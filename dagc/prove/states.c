@@ -1,12 +1,13 @@
 /* states.c - all paths by the states that they go through.
  *
- * A release that calls a tool is in a state: the place in its text, or step, that calls, and what
- * is known of each term. It keeps nothing else, so from a state on it does the same whatever way
- * led there, and so does the graph from a node with the same terms known. Two ways that meet in
- * such a pair of states need be followed only once from there: if both have done the same in every
- * step from each pair to the next, they do the same on every path. So each pair that can be
- * reached is entered once, and left once by each answer; paths are exponentially many, states are
- * not. [dynamic programming; bisimulation of two deterministic automata, Hopcroft and Karp 1971]
+ * A release that calls a tool is in a state: the place in its text, or step, that calls, what is
+ * known of each term, and whether some argument was no number, of which only the first is told. It
+ * keeps nothing else, so from a state on it does the same whatever way led there, and so does the
+ * graph from a node with the same terms known. Two ways that meet in such a pair of states need be
+ * followed only once from there: if both have done the same in every step from each pair to the
+ * next, they do the same on every path. So each pair that can be reached is entered once, and left
+ * once by each answer; paths are exponentially many, states are not. [dynamic programming;
+ * bisimulation of two deterministic automata, Hopcroft and Karp 1971]
  *
  * A state is left by running its release anew along the path that first found it; the script's end
  * answers 0 to everything, and what comes along there is found, too.
@@ -21,9 +22,10 @@ enum { STATES_MAX = 500000 };
 struct state {
     int from, node, depth; /* from: in states; -1: it is where a discussion begins */
     long long site;
-    unsigned char answer;       /* that led here from there */
-    unsigned char *levels;      /* by term */
-    const unsigned char *start; /* what the discussion came with */
+    unsigned char answer;        /* that led here from there */
+    unsigned char told;          /* some argument was no number */
+    const unsigned char *levels; /* by term */
+    const unsigned char *start;  /* what the discussion came with */
 };
 
 struct exploring {
@@ -35,25 +37,23 @@ struct exploring {
     struct prove_extent *extent;
 };
 
-static uint64_t hash_of(const struct exploring *s, int node, long long site,
-                        const unsigned char *levels)
+static uint64_t hash_of(const struct exploring *s, const struct state *state)
 {
     uint64_t hash = UINT64_C(14695981039346656037);
-    hash = (hash ^ (uint64_t)node) * UINT64_C(1099511628211);
-    hash = (hash ^ (uint64_t)site) * UINT64_C(1099511628211);
+    hash = (hash ^ (uint64_t)(2 * state->node + state->told)) * UINT64_C(1099511628211);
+    hash = (hash ^ (uint64_t)state->site) * UINT64_C(1099511628211);
     for (int i = 0; i < s->proof->dag->term_count; i++)
-        hash = (hash ^ levels[i]) * UINT64_C(1099511628211);
+        hash = (hash ^ state->levels[i]) * UINT64_C(1099511628211);
     return hash ^ hash >> 29;
 }
 
-static size_t slot_of(const struct exploring *s, int node, long long site,
-                      const unsigned char *levels)
+static size_t slot_of(const struct exploring *s, const struct state *state)
 {
-    size_t slot = (size_t)hash_of(s, node, site, levels) & (s->size - 1);
+    size_t slot = (size_t)hash_of(s, state) & (s->size - 1);
     for (; s->table[slot] != 0; slot = (slot + 1) & (s->size - 1)) {
         const struct state *other = &s->states[s->table[slot] - 1];
-        if (other->node == node && other->site == site
-            && memcmp(other->levels, levels, (size_t)s->proof->dag->term_count) == 0)
+        if (other->node == state->node && other->site == state->site && other->told == state->told
+            && memcmp(other->levels, state->levels, (size_t)s->proof->dag->term_count) == 0)
             break;
     }
     return slot;
@@ -63,10 +63,8 @@ static void grow(struct exploring *s)
 {
     s->size *= 2;
     s->table = dag_alloc(&s->proof->dag->arena, s->size * sizeof *s->table);
-    for (int i = 0; i < s->count; i++) {
-        const struct state *state = &s->states[i];
-        s->table[slot_of(s, state->node, state->site, state->levels)] = i + 1;
-    }
+    for (int i = 0; i < s->count; i++)
+        s->table[slot_of(s, &s->states[i])] = i + 1;
 }
 
 /* Runs the script; states that it goes through behind `from` are entered. */
@@ -82,14 +80,21 @@ static void run(struct exploring *s, enum prove_flavour flavour, int from,
     if (prove_try(proof, flavour))
         return;
     for (int event = 0; event < got->events; event++) {
-        const unsigned char *levels = got->levels + (size_t)event * terms;
         if (got->what[event] < 0)
             continue;
         if (call < behind) {
             call++;
             continue;
         }
-        size_t slot = slot_of(s, proof->nodes[call], got->site[event], levels);
+        struct state state = {.from = from,
+                              .node = proof->nodes[call],
+                              .site = got->site[event],
+                              .depth = call,
+                              .answer = call > 0 ? proof->script[call - 1] : 0,
+                              .told = proof->told[call],
+                              .levels = got->levels + (size_t)event * terms,
+                              .start = start};
+        size_t slot = slot_of(s, &state);
         if (s->table[slot] != 0)
             return;
         if (s->count == STATES_MAX) {
@@ -97,16 +102,10 @@ static void run(struct exploring *s, enum prove_flavour flavour, int from,
             return;
         }
         s->states = dag_grow(&dag->arena, s->states, s->count, sizeof *s->states);
-        struct state *state = &s->states[s->count];
-        *state = (struct state){.from = from,
-                                .node = proof->nodes[call],
-                                .site = got->site[event],
-                                .depth = call,
-                                .start = start};
-        if (call > 0)
-            state->answer = proof->script[call - 1];
-        state->levels = dag_alloc(&dag->arena, terms + 1);
-        memcpy(state->levels, levels, terms);
+        unsigned char *levels = dag_alloc(&dag->arena, terms + 1);
+        memcpy(levels, state.levels, terms);
+        state.levels = levels;
+        s->states[s->count] = state;
         s->table[slot] = ++s->count;
         if ((size_t)s->count * 2 > s->size)
             grow(s);

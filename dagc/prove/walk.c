@@ -5,7 +5,8 @@
  * decision, and at the end the terms that this decision reads.
  *
  * Parameters, facts, externs and terms have values of their own, so that none can stand for
- * another; and others, since large values may hide behind a minimum or a maximum.
+ * another; and others, since large values may hide behind a minimum or a maximum, and an argument
+ * is no number, as 0 / 0, at the ends of ranges.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
@@ -44,7 +45,12 @@ static double within(double low, double high, double share, int whole)
 static double choose(struct proof *proof, int way, double low, double high, int whole, double apart)
 {
     double share = way == 1 ? 0.5 : (1 + prove_pick(proof, 1000)) / 1001.0;
-    return way == 0 ? apart : within(low, high, share, whole);
+    double end = way == PROVE_LOW || (way == PROVE_ENDS && share < 0.5) ? low : high;
+    if (way == 0)
+        return apart;
+    return way >= PROVE_LOW && way <= PROVE_ENDS && (!whole || isfinite(end))
+               ? end
+               : within(low, high, share, whole);
 }
 
 void prove_choose_values(struct proof *proof, int way)
@@ -150,21 +156,38 @@ static double value_of(const struct proof *proof, struct prove_record *r, int ex
     case EXPRESSION_DIVIDE:
         return a / b;
     case EXPRESSION_MIN:
-        return a < b ? a : b;
+        return a < b || isnan(a) || (a == b && signbit(a)) ? a : b;
     case EXPRESSION_MAX:
-        return a > b ? a : b;
+        return a > b || isnan(a) || (a == b && !signbit(a)) ? a : b;
     case EXPRESSION_NAME:
         break;
     }
     return NAN;
 }
 
+/* What the tool is given in place of an argument that is no number of its range. */
+static double looked_at(const struct proof *proof, struct prove_record *r, const struct node *node,
+                        const struct argument *argument, double value)
+{
+    if (!dag_is_doubtful(proof->dag, argument))
+        return value;
+    const struct dag_doubt doubt = dag_doubt(proof->dag, node, argument);
+    if (value >= doubt.low && value <= doubt.high)
+        return value;
+    if (r->no_number == NULL)
+        r->no_number = doubt.what;
+    return doubt.instead;
+}
+
 static void call_tool(const struct proof *proof, const struct node *node, struct prove_record *r)
 {
     const struct dag *dag = proof->dag;
     const struct tool *tool = &dag->tools[node->tool];
+    const struct argument *arguments = &dag->arguments[node->arguments.first];
     for (int i = 0; i < node->arguments.count; i++)
-        proof->asked[i] = value_of(proof, r, dag->arguments[node->arguments.first + i].expression);
+        proof->asked[i] = value_of(proof, r, arguments[i].expression);
+    for (int i = 0; i < node->arguments.count; i++)
+        proof->asked[i] = looked_at(proof, r, node, &arguments[i], proof->asked[i]);
     memcpy(note(proof, r, node->tool), proof->asked,
            (size_t)node->arguments.count * sizeof *proof->asked);
     for (int i = 0; i < tool->writes.count; i++) {
@@ -172,6 +195,7 @@ static void call_tool(const struct proof *proof, const struct node *node, struct
         if (r->end[need->term] < need->level)
             r->end[need->term] = (unsigned char)need->level;
     }
+    proof->told[r->calls] = r->no_number != NULL;
     proof->nodes[r->calls++] = node->order;
 }
 
@@ -277,6 +301,9 @@ static const char *difference(const struct proof *proof, enum prove_flavour flav
         return "the decision";
     if (!same_terms(proof, &proof->dag->decisions[wanted].reads))
         return "a term that the decision reads";
+    if (a->no_number == NULL ? b->no_number != NULL
+                             : b->no_number == NULL || strcmp(a->no_number, b->no_number) != 0)
+        return "which argument is no number";
     if (b->untrue)
         return "what it takes for known";
     return (flavour == PROVE_COUNTED || flavour == PROVE_TRACED) && b->watched != b->calls
@@ -288,6 +315,7 @@ int prove_try(struct proof *proof, enum prove_flavour flavour)
 {
     struct prove_record *wanted = &proof->wanted, *got = &proof->got;
     wanted->calls = wanted->events = 0;
+    wanted->no_number = NULL;
     got->calls = got->events = got->watched = 0;
     memcpy(wanted->end, proof->start, (size_t)proof->dag->term_count);
     int decision = walk(proof, wanted), found = proof->library->run(flavour, got);
@@ -343,6 +371,7 @@ void prove_prepare(struct proof *proof)
     proof->script = dag_alloc(arena, (size_t)room);
     proof->start = dag_alloc(arena, (size_t)dag->term_count + 1);
     proof->nodes = dag_alloc(arena, (size_t)room * sizeof *proof->nodes);
+    proof->told = dag_alloc(arena, (size_t)room);
     proof->asked = dag_alloc(arena, (size_t)proof->width * sizeof(double));
     proof->values = dag_alloc(arena, (size_t)proof->oracle->parameters.count * sizeof(double) + 1);
     proof->facts =

@@ -48,6 +48,9 @@ int dag_parse_range(struct parser *parser, double *low, double *high, struct whe
 int dag_parse_parameter(struct parser *parser);
 /* answers = "(" NAME [ kind ] { "," NAME [ kind ] } ")" */
 int dag_parse_answers(struct parser *parser, struct span *span);
+/* guards = "guards" "(" allowed { "," allowed } ")" [ "by" "(" NAME { "," NAME } ")" ]
+ *          [ "after" NAME "(" NAME { "|" NAME } ")" ]; `guards` has been taken (parse_guards.c) */
+int dag_parse_guards(struct parser *parser, struct tool *tool);
 int dag_parse_expression(struct parser *parser, int *expression); /* parse_expression.c */
 int dag_parse_catalog_item(struct parser *parser);                /* parse_catalog.c */
 int dag_parse_oracle(struct parser *parser);                      /* parse_oracle.c */

@@ -200,7 +200,7 @@ static int parse_term(struct parser *parser)
     return dag_expect(parser, ';', "after a declaration");
 }
 
-/* fact = "fact" NAME [ "." NAME ] ":" NAME [ range ] "=" STRING [ STRING ] ";" */
+/* fact = "fact" NAME [ "." NAME ] ":" NAME [ range ] [ "fixed" ] "=" STRING [ STRING ] ";" */
 static int parse_fact(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -226,8 +226,10 @@ static int parse_fact(struct parser *parser)
     *f = fact;
     if (!dag_expect(parser, ':', "and a type after the fact's name")
         || !dag_expect_name(parser, "the name of a type", &f->type_name, &f->type_where)
-        || !parse_bounds(parser, &f->low, &f->high)
-        || !dag_expect(parser, '=', "and a C expression, a string")
+        || !parse_bounds(parser, &f->low, &f->high))
+        return 0;
+    f->fixed = (unsigned char)dag_take_word(parser, "fixed");
+    if (!dag_expect(parser, '=', "and a C expression, a string")
         || !dag_expect_string(parser, "a C expression over d, a string", &f->c))
         return 0;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &f->doc))
@@ -315,8 +317,8 @@ int dag_parse_answers(struct parser *parser, struct span *span)
 
 /* tool = "tool" NAME "(" [ parameter { "," parameter } ] ")" ( "question" | "command" )
  *        "answers" answers
- *        { "reads" needs | "writes" needs | "guards" | "counts" | "records" | "header" STRING } [
- *        STRING ] ";" */
+ *        { "reads" needs | "writes" needs | guards | "counts" | "records" | "header" STRING }
+ *        [ STRING ] ";" */
 static int parse_tool(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -359,7 +361,8 @@ static int parse_tool(struct parser *parser)
             if (!parse_needs(parser, &t->writes))
                 return 0;
         } else if (dag_take_word(parser, "guards")) {
-            t->guards = 1;
+            if (!dag_parse_guards(parser, t))
+                return 0;
         } else if (dag_take_word(parser, "counts")) {
             t->keeps = KEEPS_COUNT;
             t->keeps_where = parser->last;

@@ -47,6 +47,13 @@ struct RadSceneObject {
     struct RadSceneReport report;
 };
 
+/* What an oracle was loaded from; path NULL: nobody knows, or it is somebody's C. */
+struct oracle_source {
+    char *path, *text, *name;
+    char **replacements;
+    int replacement_count;
+};
+
 struct RadOracleObject {
     atomic_int holders;
     RadDevice device;
@@ -54,6 +61,7 @@ struct RadOracleObject {
     int counting;
     struct statistics counted;    /* what radGetOracleStatistics shows */
     struct explanation explained; /* what radExplain shows */
+    struct oracle_source source;
 };
 
 struct RadSolutionObject {
@@ -82,6 +90,14 @@ int api_progress(RadDevice device, const struct RadProgress *progress);
 /* A handle that takes the refiner over; NULL for a refiner is out of memory. Returns NULL after
  * an error. */
 RadOracle api_oracle(RadDevice device, struct refiner *refiner);
+
+/* api_graph.c. Keeps what the oracle was loaded from; where there is no memory for it, nothing. */
+void api_keep_source(RadOracle oracle, const char *path, const char *text, const char *name,
+                     const char *const *replacements, int count);
+void api_forget_source(struct oracle_source *source);
+/* The oracle's graph, interpreted, with the parameters that the oracle has now; the caller's.
+ * NULL: nobody knows it. */
+struct refiner *api_interpret(RadOracle oracle);
 
 /* After a call that could not do its work: the solution is dead. Returns -1. */
 int api_give_up(RadSolution solution, const char *cause);

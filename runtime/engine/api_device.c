@@ -158,9 +158,10 @@ int api_progress(RadDevice device, const struct RadProgress *progress)
 
 enum RadError api_cause(const char *cause)
 {
-    return strncmp(cause, "Embree finds", 12) == 0 ? RAD_ERROR_UNSUPPORTED
-           : strncmp(cause, "LU solves", 9) == 0   ? RAD_ERROR_INVALID_ARGUMENT
-                                                   : RAD_ERROR_OUT_OF_MEMORY;
+    return strncmp(cause, "Embree finds", 12) == 0     ? RAD_ERROR_UNSUPPORTED
+           : strncmp(cause, "LU solves", 9) == 0       ? RAD_ERROR_INVALID_ARGUMENT
+           : strncmp(cause, "refinement for", 14) == 0 ? RAD_ERROR_LIMIT
+                                                       : RAD_ERROR_OUT_OF_MEMORY;
 }
 
 int api_finite(const double *values, size_t count)

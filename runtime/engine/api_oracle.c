@@ -125,6 +125,8 @@ static RadOracle load(RadDevice device, const char *path, const char *text, cons
         api_fail(device, codes[messages.cause], "%s",
                  messages.cause == MESSAGE_NONE ? "out of memory for an oracle"
                                                 : messages_text(&messages));
+    if (oracle)
+        api_keep_source(oracle, path, text, name, replacements, count);
     messages_free(&messages);
     return oracle;
 }
@@ -154,7 +156,10 @@ RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease relea
         oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
     /* a built-in graph is right: there can have been no memory, and api_oracle says so */
     messages_free(&messages);
-    return api_oracle(device, refiner);
+    RadOracle oracle = api_oracle(device, refiner);
+    if (oracle)
+        api_keep_source(oracle, name, radGetOracleText(name), name, NULL, 0);
+    return oracle;
 }
 
 RadOracle radLoadOracle(RadDevice device, const char *path, const char *name,
@@ -209,6 +214,7 @@ void radReleaseOracle(RadOracle oracle)
         return;
     statistics_free(&oracle->counted);
     explain_free(&oracle->explained);
+    api_forget_source(&oracle->source);
     refiner_close(oracle->refiner);
     radReleaseDevice(oracle->device);
     free(oracle);

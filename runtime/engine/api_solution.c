@@ -101,6 +101,11 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
             device, RAD_ERROR_INVALID_ARGUMENT,
             "there is no clustering '%s'; radGetClusteringNames tells those that there are",
             o->clustering);
+    if (o->limits.depth < 0 || o->limits.depth > LIMIT_DEPTH_MOST)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RadSolveOptions.limits.depth is %d; it takes 1 to %d, or 0 for the "
+                        "default",
+                        o->limits.depth, LIMIT_DEPTH_MOST);
     return o->camera ? check_camera(device, o->camera) : 0;
 }
 
@@ -133,6 +138,8 @@ static struct solve_options engine_options(RadSolution solution, const struct Ra
         .clusters = o->clustering ? 1 + clustering_of(o->clustering) : 0,
         .linear = o->basis == RAD_BASIS_LINEAR,
         .unit = o->unit != 0,
+        .limits = {o->limits.depth, o->limits.elements, o->limits.links, o->limits.pairs,
+                   o->limits.rounds, 0},
         .progress = watch,
         .context = solution};
     if (o->camera) {
@@ -215,6 +222,16 @@ int api_give_up(RadSolution solution, const char *cause)
         return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the trace function");
     if (solution->solve.report.cancelled)
         return api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
+    if (solution->solve.refinement.none)
+        return api_fail(device, RAD_ERROR_INVALID_ORACLE, "oracle %s: %s",
+                        solution->oracle->refiner->oracle, solution->solve.refinement.none);
+    if (solution->solve.refinement.met) {
+        char text[1024];
+        struct refiner *graph = api_interpret(solution->oracle);
+        limits_tell(&solution->solve.refinement, graph, text, sizeof text);
+        refiner_close(graph);
+        return api_fail(device, RAD_ERROR_LIMIT, "%s", text);
+    }
     return api_fail(device, api_cause(cause), "%s", cause);
 }
 

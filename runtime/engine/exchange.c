@@ -187,8 +187,10 @@ int exchange_open(struct exchange *x, const struct scene *scene, const struct re
         return -1;
     if (compute(x, scene, refiner, options) == 0)
         return 0;
-    *cause =
-        x->cancelled ? NULL : "out of memory for exchange areas; a larger tolerance needs less";
+    *cause = x->cancelled ? NULL
+             : x->refinement.met
+                 ? "refinement for view factors does not end; a larger tolerance needs less"
+                 : "out of memory for exchange areas; a larger tolerance needs less";
     exchange_close(x);
     return -1;
 }

@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include "engine/camera.h"
 #include "engine/closure.h"
+#include "engine/limits.h"
 #include "hierarchy/scene.h"
 #include "radiosity.h"
 #include "visibility/rays.h"
@@ -29,6 +30,7 @@ struct solve_options {
     const struct camera *camera;
     int linear; /* 1: once links are final, solve for functions linear over each element */
     int unit;   /* ignore the materials: every face has B = 1 and stays so (view factors) */
+    struct limits limits; /* of refinement */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress */

@@ -23,7 +23,7 @@
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-enum { ROUND = REFINEMENT_ROUND, CHUNK = 64, SORT_SHARES = 8 };
+enum { ROUND = REFINEMENT_ROUND, CHUNK = 64, SORT_SHARES = 8, LIMITS_EACH = 1024 };
 
 int decision_links(enum decision decision)
 {
@@ -60,6 +60,8 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
     r->host = host;
     r->refiner = refiner;
     r->threads = threads;
+    r->built = hierarchy->count;
+    r->limits = limits_complete((struct limits){0});
     r->round = malloc(ROUND * sizeof *r->round);
     r->outcomes = malloc(ROUND * sizeof *r->outcomes);
     r->found = malloc(ROUND * sizeof *r->found); /* pages that no oracle fills cost nothing */
@@ -137,6 +139,8 @@ static unsigned char discuss(const struct refinement *r, size_t i, int turned, s
                                       : r->refiner->refine(r->refiner->state, &d);
     if (decision_links(decision))
         link_store(link, &d.terms);
+    if (d.terms.no_number && !r->outcomes[i].none)
+        r->outcomes[i].none = d.terms.no_number;
     return (unsigned char)decision;
 }
 
@@ -180,6 +184,7 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
         if (p->list)
             list = r->pool[p->list].list;
         o->link[0] = there;
+        o->none = NULL;
         o->decision[0] = discuss(r, i, 0, &o->link[0], &list);
         if (p->both) {
             if (r->trace)
@@ -195,6 +200,18 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
 
 enum { SPLIT_RECEIVER = 1, SPLIT_EMITTER = 2 };
 
+/* Split an element, unless it is. */
+static int split_element(struct refinement *r, uint32_t element)
+{
+    struct hierarchy *h = r->hierarchy;
+    if (hierarchy_split(h, element) < 0)
+        return -1;
+    int depth = h->elements[h->elements[element].child].depth;
+    if (depth > r->deepest)
+        r->deepest = depth;
+    return 0;
+}
+
 /* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
  * itself gives the pairs of its children with each other and themselves. They retain `list`. */
 static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both,
@@ -204,8 +221,8 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
     uint32_t from_i = receiver, to_i = receiver + 1, from_j = emitter, to_j = emitter + 1;
     if (receiver == emitter)
         split = SPLIT_RECEIVER | SPLIT_EMITTER;
-    if ((split & SPLIT_RECEIVER && hierarchy_split(h, receiver) < 0)
-        || (split & SPLIT_EMITTER && hierarchy_split(h, emitter) < 0))
+    if ((split & SPLIT_RECEIVER && split_element(r, receiver) < 0)
+        || (split & SPLIT_EMITTER && split_element(r, emitter) < 0))
         return -1;
     const struct element *e = &h->elements[receiver];
     const struct element *f = &h->elements[emitter];
@@ -323,11 +340,22 @@ static int tell_again(const struct refinement *r, const struct link *links, int 
     return 0;
 }
 
+/* Does refinement go on behind that pair of the round? The limits are looked at every so many
+ * pairs. Returns 0, or -1. */
+static int go_on(struct refinement *r, int pair)
+{
+    if (pair % LIMITS_EACH == 0)
+        r->met = limits_met(r);
+    r->none = r->outcomes[pair].none;
+    return r->met || r->none ? -1 : 0;
+}
+
 /* Returns 0, or -1 when whoever watches wants no more. */
 static int end_round(struct refinement *r)
 {
     r->rounds++;
-    return r->watch && r->watch(r->watch_context, r) ? -1 : 0;
+    r->met = limits_met(r);
+    return r->met || (r->watch && r->watch(r->watch_context, r)) ? -1 : 0;
 }
 
 /* Rounds until the queue is empty. */
@@ -336,6 +364,7 @@ static int drain(struct refinement *r)
     while (r->queue_count > 0) {
         int count = (int)(r->queue_count < ROUND ? r->queue_count : ROUND);
         r->queue_count -= (size_t)count;
+        r->round_count = count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
         thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_pairs, r);
         if (tell_round(r, count) < 0)
@@ -351,6 +380,8 @@ static int drain(struct refinement *r)
                 return -1;
             release_list(r, list);
             release_list(r, r->round[i].list);
+            if (go_on(r, i) < 0)
+                return -1;
         }
         if (end_round(r) < 0)
             return -1;
@@ -383,6 +414,7 @@ static void discuss_again(const void *again, size_t from, size_t to)
         struct blockers list;
         list.known = BLOCKERS_UNKNOWN;
         o->link[0] = *l;
+        o->none = NULL;
         o->decision[1] = !a->changed || a->changed[l->receiver] || a->changed[l->emitter];
         o->decision[0] = o->decision[1] ? discuss(a->refinement, i, 0, &o->link[0], &list)
                                         : (unsigned char)DECISION_LINK;
@@ -398,6 +430,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
     r->link_count = 0;
     for (size_t from = 0; from < all; from += ROUND) {
         int count = (int)(all - from < ROUND ? all - from : ROUND);
+        r->round_count = count;
         const struct again a = {r, r->links + from, changed};
         thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_again, &a);
         if (tell_again(r, a.links, count) < 0)
@@ -415,6 +448,8 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
             if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
                 return -1;
             release_list(r, list);
+            if (go_on(r, i) < 0)
+                return -1;
         }
         if (end_round(r) < 0)
             return -1;

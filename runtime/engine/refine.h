@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include "engine/limits.h"
 #include "hierarchy/hierarchy.h"
 #include "oracle/refiner.h"
 
@@ -36,6 +37,7 @@ struct outcome {
     struct link link[2];
     unsigned char decision[2];
     unsigned char listed; /* refinement.found holds the pair's candidates */
+    const char *none;     /* which argument of a node was no number; NULL: all were */
 };
 
 /* A list of candidates that waiting pairs refer to, or a place for one. */
@@ -79,6 +81,14 @@ struct refinement {
     uint32_t pool_count, pool_free; /* first free one, 0: none */
     size_t pool_capacity;
 
+    /* Where it ends with an error: the limits, and the one that was met, by name (NULL: none). Of
+     * the last round: how many pairs; `outcomes` holds what they decided. */
+    struct limits limits;
+    const char *met, *none; /* none: what was no number, and ended it; NULL: all was */
+    int round_count;
+    uint32_t built; /* elements before the first split */
+    int deepest;    /* splits below a face, so far */
+
     uint64_t pairs, rounds;      /* discussions held, rounds gone */
     uint64_t decided[8];         /* how often each decision was taken */
     uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
@@ -91,12 +101,12 @@ enum { REFINEMENT_ROUND = 1 << 17 }; /* pairs of a round, at the most */
 int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const struct host *host,
                     const struct refiner *refiner, int threads);
 
-/* Refine from the pair (root, root). Returns 0, or -1 when out of memory. */
+/* Refine from the pair (root, root). Returns 0, or -1: out of memory, or `met` a limit. */
 int refinement_start(struct refinement *r);
 
 /* Discuss the links again whose receiver or emitter is marked in changed[elements] (NULL: all of
  * them), with the radiosities as they now are: a link stays, is known better, or gives way to links
- * below it. Returns how many links changed, or -1 when out of memory. */
+ * below it. Returns how many links changed, or -1 as refinement_start does. */
 int64_t refinement_again(struct refinement *r, const unsigned char *changed);
 
 /* Sort the links by receiver, keeping their order otherwise. Returns 0 or -1. */

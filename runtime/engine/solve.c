@@ -271,6 +271,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
                         p->options.threads)
         < 0)
         return fail(s, refining, cause);
+    s->refinement.limits = limits_complete(p->options.limits);
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
     s->refinement.trace = s->trace;

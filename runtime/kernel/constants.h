@@ -448,4 +448,22 @@
  * highlights are less */
 #define EXPOSURE_BRIGHT 0.98
 
+/* ---- where refinement ends that would not end by itself (engine/limits.c) */
+
+/* splits below a face: parts of 1e-12 of it, where default oracles allow 1e-7 of the scene. Less
+ * than CAN_SPLIT_DEPTH, where guards with limits of 0 link all that they were to split: derived */
+#define LIMIT_DEPTH 20
+/* elements count their depth in a byte */
+#define LIMIT_DEPTH_MOST 250
+/* parts of faces ahead of twice the links and stops. chosen: they fit into 0.6 GB, and scenes at
+ * hand are never ahead by a hundredth of it */
+#define LIMIT_AHEAD 2e6
+/* of the memory that is there, for links, and for elements. chosen: the rest is for what is solved
+ * over them */
+#define LIMIT_MEMORY 0.5
+/* discussions: hours. chosen */
+#define LIMIT_PAIRS 100000000000
+/* of up to 131072 pairs each. chosen */
+#define LIMIT_ROUNDS 10000000
+
 #endif

@@ -30,9 +30,9 @@ static double operate(enum expression_kind kind, double a, double b)
     case EXPRESSION_DIVIDE:
         return a / b;
     case EXPRESSION_MIN:
-        return a < b ? a : b;
+        return a < b || isnan(a) || (a == b && signbit(a)) ? a : b;
     case EXPRESSION_MAX:
-        return a > b ? a : b;
+        return a > b || isnan(a) || (a == b && !signbit(a)) ? a : b;
     default:
         return 0; /* no operator */
     }
@@ -67,6 +67,15 @@ void program_evaluate(struct discussion *d, const struct computed *c, double *st
             top[-1] = operate(i->kind, top[-1], top[0]);
             break;
         }
+    for (int k = 0; k < c->doubt_count; k++) {
+        const struct doubtful *doubt = &c->doubts[k];
+        double *value = &stack[doubt->argument];
+        if (*value >= doubt->low && *value <= doubt->high)
+            continue;
+        if (!d->terms.no_number)
+            d->terms.no_number = doubt->what;
+        *value = doubt->instead;
+    }
 }
 
 int program_compute(struct discussion *d, const double *arguments)
@@ -196,22 +205,39 @@ void program_prepare(struct refiner *r)
 
 static int is_computed(const struct dag *dag, const struct node *n)
 {
-    for (int k = 0; k < n->arguments.count; k++)
-        if (!dag_is_fixed(dag, dag->arguments[n->arguments.first + k].expression))
+    for (int k = 0; k < n->arguments.count; k++) {
+        const struct argument *a = &dag->arguments[n->arguments.first + k];
+        if (!dag_is_fixed(dag, a->expression) || dag_is_doubtful(dag, a))
             return 1;
+    }
     return 0;
+}
+
+/* The arguments of a step that may be no number, to `to`. Returns how many. */
+static int find_doubts(struct dag *dag, const struct node *n, struct doubtful *to)
+{
+    int count = 0;
+    for (int k = 0; k < n->arguments.count; k++) {
+        const struct argument *a = &dag->arguments[n->arguments.first + k];
+        if (!dag_is_doubtful(dag, a))
+            continue;
+        const struct dag_doubt doubt = dag_doubt(dag, n, a);
+        to[count++] = (struct doubtful){k, doubt.low, doubt.high, doubt.instead, doubt.what};
+    }
+    return count;
 }
 
 /* Each computed step gets its part of the room for all code. */
 int program_link(struct program *p, const struct oracle_graph *g, struct messages *messages)
 {
-    const struct dag *dag = p->dag;
-    int size = 0, argument = 0, *first = NULL;
+    struct dag *dag = p->dag;
+    int size = 0, argument = 0, doubts = 0, *first = NULL;
     for (int i = 0; i < g->order.count; i++)
         p->computed_count += is_computed(dag, dag_node_at(dag, g, i));
     p->computed = calloc((size_t)p->computed_count + 1, sizeof *p->computed);
     first = calloc((size_t)p->computed_count + 1, sizeof *first);
-    if (!p->computed || !first)
+    p->doubts = calloc((size_t)p->argument_count + 1, sizeof *p->doubts);
+    if (!p->computed || !first || !p->doubts)
         goto memory;
     p->computed_count = 0;
     for (int i = 0; i < g->order.count; i++) {
@@ -227,6 +253,9 @@ int program_link(struct program *p, const struct oracle_graph *g, struct message
             c->call = p->steps[i].call;
             c->argument = argument;
             c->argument_count = n->arguments.count;
+            c->doubts = &p->doubts[doubts];
+            c->doubt_count = find_doubts(dag, n, &p->doubts[doubts]);
+            doubts += c->doubt_count;
             p->steps[i].call = program_compute;
             p->steps[i].arguments = &c->unused;
             first[p->computed_count++] = size;

@@ -49,6 +49,17 @@ const struct node *dag_node_at(const struct dag *dag, const struct oracle_graph 
     return host.node_at(dag, oracle, place);
 }
 
+int dag_is_doubtful(const struct dag *dag, const struct argument *argument)
+{
+    return host.is_doubtful(dag, argument);
+}
+
+struct dag_doubt dag_doubt(struct dag *dag, const struct node *node,
+                           const struct argument *argument)
+{
+    return host.doubt(dag, node, argument);
+}
+
 char *dag_json(struct dag *dag)
 {
     (void)dag;
@@ -196,6 +207,7 @@ static int prove_run(enum prove_flavour flavour, struct prove_record *record)
                        ? (int)r->refine(r->state, &d)
                        : prove_compiled[opened].watched((int)flavour, r->block, &d);
     prove_end(&d);
+    record->no_number = d.terms.no_number;
     record->untrue = prove_untrue;
     return decision;
 }

@@ -38,6 +38,7 @@ static void release_program(struct refiner *r)
     free(p->next);
     free(p->computed);
     free(p->code);
+    free(p->doubts);
     free(p->externs);
     free(p->reads);
     free(p->ways);

@@ -21,13 +21,23 @@ struct instruction {
 
 enum { STACK_MAX = EXPRESSION_DEPTH + 100 };
 
+/* An argument that may be no number, as 0 / 0: what its tool is given then, and what is said. As
+ * value_checked of the flat release. */
+struct doubtful {
+    int argument; /* of the step */
+    double low, high, instead;
+    const char *what;
+};
+
 /* What `arguments` of a computed step points to. */
 struct computed {
     double unused; /* so that a pointer to double may point here */
     int (*call)(struct discussion *d, const double *arguments);
     struct instruction *code;
     int count;
-    int argument, argument_count; /* in program.expressions */
+    int argument, argument_count;  /* in program.expressions */
+    const struct doubtful *doubts; /* [doubt_count] */
+    int doubt_count;
 };
 
 struct step {
@@ -46,6 +56,7 @@ struct program {
     struct computed *computed;
     int computed_count;
     struct instruction *code;    /* of all computed steps */
+    struct doubtful *doubts;     /* likewise */
     struct instruction *externs; /* per callback of the dag: its function, NULL when not given */
     int argument_count;
     struct dag *dag;

@@ -106,6 +106,36 @@ static int read_accuracy(struct options *o, const struct option_row *row, const 
     return read_share(o, row, value);
 }
 
+/* KEY=N,KEY=N: fields of struct RadLimits. */
+static int read_limits(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    const struct {
+        const char *key;
+        uint64_t *limit, most;
+    } keys[] = {{"depth=", NULL, 250},
+                {"elements=", &o->limits.elements, UINT32_MAX},
+                {"links=", &o->limits.links, (uint64_t)1 << 53},
+                {"pairs=", &o->limits.pairs, (uint64_t)1 << 53},
+                {"rounds=", &o->limits.rounds, (uint64_t)1 << 53}};
+    for (;;) {
+        size_t k = 0, count = sizeof keys / sizeof *keys;
+        while (k < count && strncmp(value, keys[k].key, strlen(keys[k].key)) != 0)
+            k++;
+        char *end;
+        double n = k < count ? strtod(value + strlen(keys[k].key), &end) : 0;
+        if (!(n >= 1 && n <= (double)keys[k < count ? k : 0].most) || n != (double)(uint64_t)n)
+            return -1;
+        if (keys[k].limit)
+            *keys[k].limit = (uint64_t)n;
+        else
+            o->limits.depth = (int)n;
+        if (*end != ',')
+            return *end ? -1 : 0;
+        value = end + 1;
+    }
+}
+
 static int read_setting(struct options *o, const struct option_row *row, const char *value)
 {
     (void)row;
@@ -506,6 +536,10 @@ const struct option_row option_rows[] = {
      IN(accuracy), .low = 1},
     {"limit-seconds", "N", SOLVE, NULL, "when --accuracy gives up (exit status 3)",
      "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX), .rare = 1},
+    {"limit", "KEY=N,...", MATRICES, NULL, "where refinement gives up (exit status 1)",
+     "depth=N, elements=N, links=N, pairs=N, rounds=N, joined by commas; numbers from 1, depth to "
+     "250",
+     .read = read_limits, IN(limits), .rare = 1},
     {"no-errors", NULL, SOLVE, NULL, "do not measure it", FLAG(no_errors), .rare = 1},
     {"correct", NULL, SOLVE, NULL, "mend the solution by particles; on unless --no-correct",
      FLAG(correct), .rare = 1},

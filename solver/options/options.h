@@ -81,6 +81,7 @@ struct options {
     double accuracy; /* share of the reflected light; 0: not asked for */
     enum accuracy_norm norm;
     int limit_seconds; /* 0: none */
+    struct RadLimits limits;
 
     /* What to write. */
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
@@ -124,7 +125,8 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
                                     .projection = o->projection,
                                     .closure = o->closure,
                                     .basis = o->basis,
-                                    .clustering = o->clusters};
+                                    .clustering = o->clusters,
+                                    .limits = o->limits};
 }
 
 /* The files that shall be written, "-" for standard output among them. Returns how many. */

@@ -18,14 +18,18 @@ enum { NODES = 9, GRAPHS = 3000, DECISIONS = 3 };
 enum { SIZE = 1, CLEAR = 2 };
 static const struct tool_fact {
     const char *call, *answers[3];
-    int reads, writes, size, guards, needs_fine; /* size: the level it writes */
+    int reads, writes, size; /* size: the level it writes */
+    int guards;              /* the answer that allows a split, + 1; -1: behind side(right) alone */
+    int needs_fine;
 } tools[] = {
     {"look(rays = 4)", {"none", "some", "all"}, SIZE, CLEAR, 0, 0, 0},
     {"look(rays = 9)", {"none", "some", "all"}, SIZE, CLEAR, 0, 0, 0},
     {"weigh()", {"light", "heavy"}, SIZE, 0, 0, 0, 0},
     {"weigh(limit = 2)", {"light", "heavy"}, SIZE, 0, 0, 0, 0},
     {"side()", {"left", "right"}, 0, 0, 0, 0, 0},
-    {"small()", {"yes", "no"}, 0, 0, 0, 1, 0},
+    {"small()", {"yes", "no"}, 0, 0, 0, 2, 0},
+    {"again()", {"left", "right"}, 0, 0, 0, -1, 0},
+    {"again(limit = 0)", {"left", "right"}, 0, 0, 0, 0, 0},
     {"judge()", {"good", "bad"}, SIZE, 0, 0, 0, 1},
     {"estimate()", {"done"}, 0, SIZE, 1, 0, 0},
     {"measure()", {"done"}, 0, SIZE, 2, 0, 0},
@@ -118,6 +122,24 @@ static int known(const struct graph *g, const struct path *p, int tool)
     return answer;
 }
 
+/* Does the path agree with itself? */
+static int consistent(const struct graph *g, const struct path *p)
+{
+    for (int t = 0; t < TOOLS; t++)
+        if (known(g, p, t) == -2)
+            return 0;
+    return 1;
+}
+
+/* Does the last answer of the path allow a split? */
+static int allowed(const struct graph *g, const struct path *p)
+{
+    int last = p->length - 1, guards = tools[g->tool[p->node[last]]].guards, behind = 0;
+    for (int i = 0; i < last; i++)
+        behind |= strcmp(tools[g->tool[p->node[i]]].call, "side()") == 0 && p->answer[i] == 1;
+    return guards < 0 ? p->answer[last] == 0 && behind : p->answer[last] + 1 == guards;
+}
+
 static void walk(const struct graph *g, struct path *p, int at, int size, int clear, int guarded,
                  struct findings *f)
 {
@@ -145,18 +167,17 @@ static void walk(const struct graph *g, struct path *p, int at, int size, int cl
     if (tools[tool].size > size)
         size = tools[tool].size;
     clear |= (tools[tool].writes & CLEAR) != 0;
-    guarded |= tools[tool].guards;
     for (int a = 0; a < answers_of(tool); a++) {
         int to = g->target[at][a];
         p->node[p->length] = at;
         p->answer[p->length++] = a;
         if (to >= 0)
-            walk(g, p, to, size, clear, guarded, f);
+            walk(g, p, to, size, clear, guarded || allowed(g, p), f);
         else if (to == -1) {
             f->lacks_size |= size < 2;
             f->lacks_clear |= !clear;
         } else if (to == -3)
-            f->unguarded |= !guarded;
+            f->unguarded |= !guarded && !allowed(g, p) && consistent(g, p);
         p->length--;
     }
 }

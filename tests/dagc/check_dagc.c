@@ -165,7 +165,7 @@ START_TEST(analyses)
     ck_assert_ptr_null(dag_load_switched("error idle-question no-all-of-it", "t", text,
                                          strlen(text), NULL, catalog, errors));
     fclose(errors);
-    ck_assert_ptr_nonnull(strstr(said, "error: a path to 'split' passes no guard"));
+    ck_assert_ptr_nonnull(strstr(said, "error: a path to 'split' holds no answer"));
     ck_assert_ptr_nonnull(strstr(said, "warning: 'a' decides nothing"));
     ck_assert_ptr_nonnull(strstr(said, "no warning is called 'no-all-of-it'"));
     free(said);
@@ -309,6 +309,7 @@ struct record {
 };
 struct discussion {
     struct {
+        const char *no_number;
         double where[3], size;
         int times;
         unsigned char where_level, size_level, times_level;

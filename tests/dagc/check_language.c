@@ -276,7 +276,7 @@ static void print_leaf(FILE *out, enum dimension unit, int in_branch)
 {
     static const char *const leaves[][6] = {
         {"pf", "lamp", "outside", "0.1 * lamp", "pf", "outside / 3"},
-        {"ps", "size", "size.fine", "times", "inf", "0.7"},
+        {"ps", "size", "size.fine", "times", "(ps / size)", "0.7"},
         {"left.area", "right.area", "left.area", "left.area", "right.area", "2 * left.area"},
         {"pc", "times", "right.depth", "3", "17", "pc"}};
     const char *leaf = leaves[unit][pick(6)];

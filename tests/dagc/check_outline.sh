@@ -109,7 +109,7 @@ check "shorter" [ "$(size outlined/often.c)" -lt $(($(size whole/often.c) * 3 / 
 check "one function, four calls" sh -c '[ "$(grep -c often_branch_whole outlined/often.c)" = 5 ]'
 check "proved" sh -c "'$dagc' -Wno-all --catalog '$catalog' --prove --outline --instrument --trace often.dag | grep -q 'often: proved on'"
 # A C compiler that breaks what it is given: the proof must notice.
-for change in 's/return 1;/return 0;/' 's/(d, 2.0, argument_1)/(d, 2.0, 0.5)/' 's/(parameters, &d, 0.125/(parameters, \&d, 0.25/'; do
+for change in 's/return 1;/return 0;/' 's/(discussion, argument_1,/(discussion, 0.5,/' 's/is no number/is none/' 's/(parameters, &d, 0.125/(parameters, \&d, 0.25/'; do
     printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" "$f";; esac; done\nexec cc "$@" -O0\n' "$change" >broken
     chmod +x broken
     check "a fault: $change" sh -c "CC='$tmp/broken' '$dagc' -Wno-all --catalog '$catalog' --prove --outline often.dag | grep -q 'differs in'"

@@ -1,0 +1,31 @@
+/* limits.h - where refinement ends that would not end by itself (limits.c).
+ * SPDX-License-Identifier: MIT */
+#ifndef LIMITS_H
+#define LIMITS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct refinement;
+struct refiner;
+
+/* 0 of the first five: the default (limits.c). */
+struct limits {
+    int depth;                     /* splits below a face */
+    uint64_t elements;             /* parts of faces */
+    uint64_t links, pairs, rounds; /* of one refinement, over all its passes */
+    uint64_t ahead;                /* filled in; 0: `elements` was given */
+};
+
+/* The defaults in place of zeros, by the memory that is there now. */
+struct limits limits_complete(struct limits wanted);
+
+/* Which limit does refinement meet before it carries out another decision? NULL: none; else its
+ * name, and r->limits says what it is. */
+const char *limits_met(const struct refinement *r);
+
+/* What was reached, in a sentence or two; `graph` is the oracle interpreted, with the same
+ * parameters, and names the node that is at fault (NULL: nobody can). */
+void limits_tell(const struct refinement *r, struct refiner *graph, char *text, size_t size);
+
+#endif
