@@ -204,7 +204,7 @@ struct emit_options {
     const char *const *host; /* --host: headers that --standalone leaves to the program */
     int host_count;
     const unsigned char *terms; /* by term: is it in struct terms? NULL: all are */
-    const char *before; /* of --prove: text before the first oracle; NULL: none */
+    const char *before;         /* of --prove: text before the first oracle; NULL: none */
 };
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
                 const struct emit_options *options); /* options NULL: nothing is added */

@@ -12,6 +12,8 @@
 #include "prove/proof.h"
 
 extern const struct prove_compiled prove_compiled[];
+extern const struct extern_entry prove_externs[]; /* [prove_extern_count] */
+extern const int prove_extern_count;
 
 int prove_site, prove_outer, prove_untrue;
 
