@@ -98,7 +98,7 @@ $(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/emit/embed_headers.sh
 	@mkdir -p $(@D)
 	sh dagc/emit/embed_headers.sh dagc_headers runtime $(HEADERS) > $@
 # --prove compiles the interpreter along with what it interprets.
-PROVED    = $(addprefix oracle/,interpreter.c arguments.c refiner.c load_graph.h program.h refiner.h tool_table.h in_proof.h) util/messages.c util/messages.h
+PROVED    = $(addprefix oracle/,interpreter.c arguments.c refiner.c load_graph.h program.h refiner.h tool_table.h in_proof.inc) util/messages.c util/messages.h
 PROVING   = dag.h prove/proof.h
 $(BUILD)/gen/interpreter_text.c: $(PROVED:%=runtime/%) $(PROVING:%=dagc/%) dagc/emit/embed_headers.sh
 	@mkdir -p $(@D)

@@ -1,7 +1,7 @@
 /* proof.h - what the two halves of a proof tell each other: dagc, which walks the graph, and the
  * library that it has compiled, in which both releases run over scripted tools.
  *
- * The library (runtime/oracle/in_proof.h) is compiled from the same text of this header, so the
+ * The library (runtime/oracle/in_proof.inc) is compiled from the same text of this header, so the
  * structures are the same.
  * SPDX-License-Identifier: MIT */
 #ifndef PROOF_H

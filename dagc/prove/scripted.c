@@ -172,7 +172,7 @@ static void print_releases(struct dag *dag, struct text *out, int width)
         print_callback(dag, out, i, width);
     print_ends(dag, out);
     dag_print(out,
-              "#include \"oracle/in_proof.h\"\nconst struct extern_entry prove_externs[] = {\n");
+              "#include \"oracle/in_proof.inc\"\nconst struct extern_entry prove_externs[] = {\n");
     for (int i = 0; i < dag->callback_count; i++)
         dag_print(out, "    {\"%s\", %s},\n", dag->callbacks[i].name, dag->callbacks[i].name);
     dag_print(out, "    {0, 0}};\nconst int prove_extern_count = %d;\n", dag->callback_count);
