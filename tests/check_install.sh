@@ -332,6 +332,8 @@ int main(void)
         struct discussion d = {.size = size};
         printf("%d%d ", (int)dag->refine(dag->state, &d), (int)flat->refine(flat->state, &d));
     }
+    refiner_close(dag);
+    refiner_close(flat);
     return 0;
 }
 END2

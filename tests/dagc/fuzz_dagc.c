@@ -55,8 +55,15 @@ static void emit_catalog(struct dag *dag)
 
 static void emit_oracles(struct dag *dag)
 {
-    static const struct emit_options plain, watched = {1, 1, 1, 0, NULL, NULL, 0, NULL},
-                                            alone = {1, 1, 1, 1, "p", folders, 2, NULL};
+    static const struct emit_options plain,
+        watched = {.counted = 1, .traced = 1, .copies = 4, .lines = 1}, outlined = {.outline = 1},
+        alone = {.counted = 1,
+                 .traced = 1,
+                 .lines = 1,
+                 .standalone = 1,
+                 .prefix = "p",
+                 .folders = folders,
+                 .folder_count = 2};
     struct text out = {0}, header = {0};
     dag_fingerprint(dag);
     for (int pass = 0; pass < PASSES; pass++)
@@ -65,6 +72,7 @@ static void emit_oracles(struct dag *dag)
     dag_emit_dot(dag, &out);
     dag_emit_c(dag, &out, NULL, NULL, &plain);
     dag_emit_c(dag, &out, &header, "h.h", &watched);
+    dag_emit_c(dag, &out, &header, "h.h", &outlined);
     dag_emit_standalone(dag, &out, &header, "h.h", &alone);
     dag_text_free(&out);
     dag_text_free(&header);
