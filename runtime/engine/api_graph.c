@@ -9,11 +9,7 @@
 
 static char *copy(const char *text)
 {
-    size_t size = text ? strlen(text) + 1 : 0;
-    char *c = text ? malloc(size) : NULL;
-    if (c)
-        memcpy(c, text, size);
-    return c;
+    return text ? strdup(text) : NULL;
 }
 
 void api_keep_source(RadOracle oracle, const char *path, const char *text, const char *name,
