@@ -306,6 +306,10 @@
  * each alone, 0 one factor for all of a class. Of 0, 1/4, 1/2 and 1 the best for leaves on four
  * scenes of very different kind at 30,000 and 300,000 particles, between 0 and 1/2 by little */
 #define REFINER_MEND_OWN 0.25
+/* elements. A class counts as so many against the elements of its level that have a parent's parent
+ * in common: as much as MEND_OWN gives to one. Between 3 and 30 cells of five scenes differ by a
+ * hundredth (tests/tables/judge.sh) */
+#define REFINER_MEND_KIN (1 / REFINER_MEND_OWN - 1)
 /* standard deviations. How far the squares of a class must be above noise before its links are
  * mended, 2: one class in forty is by chance */
 #define REFINER_MEND_EVIDENCE 2.0
@@ -461,7 +465,11 @@
  * least. Chosen; make picture-table tells what comes of it */
 #define REFINER_GATHERING_MOST 256
 #define REFINER_GATHERING_FEWEST 64
-/* corners. So many of a face say what gathering is worth on it: known to a third; chosen */
+/* One corner in so many gathers a second time, by other rays, to tell the noise: chosen, a quarter
+ * more rays */
+#define REFINER_GATHERING_TWICE 4
+/* corners that gathered twice. So many of a face say what gathering is worth on it: known to a
+ * third; chosen */
 #define REFINER_GATHERING_TELLING 16
 /* of the way from a corner to the centre of the smallest leaf there. Chosen: between 1/64 and 1/2
  * pictures are equally good; what stands at the corner is clear of it */
