@@ -206,7 +206,7 @@ TOOL enum longer_answer tool_longer(struct discussion *d, int than) { return d->
 #endif
 END2
 echo 'graph long(than : bytes in [0, 65535]) exits (no, yes) { start a; node a = longer(than = than) { no -> no; yes -> yes; } }' >parts/long.dag
-printf 'catalog "net.dag";\nimport "parts/long.dag";\noracle gate { start a; node a = long(than = 100) { no -> pass; yes -> drop; } }\n' >gate.dag
+printf 'catalog "net.dag";\nimport "parts/long.dag";\noracle gate { start a; node a = long(than = 100) { no -> pass; yes -> b; } node b = longer(than = 60000) { no -> drop; yes -> pass; } }\n' >gate.dag
 printf 'catalog "../net.dag";\noracle low { start a; node a = longer(than = 10) { no -> pass; yes -> drop; } }\n' >sub/gate.dag
 cat >rules.cpp <<'END2'
 #include "gate.h"
@@ -320,28 +320,49 @@ fi
 cat >walk.c <<'END2'
 #include <stdio.h>
 #include "gate.h"
-#include "oracle/refiner.h"
+#include "oracle/node_counting.h"
 int main(void)
 {
+    static struct gate_counters counters, half;
+    struct gate_parameters parameters;
     struct messages messages = {0};
     struct interpretation how = {.path = "gate.dag"};
     struct refiner *dag = refiner_interpret(&how, &messages), *flat = refiner_compiled(&gate_oracle, "flat");
     if (!dag || !flat)
         return fprintf(stderr, "%s\n", messages_text(&messages)), 1;
+    struct node_counting *counting = node_counting_open(dag, NULL, NULL, &messages);
+    if (!counting || node_counting_open(flat, NULL, NULL, &messages))
+        return 1;
+    gate_defaults(&parameters);
     for (int size = 0; size < 200; size += 99) {
-        struct discussion d = {.size = size};
+        struct discussion d = {.size = size}, e = d, f = d;
         printf("%d%d ", (int)dag->refine(dag->state, &d), (int)flat->refine(flat->state, &d));
+        if (node_counting_ask(counting, &e) != gate_filter_counted(&parameters, &f, size > 0 ? &half : &counters))
+            return 1;
     }
+    NODE_COUNTS_ADD(gate, &counters, &half);
+    FILE *walked = fopen("walked", "w"), *called = fopen("called", "w");
+    node_counts_print(walked, node_counting_counts(counting));
+    node_counts_print(called, NODE_COUNTS(gate, &counters));
+    fclose(walked);
+    fclose(called);
+    node_counting_close(counting);
+    messages_free(&messages);
     refiner_close(dag);
     refiner_close(flat);
     return 0;
 }
 END2
 own=$prefix/share/dagc/interpreter
-check "catalog.h and catalog.c" sh -c "dagc --emit=catalog-h -o catalog.h net.dag && dagc --emit=catalog-c -o catalog.c net.dag && dagc -o gate.c --header gate.h gate.dag"
+check "catalog.h and catalog.c" sh -c "dagc --emit=catalog-h -o catalog.h net.dag && dagc --emit=catalog-c -o catalog.c net.dag && dagc --instrument -o gate.c --header gate.h gate.dag"
 # shellcheck disable=SC2086
 check "the interpreter in a domain of one's own" cc $flags -include net.h -I. -I"$own" -I"$prefix/include/dagc" -o walk walk.c gate.c catalog.c "$own"/oracle/*.c "$own"/util/*.c "$prefix/lib/libdagc.a" -ldl -lm
 check "it walks as the compiled one" is "00 00 11 " ./walk
+check "it counts as the compiled one" cmp walked called
+check "three packets, one of them long" sh -c "grep -q '^a.* 3 .* no 2 yes 1$' called && grep -q '^b  *1 .* no 1 yes 0$' called"
+cp -r "$top/examples/poisson" poisson
+check "poisson, from what is installed" make -s -C poisson DAGC=dagc COUNTS="$prefix/include/dagc" CFLAGS="$flags"
+check "poisson prints its nodes" sh -c "cd poisson && ./poisson | grep -q '^bent  *[1-9]'"
 cd ..
 
 # ---- dagc alone: a C compiler, make and the system's own, nothing else

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "node_counts.h"
 #include "refine.h"
 
 enum { SWEEPS = 400, ROUNDS = 12 };
@@ -55,7 +56,7 @@ static void add(struct refine_mesh *mesh, double x, double y, double size, doubl
 
 /* Shows every cell to the graph; the next mesh has it, or its quarters. */
 static void refine(const struct refine_mesh *mesh, const struct refine_parameters *parameters,
-                   struct refine_mesh *next)
+                   struct refine_counters *counters, struct refine_mesh *next)
 {
     struct refine_discussion d;
     next->count = 0;
@@ -64,7 +65,8 @@ static void refine(const struct refine_mesh *mesh, const struct refine_parameter
         memset(&d, 0, sizeof d);
         d.mesh = mesh;
         d.cell = i;
-        int parts = refine_decide(parameters, &d) == REFINE_DECISION_SPLIT ? 2 : 1;
+        int parts =
+            refine_decide_counted(parameters, &d, counters) == REFINE_DECISION_SPLIT ? 2 : 1;
         double size = c->size / parts, first = (size - c->size) / 2;
         for (int k = 0; k < parts * parts; k++)
             add(next, c->x + first + k % parts * size, c->y + first + k / parts * size, size, c->u);
@@ -115,13 +117,15 @@ static int draw(const struct refine_mesh *mesh, const char *path)
 int main(int count, char **arguments)
 {
     static struct refine_mesh adapted[2], even;
+    static struct refine_counters counters;
     struct refine_parameters parameters;
     double error = 0, even_error;
     int n = 1;
     refine_defaults(&parameters);
+    counters.clock = node_counts_seconds;
     add(&adapted[0], 0.5, 0.5, 1, 0);
     for (int round = 0; round < ROUNDS; round++) {
-        refine(&adapted[round % 2], &parameters, &adapted[(round + 1) % 2]);
+        refine(&adapted[round % 2], &parameters, &counters, &adapted[(round + 1) % 2]);
         error = solve(&adapted[(round + 1) % 2]);
     }
     const struct refine_mesh *last = &adapted[ROUNDS % 2];
@@ -132,5 +136,6 @@ int main(int count, char **arguments)
     even_error = solve(&even);
     printf("adapted: %d cells, mean error %.2g K\neven:    %d cells, mean error %.2g K\n",
            last->count, error, even.count, even_error);
+    node_counts_print(stdout, NODE_COUNTS(refine, &counters));
     return draw(last, count > 1 ? arguments[1] : "mesh.svg") == 0 && 4 * error < even_error ? 0 : 1;
 }

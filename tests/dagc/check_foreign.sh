@@ -292,6 +292,9 @@ for compiler; do
     check "$compiler poisson" make -s -C "$top/examples/poisson" OUT="$tmp/poisson" DAGC="$dagc" CC="$compiler" CFLAGS="-O1 $warnings"
     check "$compiler poisson runs" sh -c 'poisson/poisson poisson/mesh.svg >poisson/said'
     check "$compiler poisson adapts" awk '/^adapted/ { cells = $2; error = $6 } /^even/ { exit !(cells < $2 && 20 * error < $6) }' poisson/said
+    # Every node: answers are as many as calls, and what leaves one arrives at the next; the first is asked for every cell.
+    check "$compiler poisson counts" awk '$1 == "node" { on = 1; next } on { calls[$1] = $2; for (i = 4; i < NF; i += 2) { told += $(i + 1); of[$1, $i] = $(i + 1) } sum += $2; nodes++ }
+        END { exit !(nodes == 4 && sum == told && calls["large"] == of["small", "yes"] && calls["even"] == of["large", "no"] && calls["bent"] == of["even", "yes"] && of["bent", "yes"] > 0) }' poisson/said
     check "$compiler poisson draws" sh -c '[ "$(grep -c "<path" poisson/mesh.svg)" = "$(awk "/^adapted/ { print \$2 }" poisson/said)" ]'
 done
 check "nothing of radiosity" sh -c '! grep -wniE "radiosity|W/m2|element|emitter|receiver|shaft" poisson/refine.[ch]'
