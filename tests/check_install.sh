@@ -2,36 +2,15 @@
 # check_install.sh - make install, and what it put there used from projects that know nothing of this folder.
 # DAGC names the command, in the build folder to install from. What a missing program does not let us try is said.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/.." && pwd)
-dagc=$(realpath -e "${DAGC:-$top/build/bin/dagc}") || exit 2
+. "$(dirname "$0")/dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")
 optimise=-O0 # what is installed is used alike
 [ -z "${THOROUGH-}" ] || optimise=-O2
 flags="-std=c11 $optimise -Wall -Wextra -Werror ${SANITIZE-}"
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
 compiler=${CC-} # what this build was made with: `make check CC=...` says it
 unset DAGC RADIOSITY MAKEFLAGS MFLAGS MAKELEVEL BUILD CC CFLAGS CPPFLAGS LDFLAGS OPT WARN
 prefix=$tmp/usr
-count=0 bad=0
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >"$tmp/out" 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 "$tmp/out"
-    fi
-}
-have() { # PROGRAM
-    command -v "$1" >/dev/null && return
-    echo "skipped: $1 is not installed"
-    return 1
-}
 is() { # WANTED COMMAND...
     wanted=$1
     shift
@@ -507,5 +486,4 @@ fi
 check uninstall make -C "$top" uninstall PREFIX="$prefix"
 check "nothing is left" sh -c "find '$prefix' -type f | grep . && exit 1; [ ! -e '$prefix/share/dagc' ] && [ ! -L '$prefix/lib/libradiosity.so' ]"
 
-echo "install: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "install"

@@ -3,24 +3,8 @@
 # compiler there is; headers with all that C allows; the program's own headers beside a standalone text.
 # DAGC names the command; a compiler that is missing is reported as skipped.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+. "$(dirname "$0")/lib.sh"
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >out 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 out
-    fi
-}
 fails() { # STATUS TEXT COMMAND...
     wanted=$1 text=$2
     shift 2
@@ -311,5 +295,4 @@ verb 'verb a; verb b;' && check "two verbs" fails 1 "a second verb" "$dagc" --ca
 verb 'verb;' && check "no verb" fails 1 "a name such as 'decide'" "$dagc" --catalog verb.dag --emit=none gate.dag
 verb '' && check "without: refine" sh -c "$dagc --catalog verb.dag gate.dag | grep -q gate_refine"
 
-echo "foreign: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "foreign"
