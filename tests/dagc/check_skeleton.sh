@@ -133,7 +133,9 @@ check "stub" "$dagc" --emit=stub -o made all.dag
 check "stub-c++" "$dagc" --emit=stub-c++ -o made_cxx all.dag
 check "C and C++ have the same files but for the program's" sh -c 'for at in made made_cxx; do (cd $at; find . -type f | sed "s/main.cpp/main.c/" | sort) >$at.files; done; cmp made.files made_cxx.files'
 cp whole.dag made
-for compiler in "gcc -std=c11" tcc "g++ -x c++"; do
+set -- "gcc -std=c11" tcc "g++ -x c++"
+[ -z "${THOROUGH-}" ] || set -- "$@" "clang -std=c11" "clang++ -x c++"
+for compiler; do
     have ${compiler%% *} || continue
     check "$compiler: first.dag, without a warning" make -s -B -C made DAGC="$dagc -Werror" CC="$compiler" CFLAGS="-O0 $warnings"
     check "$compiler: it decides" sh -c '[ "$(made/first)" = stop ]'
