@@ -30,11 +30,13 @@ int decision_links(enum decision decision)
     return decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS;
 }
 
-void link_store(struct link *link, const struct terms *terms)
+void link_store(struct link *link, enum decision decision, const struct terms *terms)
 {
-    link->form_factor = (float)terms->form_factor;
-    link->levels = (uint8_t)(terms->form_factor_level | terms->visibility_level << 4);
-    link->mark = terms->mark_level ? (uint8_t)terms->mark : 0;
+    const int of_faces = decision == DECISION_LINK;
+    link->form_factor = of_faces ? (float)terms->form_factor : 0;
+    link->levels =
+        (uint8_t)((of_faces ? terms->form_factor_level : 0) | terms->visibility_level << 4);
+    link->mark = of_faces && terms->mark_level ? (uint8_t)terms->mark : 0;
     link->visibility = (uint16_t)(terms->visibility * LINK_VISIBLE + 0.5);
     if (link->visibility == 0 && terms->visibility > 0)
         link->visibility = 1;
@@ -138,7 +140,7 @@ static unsigned char discuss(const struct refinement *r, size_t i, int turned, s
     enum decision decision = r->trace ? trace_ask(&r->trace->pairs[i], turned, r->refiner, &d)
                                       : r->refiner->refine(r->refiner->state, &d);
     if (decision_links(decision))
-        link_store(link, &d.terms);
+        link_store(link, decision, &d.terms);
     if (d.terms.no_number && !r->outcomes[i].none)
         r->outcomes[i].none = d.terms.no_number;
     return (unsigned char)decision;

@@ -77,25 +77,13 @@ struct all {
     atomic_uchar reached[NODES_MOST];
 };
 
-/* What a link keeps of the terms that the decision reads. */
-struct kept {
-    double form_factor, visibility;
-    int levels[2], mark;
-};
-
-static struct kept keep(enum decision decision, const struct terms *t)
+/* What refinement keeps of it. */
+static struct link keep(enum decision decision, const struct terms *t)
 {
-    struct kept k;
+    struct link k;
     memset(&k, 0, sizeof k);
-    if (!decision_links(decision))
-        return k;
-    k.visibility = t->visibility;
-    k.levels[1] = t->visibility_level;
-    if (decision == DECISION_LINK_CLUSTERS)
-        return k;
-    k.form_factor = t->form_factor;
-    k.levels[0] = t->form_factor_level;
-    k.mark = t->mark_level ? t->mark : 0;
+    if (decision_links(decision))
+        link_store(&k, decision, t);
     return k;
 }
 
@@ -130,7 +118,7 @@ static enum decision ask_all(const void *state, struct discussion *d)
         list = *d->blockers;
     for (int way = 0; way < all->ways; way++) {
         enum decision first = DECISION_STOP;
-        struct kept link = {0};
+        struct link link = {0};
         for (int who = 0; who < ASKED; who++) {
             struct blockers blockers = list;
             struct discussion copy = start;
@@ -140,7 +128,7 @@ static enum decision ask_all(const void *state, struct discussion *d)
                 copy.blockers = &blockers;
             int real = way == 0 && who == FLAT; /* the one that goes on */
             enum decision decision = ask(all, way, who, real ? d : &copy);
-            struct kept kept = keep(decision, real ? &d->terms : &copy.terms);
+            struct link kept = keep(decision, real ? &d->terms : &copy.terms);
             if (who == FLAT) {
                 first = decision;
                 link = kept;
