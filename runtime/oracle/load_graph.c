@@ -46,8 +46,8 @@ int graph_lacks_extern(const struct dag *dag, int callback, struct messages *mes
         return messages_say(messages, MESSAGE_MEMORY, "out of memory");
     snprintf(what, sizeof what, "nothing defines the extern '%s', which the oracle reads", c->name);
     snprintf(note, sizeof note,
-             "give a C file or a shared object by --plugin that defines: double %s(const struct "
-             "discussion *d)",
+             "define in C: double %s(const struct discussion *d); radiosity takes the file by "
+             "--plugin, other programs take the function in interpretation.externs",
              c->name);
     dag_print_error(dag, c->where, what, note, out);
     if (fclose(out) != 0 || !text)
