@@ -180,6 +180,8 @@ struct answer {
     const char *name;
     struct where where;
     enum kind kind;
+    /* of a command, NAME refuses: it could not; the terms that it writes are as they were */
+    unsigned char refuses;
 };
 
 enum tool_kind { TOOL_QUESTION, TOOL_COMMAND };
