@@ -456,7 +456,8 @@ struct RadReport {
     uint32_t elements, leaves, bands;
     uint64_t links, pairs, rounds, rays; /* pairs: discussions held */
     uint64_t marked[RAD_LINK_MARKS];     /* links with each mark; mark 1: a guard kept them whole */
-    uint64_t decided[8];                 /* how often each enum decision was taken */
+    uint64_t marked_elements[RAD_LINK_MARKS]; /* elements with each mark, [0] without */
+    uint64_t decided[8];                      /* how often each enum decision was taken */
     /* converged: iteration reached its tolerance, and no link changes any more; with linear
      * elements at most one in a thousand does */
     int passes, iterations, converged;

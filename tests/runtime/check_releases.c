@@ -80,13 +80,15 @@ struct all {
 /* What a link keeps of the terms that the decision reads. */
 struct kept {
     double form_factor, visibility;
-    int levels[2], mark;
+    int levels[2], mark, marks[2]; /* marks: what receiver and emitter are marked with */
 };
 
 static struct kept keep(enum decision decision, const struct terms *t)
 {
     struct kept k;
     memset(&k, 0, sizeof k);
+    k.marks[0] = t->receiver_mark_level ? t->receiver_mark : 0;
+    k.marks[1] = t->emitter_mark_level ? t->emitter_mark : 0;
     if (!decision_links(decision))
         return k;
     k.visibility = t->visibility;
