@@ -55,6 +55,43 @@ solve near --plugin near.c
 solve near_last --plugin desk.c --plugin near.c --release dag
 same near near_last
 
+# ---- what an extern reads is there when it is called
+cat >reads.dag <<END
+import "$top/examples/oracles/common.dag";
+extern carried(form_factor >= disc, visibility >= rays_4) : ratio in [0, 1] "of what leaves the emitter";
+oracle reads {
+  start pair;
+  node pair  = surfaces() { toward | receiver_crosses | emitter_crosses -> much; }
+  node much  = above(value = carried, limit = 0.02) { no -> last;  yes -> split; }
+  node split = either(min_area = 0, min_share = 0.001) { whole -> last; }
+  node last  = seen_and_linked(rays = 16) { hidden -> stop; }
+}
+END
+cat >reads.c <<'END'
+#include "discussion.h"
+double carried(const struct discussion *d)
+{
+    if (d->terms.form_factor_level < FORM_FACTOR_DISC || d->terms.visibility_level < VISIBILITY_RAYS_4)
+        return -1; /* the run ends with an error */
+    double share = d->terms.form_factor * d->terms.visibility;
+    return share < 1 ? share : 1;
+}
+END
+for release in flat dag; do
+    count=$((count + 1))
+    "$radiosity" solve "$scene" -q --no-correct --no-errors --oracle reads.dag --plugin reads.c --release $release --json $release.json \
+        --faces $release.csv 2>err || failed "reads.dag, $release"
+done
+same flat dag
+
+# ---- what is no number, or out of the range that its declaration gives
+echo '#include "discussion.h"' >nan.c
+echo 'double remoteness(const struct discussion *d) { return d->receiver->area > 0.3 ? 2 : 0 * INFINITY; }' >>nan.c
+for release in flat dag; do
+    says 1 "'relative' of node 'energy' is no number from 0 to inf: relative * extern remoteness" \
+        "$radiosity" solve "$scene" -q --no-correct --no-errors --oracle desk.dag --plugin nan.c --release $release
+done
+
 # ---- every command that asks an oracle
 "$radiosity" explain "$scene" --oracle desk.dag --plugin desk.c --at 0.1,0.1,0:0.27,0.5,0.27 -q >out 2>err || failed explain
 for command in draw panel; do
