@@ -222,6 +222,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
         const struct answer *answer = &dag->answers[tool->answers.first + i];
         print_field(out, i > 0 ? ", {" : "{", "name", answer->name);
         print_field(out, ", ", "kind", dag_kind_name(answer->kind));
+        if (answer->refuses)
+            print_flag(out, "refuses", 1);
         print_allows(dag, out, tool, i);
         dag_print(out, "}");
     }

@@ -46,6 +46,8 @@ struct refiner *api_interpret(RadOracle oracle)
         &(struct interpretation){.path = s->path,
                                  .text = s->text,
                                  .oracle = s->name,
+                                 .find_extern = plugin_find,
+                                 .find_where = api_plugins(oracle->device),
                                  .replacements = (const char *const *)s->replacements,
                                  .replacement_count = s->replacement_count},
         &messages);

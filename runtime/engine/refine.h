@@ -36,6 +36,8 @@ struct pair {
 struct outcome {
     struct link link[2];
     unsigned char decision[2];
+    /* of each way round: what the discussion marks its receiver [0] and emitter [1] with */
+    unsigned char marks[2][2];
     unsigned char listed; /* refinement.found holds the pair's candidates */
     const char *none;     /* which argument of a node was no number; NULL: all were */
 };

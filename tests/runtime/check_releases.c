@@ -77,13 +77,20 @@ struct all {
     atomic_uchar reached[NODES_MOST];
 };
 
-/* What refinement keeps of it. */
-static struct link keep(enum decision decision, const struct terms *t)
+/* What refinement keeps of it: a link, and what receiver and emitter are marked with. */
+struct kept {
+    struct link link;
+    int marks[2];
+};
+
+static struct kept keep(enum decision decision, const struct terms *t)
 {
-    struct link k;
+    struct kept k;
     memset(&k, 0, sizeof k);
+    k.marks[0] = t->receiver_mark_level ? t->receiver_mark : 0;
+    k.marks[1] = t->emitter_mark_level ? t->emitter_mark : 0;
     if (decision_links(decision))
-        link_store(&k, decision, t);
+        link_store(&k.link, decision, t);
     return k;
 }
 
@@ -118,7 +125,7 @@ static enum decision ask_all(const void *state, struct discussion *d)
         list = *d->blockers;
     for (int way = 0; way < all->ways; way++) {
         enum decision first = DECISION_STOP;
-        struct link link = {0};
+        struct kept first_kept = {0};
         for (int who = 0; who < ASKED; who++) {
             struct blockers blockers = list;
             struct discussion copy = start;
@@ -128,11 +135,11 @@ static enum decision ask_all(const void *state, struct discussion *d)
                 copy.blockers = &blockers;
             int real = way == 0 && who == FLAT; /* the one that goes on */
             enum decision decision = ask(all, way, who, real ? d : &copy);
-            struct link kept = keep(decision, real ? &d->terms : &copy.terms);
+            struct kept kept = keep(decision, real ? &d->terms : &copy.terms);
             if (who == FLAT) {
                 first = decision;
-                link = kept;
-            } else if (decision != first || memcmp(&kept, &link, sizeof kept) != 0) {
+                first_kept = kept;
+            } else if (decision != first || memcmp(&kept, &first_kept, sizeof kept) != 0) {
                 if (atomic_fetch_add(&all->different, 1) == 0)
                     fprintf(stderr, "%s decides %d, %s %d\n", asked_names[FLAT], (int)first,
                             asked_names[who], (int)decision);
