@@ -54,6 +54,14 @@ static void start(struct pair *p, const struct discussion *d)
     p->list = d->blockers ? d->blockers : &p->own;
 }
 
+/* What the other way round starts from: all that is known of V. */
+static enum decision hand_over(const struct pair *p, struct discussion *d, int decision)
+{
+    d->terms.visibility = p->seen;
+    d->terms.visibility_level = (unsigned char)p->seen_level;
+    return (enum decision)decision;
+}
+
 /* A share of all surfaces' light, as irradiance on this receiver over the mean. */
 static double here(const struct pair *p, double share)
 {
@@ -278,7 +286,7 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
     if (low_r < -flat || low_s < -flat)
         (void)exact_factor(&p);
     else if ((listed || (r->depth == 0 && s->depth == 0)) && look_between(&p) == BLOCKED)
-        return DECISION_STOP;
+        return hand_over(&p, d, DECISION_STOP);
 
     double mean = d->host->irradiance, brought = s->radiosity * factor(&p);
     int decision;
@@ -287,22 +295,20 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
         if (worse != NEITHER) {
             decision = split(&p, by->min_share, worse);
             if (decision != GO_ON)
-                return (enum decision)decision;
+                return hand_over(&p, d, decision);
         }
         brought = s->radiosity * p.factor;
     }
     decision = seen(&p, by, brought);
     if (decision != DECISION_LINK)
-        return (enum decision)decision;
+        return hand_over(&p, d, decision);
     d->terms.form_factor = exact_factor(&p);
     d->terms.form_factor_level = (unsigned char)p.factor_level;
-    d->terms.visibility = p.seen;
-    d->terms.visibility_level = (unsigned char)p.seen_level;
     if (p.mark) {
         d->terms.mark = 1;
         d->terms.mark_level = MARK_PRESENT;
     }
-    return DECISION_LINK;
+    return hand_over(&p, d, DECISION_LINK);
 }
 
 /* ---- groups */
@@ -344,18 +350,16 @@ static enum decision groups(const struct parameters *by, struct discussion *d)
         }
         if (p.seen <= 0) {
             if (rays == 64 || !(sent * noise(&p) > lost))
-                return DECISION_STOP;
+                return hand_over(&p, d, DECISION_STOP);
         } else if (p.seen < 1 && sent > half) {
-            return opened(&p, by);
+            return hand_over(&p, d, opened(&p, by));
         } else if (rays == 64 || !(sent * noise(&p) > limit)) {
             break;
         }
     }
     if (point_intensity(s, uneven(&p)) > here(&p, 0.5 * by->uneven * by->spot) * mean * p.square)
-        return opened(&p, by);
-    d->terms.visibility = p.seen;
-    d->terms.visibility_level = (unsigned char)p.seen_level;
-    return DECISION_LINK_CLUSTERS;
+        return hand_over(&p, d, opened(&p, by));
+    return hand_over(&p, d, DECISION_LINK_CLUSTERS);
 }
 
 static enum decision refine(const void *state, struct discussion *d)
