@@ -130,6 +130,9 @@
 
 /* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
 #define REFINER_SAMPLER_PARALLELOGRAM 1e-12
+/* segments. Where one ray stands for a pair it is chosen from so many; chosen: what is missed of the
+ * weights that way is what four rays miss of them */
+#define REFINER_VISIBILITY_CHOICE 4
 /* choices per segment. Then fewer segments than were asked for must do; chosen */
 #define REFINER_CLUSTER_TRIES 8
 /* of r R / d^2 times A B / (pi d^2). The irradiance that links of groups misplace, for the kernel
@@ -1453,6 +1456,12 @@ static inline uint64_t refiner_hash64(uint64_t x)
     return x ^ x >> 31;
 }
 
+/* In [0, 1), for the same x. */
+static inline double refiner_hash_unit(uint64_t x)
+{
+    return (double)(refiner_hash64(x) >> 11) * (1 / 9007199254740992.0);
+}
+
 #endif
 
 enum { REFINER_SOBOL_MOST = 4096 }; /* points that there are digits for */
@@ -1687,10 +1696,12 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
 
 #endif
 
-/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
- * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
+/* visibility.h - question: how many of N rays between the two elements arrive? N = 1, 4, 16, 64,
+ * 256 or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
  * "partial"; "none" and "all" are the rays' opinion. What a shaft has settled (level exact) casts
- * none. [Turbet & Sillion, section 3.1.2] */
+ * none. One ray is chosen from four segments in proportion to what each would carry
+ * (terms/visibility.h): it says 0 or 1, and the mean of that is V. [Turbet & Sillion, section
+ * 3.1.2] */
 #ifndef REFINER_TOOL_VISIBILITY_H
 #define REFINER_TOOL_VISIBILITY_H
 
@@ -1706,12 +1717,13 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
  * it. Who asks
  *             for one of these two here gets four rays.
- * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
- * facing
- *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits
- *             are shifted by a hash of both path identities: no shared random state, so the
- *             answer depends on the pair alone, and is the same both ways. Fails: a blocker that
- *             shades the fraction p of the segments is missed with probability (1-p)^N.
+ * rays_N      N = 1, 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
+ *             facing parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose
+ *             digits are shifted by a hash of both path identities: no shared random state, so the
+ *             answer depends on the pair alone, and is the same both ways. Where N is 1 it is
+ *             chosen from VISIBILITY_CHOICE, in proportion to what each would carry. Fails: a
+ *             blocker that shades the fraction p of the segments is missed with probability
+ *             (1-p)^N.
  * exact       from a shaft (tools/shaft.h) or an integral over the visible part
  * (tools/exact_visibility.h), which alone
  *             make it. Who asks for it here, where it is not known, gets 1024 rays. */
@@ -1731,6 +1743,22 @@ static inline void refiner_segment_clear(struct refiner_segment *g, const double
         g->from[k] += host->ray_offset * n[k];
         g->to[k] += host->ray_offset * m[k];
     }
+}
+
+/* One of them for all: each with a chance in proportion to its weight, by u in [0, 1), so that the
+ * mean of what it finds is the share of the weights that arrives. It takes the first place and its
+ * weight. [resampled importance sampling, Talbot et al. 2005] */
+static inline void refiner_segments_choose(int count, struct refiner_segment *segments, double *weight, double u)
+{
+    double sum = 0;
+    int chosen = 0;
+    for (int i = 0; i < count; i++)
+        sum += weight[i];
+    u *= sum;
+    while (chosen < count - 1 && u >= weight[chosen])
+        u -= weight[chosen++];
+    segments[0] = segments[chosen];
+    weight[0] = sum;
 }
 
 /* Cast up to SEGMENTS_MAX of them: add to *all their weights, to *seen those of what arrives. */
@@ -1754,18 +1782,20 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
 {
     const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter,
                          *s = r == receiver ? emitter : receiver;
+    int points = count > 1 ? count : REFINER_VISIBILITY_CHOICE;
     double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0,
-                                 spread = (r->area < s->area ? r->area : s->area) / count;
+                                 spread = (r->area < s->area ? r->area : s->area) / points;
+    uint64_t hash = refiner_hash64(r->id + refiner_hash64(s->id));
     struct refiner_sampler p, q;
     struct refiner_sobol net;
     refiner_sampler_clip(&p, r, s);
     refiner_sampler_clip(&q, s, r);
     if (p.p.n == 0 || q.p.n == 0)
         return 0;
-    refiner_sobol_start(&net, refiner_hash64(r->id + refiner_hash64(s->id)));
+    refiner_sobol_start(&net, hash);
     struct refiner_segment segments[REFINER_SEGMENTS_MAX];
-    for (int first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
-        int batch = count - first < REFINER_SEGMENTS_MAX ? count - first : REFINER_SEGMENTS_MAX;
+    for (int first = 0; first < points; first += REFINER_SEGMENTS_MAX) {
+        int batch = points - first < REFINER_SEGMENTS_MAX ? points - first : REFINER_SEGMENTS_MAX;
         for (int i = 0; i < batch; i++) {
             struct refiner_segment *g = &segments[i];
             refiner_sobol_go(&net, first + i);
@@ -1773,6 +1803,10 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
             refiner_sampler_point(g->to, &q, refiner_sobol_at(&net, 2), refiner_sobol_at(&net, 3));
             weight[i] = refiner_lambert_points(g->from, r->normal, g->to, s->normal, spread);
             refiner_segment_clear(g, r->normal, s->normal, host);
+        }
+        if (count < points) {
+            refiner_segments_choose(batch, segments, weight, refiner_hash_unit(hash + REFINER_HASH_STEP));
+            batch = count;
         }
         refiner_segments_cast(host, batch, segments, weight, &seen, &all);
     }
@@ -1782,7 +1816,8 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
 /* The level that `rays` rays or more reach, and how many a level casts. */
 static inline enum refiner_visibility_level refiner_visibility_level_of(int rays)
 {
-    return rays <= 4     ? REFINER_VISIBILITY_RAYS_4
+    return rays <= 1     ? REFINER_VISIBILITY_RAYS_1
+           : rays <= 4   ? REFINER_VISIBILITY_RAYS_4
            : rays <= 16  ? REFINER_VISIBILITY_RAYS_16
            : rays <= 64  ? REFINER_VISIBILITY_RAYS_64
            : rays <= 256 ? REFINER_VISIBILITY_RAYS_256
@@ -1791,15 +1826,15 @@ static inline enum refiner_visibility_level refiner_visibility_level_of(int rays
 
 static inline int refiner_visibility_rays_of(enum refiner_visibility_level level)
 {
-    return level <= REFINER_VISIBILITY_RAYS_4      ? 4
+    return level <= REFINER_VISIBILITY_RAYS_1      ? 1
            : level >= REFINER_VISIBILITY_RAYS_1024 ? 1024
-                                           : 1 << 2 * (level - REFINER_VISIBILITY_RAYS_4 + 1);
+                                           : 1 << 2 * (level - REFINER_VISIBILITY_RAYS_1);
 }
 
 REFINER_TOOL double refiner_term_visibility(struct refiner_discussion *d, enum refiner_visibility_level level)
 {
     if (d->terms.visibility_level < level) {
-        if (level < REFINER_VISIBILITY_RAYS_4)
+        if (level < REFINER_VISIBILITY_RAYS_1)
             level = REFINER_VISIBILITY_RAYS_4;
         if (level > REFINER_VISIBILITY_RAYS_1024)
             level = REFINER_VISIBILITY_RAYS_1024;
@@ -1877,12 +1912,12 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     case REFINER_CLUSTERS_SURFACES:
         goto node_faces__planes;
     case REFINER_CLUSTERS_APART:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_CLUSTERS_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_CLUSTERS_EMITTER:
     default:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     }
 
 node_faces__planes:
@@ -1890,7 +1925,7 @@ node_faces__planes:
     case REFINER_SUPPORT_PLANES_TOWARD:
         goto node_faces__energy;
     case REFINER_SUPPORT_PLANES_AWAY:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_SUPPORT_PLANES_RECEIVER_CROSSES:
         goto node_faces__clip_receiver;
     case REFINER_SUPPORT_PLANES_EMITTER_CROSSES:
@@ -1902,7 +1937,7 @@ node_faces__energy:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->relative)) {
     case REFINER_TRANSFER_DARK:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_TRANSFER_BELOW:
         goto node_faces__seen;
     case REFINER_TRANSFER_ABOVE:
@@ -1915,9 +1950,9 @@ node_faces__split__guard:
     case REFINER_CAN_SPLIT_BOTH:
         goto node_faces__split__side;
     case REFINER_CAN_SPLIT_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_CAN_SPLIT_EMITTER:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__split__note;
@@ -1926,10 +1961,10 @@ node_faces__split__guard:
 node_faces__split__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_LARGER_EMITTER:
     default:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     }
 
 node_faces__split__note:
@@ -1944,7 +1979,7 @@ node_faces__clip_receiver:
     /* form_factor: polygon or better on every path */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->relative)) {
     case REFINER_TRANSFER_DARK:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_TRANSFER_BELOW:
         goto node_faces__seen;
     case REFINER_TRANSFER_ABOVE:
@@ -1956,9 +1991,9 @@ node_faces__cut_receiver__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_CAN_SPLIT_EMITTER:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__cut_receiver__note;
@@ -1976,7 +2011,7 @@ node_faces__clip_emitter:
     /* form_factor: polygon or better on every path */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->relative)) {
     case REFINER_TRANSFER_DARK:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_TRANSFER_BELOW:
         goto node_faces__seen;
     case REFINER_TRANSFER_ABOVE:
@@ -1988,9 +2023,9 @@ node_faces__cut_emitter__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_EMITTER:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     case REFINER_CAN_SPLIT_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__cut_emitter__note;
@@ -2004,7 +2039,7 @@ node_faces__seen:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, 0.0, parameters->faint)) {
     case REFINER_TRANSFER_DARK:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_TRANSFER_BELOW:
         goto node_faces__glance__rays;
     case REFINER_TRANSFER_ABOVE:
@@ -2017,7 +2052,7 @@ node_faces__glance__rays:
     /* visibility: checked: not every path has it */
     switch (refiner_tool_visibility(&d, 4)) {
     case REFINER_VISIBILITY_NONE:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_VISIBILITY_PARTIAL:
     case REFINER_VISIBILITY_ALL:
     default:
@@ -2047,7 +2082,7 @@ node_faces__hidden:
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->shadow)) {
     case REFINER_TRANSFER_DARK:
     case REFINER_TRANSFER_BELOW:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_TRANSFER_ABOVE:
     default:
         goto node_faces__look;
@@ -2055,10 +2090,10 @@ node_faces__hidden:
 
 node_faces__look:
     /* form_factor: checked: not every path has it */
-    /* visibility: rays_4 or better on every path */
+    /* visibility: rays_1 or better on every path */
     switch (refiner_tool_visibility(&d, 64)) {
     case REFINER_VISIBILITY_NONE:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_VISIBILITY_PARTIAL:
     case REFINER_VISIBILITY_ALL:
     default:
@@ -2069,7 +2104,7 @@ node_faces__matters:
     /* form_factor: checked: not every path has it */
     switch (refiner_tool_transfer(&d, parameters->epsilon, parameters->shadow)) {
     case REFINER_TRANSFER_DARK:
-        return REFINER_DECISION_STOP;
+        goto leaf_stop;
     case REFINER_TRANSFER_BELOW:
         goto node_faces__form;
     case REFINER_TRANSFER_ABOVE:
@@ -2082,9 +2117,9 @@ node_faces__shade__guard:
     case REFINER_CAN_SPLIT_BOTH:
         goto node_faces__shade__side;
     case REFINER_CAN_SPLIT_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_CAN_SPLIT_EMITTER:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__shade__note;
@@ -2093,10 +2128,10 @@ node_faces__shade__guard:
 node_faces__shade__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
-        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+        goto leaf_subdivide_receiver;
     case REFINER_LARGER_EMITTER:
     default:
-        return REFINER_DECISION_SUBDIVIDE_EMITTER;
+        goto leaf_subdivide_emitter;
     }
 
 node_faces__shade__note:
@@ -2115,4 +2150,19 @@ leaf_link:
     discussion->terms.mark = d.terms.mark;
     discussion->terms.mark_level = d.terms.mark_level;
     return REFINER_DECISION_LINK;
+
+leaf_stop:
+    discussion->terms.visibility = d.terms.visibility;
+    discussion->terms.visibility_level = d.terms.visibility_level;
+    return REFINER_DECISION_STOP;
+
+leaf_subdivide_receiver:
+    discussion->terms.visibility = d.terms.visibility;
+    discussion->terms.visibility_level = d.terms.visibility_level;
+    return REFINER_DECISION_SUBDIVIDE_RECEIVER;
+
+leaf_subdivide_emitter:
+    discussion->terms.visibility = d.terms.visibility;
+    discussion->terms.visibility_level = d.terms.visibility_level;
+    return REFINER_DECISION_SUBDIVIDE_EMITTER;
 }

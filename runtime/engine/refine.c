@@ -127,8 +127,8 @@ static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 
 /* ---- discussions */
 
-/* One discussion, `turned` the second of pair i; the link's values go in and come out, and so does
- * the pair's list. */
+/* One discussion, `turned` the second of pair i; the link's values go in and come out, of a pair
+ * that is not linked the visibility alone, and so does the pair's list. */
 static unsigned char discuss(const struct refinement *r, size_t i, int turned, struct link *link,
                              struct blockers *list)
 {
@@ -141,8 +141,7 @@ static unsigned char discuss(const struct refinement *r, size_t i, int turned, s
     link_recall(link, &d.terms);
     enum decision decision = r->trace ? trace_ask(&r->trace->pairs[i], turned, r->refiner, &d)
                                       : r->refiner->refine(r->refiner->state, &d);
-    if (decision_links(decision))
-        link_store(link, decision, &d.terms);
+    link_store(link, decision, &d.terms);
     unsigned char *marks = r->outcomes[i].marks[turned];
     marks[0] = d.terms.receiver_mark_level ? (unsigned char)d.terms.receiver_mark : 0;
     marks[1] = d.terms.emitter_mark_level ? (unsigned char)d.terms.emitter_mark : 0;
@@ -165,9 +164,10 @@ static void note_list(const struct refinement *r, size_t i, const struct blocker
         r->found[i] = *list;
 }
 
-/* What the link `there` says of the link back: visibility is the same both ways, and so is the
- * exchange A_r F_rs = A_s F_sr, which is computed once and serves both: reciprocity holds to the
- * rounding of a link's F. */
+/* What the discussion `there` says of the link back: visibility is the same both ways, also where
+ * it hides the pair or has it split, so nobody casts a ray twice. And so is the exchange A_r F_rs =
+ * A_s F_sr, which a link computes once for both: reciprocity holds to the rounding of a link's F.
+ * Fails: rays to the emitter's light (tools/light_visibility.h) are taken for rays to its area. */
 static void reverse_link(struct link *back, const struct link *there,
                          const struct element *elements)
 {
@@ -197,8 +197,7 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
         if (p->both) {
             if (r->trace)
                 r->trace->pairs[i].between = list;
-            if (decision_links((enum decision)o->decision[0]))
-                reverse_link(&back, &o->link[0], r->hierarchy->elements);
+            reverse_link(&back, &o->link[0], r->hierarchy->elements);
             o->link[1] = back;
             o->decision[1] = discuss(r, i, 1, &o->link[1], &list);
         }
@@ -352,8 +351,7 @@ static int tell_round(const struct refinement *r, int count)
             return -1;
         if (!p->both)
             continue;
-        if (decision_links((enum decision)o->decision[0]))
-            reverse_link(&back, &o->link[0], r->hierarchy->elements);
+        reverse_link(&back, &o->link[0], r->hierarchy->elements);
         if (trace_tell(r->trace, r, (size_t)i, 1, &back, &r->trace->pairs[i].between) < 0)
             return -1;
     }

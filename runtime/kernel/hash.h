@@ -17,4 +17,10 @@ static inline uint64_t hash64(uint64_t x)
     return x ^ x >> 31;
 }
 
+/* In [0, 1), for the same x. */
+static inline double hash_unit(uint64_t x)
+{
+    return (double)(hash64(x) >> 11) * (1 / 9007199254740992.0);
+}
+
 #endif

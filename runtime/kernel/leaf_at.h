@@ -64,16 +64,24 @@ static inline void leaf_triangle(const struct element *e, const double p[3], dou
     weight[0] = 1 - weight[1] - weight[2];
 }
 
+/* The first child of i, 0 when it is a leaf; from `first`, which is that of all elements, when it
+ * is given: many points in no order find it in the cache, where they would wait for the elements.
+ */
+static inline uint32_t leaf_child(const struct element *elements, const uint32_t *first, uint32_t i)
+{
+    return first ? first[i] : elements[i].children ? elements[i].child : 0;
+}
+
 /* Halving a quad halves its bilinear parameters: the cuts are lines of s = 1/2 and t = 1/2, and a
  * child numbers its corners as its parent does. */
-static inline uint32_t leaf_descend_quad(const struct element *elements, uint32_t i,
-                                         const double p[3], double weight[4])
+static inline uint32_t leaf_descend_quad(const struct element *elements, const uint32_t *first,
+                                         uint32_t i, const double p[3], double weight[4])
 {
     double s, t;
     leaf_quad(&elements[i], p, &s, &t);
-    while (elements[i].children) {
+    for (uint32_t child; (child = leaf_child(elements, first, i)) != 0;) {
         int right = s > 0.5, top = t > 0.5;
-        i = elements[i].child + (uint32_t)(top ? (right ? 2 : 3) : (right ? 1 : 0));
+        i = child + (uint32_t)(top ? (right ? 2 : 3) : (right ? 1 : 0));
         s = 2 * s - right;
         t = 2 * t - top;
     }
@@ -85,13 +93,13 @@ static inline uint32_t leaf_descend_quad(const struct element *elements, uint32_
 }
 
 /* Child k keeps corner k; child 3 is the middle, its corners those between 0-1, 1-2, 2-0. */
-static inline uint32_t leaf_descend_triangle(const struct element *elements, uint32_t i,
-                                             const double p[3], double weight[4])
+static inline uint32_t leaf_descend_triangle(const struct element *elements, const uint32_t *first,
+                                             uint32_t i, const double p[3], double weight[4])
 {
     leaf_triangle(&elements[i], p, weight);
-    while (elements[i].children) {
+    for (uint32_t child; (child = leaf_child(elements, first, i)) != 0;) {
         uint32_t k = weight[0] > 0.5 ? 0 : weight[1] > 0.5 ? 1 : weight[2] > 0.5 ? 2 : 3;
-        i = elements[i].child + k;
+        i = child + k;
         if (k < 3) {
             for (uint32_t j = 0; j < 3; j++)
                 weight[j] = 2 * weight[j] - (j == k);
@@ -112,8 +120,17 @@ static inline uint32_t leaf_at(const struct element *elements, uint32_t surface,
                                const double point[3], double weight[4])
 {
     return elements[surface].vertices == 4
-               ? leaf_descend_quad(elements, surface, point, weight)
-               : leaf_descend_triangle(elements, surface, point, weight);
+               ? leaf_descend_quad(elements, NULL, surface, point, weight)
+               : leaf_descend_triangle(elements, NULL, surface, point, weight);
+}
+
+/* The same by all elements' first children. */
+static inline uint32_t leaf_at_by(const struct element *elements, const uint32_t *first,
+                                  uint32_t surface, const double point[3], double weight[4])
+{
+    return elements[surface].vertices == 4
+               ? leaf_descend_quad(elements, first, surface, point, weight)
+               : leaf_descend_triangle(elements, first, surface, point, weight);
 }
 
 #endif

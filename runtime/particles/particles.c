@@ -17,18 +17,26 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
     size_t bands = t->bands;
     tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
     tally->square = calloc(bands, sizeof *tally->square);
-    if (leaves)
+    if (leaves) {
         tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
-    if (tally->face && tally->square && (tally->element || !leaves))
-        return 0;
-    tally_close(tally);
-    return -1;
+        tally->first = malloc(tally->elements * sizeof *tally->first);
+    }
+    if (!tally->face || !tally->square || (leaves && (!tally->element || !tally->first))) {
+        tally_close(tally);
+        return -1;
+    }
+    for (uint32_t i = 0; leaves && i < tally->elements; i++) {
+        const struct element *e = &t->hierarchy->elements[i];
+        tally->first[i] = e->children ? e->child : 0;
+    }
+    return 0;
 }
 
 void tally_close(struct tally *tally)
 {
     free(tally->face);
     free(tally->element);
+    free(tally->first);
     free(tally->square);
     *tally = (struct tally){0};
 }
@@ -50,8 +58,8 @@ static void count(struct tally *tally, const struct tracer *t, uint32_t face, co
     _Atomic int64_t *to_leaf = NULL;
     if (tally->element) {
         double weight[4];
-        uint32_t leaf =
-            leaf_at(t->hierarchy->elements, t->hierarchy->face_element[face], at, weight);
+        uint32_t leaf = leaf_at_by(t->hierarchy->elements, tally->first,
+                                   t->hierarchy->face_element[face], at, weight);
         to_leaf = &tally->element[(size_t)leaf * tally->bands];
     }
     for (uint32_t k = 0; k < tally->bands; k++) {

@@ -32,8 +32,9 @@ struct tally {
     double power;          /* of all emitters (W), all bands */
     _Atomic int64_t *face; /* [REPLICATES][faces * bands + band] */
     _Atomic int64_t
-        *element;   /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
-    double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+        *element;    /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
+    uint32_t *first; /* [element]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
+    double *square;  /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
 };
 
 /* Empty, over the elements of a hierarchy as it is now (leaves: 1: count on them, too). Returns 0,

@@ -10,12 +10,13 @@
  * extinction  as an isotropic medium would let pass (tools/extinction.h); only that command makes
  * it. Who asks
  *             for one of these two here gets four rays.
- * rays_N      N = 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
- * facing
- *             parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose digits
- *             are shifted by a hash of both path identities: no shared random state, so the
- *             answer depends on the pair alone, and is the same both ways. Fails: a blocker that
- *             shades the fraction p of the segments is missed with probability (1-p)^N.
+ * rays_N      N = 1, 4, 16, 64, 256 or 1024 segments between points of the two elements' mutually
+ *             facing parts, spread over the four dimensions by a Sobol' net [Joe & Kuo 2008] whose
+ *             digits are shifted by a hash of both path identities: no shared random state, so the
+ *             answer depends on the pair alone, and is the same both ways. Where N is 1 it is
+ *             chosen from VISIBILITY_CHOICE, in proportion to what each would carry. Fails: a
+ *             blocker that shades the fraction p of the segments is missed with probability
+ *             (1-p)^N.
  * exact       from a shaft (tools/shaft.h) or an integral over the visible part
  * (tools/exact_visibility.h), which alone
  *             make it. Who asks for it here, where it is not known, gets 1024 rays.
@@ -38,18 +39,20 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
 {
     const struct element *r = receiver->id < emitter->id ? receiver : emitter,
                          *s = r == receiver ? emitter : receiver;
+    int points = count > 1 ? count : VISIBILITY_CHOICE;
     double weight[SEGMENTS_MAX], seen = 0, all = 0,
-                                 spread = (r->area < s->area ? r->area : s->area) / count;
+                                 spread = (r->area < s->area ? r->area : s->area) / points;
+    uint64_t hash = hash64(r->id + hash64(s->id));
     struct sampler p, q;
     struct sobol net;
     sampler_clip(&p, r, s);
     sampler_clip(&q, s, r);
     if (p.p.n == 0 || q.p.n == 0)
         return 0;
-    sobol_start(&net, hash64(r->id + hash64(s->id)));
+    sobol_start(&net, hash);
     struct segment segments[SEGMENTS_MAX];
-    for (int first = 0; first < count; first += SEGMENTS_MAX) {
-        int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;
+    for (int first = 0; first < points; first += SEGMENTS_MAX) {
+        int batch = points - first < SEGMENTS_MAX ? points - first : SEGMENTS_MAX;
         for (int i = 0; i < batch; i++) {
             struct segment *g = &segments[i];
             sobol_go(&net, first + i);
@@ -57,6 +60,10 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
             sampler_point(g->to, &q, sobol_at(&net, 2), sobol_at(&net, 3));
             weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
             segment_clear(g, r->normal, s->normal, host);
+        }
+        if (count < points) {
+            segments_choose(batch, segments, weight, hash_unit(hash + HASH_STEP));
+            batch = count;
         }
         segments_cast(host, batch, segments, weight, &seen, &all);
     }
@@ -66,7 +73,8 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
 /* The level that `rays` rays or more reach, and how many a level casts. */
 static inline enum visibility_level visibility_level_of(int rays)
 {
-    return rays <= 4     ? VISIBILITY_RAYS_4
+    return rays <= 1     ? VISIBILITY_RAYS_1
+           : rays <= 4   ? VISIBILITY_RAYS_4
            : rays <= 16  ? VISIBILITY_RAYS_16
            : rays <= 64  ? VISIBILITY_RAYS_64
            : rays <= 256 ? VISIBILITY_RAYS_256
@@ -75,15 +83,15 @@ static inline enum visibility_level visibility_level_of(int rays)
 
 static inline int visibility_rays_of(enum visibility_level level)
 {
-    return level <= VISIBILITY_RAYS_4      ? 4
+    return level <= VISIBILITY_RAYS_1      ? 1
            : level >= VISIBILITY_RAYS_1024 ? 1024
-                                           : 1 << 2 * (level - VISIBILITY_RAYS_4 + 1);
+                                           : 1 << 2 * (level - VISIBILITY_RAYS_1);
 }
 
 TOOL double term_visibility(struct discussion *d, enum visibility_level level)
 {
     if (d->terms.visibility_level < level) {
-        if (level < VISIBILITY_RAYS_4)
+        if (level < VISIBILITY_RAYS_1)
             level = VISIBILITY_RAYS_4;
         if (level > VISIBILITY_RAYS_1024)
             level = VISIBILITY_RAYS_1024;

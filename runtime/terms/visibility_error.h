@@ -17,7 +17,7 @@
 
 static inline double visibility_error_of(double v, enum visibility_level level)
 {
-    double rays = level < VISIBILITY_RAYS_4 ? 1 : visibility_rays_of(level);
+    double rays = visibility_rays_of(level);
     if (level == VISIBILITY_EXACT)
         return 0;
     if (level == VISIBILITY_ABSENT)

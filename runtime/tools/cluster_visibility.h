@@ -1,6 +1,6 @@
 /* cluster_visibility.h - question: how many of N rays between the faces of two elements, one of
- * them a cluster at least, arrive? N = 4, 16 or 64, the next above `rays`. Answers as visibility.h
- * gives them; kept as the term `visibility`.
+ * them a cluster at least, arrive? N = 1, 4, 16 or 64, the next above `rays`. Answers as
+ * visibility.h gives them; kept as the term `visibility`.
  *
  * Rays go between points of the clusters' faces, not of their boxes: so a cluster shadows itself
  * where its faces do, and what stands within its box does not. A face is found by going down the
@@ -114,6 +114,9 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
         back[k] = -v[k];
     }
     struct segment segments[SEGMENTS_MAX];
+    int one = count == 1;
+    if (one)
+        count = VISIBILITY_CHOICE;
     for (int tried = 0; n < count && tried < CLUSTER_TRIES * count; tried += count) {
         for (int i = 0; i < count; i++) {
             double u[4];
@@ -151,6 +154,10 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
     }
     if (n == 0)
         return 0;
+    if (one) {
+        segments_choose(n, segments, weight, hash_unit(hash + HASH_STEP));
+        n = 1;
+    }
     segments_cast(host, n, segments, weight, &seen, &whole);
     return whole > 0 ? seen / whole : 0;
 }

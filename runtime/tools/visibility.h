@@ -1,7 +1,9 @@
-/* visibility.h - question: how many of N rays between the two elements arrive? N = 4, 16, 64, 256
- * or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
+/* visibility.h - question: how many of N rays between the two elements arrive? N = 1, 4, 16, 64,
+ * 256 or 1024, the next above `rays`. A ray that met something beside one that did not is proof of
  * "partial"; "none" and "all" are the rays' opinion. What a shaft has settled (level exact) casts
- * none. [Turbet & Sillion, section 3.1.2]
+ * none. One ray is chosen from four segments in proportion to what each would carry
+ * (terms/visibility.h): it says 0 or 1, and the mean of that is V. [Turbet & Sillion, section
+ * 3.1.2]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_VISIBILITY_H
 #define TOOL_VISIBILITY_H

@@ -36,7 +36,7 @@ TOOL void worst_parts(struct discussion *d, double by[2])
     int proved = d->terms.visibility_level == VISIBILITY_EXACT;
     if (d->terms.visibility_level > VISIBILITY_ABSENT)
         v = d->terms.visibility;
-    if (d->terms.visibility_level >= VISIBILITY_RAYS_4 && !proved) {
+    if (d->terms.visibility_level >= VISIBILITY_RAYS_1 && !proved) {
         double rays = visibility_rays_of((enum visibility_level)d->terms.visibility_level);
         v = (v * rays + 1) / (rays + 2);
     }

@@ -105,14 +105,14 @@ static enum decision refine(const void *state, struct discussion *d)
     else
         level = d->terms.visibility_level;
     int doubtful = v <= 0;
+    if (doubtful && bright && brought > half && level < VISIBILITY_RAYS_64) {
+        v = hand_visibility(r, s, host, 64);
+        level = VISIBILITY_RAYS_64;
+    }
+    d->terms.visibility = v;
+    d->terms.visibility_level = (unsigned char)level;
     if (doubtful) {
-        if (!bright || brought <= half)
-            return DECISION_STOP;
-        if (level < VISIBILITY_RAYS_64) {
-            v = hand_visibility(r, s, host, 64);
-            level = VISIBILITY_RAYS_64;
-        }
-        if (v <= 0)
+        if (!bright || brought <= half || v <= 0)
             return DECISION_STOP;
     }
     if (bright && (doubtful || v < 1) && brought > half) {
@@ -126,8 +126,6 @@ static enum decision refine(const void *state, struct discussion *d)
         d->terms.mark = 1;
         d->terms.mark_level = MARK_PRESENT;
     }
-    d->terms.visibility = v;
-    d->terms.visibility_level = (unsigned char)level;
     d->terms.form_factor = known == FORM_FACTOR_POLYGON ? f : hand_form_factor(r, s);
     d->terms.form_factor_level = FORM_FACTOR_POLYGON;
     return DECISION_LINK;

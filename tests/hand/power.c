@@ -1,5 +1,5 @@
 /* power.c - the oracle power as a good engineer writes it: what is known of a pair stands in
- * locals, and rays come in a loop, 4, 16, 64, until more would change nothing that matters.
+ * locals, and rays come in a loop, 1, 4, 16, 64, until more would change nothing that matters.
  *
  * It casts the rays, cuts the polygons and looks into the shafts that all releases do, by the
  * functions of kernel/, terms/ and tools/ that take elements and know of no discussion: so what it
@@ -52,6 +52,14 @@ static void start(struct pair *p, const struct discussion *d)
     p->mark = 0;
     p->own.known = BLOCKERS_UNKNOWN;
     p->list = d->blockers ? d->blockers : &p->own;
+}
+
+/* What the other way round starts from: all that is known of V. */
+static enum decision hand_over(const struct pair *p, struct discussion *d, int decision)
+{
+    d->terms.visibility = p->seen;
+    d->terms.visibility_level = (unsigned char)p->seen_level;
+    return (enum decision)decision;
 }
 
 /* A share of all surfaces' light, as irradiance on this receiver over the mean. */
@@ -260,6 +268,26 @@ static int seen(struct pair *p, const struct parameters *by, double brought)
     return spotted(p, by, here(p, by->spot), limit);
 }
 
+static enum decision link_surfaces(struct pair *p, struct discussion *d)
+{
+    d->terms.form_factor = exact_factor(p);
+    d->terms.form_factor_level = (unsigned char)p->factor_level;
+    if (p->mark) {
+        d->terms.mark = 1;
+        d->terms.mark_level = MARK_PRESENT;
+    }
+    return hand_over(p, d, DECISION_LINK);
+}
+
+/* Where nothing that is wrong would matter. */
+static enum decision looked_at_once(struct pair *p, struct discussion *d, int listed)
+{
+    if (listed)
+        (void)look_between(p);
+    cast(p, 1);
+    return p->seen > 0 ? link_surfaces(p, d) : hand_over(p, d, DECISION_STOP);
+}
+
 static enum decision surfaces(const struct parameters *by, struct discussion *d)
 {
     const struct element *r = d->receiver, *s = d->emitter;
@@ -275,34 +303,29 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
     struct pair p;
     start(&p, d);
     int listed = p.list->known != BLOCKERS_UNKNOWN || p.seen_level == VISIBILITY_EXACT;
-    if (low_r < -flat || low_s < -flat)
+    double mean = d->host->irradiance, dim = here(&p, by->spot) * mean;
+    int cut = low_r < -flat || low_s < -flat;
+    if (cut
+        && (point_intensity(s, s->radiosity) > dim * p.square || s->radiosity * factor(&p) > dim))
         (void)exact_factor(&p);
-    else if ((listed || (r->depth == 0 && s->depth == 0)) && look_between(&p) == BLOCKED)
-        return DECISION_STOP;
+    if (!(s->radiosity * factor(&p) > dim))
+        return looked_at_once(&p, d, listed && !cut && r->depth + s->depth > 0);
+    if (!cut && (listed || (r->depth == 0 && s->depth == 0)) && look_between(&p) == BLOCKED)
+        return hand_over(&p, d, DECISION_STOP);
 
-    double mean = d->host->irradiance, brought = s->radiosity * factor(&p);
+    double brought = s->radiosity * factor(&p);
     int decision;
     if (brought > here(&p, by->energy) * mean) {
         int worse = curved(&p, here(&p, by->bend) * mean);
         if (worse != NEITHER) {
             decision = split(&p, by->min_share, worse);
             if (decision != GO_ON)
-                return (enum decision)decision;
+                return hand_over(&p, d, decision);
         }
         brought = s->radiosity * p.factor;
     }
     decision = seen(&p, by, brought);
-    if (decision != DECISION_LINK)
-        return (enum decision)decision;
-    d->terms.form_factor = exact_factor(&p);
-    d->terms.form_factor_level = (unsigned char)p.factor_level;
-    d->terms.visibility = p.seen;
-    d->terms.visibility_level = (unsigned char)p.seen_level;
-    if (p.mark) {
-        d->terms.mark = 1;
-        d->terms.mark_level = MARK_PRESENT;
-    }
-    return DECISION_LINK;
+    return decision == DECISION_LINK ? link_surfaces(&p, d) : hand_over(&p, d, decision);
 }
 
 /* ---- groups */
@@ -321,6 +344,15 @@ static enum decision opened(const struct pair *p, const struct parameters *by)
     return whole ? DECISION_SUBDIVIDE_RECEIVER : DECISION_SUBDIVIDE_EMITTER;
 }
 
+static void cast_at_group(struct pair *p, int rays)
+{
+    enum visibility_level level = visibility_level_of(rays);
+    if (p->seen_level < level) {
+        p->seen = cluster_rays(p->r, p->s, p->host, rays);
+        p->seen_level = level;
+    }
+}
+
 static enum decision groups(const struct parameters *by, struct discussion *d)
 {
     struct pair p;
@@ -333,29 +365,27 @@ static enum decision groups(const struct parameters *by, struct discussion *d)
                > here(&p, by->product) * mean * p.square * p.square)
         return opened(&p, by);
 
+    if (!(sent > here(&p, by->spot) * mean * p.square)) {
+        cast_at_group(&p, 1);
+        return hand_over(&p, d, p.seen > 0 ? DECISION_LINK_CLUSTERS : DECISION_STOP);
+    }
     double noise_here = here(&p, by->noise);
     double limit = noise_here * mean * p.square, lost = by->hidden * noise_here * mean * p.square;
     double half = here(&p, by->shadow) * mean * p.square;
     for (int rays = 4;; rays *= 4) {
-        enum visibility_level level = visibility_level_of(rays);
-        if (p.seen_level < level) {
-            p.seen = cluster_rays(r, s, d->host, rays);
-            p.seen_level = level;
-        }
+        cast_at_group(&p, rays);
         if (p.seen <= 0) {
             if (rays == 64 || !(sent * noise(&p) > lost))
-                return DECISION_STOP;
+                return hand_over(&p, d, DECISION_STOP);
         } else if (p.seen < 1 && sent > half) {
-            return opened(&p, by);
+            return hand_over(&p, d, opened(&p, by));
         } else if (rays == 64 || !(sent * noise(&p) > limit)) {
             break;
         }
     }
     if (point_intensity(s, uneven(&p)) > here(&p, 0.5 * by->uneven * by->spot) * mean * p.square)
-        return opened(&p, by);
-    d->terms.visibility = p.seen;
-    d->terms.visibility_level = (unsigned char)p.seen_level;
-    return DECISION_LINK_CLUSTERS;
+        return hand_over(&p, d, opened(&p, by));
+    return hand_over(&p, d, DECISION_LINK_CLUSTERS);
 }
 
 static enum decision refine(const void *state, struct discussion *d)

@@ -17,6 +17,7 @@
 #include "engine/refine.h"
 #include "oracles.h"
 #include "suite.h"
+#include "tools/cluster_visibility.h"
 #include "tools/exact_visibility.h"
 #include "tools/extinction.h"
 #include "tools/presume_visible.h"
@@ -818,6 +819,101 @@ START_TEST(test_levels)
 }
 END_TEST
 
+/* A refiner that opens clusters, casts 16 rays between faces and then does what `state` says. */
+static enum decision look(const void *state, struct discussion *d)
+{
+    const enum decision *then = state;
+    if (d->receiver->vertices == 0 || d->emitter->vertices == 0)
+        return d->receiver->radius > d->emitter->radius ? DECISION_SUBDIVIDE_RECEIVER
+                                                        : DECISION_SUBDIVIDE_EMITTER;
+    if (d->receiver == d->emitter || d->receiver->depth + d->emitter->depth > 0)
+        return DECISION_STOP;
+    (void)tool_visibility(d, 16);
+    return *then;
+}
+
+/* Whatever becomes of the two ways round of a pair, the rays between are cast once. */
+START_TEST(test_both_ways)
+{
+    static const enum decision all[] = {DECISION_STOP, DECISION_LINK, DECISION_SUBDIVIDE_BOTH};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        struct refiner refiner = {.refine = look, .state = &all[i]};
+        struct refinement r;
+        struct world w;
+        open_squares(&w);
+        made_quad(&w.scene, 0, 0.2, 0.2, 0.5, 0.5, 0, 0, 0, 0.5, 0);
+        start_world(&w, 1);
+        int pairs = 0;
+        for (uint32_t a = 0; a < w.h.count; a++) /* that rays are cast between, both ways round */
+            for (uint32_t b = 0; b < a; b++) {
+                struct discussion d = {.receiver = &w.h.elements[a], .emitter = &w.h.elements[b]};
+                d.host = w.host;
+                if (d.receiver->vertices && d.emitter->vertices) {
+                    uint64_t before = rays_count(w.rays).rays;
+                    (void)tool_visibility(&d, 16);
+                    pairs += rays_count(w.rays).rays > before;
+                }
+            }
+        ck_assert_int_ge(pairs, 2);
+        uint64_t before = rays_count(w.rays).rays;
+        ck_assert_int_eq(refinement_open(&r, &w.h, w.host, &refiner, 1), 0);
+        ck_assert_int_eq(refinement_start(&r), 0);
+        ck_assert_uint_eq(rays_count(w.rays).rays - before, 16 * (uint64_t)pairs);
+        refinement_close(&r);
+        close_world(&w);
+    }
+}
+END_TEST
+
+/* One ray says all or none, the same both ways, and what it says is on the mean what four rays say,
+ * which count by what they would carry: over many names of a pair whose nearest parts, which carry
+ * the most, do not see each other; of two faces, and of a face and a group. */
+START_TEST(test_one_ray)
+{
+    enum { NAMES = 20000 };
+    struct world w;
+    memset(&w, 0, sizeof w);
+    made_open(&w.scene);
+    made_material(&w.scene, 0.5, 1);
+    made_quad(&w.scene, 0, 0, 0, 0, 1, 0, 0, 0, 1,
+              0); /* a floor, a wall, a board across the edge */
+    made_quad(&w.scene, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1);
+    made_quad(&w.scene, 0, 0.3, 0, 0.02, -0.28, 0, 0.28, 0, 1, 0);
+    for (int i = 0; i < 12; i++) /* tiles above the wall, which the board hides from some */
+        made_quad(&w.scene, 0, 0, 0.08 * i, 0.02 + 0.11 * i, 0, 0.06, 0, 0, 0, 0.1);
+    start_world(&w, 1);
+    uint32_t tile = w.h.face_element[5], group = w.h.elements[tile].parent;
+    ck_assert(group > 0 && w.h.elements[group].vertices == 0);
+    for (int grouped = 0; grouped < 2; grouped++) {
+        struct element r = w.h.elements[w.h.face_element[0]],
+                       s = w.h.elements[grouped ? group : w.h.face_element[1]];
+        double one = 0, four = 0;
+        for (int i = 0; i < NAMES; i++) {
+            struct discussion d[3] = {{.receiver = &r, .emitter = &s, .host = w.host},
+                                      {.receiver = &s, .emitter = &r, .host = w.host},
+                                      {.receiver = &r, .emitter = &s, .host = w.host}};
+            r.id = hash64(2 * (uint64_t)i + 1);
+            s.id = hash64(2 * (uint64_t)i + 2);
+            uint64_t before = rays_count(w.rays).rays;
+            for (int k = 0; k < 3; k++)
+                grouped ? (void)tool_cluster_visibility(&d[k], k < 2 ? 1 : 4)
+                        : (void)tool_visibility(&d[k], k < 2 ? 1 : 4);
+            ck_assert_uint_eq(rays_count(w.rays).rays - before, 1 + 1 + 4);
+            ck_assert_int_eq(d[0].terms.visibility_level, VISIBILITY_RAYS_1);
+            ck_assert(d[0].terms.visibility == 0 || d[0].terms.visibility == 1);
+            ck_assert(d[1].terms.visibility == d[0].terms.visibility);
+            ck_assert(term_visibility_error(&d[0]) == 0.5);
+            one += d[0].terms.visibility / NAMES;
+            four += d[2].terms.visibility / NAMES;
+        }
+        printf("one ray: %.4f, four: %.4f\n", one, four);
+        ck_assert_double_eq_tol(one, four, 3 * 0.5 / sqrt(NAMES));
+        ck_assert(four > 0.2 && four < 0.8);
+    }
+    close_world(&w);
+}
+END_TEST
+
 /* ---- features and fog */
 
 /* Parallel squares on one axis: the answer turns where S + (D / t)(C - S) says. */
@@ -925,6 +1021,8 @@ int main(void)
     tcase_add_loop_test(c, test_random_parts, 0, 6);
     tcase_add_test(c, test_penumbra);
     tcase_add_test(c, test_levels);
+    tcase_add_test(c, test_both_ways);
+    tcase_add_test(c, test_one_ray);
     tcase_add_test(c, test_feature);
     tcase_add_test(c, test_extinction);
     suite_add_tcase(suite, c);
