@@ -13,6 +13,7 @@
 #include "study/study.h"
 #include "util/device.h"
 #include "util/report.h"
+#include "util/temporary.h"
 
 static int (*const commands[COMMANDS])(const struct options *, const struct open_scene *) = {
     [COMMAND_SOLVE] = command_solve,
@@ -76,9 +77,11 @@ int main(int count, char **arguments)
     int status = options_parse(&o, count, arguments);
     register_hand_releases(hand_releases);
     if (status < 0) {
+        temporary_watch();
         status = check_outputs(&o);
         if (status == 0)
             status = run(&o);
+        temporary_end();
     }
     options_free(&o);
     return flush_output(status);

@@ -123,6 +123,7 @@ static void set_limits(double seconds, double memory)
     /* Ctrl-C goes to both processes; the parent decides what becomes of the child. */
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
     signal(SIGPIPE, SIG_DFL);
     signal(SIGXCPU, SIG_DFL);
 #ifdef __linux__
