@@ -133,6 +133,11 @@ void temporary_signal(int number)
     sem_post(&all.came);
 }
 
+int temporary_stopping(void)
+{
+    return all.number != 0;
+}
+
 void temporary_watch(void)
 {
     pthread_t thread;

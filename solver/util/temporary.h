@@ -12,6 +12,9 @@
  * else here does anything. */
 void temporary_watch(void);
 
+/* Has one come? What fails from then on is its doing, and no news. */
+int temporary_stopping(void);
+
 /* What the handler of a signal calls that shall end the process. */
 void temporary_signal(int number);
 
