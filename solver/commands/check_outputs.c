@@ -132,7 +132,7 @@ static int add_inputs(struct named_files *f, const struct options *o)
     if (!judged && o->scene && !o->scenes && add_scene_files(f, o->scene, "the scene"))
         return -1;
     for (int i = 0; i < o->scene_count; i++)
-        if (add_scene_files(f, o->scenes[i], "a scene"))
+        if (add_scene_files(f, o->scenes[i], o->scene_count == 1 ? "the scene" : "a scene"))
             return -1;
     /* The oracle that tune is given may be replaced by what tune makes of it. A name that is no
      * file's is a built-in one's. */

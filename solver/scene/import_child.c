@@ -24,6 +24,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "util/clock.h"
 #include "util/ends_with.h"
 #include "util/report.h"
 
@@ -48,15 +49,18 @@ static const double SECONDS = 3, SECONDS_PER_MB = 0.25;
 static const double MEMORY = 1 << 30, MEMORY_PER_BYTE = 50;
 /* A child that neither sends nor computes for so long (s) waits for something that never comes. */
 static const double IDLE = 5;
+/* Seconds of the clock for each of the processor, on a machine that has others' work to do. */
+static const double LATE = 3;
 
 /* Exit statuses of the child. 0 and 1 may come from libraries, too. */
 enum { DONE = 80, TOLD, NO_MEMORY };
 
 struct child {
     pid_t process;
-    int pipe; /* the end to read from */
-    int idle; /* it was ended because it waited */
-    double seconds;
+    int pipe;       /* the end to read from */
+    int idle, late; /* why it is ended here */
+    double seconds; /* of a processor */
+    double begun;   /* s, of the clock */
 };
 
 /* What comes first; then positions, indices, sizes, polygon_materials, materials, and of each name
@@ -185,10 +189,11 @@ static int receive(struct child *c, void *to, size_t size)
             const double now = spent(c);
             idle = now > last ? 0 : idle + 1e-3 * step;
             last = now;
-            if (idle < IDLE)
-                continue;
-            c->idle = 1;
-            return -1;
+            c->idle = idle >= IDLE;
+            c->late = seconds() - c->begun > LATE * c->seconds;
+            if (c->idle || c->late)
+                return -1;
+            continue;
         }
         const ssize_t got = ready > 0 ? read(c->pipe, (char *)to + have, size - have) : -1;
         if (got == 0 || (got < 0 && errno != EINTR))
@@ -272,7 +277,7 @@ static int receive_file(struct child *c, struct scene_file *f)
 static int end_of(struct child *c, int taken)
 {
     int status = -1;
-    if (c->idle || taken > 0)
+    if (c->idle || c->late || taken > 0)
         kill(c->process, SIGKILL);
     close(c->pipe); /* a child that still sends dies of it */
     while (waitpid(c->process, &status, 0) < 0)
@@ -297,12 +302,14 @@ static int tell(const struct child *c, const char *path, int status, int taken, 
                             "the importer hung: it waited %.0f s for something that does not come; "
                             "the file is damaged, or names a file that never ends",
                             IDLE);
-    if (status != -1 && WIFSIGNALED(status)
-        && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+    if (c->late
+        || (status != -1 && WIFSIGNALED(status)
+            && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
         return report_error(path, 0,
-                            "the importer hung: stopped after %.0f s of processor time; the file "
-                            "is damaged, or needs more: convert it to OBJ",
-                            ceil(c->seconds));
+                            "the importer hung: stopped after %.0f s%s; the file is damaged, or "
+                            "needs more: convert it to OBJ",
+                            c->late ? LATE * c->seconds : ceil(c->seconds),
+                            c->late ? "" : " of processor time");
     return report_error(path, 0,
                         "the importer crashed%s%s; the file is damaged, or needs what the importer "
                         "cannot do: export it again, or convert it to OBJ",
@@ -313,7 +320,7 @@ static int tell(const struct child *c, const char *path, int status, int taken, 
 int import_in_child(struct scene_file *file, const char *path, import_reader *read)
 {
     const double size = size_of(path), memory = MEMORY + MEMORY_PER_BYTE * size;
-    struct child c = {.seconds = SECONDS + SECONDS_PER_MB * 1e-6 * size};
+    struct child c = {.seconds = SECONDS + SECONDS_PER_MB * 1e-6 * size, .begun = seconds()};
     int ends[2];
     if (pipe(ends))
         return report_error(path, 0, "cannot start the importer: %s", strerror(errno));

@@ -24,16 +24,18 @@ static struct {
     size_t count, capacity;
     char folder[PATH_MAX]; /* "": none */
     int watching, folder_tried, written;
-} all = {.lock = PTHREAD_MUTEX_INITIALIZER};
+} all;
 
 void temporary_lock(void)
 {
-    pthread_mutex_lock(&all.lock);
+    if (all.watching)
+        pthread_mutex_lock(&all.lock);
 }
 
 void temporary_unlock(void)
 {
-    pthread_mutex_unlock(&all.lock);
+    if (all.watching)
+        pthread_mutex_unlock(&all.lock);
 }
 
 void temporary_add(const char *path)
@@ -143,9 +145,14 @@ void temporary_watch(void)
     pthread_t thread;
     sigset_t every, before;
     sigfillset(&every);
-    if (sem_init(&all.came, 0, 0))
+    pthread_mutexattr_t again;
+    if (sem_init(&all.came, 0, 0) || pthread_mutexattr_init(&again))
+        return;
+    pthread_mutexattr_settype(&again, PTHREAD_MUTEX_RECURSIVE);
+    if (pthread_mutex_init(&all.lock, &again))
         return;
     pthread_sigmask(SIG_SETMASK, &every, &before); /* the thread takes none */
+    all.watching = 1;                              /* which it sees */
     all.watching = pthread_create(&thread, NULL, wait_for_signal, NULL) == 0;
     if (all.watching)
         pthread_detach(thread);

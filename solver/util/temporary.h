@@ -18,7 +18,8 @@ int temporary_stopping(void);
 /* What the handler of a signal calls that shall end the process. */
 void temporary_signal(int number);
 
-/* Around what makes, renames or removes a file and says so here. */
+/* Around what makes, renames or removes a file and says so here; or around several that belong
+ * together, for locks may be nested. */
 void temporary_lock(void);
 void temporary_unlock(void);
 

@@ -70,6 +70,8 @@ for after in $(awk -v n="$runs" -v whole="$whole" 'BEGIN { srand(7); for (i = 0;
     for file in f.csv m.obj m.mtl p.png; do
         cmp -s o/$file old/$file || cmp -s o/$file new/$file || wrong "$signal after $after s: $file is neither old nor new"
     done
+    [ "$signal" = KILL ] || { cmp -s o/m.obj old/m.obj && cmp -s o/m.mtl old/m.mtl; } || { cmp -s o/m.obj new/m.obj && cmp -s o/m.mtl new/m.mtl; } ||
+        wrong "$signal after $after s: of the mesh one file is new"
     # Nobody can tidy up after SIGKILL.
     [ "$signal" != KILL ] || rm -rf o/*.tmp scratch/*
     [ "$(ls -A o | wc -l)" = 4 ] && [ -z "$(ls -A scratch)" ] || wrong "$signal after $after s left $(ls -A o scratch)"
