@@ -72,8 +72,10 @@ enum RadError {
 };
 
 struct RadDeviceOptions {
-    int threads;           /* 0: as many as there are processors */
-    const char *compiler;  /* C compiler for the flat release of files and texts; NULL: "cc" */
+    int threads; /* 0: as many as there are processors */
+    /* C compiler for the flat release of files and texts, with arguments after blanks, as in
+     * "ccache gcc"; NULL: "cc" */
+    const char *compiler;
     const char *temporary; /* folder for what it makes; NULL: "/tmp" */
 };
 

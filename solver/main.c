@@ -5,15 +5,15 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "commands/check_outputs.h"
 #include "commands/commands.h"
 #include "hand.h"
 #include "study/study.h"
-#include "util/atomic_file.h"
 #include "util/device.h"
 #include "util/report.h"
+#include "util/temporary.h"
 
 static int (*const commands[COMMANDS])(const struct options *, const struct open_scene *) = {
     [COMMAND_SOLVE] = command_solve,
@@ -34,56 +34,6 @@ static int (*const commands[COMMANDS])(const struct options *, const struct open
     [COMMAND_ORACLES] = command_oracles,
     [COMMAND_EXPLAIN] = command_explain,
 };
-
-/* Also where one is a link to the other. */
-static int same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    return strcmp(a, b) == 0
-           || (stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev
-               && x.st_ino == y.st_ino);
-}
-
-/* What cannot be written is told before the work, not after. Returns 0 or the exit status. */
-static int check_outputs(const struct options *o)
-{
-    const char *paths[OUTPUTS_MAX];
-    int count = options_outputs(o, paths);
-    for (int i = 0; i < count; i++) {
-        int standard = strcmp(paths[i], "-") == 0;
-        for (int j = 1; !standard && j < o->scene_count; j++)
-            if (same_file(paths[i], o->scenes[j])) {
-                report_error(paths[i], 0,
-                             "this is a scene, which would be lost; give another name");
-                return 2;
-            }
-        if (!standard && o->scene && same_file(paths[i], o->scene)) {
-            report_error(paths[i], 0, "this is the %s, which would be lost; give another name",
-                         o->command == COMMAND_ERROR ? "table" : "scene");
-            return 2;
-        }
-        for (int j = 0; !standard && j < o->scene_count; j++)
-            if (same_file(paths[i], o->scenes[j])) {
-                report_error(paths[i], 0,
-                             "this is a scene, which would be lost; give another name");
-                return 2;
-            }
-        if (!standard && o->reference && same_file(paths[i], o->reference)) {
-            report_error(paths[i], 0,
-                         "this is the reference, which would be lost; give another name");
-            return 2;
-        }
-        for (int j = 0; j < i; j++)
-            if (same_file(paths[i], paths[j])) {
-                report_error(standard ? "standard output" : paths[i], 0,
-                             "two outputs would go there; give each a file of its own");
-                return 2;
-            }
-        if (!standard && atomic_check(paths[i]) < 0)
-            return 1;
-    }
-    return 0;
-}
 
 /* Run the command, on the scene where it takes one. Returns the exit status. */
 static int run(const struct options *o)
@@ -128,9 +78,11 @@ int main(int count, char **arguments)
     register_hand_releases(hand_releases);
     use_plugins(o.plugins, o.plugin_count);
     if (status < 0) {
+        temporary_watch();
         status = check_outputs(&o);
         if (status == 0)
             status = run(&o);
+        temporary_end();
     }
     options_free(&o);
     return flush_output(status);

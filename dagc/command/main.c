@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "command/depfile.h"
 #include "prove/diff.h"
@@ -114,6 +115,26 @@ static void passes(struct dag *dag, void *context)
         emit(dag, job);
 }
 
+/* Says so when an output would take the place of a file that was read, as imports are. */
+static int replaces_source(const struct dag *dag, const struct job *job)
+{
+    struct stat status;
+    for (int i = 0; i < OUTPUTS; i++) {
+        const char *path = job->outputs[i].path;
+        if (path == NULL || strcmp(path, "-") == 0 || stat(path, &status) != 0)
+            continue;
+        for (int k = 0; k < dag->source_count; k++)
+            if (dag->sources[k].on_disk && dag->sources[k].device == (uint64_t)status.st_dev
+                && dag->sources[k].inode == (uint64_t)status.st_ino) {
+                fprintf(stderr,
+                        "dagc: error: %s would replace %s, which was read; give another name\n",
+                        path, dag->sources[k].name);
+                return 1;
+            }
+    }
+    return 0;
+}
+
 static int run(struct job *job)
 {
     struct dag *dag = dag_new();
@@ -136,7 +157,9 @@ static int run(struct job *job)
             int draws = job->emit == EMIT_SVG && job->stop == PASSES;
             if (job->prove || (job->emit == EMIT_NONE && job->stop == PASSES))
                 job->outputs[OUTPUT_TEXT].path = NULL;
-            if (job->skeleton)
+            if (replaces_source(dag, job))
+                result = 1;
+            else if (job->skeleton)
                 result = dag_write_skeleton(&job->files, folder_of(job)) != 0;
             else if (job->prove)
                 result = job->proved != 0 || fflush(stdout) != 0;

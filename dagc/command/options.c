@@ -310,7 +310,17 @@ static int parse_option(struct job *job, int count, char **arguments, int *at)
 
 /* ---- what no run could mean */
 
-/* Do two paths name one file that exists? "-" names none. */
+/* Sets the folder that a path is in; returns the name there, NULL: there is no such folder. */
+static const char *place_of(const char *path, struct stat *folder)
+{
+    const char *slash = strrchr(path, '/');
+    char *above = slash == NULL ? strdup(".") : strndup(path, (size_t)(slash - path) + 1);
+    int there = above != NULL && stat(above, folder) == 0;
+    free(above);
+    return !there ? NULL : slash != NULL ? slash + 1 : path;
+}
+
+/* Do two paths name one file, or one place where no file is yet? "-" names none. */
 static int same_file(const char *a, const char *b)
 {
     struct stat x, y;
@@ -320,7 +330,11 @@ static int same_file(const char *a, const char *b)
         return 0;
     if (strcmp(a, b) == 0)
         return 1;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev
+    int here = stat(a, &x) == 0, there = stat(b, &y) == 0;
+    if (here || there)
+        return here && there && S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    const char *name = place_of(a, &x), *other = place_of(b, &y);
+    return name != NULL && other != NULL && strcmp(name, other) == 0 && x.st_dev == y.st_dev
            && x.st_ino == y.st_ino;
 }
 

@@ -26,6 +26,7 @@ extern char **environ;
 
 enum {
     PATH_SIZE = PATH_MAX + 64,
+    WORDS_MAX = 8, /* of the compiler's command, as in CC="ccache gcc -m64" */
     FLAGS_MAX = 24,
     SOURCES_MAX = 8,
     QUOTED = 2000 /* bytes of what the compiler says */
@@ -130,21 +131,43 @@ static int is_source(const struct c_file *file)
     return length > 2 && strcmp(file->name + length - 2, ".c") == 0;
 }
 
+/* The words of a command into `words`, which point into `text`; a program's path may hold blanks.
+ * Returns how many there are. */
+static int split(char *text, const char *words[WORDS_MAX])
+{
+    int count = 0;
+    if (strchr(text, '/') != NULL && access(text, X_OK) == 0)
+        words[count++] = text;
+    else
+        for (char *rest = NULL, *word = strtok_r(text, " \t", &rest);
+             word != NULL && count < WORDS_MAX; word = strtok_r(NULL, " \t", &rest))
+            words[count++] = word;
+    return count;
+}
+
 static int compile(const char *folder, char sources[SOURCES_MAX][PATH_SIZE], int source_count,
                    const char *library, const char *const *flags, const char *command,
                    char *message, size_t size)
 {
-    char include[PATH_SIZE + 2], output[PATH_SIZE];
-    const char *arguments[FLAGS_MAX + SOURCES_MAX + 16] = {
-        command, "-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic", "-ffp-contract=off", include};
-    int count = 7;
-    for (; *flags != NULL && count < FLAGS_MAX; flags++)
-        arguments[count++] = *flags;
+    static const char *const fixed[] = {"-std=c11", "-shared", "-fPIC", "-Wl,-Bsymbolic",
+                                        "-ffp-contract=off"};
+    char include[PATH_SIZE + 2], output[PATH_SIZE], words[PATH_SIZE];
+    const char *arguments[WORDS_MAX + FLAGS_MAX + SOURCES_MAX + 16];
+    snprintf(words, sizeof words, "%s", command);
+    int count = split(words, arguments);
+    if (count == 0) /* blanks alone */
+        arguments[count++] = command;
+    for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
+        arguments[count++] = fixed[i];
+    arguments[count++] = include;
+    for (int i = 0; flags[i] != NULL && i < FLAGS_MAX; i++)
+        arguments[count++] = flags[i];
     arguments[count++] = "-o";
     arguments[count++] = library;
     for (int i = 0; i < source_count; i++)
         arguments[count++] = sources[i];
     arguments[count++] = "-lm";
+    arguments[count] = NULL;
     snprintf(include, sizeof include, "-I%s", folder);
     if (!path_of(output, folder, output_name))
         return -1;

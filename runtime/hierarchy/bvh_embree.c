@@ -14,6 +14,7 @@
 #include <string.h>
 #include "hierarchy/bvh_strategy.h"
 #include "util/embree.h"
+#include "util/embree_memory.h"
 #include "hierarchy/hierarchy.h"
 #include "util/thread_pool.h"
 
@@ -314,7 +315,7 @@ static int open(struct build *b)
     list = primitives(&a, room);
     if (a.own)
         a.own->nodes = malloc(2 * (size_t)b->count * sizeof *a.own->nodes);
-    if (bvh && a.own && a.own->nodes && a.keeper && list)
+    if (bvh && a.own && a.own->nodes && a.keeper && list && embree_has_memory(room))
         root = build(&a, device, bvh, list, room);
     if (root) {
         choose_keepers(&a, root);

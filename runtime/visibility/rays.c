@@ -14,6 +14,7 @@
 #include "visibility/back_faces.h"
 #include "visibility/candidates.h"
 #include "util/embree.h"
+#include "util/embree_memory.h"
 #include "util/thread_pool.h"
 #include "kernel/constants.h"
 #include "visibility/rays.h"
@@ -217,7 +218,10 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     totals(rays, h, exitance, reflectance);
     rays->device = rtcNewDevice(threads == 1 ? "threads=1,set_affinity=0" : NULL);
     if (!rays->device) {
-        *cause = "Embree finds no device on this processor";
+        if (rtcGetDeviceError(NULL) == RTC_ERROR_UNSUPPORTED_CPU)
+            *cause = "Embree finds no device on this processor";
+        else
+            *cause = "out of memory for Embree, which needs 200 MB of address space to begin";
         rays_close(rays);
         return NULL;
     }
@@ -225,13 +229,15 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(rays->scene, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = faces_geometry(rays, h);
+    const int room = embree_has_memory(h->face_count);
     if (geometry) {
         rtcAttachGeometry(rays->scene, geometry);
         rtcReleaseGeometry(geometry);
-        rtcCommitScene(rays->scene);
+        if (room)
+            rtcCommitScene(rays->scene);
     }
-    if (!geometry || rtcGetDeviceError(rays->device) != RTC_ERROR_NONE) {
-        *cause = "Embree cannot build its structure over the scene (out of memory?)";
+    if (!geometry || !room || rtcGetDeviceError(rays->device) != RTC_ERROR_NONE) {
+        *cause = "out of memory for Embree's structure over the scene; fewer faces need less";
         rays_close(rays);
         return NULL;
     }

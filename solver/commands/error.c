@@ -303,20 +303,6 @@ static void print_text(const struct comparison *c)
 
 /* ---- JSON */
 
-/* A name that is no UTF-8 keeps what is ASCII of it. */
-static json_t *text_json(const char *text)
-{
-    json_t *whole = json_string(text);
-    char plain[256];
-    if (whole)
-        return whole;
-    snprintf(plain, sizeof plain, "%s", text);
-    for (char *c = plain; *c; c++)
-        if ((unsigned char)*c > 127)
-            *c = '?';
-    return json_string(plain);
-}
-
 static json_t *norms_json(const struct sums *s, double (*of)(const struct sums *s, enum norm norm))
 {
     json_t *all = json_object();
@@ -338,7 +324,7 @@ static json_t *worst_json(const struct comparison *c)
         }
         json_array_append_new(all, json_pack("{s:I, s:o, s:f, s:o, s:o, s:o, s:f}", "face",
                                              (json_int_t)c->theirs.face[c->pairs[i].theirs],
-                                             "material", text_json(material_of(c, i)), "area",
+                                             "material", json_text(material_of(c, i)), "area",
                                              c->theirs.area[c->pairs[i].theirs], "B", b,
                                              "B_reference", reference, "standard_errors", far,
                                              "error_watts", c->pairs[i].error));
@@ -354,7 +340,7 @@ static json_t *comparison_json(const struct comparison *c)
     int known = c->theirs.deviation || c->mine.deviation;
     return json_pack(
         "{s:o, s:o, s:I, s:I, s:f, s:f, s:f, s:o, s:o, s:o, s:o}", "table",
-        text_json(c->options->scene), "reference", text_json(c->options->reference), "faces",
+        json_text(c->options->scene), "reference", json_text(c->options->reference), "faces",
         (json_int_t)c->mine.count, "compared", (json_int_t)c->theirs.count, "reflected_watts",
         c->all.reflected, "error_watts", c->all.error, "power_watts", c->all.signed_error, "error",
         norms_json(&c->all, error_share), "bands", bands, "noise",

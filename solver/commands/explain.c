@@ -176,13 +176,14 @@ static json_t *subject_json(const struct subject *s)
     }
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));
-    return json_pack(
-        "{s:s, s:s, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:O, s:I}", "scene", s->options->scene,
-        "oracle", report.name, "parameters", oracle_parameters_json(s->watch->oracle), "replaced",
-        replaced, "receiver", element_json(s, 0), "emitter", element_json(s, 1), "discussed",
-        !s->made, "pass", s->made ? json_null() : json_integer(s->occasion->pass), "round",
-        s->made ? json_null() : json_integer((json_int_t)s->occasion->round), "history", history,
-        "discussion", s->occasion->json, "links", (json_int_t)count_links(s));
+    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:O, s:I}", "scene",
+                     json_text(s->options->scene), "oracle", report.name, "parameters",
+                     oracle_parameters_json(s->watch->oracle), "replaced", replaced, "receiver",
+                     element_json(s, 0), "emitter", element_json(s, 1), "discussed", !s->made,
+                     "pass", s->made ? json_null() : json_integer(s->occasion->pass), "round",
+                     s->made ? json_null() : json_integer((json_int_t)s->occasion->round),
+                     "history", history, "discussion", s->occasion->json, "links",
+                     (json_int_t)count_links(s));
 }
 
 /* ---- which discussion */

@@ -189,7 +189,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     if (status != 0)
         return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
-    if (!s.report.converged && !o->quiet) {
+    if (!s.report.converged) {
         char cause[SUMMARY_CAUSE];
         summary_cause(&s.report, cause, sizeof cause);
         report_warning(o->scene, 0, "not converged after %d sweeps (residual %.1e): %s",
@@ -201,6 +201,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     }
     status =
         write_outputs(o, scene, &surfaces, &s, &coarse, &measured, &promise, &accuracy, oracle);
+    if (!s.report.converged)
+        status = status ? status : 3;
     if (!accuracy.reached) {
         report_warning(o->scene, 0, "--accuracy was not kept: stopped by %s", accuracy.why);
         status = status ? status : 3;

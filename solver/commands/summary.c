@@ -122,12 +122,13 @@ json_t *summary_json(const struct summary *s)
     const struct RadSceneReport *scene = &s->scene->report;
     struct RadOracleReport oracle;
     radGetOracleReport(s->oracle, &oracle);
-    json_t *all = json_pack(
-        "{s:s, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "scene", s->options->scene,
-        "oracle", oracle.name, "release", oracle.release, "parameters",
-        parameters_json(s->oracle, &oracle), "threads", s->options->threads, "bands", (int)r->bands,
-        "faces", (int)scene->polygons, "faces_cut", (int)scene->cut, "faces_cut_into",
-        (int)scene->parts, "elements", (int)r->elements, "leaves", (int)r->leaves);
+    json_t *all =
+        json_pack("{s:o, s:s, s:s, s:o, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "scene",
+                  json_text(s->options->scene), "oracle", oracle.name, "release", oracle.release,
+                  "parameters", parameters_json(s->oracle, &oracle), "threads", s->options->threads,
+                  "bands", (int)r->bands, "faces", (int)scene->polygons, "faces_cut",
+                  (int)scene->cut, "faces_cut_into", (int)scene->parts, "elements",
+                  (int)r->elements, "leaves", (int)r->leaves);
     json_t *replaced = json_array();
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));

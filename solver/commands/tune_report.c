@@ -4,6 +4,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "output/json_values.h"
 
@@ -169,7 +171,10 @@ static json_t *result_json(struct tune_result r)
 
 static json_t *name_json(const struct tune_scene *s)
 {
-    return json_stringn(s->name, (size_t)s->name_length);
+    char *name = strndup(s->name, (size_t)s->name_length);
+    json_t *text = name ? json_text(name) : NULL;
+    free(name);
+    return text;
 }
 
 static json_t *fold_json(const struct tuner *t, const struct tune_fold *f, int scene)
@@ -215,12 +220,13 @@ json_t *tune_json(const struct tune_outcome *o)
                              "left_out_times", o->held[h].times, "worst_ratio",
                              json_finite(o->held[h].worst), "taken", h == o->penalty));
     return json_pack(
-        "{s:s, s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:i, s:f}",
-        "oracle", o->oracle, "basis", t->basis == RAD_BASIS_LINEAR ? "linear" : "constant",
-        "target", t->target, "power", t->power, "cost", cost_words[t->cost], "default",
-        parameters_json(t, defaults), "fitted", parameters_json(t, o->all.at), "price_times",
-        exp(price_of(o)), "evaluations", o->all.found.evaluations, "ended", end_text(&o->all),
-        "scenes", scenes, "penalties", holds, "folds", folds, "worst_ratio", json_finite(worst),
-        "carries_over", isnan(worst) ? json_null() : json_boolean(!tune_fails(o)), "solves",
-        t->solves, "seconds", o->seconds);
+        "{s:o, s:s, s:f, s:i, s:s, s:o, s:o, s:f, s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:i, s:f}",
+        "oracle", json_text(o->oracle), "basis",
+        t->basis == RAD_BASIS_LINEAR ? "linear" : "constant", "target", t->target, "power",
+        t->power, "cost", cost_words[t->cost], "default", parameters_json(t, defaults), "fitted",
+        parameters_json(t, o->all.at), "price_times", exp(price_of(o)), "evaluations",
+        o->all.found.evaluations, "ended", end_text(&o->all), "scenes", scenes, "penalties", holds,
+        "folds", folds, "worst_ratio", json_finite(worst), "carries_over",
+        isnan(worst) ? json_null() : json_boolean(!tune_fails(o)), "solves", t->solves, "seconds",
+        o->seconds);
 }

@@ -24,6 +24,12 @@ static int read_text(struct options *o, const struct option_row *row, const char
     return 0;
 }
 
+/* A file to write; standard output only where several of the file's kinds are texts. */
+static int read_output(struct options *o, const struct option_row *row, const char *value)
+{
+    return strcmp(value, "-") == 0 && !row->standard ? -1 : read_text(o, row, value);
+}
+
 static int read_flag(struct options *o, const struct option_row *row, const char *value)
 {
     (void)value;
@@ -483,6 +489,7 @@ static const char *const graphs[] = {".dag", NULL};
 static const char *const svg[] = {".svg", NULL};
 static const char *const pages[] = {".html", NULL};
 static const char *const csv[] = {".csv", NULL};
+static const char *const pictures[] = {".png", NULL};
 static const char *const drawings[] = {".svg", ".png", NULL};
 
 #define IN(member) .field = offsetof(struct options, member)
@@ -490,7 +497,8 @@ static const char *const drawings[] = {".svg", ".png", NULL};
 #define FLAG(member) NULL, .read = read_flag, IN(member)
 #define WHOLE(member, from, to) .read = read_whole, IN(member), .low = from, .high = to
 #define WORD(reader, list) NULL, .read = reader, .words = list
-#define OUTPUT(member) NULL, .read = read_text, IN(member), .output = 1
+#define OUTPUT(member) NULL, .read = read_output, IN(member), .output = 1
+#define STANDARD(member) OUTPUT(member), .standard = 1
 #define NAMED(member, endings) NULL, .read = read_ending, IN(member), .words = endings, .output = 1
 
 const struct option_row option_rows[] = {
@@ -537,8 +545,9 @@ const struct option_row option_rows[] = {
      "a number above 0 and below 1", .read = read_tolerance},
     {"tolerance", "X", FACTORS, "3e-4", "error of a row's sum to work for",
      "a number above 0 and below 1", .read = read_tolerance},
-    {"iterations", "N", MATRICES | FORM_FACTORS, "100000", "sweeps per solve at the most",
-     "a whole number from 1", WHOLE(iterations, 1, INT_MAX), .rare = 1},
+    {"iterations", "N", MATRICES | FORM_FACTORS, "100000",
+     "sweeps at the most; solve ends with 3 if they do not do", "a whole number from 1",
+     WHOLE(iterations, 1, INT_MAX), .rare = 1},
     {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell or lu",
      WORD(read_solver, solver_words), .rare = 1},
     {"projection", "NAME", SOLVE | COMPARE, NULL, "galerkin (element means) or collocation",
@@ -621,7 +630,8 @@ const struct option_row option_rows[] = {
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
-    {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows", OUTPUT(image)},
+    {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
+     NAMED(image, pictures)},
     {"size", "WxH", SOLVE, "1024x768", "its size in pixels", "WxH, each 1 to 16384",
      .read = read_size},
     {"view", "X,Y,Z:X,Y,Z[:FOV]", SOLVE, NULL, "eye, point looked at, degrees of height (70)",
@@ -629,7 +639,7 @@ const struct option_row option_rows[] = {
     {"gather", "N", SOLVE, NULL, "gather light once more, by N rays per pixel",
      "a whole number from 0 to 1000000", WHOLE(gather, 0, 1000000)},
     {"image-error", "FILE.png", SOLVE, NULL, "the measured error on the surfaces",
-     OUTPUT(image_error)},
+     NAMED(image_error, pictures)},
     {"mesh", NULL, SOLVE, NULL, "the elements' edges over the picture", FLAG(mesh)},
     {"csv", "FILE", ARVO, NULL, "the table with nine digits", OUTPUT(csv)},
     {"chart", "FILE", VISIBILITY | CLUSTERING | FORM_FACTORS | ARVO, NULL,
@@ -637,16 +647,16 @@ const struct option_row option_rows[] = {
     {"faces", "FILE.csv", SOLVE, NULL, "E, rho, H, B of each face of the scene file",
      OUTPUT(faces)},
     {"statistics", "FILE", SOLVE, NULL, "answers of the graph: text, .csv, .json; or -",
-     OUTPUT(statistics), .rare = 1},
+     STANDARD(statistics), .rare = 1},
     {"json", "FILE",
      SOLVE | COMPARE | FACTORS | REFERENCE | ERROR | CAUSES | GREEDY | TUNE | EXPLAIN, NULL,
-     "what the summary says; - is standard output", OUTPUT(json)},
+     "what the summary says; - is standard output", STANDARD(json)},
     {"replace", "NODE=TOOL(...)", SOLVE | COMPARE, NULL,
      "ask another tool, or NODE=ANSWER: none; repeatable", NULL, .read = read_replacement,
      .rare = 1},
     {"replace", "NODE=TOOL(...)", EXPLAIN, NULL, "ask another tool, or NODE=ANSWER: none", NULL,
      .read = read_replacement},
-    {"trace", "FILE", SOLVE, NULL, "each discussion, one line: CSV, or .jsonl", OUTPUT(trace),
+    {"trace", "FILE", SOLVE, NULL, "each discussion, one line: CSV, or .jsonl", STANDARD(trace),
      .rare = 1},
     {"where", "CONDITION", SOLVE, NULL, "of --trace: \"decision == stop && depth > 2\"",
      TEXT(where), .rare = 1},

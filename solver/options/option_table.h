@@ -31,6 +31,7 @@ struct option_row {
     const char *const *words; /* to choose from, or endings of a file's name; NULL-terminated */
     int rare;                 /* 1: only --help=all shows it */
     int output;               /* 1: its value names a file that is written */
+    int standard;             /* 1: which may be -, standard output */
 };
 extern const struct option_row option_rows[];
 extern const int option_row_count;

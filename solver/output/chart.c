@@ -9,6 +9,15 @@
 #include "util/atomic_file.h"
 #include "util/ends_with.h"
 #include "util/report.h"
+#include "util/temporary.h"
+
+static void remove_script(const char *script)
+{
+    temporary_lock();
+    unlink(script);
+    temporary_forget(script);
+    temporary_unlock();
+}
 
 int chart_draw(const char *path, void (*print)(FILE *script, const void *context),
                const void *context)
@@ -17,7 +26,11 @@ int chart_draw(const char *path, void (*print)(FILE *script, const void *context
     char script[512], command[600], bytes[4096];
     size_t all = 0;
     snprintf(script, sizeof script, "%s/radiosity-XXXXXX", folder && *folder ? folder : "/tmp");
+    temporary_lock();
     int fd = mkstemp(script);
+    if (fd >= 0)
+        temporary_add(script);
+    temporary_unlock();
     FILE *f = fd < 0 ? NULL : fdopen(fd, "w");
     if (!f)
         return report_error(script, 0, "cannot be written");
@@ -26,7 +39,7 @@ int chart_draw(const char *path, void (*print)(FILE *script, const void *context
     print(f, context);
     struct atomic_file file;
     if (fclose(f) != 0 || atomic_open(&file, path)) {
-        unlink(script);
+        remove_script(script);
         return -1;
     }
     snprintf(command, sizeof command, "gnuplot '%s'", script);
@@ -35,7 +48,7 @@ int chart_draw(const char *path, void (*print)(FILE *script, const void *context
     while (picture && (n = fread(bytes, 1, sizeof bytes, picture)) > 0)
         all += fwrite(bytes, 1, n, file.stream);
     n = picture && pclose(picture) == 0 && all > 0;
-    unlink(script);
+    remove_script(script);
     if (n)
         return atomic_commit(&file);
     atomic_discard(&file);

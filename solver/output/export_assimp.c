@@ -16,6 +16,7 @@
 
 #include "util/atomic_file.h"
 #include "util/report.h"
+#include "util/temporary.h"
 
 enum { FILES_MAX = 4 };
 
@@ -181,12 +182,14 @@ int export_assimp(const char *path, const char *id, int z_up, const struct leaf_
         if (result && !files->failed)
             report_error(path, 0, "cannot be written: %s; write .ply instead", aiGetErrorString());
     }
+    temporary_lock(); /* a signal takes both or none */
     for (int i = 0; files && i < files->count; i++) {
         if (result)
             atomic_discard(&files->slot[i].out);
         else
             result = atomic_commit(&files->slot[i].out);
     }
+    temporary_unlock();
     if (shape) {
         free(shape->mVertices);
         free(shape->mColors[0]);

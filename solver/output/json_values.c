@@ -3,10 +3,25 @@
 #include "output/json_values.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 json_t *json_finite(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *json_text(const char *text)
+{
+    json_t *whole = json_string(text);
+    char *plain = whole ? NULL : strdup(text);
+    for (char *c = plain; c && *c; c++)
+        if ((unsigned char)*c > 127)
+            *c = '?';
+    if (plain)
+        whole = json_string(plain);
+    free(plain);
+    return whole;
 }
 
 json_t *oracle_parameters_json(RadOracle oracle)

@@ -10,6 +10,9 @@
 /* JSON has no INFINITY and no NAN: they are null. */
 json_t *json_finite(double value);
 
+/* A name; of one that is no UTF-8, as files' names may be, what is ASCII, and ? for the rest. */
+json_t *json_text(const char *text);
+
 /* The values of all parameters of the oracle, by name. */
 json_t *oracle_parameters_json(RadOracle oracle);
 

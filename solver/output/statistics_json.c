@@ -137,8 +137,8 @@ json_t *statistics_json(const char *scene, RadOracle oracle, const struct RadSta
 {
     struct RadOracleReport report;
     radGetOracleReport(oracle, &report);
-    return json_pack("{s:s, s:s, s:s, s:o, s:o, s:f, s:o, s:i, s:o, s:o, s:o, s:o, s:o, s:o}",
-                     "schema", STATISTICS_SCHEMA, "oracle", report.name, "scene", scene,
+    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:f, s:o, s:i, s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "schema", STATISTICS_SCHEMA, "oracle", report.name, "scene", json_text(scene),
                      "parameters", oracle_parameters_json(oracle), "discussions",
                      whole(s->node_count ? s->nodes[0].calls : 0), "seconds", statistics_seconds(s),
                      "rays", whole(statistics_rays(s)), "timed_every", RAD_TIMED_EVERY, "nodes",

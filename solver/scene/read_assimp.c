@@ -1,16 +1,20 @@
 /* read_assimp.c - see read_assimp.h.
  *
  * Assimp reads with no post-processing, so that faces are those of the file. Invariant: one polygon
- * per face of the file, in the file's order.
+ * per face of the file, in the file's order. It runs in a child, which its crashes end.
  * SPDX-License-Identifier: MIT */
 #include "scene/read_assimp.h"
 
+#include <fcntl.h>
 #include <math.h>
+#include <string.h>
+#include <unistd.h>
 
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include "scene/import_child.h"
 #include "util/report.h"
 
 struct reader {
@@ -127,18 +131,35 @@ static int convert(struct reader *r, const struct aiScene *from)
     return 0;
 }
 
-int read_assimp(struct scene_file *file, const char *path)
+/* A library that aborts says so on standard error, in words that help nobody. */
+static const struct aiScene *import_in_silence(const char *path)
+{
+    const int kept = dup(STDERR_FILENO), nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDERR_FILENO);
+    const struct aiScene *scene = aiImportFile(path, 0);
+    dup2(kept, STDERR_FILENO);
+    close(nowhere);
+    close(kept);
+    return scene;
+}
+
+/* In a process of its own, which ends behind it. */
+static int import(struct scene_file *file, const char *path)
 {
     struct reader r = {.file = file, .path = path};
-    const struct aiScene *from = aiImportFile(path, 0);
+    const struct aiScene *from = import_in_silence(path);
     file->single_precision = sizeof(ai_real) == sizeof(float);
-    int result;
-    if (!from || !from->mRootNode)
-        result = report_error(
-            path, 0, "cannot be read as a scene: %s; check the format and that the file is whole",
-            aiGetErrorString());
-    else
-        result = convert(&r, from);
-    aiReleaseImport(from);
-    return result;
+    if (from && from->mRootNode)
+        return convert(&r, from);
+    const char *cause = aiGetErrorString();
+    if (strstr(cause, "bad_alloc") || strstr(cause, "length_error"))
+        return IMPORT_MEMORY;
+    return report_error(
+        path, 0, "cannot be read as a scene: %s; check the format and that the file is whole",
+        cause);
+}
+
+int read_assimp(struct scene_file *file, const char *path)
+{
+    return import_in_child(file, path, import);
 }

@@ -188,7 +188,7 @@ static int read_library(struct obj *o, const struct text_lines *line)
             memcpy(path, o->path, folder);
             strcpy(path + folder, name);
             size_t size;
-            char *text = text_file_read(path, &size);
+            char *text = text_file_read_regular(path, &size);
             if (text)
                 result = read_library_text(o, path, text_lines(text, size));
             else

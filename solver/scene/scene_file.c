@@ -136,6 +136,9 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
     if (S_ISDIR(status.st_mode))
         return report_error(path, 0, "this is a folder; name a scene file in it");
+    if (!S_ISREG(status.st_mode))
+        return report_error(path, 0,
+                            "cannot read: this is a pipe or a device; write the scene to a file");
     int result = has_extension(path, obj) ? read_obj(f, path) : read_assimp(f, path);
     if (!result) {
         replace_stand_in(f, path, options);

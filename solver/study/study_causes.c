@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "output/json_file.h"
+#include "output/json_values.h"
 #include "study/study.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
@@ -144,13 +145,13 @@ static json_t *found_json(const char *scene, const struct options *o, const stru
         if (rows[i].cause >= 0)
             json_object_set_new(causes, rows[i].key, cause_json(&r->cause[rows[i].cause]));
     }
-    return json_pack("{s:s, s:s, s:I, s:I, s:I, s:f, s:o, s:o, s:o, s:o, s:o, s:f, s:f}", "scene",
-                     scene, "oracle", o->oracle, "links", (json_int_t)f->solve.links, "link_rays",
-                     (json_int_t)f->solve.rays, "rays", (json_int_t)r->rays, "reflected",
-                     r->reflected, "ways", ways, "causes", causes, "together",
-                     cause_json(&r->together), "measured_power", measure_json(&f->power),
-                     "measured_l1", measure_json(&f->l1), "cap_moves", f->solve.rows.moved,
-                     "seconds", r->seconds);
+    return json_pack("{s:o, s:o, s:I, s:I, s:I, s:f, s:o, s:o, s:o, s:o, s:o, s:f, s:f}", "scene",
+                     json_text(scene), "oracle", json_text(o->oracle), "links",
+                     (json_int_t)f->solve.links, "link_rays", (json_int_t)f->solve.rays, "rays",
+                     (json_int_t)r->rays, "reflected", r->reflected, "ways", ways, "causes", causes,
+                     "together", cause_json(&r->together), "measured_power",
+                     measure_json(&f->power), "measured_l1", measure_json(&f->l1), "cap_moves",
+                     f->solve.rows.moved, "seconds", r->seconds);
 }
 
 /* ---- one scene */

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "util/report.h"
+#include "util/temporary.h"
 
 static int fail(struct atomic_file *file, int cause)
 {
@@ -34,13 +35,17 @@ static FILE *open_temporary(struct atomic_file *file)
         return NULL;
     for (unsigned attempt = 0; attempt < 1000; attempt++) {
         snprintf(file->temporary, size, "%s.%ld.%u.tmp", file->target, (long)getpid(), attempt);
+        temporary_lock();
         int descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        int cause = errno;
+        if (descriptor >= 0)
+            temporary_add(file->temporary);
+        temporary_unlock();
+        errno = cause;
         if (descriptor >= 0) {
             FILE *stream = fdopen(descriptor, "wb");
-            if (!stream) {
-                close(descriptor);
-                unlink(file->temporary);
-            }
+            if (!stream)
+                close(descriptor); /* the file goes with atomic_discard */
             return stream;
         }
         if (errno != EEXIST)
@@ -101,10 +106,16 @@ int atomic_commit(struct atomic_file *file)
         cause = errno;
     }
     file->stream = NULL;
+    temporary_lock();
     if (!failed && file->temporary && rename(file->temporary, file->target)) {
         failed = 1;
         cause = errno;
     }
+    if (!failed && file->temporary)
+        temporary_forget(file->temporary);
+    if (!failed)
+        temporary_written();
+    temporary_unlock();
     if (failed)
         return fail(file, cause ? cause : EIO);
     free(file->temporary);
@@ -117,8 +128,12 @@ void atomic_discard(struct atomic_file *file)
 {
     if (file->stream)
         fclose(file->stream);
-    if (file->temporary)
+    if (file->temporary) {
+        temporary_lock();
         unlink(file->temporary);
+        temporary_forget(file->temporary);
+        temporary_unlock();
+    }
     free(file->temporary);
     free(file->target);
     free(file->path);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "util/report.h"
+#include "util/temporary.h"
 
 static const struct oracle *const *hand_releases;
 
@@ -38,8 +39,9 @@ static const char *from_environment(const char *name)
 
 RadDevice open_device(const char *where, int threads)
 {
+    const char *folder = temporary_folder();
     const struct RadDeviceOptions options = {threads, from_environment("CC"),
-                                             from_environment("TMPDIR")};
+                                             folder ? folder : from_environment("TMPDIR")};
     RadDevice device = radNewDevice(&options);
     if (!device) {
         report_device(NULL, where ? where : "radiosity");

@@ -5,10 +5,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "util/temporary.h"
+
 static void report(const char *path, uint32_t line, const char *kind, const char *format,
                    va_list arguments)
 {
     char text[1024];
+    if (temporary_stopping())
+        return;
     vsnprintf(text, sizeof text, format, arguments);
     /* Words of a damaged file must not steer the terminal. */
     for (char *c = text; *c; c++)

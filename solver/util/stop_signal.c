@@ -3,31 +3,31 @@
 #include <signal.h>
 #include <stddef.h>
 #include "util/stop_signal.h"
+#include "util/temporary.h"
 
-static volatile sig_atomic_t came;
+static volatile sig_atomic_t watched, came;
 
 static void on_signal(int number)
 {
-    came = number;
-}
-
-static void handle_by(void (*handler)(int))
-{
-    struct sigaction action = {.sa_flags = (int)SA_RESETHAND};
-    action.sa_handler = handler;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    if (!watched || came)
+        temporary_signal(number);
+    else
+        came = number;
 }
 
 void stop_signal_watch(void)
 {
-    handle_by(on_signal);
+    struct sigaction action = {0};
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    watched = 1;
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
 }
 
 void stop_signal_unwatch(void)
 {
-    handle_by(SIG_DFL);
+    watched = 0;
 }
 
 int stop_signal_came(void)

@@ -8,7 +8,7 @@ enum { STOPPED = 130 }; /* the exit status of what SIGINT ends, by the habit of 
 
 void stop_signal_watch(void);
 
-/* Either ends the program again, as by default. */
+/* Either ends the program again, as temporary.h says. */
 void stop_signal_unwatch(void);
 
 /* Nonzero once one has come while they were watched. */

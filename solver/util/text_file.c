@@ -12,6 +12,8 @@
 
 /* What is read of a pipe (bytes), which may have no end; chosen. */
 static const size_t PIPE_MOST = (size_t)1 << 30;
+/* And of a file, which may be damaged or sparse: 50 million faces of an OBJ file take as much. */
+static const uint64_t FILE_MOST = (uint64_t)1 << 32;
 
 char *text_file_read(const char *path, size_t *size)
 {
@@ -22,7 +24,8 @@ char *text_file_read(const char *path, size_t *size)
     int cause = fstat(fileno(stream), &status) ? errno
                 : S_ISDIR(status.st_mode)      ? EISDIR
                 : S_ISCHR(status.st_mode)      ? ENOTSUP /* /dev/zero has no end */
-                                               : 0;
+                : S_ISREG(status.st_mode) && (uint64_t)status.st_size > FILE_MOST ? EFBIG
+                                                                                  : 0;
     if (cause) {
         fclose(stream);
         errno = cause;
@@ -50,4 +53,14 @@ char *text_file_read(const char *path, size_t *size)
     text[used] = 0;
     *size = used;
     return text;
+}
+
+char *text_file_read_regular(const char *path, size_t *size)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        errno = ENOTSUP;
+        return NULL;
+    }
+    return text_file_read(path, size);
 }

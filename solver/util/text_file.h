@@ -5,7 +5,12 @@
 
 #include <stddef.h>
 
-/* The bytes of `path` with a 0 behind them, or NULL with errno set; for free(). */
+/* The bytes of `path` with a 0 behind them, or NULL with errno set; for free(). EFBIG: above 4 GB,
+ * of a pipe 1 GB. */
 char *text_file_read(const char *path, size_t *size);
+
+/* The same of a file that another file names: a pipe is none, for it could be waited for for ever.
+ */
+char *text_file_read_regular(const char *path, size_t *size);
 
 #endif

@@ -40,7 +40,7 @@ old() { echo old >old.c; echo old >old.h; }
 
 # ---- wrong usage
 for arguments in '' '--nonsense good.dag' '-o' 'good.dag more.dag' '--emit=pdf good.dag' '--catalog' \
-    '-o x.c --header x.c good.dag' '-o good.dag good.dag' '-o ./good.dag good.dag' '-x good.dag' \
+    '-o x.c --header x.c good.dag' '-o x.c --header ./x.c good.dag' '-o good.dag good.dag' '-o ./good.dag good.dag' '-x good.dag' \
     '--catalog - -' '--emit=catalog-h --header x.h catalog.dag' '-o catalog.dag --catalog catalog.dag good.dag'; do
         check "usage: $arguments" status 2 "$dagc" $arguments
 done
@@ -51,6 +51,15 @@ sed -n '/# small.dag/,/^    }/s/^    //p' stdout >small.dag
 check "the example of --help compiles" status 0 "$dagc" --emit=none small.dag
 check "--version" status 0 "$dagc" --version
 check "--version says so" grep -q '^dagc [0-9]' stdout
+
+# ---- what is imported is not lost either
+cp "$here/../../examples/oracles/bf.dag" "$here/../../examples/oracles/common.dag" .
+for name in common.dag ./common.dag ../"${tmp##*/}"/common.dag; do
+    check "an import is no output" fails_with 1 'would replace common.dag, which was read' "$dagc" -Wno-all -o "$name" bf.dag
+    check "an import is no header" fails_with 1 'would replace common.dag, which was read' "$dagc" -Wno-all -o x.c --header "$name" bf.dag
+done
+check "the import is whole" cmp -s common.dag "$here/../../examples/oracles/common.dag"
+check "nothing is written beside" [ ! -e x.c ]
 
 # ---- errors touch nothing
 old

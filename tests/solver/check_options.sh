@@ -172,10 +172,18 @@ says 1 "gap: error: no hand-written release of this oracle; use --release flat o
 
 # ---- outputs that cannot be written are told before the scene is read, which is not there
 says 1 "nowhere/x.ply: error: cannot write: No such file or directory; make the folder first" solve none.obj -o nowhere/x.ply
-for option in --image --image-error --faces --json --statistics; do
+for option in --faces --json --statistics; do
     says 1 "make the folder first" solve none.obj $option nowhere/x
     says 1 "give the name of a file, not of a folder" solve none.obj $option /
 done
+for option in --image --image-error; do
+    says 1 "make the folder first" solve none.obj $option nowhere/x.png
+    for name in x x.jpg x.png.bmp .svg -; do says 2 "$option takes a file named .png, not $name" solve none.obj $option $name; done
+done
+says 2 "--faces takes FILE.csv, not -" solve none.obj --faces -
+says 2 "-o takes FILE, not -" viewfactors none.obj -o -
+says 2 "--names takes FILE, not -" viewfactors none.obj --names -
+says 2 "-o takes a file named .ply" solve none.obj -o -
 says 1 "make the folder first" compare none.obj --json nowhere/x
 says 1 "make the folder first" viewfactors none.obj -o nowhere/x.csv
 says 1 "make the folder first" reference none.obj -o nowhere/x.csv
@@ -207,9 +215,34 @@ count=$((count + 1))
 rm -f ../"$(basename "$tmp").kept"
 # The scene is no output, whatever its name is there.
 mkdir "$tmp.scene" && cp "$scenes"/furnace.* "$tmp.scene" && ln -s furnace.obj "$tmp.scene/link.obj"
-for option in -o --image --image-error --faces --json --statistics; do
+for option in -o --faces --json --statistics; do
     says 2 "this is the scene, which would be lost" solve "$tmp.scene/furnace.obj" $option "$tmp.scene/link.obj"
 done
+# Nor is what it names, nor what else is read; and a mesh brings a file with it.
+ln -s furnace.mtl "$tmp.scene/link.mtl" && echo >"$tmp.scene/p.html" && ln -s p.html "$tmp.scene/link.html"
+ln "$tmp.scene/furnace.mtl" "$tmp.scene/hard.mtl"
+for name in furnace.mtl ./furnace.mtl link.mtl hard.mtl; do
+    says 2 "this is a material file of the scene, which would be lost" solve "$tmp.scene/furnace.obj" --json "$tmp.scene/$name"
+done
+says 2 "this is a material file of the scene" compare "$tmp.scene/furnace.obj" --json "$tmp.scene/link.mtl"
+says 2 "this is a material file of the scene" viewfactors "$tmp.scene/furnace.obj" --names "$tmp.scene/link.mtl"
+cp "$tmp.scene/furnace.obj" "$tmp.scene/other.obj"
+rm "$tmp.scene/furnace.obj"
+says 2 "furnace.mtl: error: this is a material file of the scene" solve "$tmp.scene/other.obj" -o "$tmp.scene/furnace.obj"
+mv "$tmp.scene/other.obj" "$tmp.scene/furnace.obj"
+echo theirs >"$tmp.scene/alone.mtl"
+says 2 "alone.mtl: error: is written beside" solve "$tmp.scene/furnace.obj" -o "$tmp.scene/alone.obj"
+mkdir "$tmp.scene/folder.bin"
+says 2 "folder.bin: error: is written beside" solve "$tmp.scene/furnace.obj" -o "$tmp.scene/folder.gltf"
+says 2 "two outputs would go there" solve "$scene" -o "$tmp.scene/x.obj" --json "$tmp.scene/folder.bin/../x.mtl"
+says 2 "two outputs would go there" solve "$scene" --faces x.csv --json ./x.csv
+printf '{"buffers":[{"uri" : "x.json"}]}' >"$tmp.scene/x.gltf"
+echo data >"$tmp.scene/x.json"
+says 2 "this is a file of the scene, which would be lost" solve "$tmp.scene/x.gltf" --json "$tmp.scene/x.json"
+cp "$top/examples/oracles/bf.dag" "$tmp.scene/bf.dag"
+says 2 "this is the oracle, which would be lost" solve "$scene" --oracle "$tmp.scene/bf.dag" --json "$tmp.scene/bf.dag"
+says 2 "this is the file of parameters, which would be lost" solve "$scene" --params "$tmp.scene/x.json" --faces "$tmp.scene/x.json"
+says 2 "this is the file of statistics, which would be lost" panel bf --statistics "$tmp.scene/p.html" -o "$tmp.scene/link.html"
 says 2 "this is the scene, which would be lost" viewfactors "$tmp.scene/furnace.obj" -o "$tmp.scene/../${tmp##*/}.scene/furnace.obj"
 says 2 "two outputs would go there" solve none.obj --faces "$tmp.scene/link.obj" --json "$tmp.scene/furnace.obj"
 count=$((count + 1))

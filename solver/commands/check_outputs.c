@@ -1,0 +1,249 @@
+/* check_outputs.c - see check_outputs.h.
+ *
+ * Files are told apart by device and inode, and those that are not there yet by their folder's and
+ * their name, so that ./x, x and links to it are one. What a scene names inside it, and what is
+ * written beside a mesh, are files as those of the command line are.
+ * SPDX-License-Identifier: MIT */
+#include "commands/check_outputs.h"
+
+#include <libgen.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "scene/text_lines.h"
+#include "util/array.h"
+#include "util/atomic_file.h"
+#include "util/ends_with.h"
+#include "util/report.h"
+#include "util/text_file.h"
+
+struct named_file {
+    char *path; /* owned */
+    const char *what;
+    int beside; /* it is written beside another output, which the command line names */
+};
+
+struct named_files {
+    struct named_file *inputs, *outputs;
+    size_t input_count, input_capacity, output_count, output_capacity;
+};
+
+static void free_files(struct named_files *f)
+{
+    for (size_t i = 0; i < f->input_count; i++)
+        free(f->inputs[i].path);
+    for (size_t i = 0; i < f->output_count; i++)
+        free(f->outputs[i].path);
+    free(f->inputs);
+    free(f->outputs);
+}
+
+/* Takes over `path`. Each returns 0, or -1 when out of memory. */
+static int add_input(struct named_files *f, char *path, const char *what)
+{
+    if (!path
+        || array_reserve(&f->inputs, f->input_count + 1, &f->input_capacity, sizeof *f->inputs) < 0)
+        return free(path), -1;
+    f->inputs[f->input_count++] = (struct named_file){path, what, 0};
+    return 0;
+}
+
+static int add_output(struct named_files *f, char *path, int beside)
+{
+    if (!path
+        || array_reserve(&f->outputs, f->output_count + 1, &f->output_capacity, sizeof *f->outputs)
+               < 0)
+        return free(path), -1;
+    f->outputs[f->output_count++] = (struct named_file){path, "output", beside};
+    return 0;
+}
+
+/* ---- which files */
+
+/* `name` as a file says it, in the folder of `path`; NULL when out of memory. */
+static char *in_folder_of(const char *path, const char *name, size_t length)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
+    char *joined = malloc(folder + length + 1);
+    if (joined) {
+        memcpy(joined, path, folder);
+        memcpy(joined + folder, name, length);
+        joined[folder + length] = 0;
+    }
+    return joined;
+}
+
+/* The material files of an OBJ scene. */
+static int add_libraries(struct named_files *f, const char *scene, char *text, size_t size)
+{
+    struct text_lines t = text_lines(text, size);
+    int failed = 0;
+    while (!failed && next_line(&t)) {
+        if (!next_word(&t) || !word_is(&t, "mtllib"))
+            continue;
+        char *name = rest_of_line(&t);
+        failed = !name
+                 || add_input(f, in_folder_of(scene, name, strlen(name)),
+                              "a material file of the scene");
+        free(name);
+    }
+    return failed ? -1 : 0;
+}
+
+/* The buffers of a glTF scene: "uri" : "NAME". */
+static int add_buffers(struct named_files *f, const char *scene, const char *text)
+{
+    for (const char *at = text; (at = strstr(at, "\"uri\"")) != NULL;) {
+        at += strlen("\"uri\"");
+        const char *name = at + strspn(at, " \t\r\n:");
+        const size_t length = *name == '"' ? strcspn(++name, "\"") : 0;
+        if (length && strncmp(name, "data:", 5) != 0
+            && add_input(f, in_folder_of(scene, name, length), "a file of the scene"))
+            return -1;
+    }
+    return 0;
+}
+
+/* A scene and what it names. That it cannot be read is for its reader to say. */
+static int add_scene_files(struct named_files *f, const char *scene, const char *what)
+{
+    struct stat status;
+    if (add_input(f, strdup(scene), what))
+        return -1;
+    const int is_obj = ends_with(scene, ".obj") || ends_with(scene, ".OBJ");
+    if ((!is_obj && !ends_with(scene, ".gltf")) || stat(scene, &status) || !S_ISREG(status.st_mode))
+        return 0;
+    size_t size;
+    char *text = text_file_read(scene, &size);
+    const int failed = !text    ? 0
+                       : is_obj ? add_libraries(f, scene, text, size)
+                                : add_buffers(f, scene, text);
+    free(text);
+    return failed;
+}
+
+static int add_inputs(struct named_files *f, const struct options *o)
+{
+    const int judged = o->command == COMMAND_ERROR;
+    if (judged && add_input(f, strdup(o->scene), "the table"))
+        return -1;
+    if (!judged && o->scene && !o->scenes && add_scene_files(f, o->scene, "the scene"))
+        return -1;
+    for (int i = 0; i < o->scene_count; i++)
+        if (add_scene_files(f, o->scenes[i], o->scene_count == 1 ? "the scene" : "a scene"))
+            return -1;
+    /* The oracle that tune is given may be replaced by what tune makes of it. A name that is no
+     * file's is a built-in one's. */
+    const int is_file = o->oracle && o->command != COMMAND_TUNE
+                        && (strchr(o->oracle, '/') || ends_with(o->oracle, ".dag"));
+    const struct {
+        const char *path, *what;
+    } others[] = {{o->reference, "the reference"},
+                  {o->params, "the file of parameters"},
+                  {is_file ? o->oracle : NULL, "the oracle"},
+                  {o->command == COMMAND_DRAW || o->command == COMMAND_PANEL ? o->statistics : NULL,
+                   "the file of statistics"}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (others[i].path && add_input(f, strdup(others[i].path), others[i].what))
+            return -1;
+    return 0;
+}
+
+/* NAME.end instead of NAME.what; NULL when out of memory. */
+static char *with_ending(const char *path, const char *end)
+{
+    const size_t stem = (size_t)(strrchr(path, '.') - path);
+    char *text = malloc(stem + strlen(end) + 1);
+    if (text) {
+        memcpy(text, path, stem);
+        strcpy(text + stem, end);
+    }
+    return text;
+}
+
+static int add_outputs(struct named_files *f, const struct options *o)
+{
+    const char *paths[OUTPUTS_MAX];
+    const int count = options_outputs(o, paths);
+    for (int i = 0; i < count; i++)
+        if (add_output(f, strdup(paths[i]), 0))
+            return -1;
+    const char *beside = o->command != COMMAND_SOLVE || !o->out ? NULL
+                         : ends_with(o->out, ".obj")            ? ".mtl"
+                         : ends_with(o->out, ".gltf")           ? ".bin"
+                                                                : NULL;
+    return beside ? add_output(f, with_ending(o->out, beside), 1) : 0;
+}
+
+/* ---- which are the same */
+
+/* The folder that a file is in, and its name there. Returns 0, or -1 when there is no such folder.
+ */
+static int place_of(const char *path, struct stat *folder, char **name)
+{
+    char *above = strdup(path), *base = strdup(path);
+    const int failed = !above || !base || stat(dirname(above), folder) ? -1 : 0;
+    *name = failed ? NULL : strdup(basename(base));
+    free(above);
+    free(base);
+    return *name ? 0 : -1;
+}
+
+static int same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    const int here = stat(a, &x) == 0, there = stat(b, &y) == 0;
+    if (here && there)
+        return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    if (here != there)
+        return 0;
+    char *name = NULL, *other = NULL;
+    const int same =
+        strcmp(a, b) == 0
+        || (place_of(a, &x, &name) == 0 && place_of(b, &y, &other) == 0 && x.st_dev == y.st_dev
+            && x.st_ino == y.st_ino && strcmp(name, other) == 0);
+    free(name);
+    free(other);
+    return same;
+}
+
+/* Returns 0 or the exit status. */
+static int check(const struct named_files *f, size_t i)
+{
+    const struct named_file *out = &f->outputs[i];
+    const int standard = strcmp(out->path, "-") == 0;
+    struct stat status;
+    for (size_t j = 0; j < f->input_count && !standard; j++)
+        if (stat(f->inputs[j].path, &status) == 0 && S_ISREG(status.st_mode)
+            && same_file(out->path, f->inputs[j].path))
+            return report_error(out->path, 0, "this is %s, which would be lost; give another name",
+                                f->inputs[j].what),
+                   2;
+    for (size_t j = 0; j < i; j++)
+        if (standard ? strcmp(f->outputs[j].path, "-") == 0
+                     : same_file(out->path, f->outputs[j].path))
+            return report_error(standard ? "standard output" : out->path, 0,
+                                "two outputs would go there; give each a file of its own"),
+                   2;
+    if (out->beside && stat(out->path, &status) == 0 && stat(f->outputs[0].path, &status) != 0)
+        return report_error(out->path, 0,
+                            "is written beside %s, but is there already and nothing of it; "
+                            "move it, or give -o another name",
+                            f->outputs[0].path),
+               2;
+    return standard || atomic_check(out->path) == 0 ? 0 : 1;
+}
+
+int check_outputs(const struct options *o)
+{
+    struct named_files f = {0};
+    int status = 0;
+    if (add_outputs(&f, o) || (f.output_count && add_inputs(&f, o)))
+        status = -report_error("radiosity", 0, "out of memory for the names of files");
+    for (size_t i = 0; i < f.output_count && !status; i++)
+        status = check(&f, i);
+    free_files(&f);
+    return status;
+}

@@ -1,0 +1,142 @@
+#!/bin/sh
+# check_lost_work.sh - runs that are stopped, that find no memory, or whose names are odd: old outputs stay whole, nothing is
+# left behind, and one line says what happened. RADIOSITY names the command. With THOROUGH 200 runs are stopped, not 12.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+scenes=$top/examples/scenes
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+cd "$tmp" || exit 2
+mkdir scratch
+export TMPDIR=$tmp/scratch
+count=0 bad=0
+
+wrong() {
+    bad=$((bad + 1))
+    echo "failed: $*"
+}
+check() { # WHAT COMMAND...
+    what=$1
+    count=$((count + 1))
+    shift
+    "$@" >out 2>err || { wrong "$what"; head -n 3 err; }
+}
+
+# ---- signals: it dies by them, says so, and leaves nothing
+# SIGNAL STATUS SECONDS ARGUMENT...
+stopped() {
+    signal=$1 wanted=$2 after=$3
+    shift 3
+    count=$((count + 1))
+    timeout --preserve-status -s "$signal" "$after" "$radiosity" "$@" >out 2>err
+    got=$?
+    [ $got = "$wanted" ] && [ "$(wc -l <err)" = 1 ] && grep -q "^radiosity: stopped by a signal; nothing was written$" err ||
+        { wrong "$* by $signal: exit $got"; cat err; }
+    left=$(ls -A scratch; ls -A | grep -vxE 'scratch|out|err|cc|.*\.dag')
+    [ -z "$left" ] || { wrong "$* by $signal left $left"; rm -rf scratch/* ./*.tmp; }
+}
+for signal in INT:130 TERM:143 HUP:129; do
+    stopped ${signal%:*} ${signal#*:} 0.2 viewfactors "$scenes/sejour.obj" -q -o m.csv --names n
+done
+stopped INT 130 0.2 study stability -q -o t.csv
+stopped TERM 143 0.2 study causes "$scenes/room.obj" -q --rays 1000000000 --json j
+# A compiler that takes its time: what is compiled lies in a folder of its own, which goes in any case.
+cp "$top/examples/oracles/bf.dag" "$top/examples/oracles/common.dag" .
+printf '#!/bin/sh\nsleep 0.6\nexec cc "$@"\n' >cc && chmod +x cc
+export CC="$tmp/cc"
+stopped TERM 143 0.3 solve "$scenes/furnace.obj" -q --oracle bf.dag --faces f.csv
+unset CC
+check "an oracle that is compiled" "$radiosity" solve "$scenes/furnace.obj" -q --no-correct --oracle bf.dag
+check "what was compiled is gone" [ -z "$(ls -A scratch)" ]
+
+# ---- runs stopped at any moment: old outputs or new ones, whole, and nothing else
+mkdir o new old
+set -- solve "$scenes/furnace_4.obj" -q --no-errors --no-correct --faces o/f.csv -o o/m.obj --image o/p.png --size 320x240
+begin=$(date +%s.%N)
+check "a run to compare with" "$radiosity" "$@"
+whole=$(echo "$begin $(date +%s.%N)" | awk '{ print $2 - $1 }')
+cp o/* new
+for file in f.csv m.obj m.mtl p.png; do echo "old $file" >old/$file; done
+runs=$([ -n "${THOROUGH-}" ] && echo 200 || echo 12)
+ended=0 run=0
+for after in $(awk -v n="$runs" -v whole="$whole" 'BEGIN { srand(7); for (i = 0; i < n; i++) printf "%.3f ", 0.002 + 1.1 * whole * rand() }'); do
+    count=$((count + 1)) run=$((run + 1))
+    signal=$(echo "TERM INT HUP KILL" | cut -d ' ' -f $((run % 4 + 1)))
+    cp old/* o
+    # Of a shell's own, which tells the terminal who was killed.
+    sh -c 'timeout -s "$@"; exit $?' sh "$signal" "$after" "$radiosity" "$@" >out 2>&1 && ended=$((ended + 1))
+    for file in f.csv m.obj m.mtl p.png; do
+        cmp -s o/$file old/$file || cmp -s o/$file new/$file || wrong "$signal after $after s: $file is neither old nor new"
+    done
+    [ "$signal" = KILL ] || { cmp -s o/m.obj old/m.obj && cmp -s o/m.mtl old/m.mtl; } || { cmp -s o/m.obj new/m.obj && cmp -s o/m.mtl new/m.mtl; } ||
+        wrong "$signal after $after s: of the mesh one file is new"
+    # Nobody can tidy up after SIGKILL.
+    [ "$signal" != KILL ] || rm -rf o/*.tmp scratch/*
+    [ "$(ls -A o | wc -l)" = 4 ] && [ -z "$(ls -A scratch)" ] || wrong "$signal after $after s left $(ls -A o scratch)"
+    rm -rf o/*.tmp scratch/*
+done
+echo "stopped at random: $ended of $runs had ended before"
+rm -rf o new old
+
+# ---- names that are no UTF-8, and parameters without end: JSON all the same
+check_json() { # FILE ARGUMENT...
+    count=$((count + 1))
+    file=$1
+    shift
+    "$radiosity" "$@" >out 2>err && [ -s "$file" ] && iconv -f UTF-8 -t UTF-8 "$file" >out 2>&1 &&
+        ! grep -qiE '(inf|nan)(inity)?[,}]?$' "$file" || { wrong "JSON of $*"; cat err; }
+    rm -f "$file"
+}
+odd=$(printf 'caf\351')
+cp "$scenes/furnace.obj" "$odd.obj" && cp "$scenes/furnace.mtl" .
+mv bf.dag "$odd.dag"
+for value in 1 inf; do check_json j solve "$odd.obj" -q --no-correct --set energy=$value --json j; done
+check_json j.json solve "$odd.obj" -q --no-correct --set energy=inf --statistics j.json
+check_json j viewfactors "$odd.obj" -q --json j
+check_json j explain "$odd.obj" -q --pair 0,1 --set energy=inf --json j
+check_json j study causes "$odd.obj" -q --rays 100 --oracle "$odd.dag" --json j
+
+# ---- what was not reached is told, with -q, too
+count=$((count + 1))
+"$radiosity" solve "$scenes/cornell.obj" -q --no-correct --no-errors --iterations 1 >out 2>err
+[ $? = 3 ] && [ "$(wc -l <err)" = 1 ] && grep -q "warning: not converged after [0-9]* sweeps" err || { wrong "--iterations 1"; cat err; }
+
+# ---- the compiler's command may have words, its path blanks, and an oracle's name may look like an option
+mv "$odd.dag" ./-o.dag
+check "an oracle called -o.dag" "$radiosity" solve "$scenes/furnace.obj" -q --no-correct --oracle -o.dag
+printf '#!/bin/sh\necho "$1 $2" >>ran\nexec "$@"\n' >wrapper && chmod +x wrapper
+check "CC of several words" env CC="./wrapper cc -O1" "$radiosity" solve "$scenes/furnace.obj" -q --no-correct --oracle -o.dag
+check "the wrapper ran" grep -qx "cc -O1" ran
+mkdir "a folder" && printf '#!/bin/sh\necho blanks >>ran\nexec cc "$@"\n' >"a folder/cc" && chmod +x "a folder/cc"
+check "CC whose path has a blank" env CC="./a folder/cc" "$radiosity" solve "$scenes/furnace.obj" -q --no-correct --oracle -o.dag
+check "that compiler ran" grep -qx blanks ran
+count=$((count + 1))
+CC="no such-compiler" "$radiosity" solve "$scenes/furnace.obj" -q --oracle -o.dag >out 2>err
+[ $? = 1 ] && grep -q "cannot run the C compiler 'no such-compiler'" err || { wrong "no compiler"; cat err; }
+
+# ---- no memory: one line from every phase, whatever the limit. Sanitizers need more address space than any.
+if (ulimit -v 4000000 && "$radiosity" --version) >out 2>&1; then
+    limited() { # MB ARGUMENT...
+        count=$((count + 1))
+        limit=$1
+        shift
+        (ulimit -v $((limit * 1000)) && exec timeout 20 "$radiosity" "$@") >out 2>err
+        got=$?
+        [ $got = 0 ] && [ ! -s err ] && return
+        # Below some limit the loader finds no room for the libraries.
+        [ $got = 127 ] && grep -q "shared object" err && return
+        [ $got = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -qi "memory" err || { wrong "$* in $limit MB: exit $got"; head -n 3 err; }
+    }
+    for limit in 100 150 ${THOROUGH:+200 205 210} 215 221 224 227 230 ${THOROUGH:+233 240 250 260 270 280}; do
+        limited $limit viewfactors "$scenes/cornell.obj" -q -o out
+    done
+    for limit in 120 210 ${THOROUGH:+215 220 225 227 235} 230 240 ${THOROUGH:+250 260 300 350 400}; do
+        limited $limit solve "$scenes/furnace.obj" -q --image p.png --size 64x64
+    done
+    for limit in 215 ${THOROUGH:+220 225 230 235 240 245 250 255} 260; do limited $limit study visibility "$scenes/furnace.obj" -q --rays 4; done
+fi
+
+echo "lost work: $count checks, $bad failed"
+[ $bad = 0 ]
