@@ -136,7 +136,8 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
     if (S_ISDIR(status.st_mode))
         return report_error(path, 0, "this is a folder; name a scene file in it");
-    int result = has_extension(path, obj) ? read_obj(f, path) : read_assimp(f, path);
+    int result =
+        has_extension(path, obj) ? read_obj(f, path, options->quiet) : read_assimp(f, path);
     if (!result) {
         replace_stand_in(f, path, options);
         for (uint32_t i = 0; i < f->material_count; i++)

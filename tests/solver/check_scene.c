@@ -410,7 +410,7 @@ START_TEST(test_obj)
         double rho, exitance;
     } expected[] = {
         {"before usemtl", "DefaultMaterial", 0.6, 0},
-        {"defined later", "late", 0.25, 0},
+        {"defined later too", "late", 0.75, 0}, /* what usemtl meant stays */
         {"blanks", "two words", 0.125, 1e6},
         {"no Kd", "plain", 0.6, 3},
     };
@@ -457,6 +457,76 @@ START_TEST(test_obj)
     }
     ck_assert_uint_eq(s.bands, 1);
     scene_free(&s);
+}
+END_TEST
+
+/* One triangle each, whose material the file says in some way that is not the plainest. */
+START_TEST(test_materials_said_oddly)
+{
+    static char name[3000], mtl[8000], use[8000];
+    memset(name, 'n', sizeof name - 1);
+    snprintf(mtl, sizeof mtl, "newmtl %s\nKd .25\n", name);
+    snprintf(use, sizeof use, "usemtl %s\n", name);
+    static const char *const plain = "newmtl x\nKd .75\nnewmtl y\nKd .875\n";
+    const struct {
+        const char *mtl, *body;
+        double rho, exitance;
+        const char *told; /* NULL: nothing */
+    } rows[] = {
+        {mtl, use, .25, 0, NULL},
+        {"newmtl x\nKd .25", "usemtl x\nmtllib y.mtl\n", .25, 0, NULL},
+        {"newmtl x\nKd .25", "usemtl x\nmtllib x.mtl\n", .25, 0, "material 'x' is defined again"},
+        {"newmtl x\nKd .25", "mtllib x.mtl\nusemtl x\n", .75, 0, "x.mtl:1: warning: material 'x'"},
+        {"newmtl x\nKd .25", "usemtl x\nmtllib x.mtl\nmtllib m.mtl\n", .25, 0, "again"},
+        {"newmtl x\nKd .25", "mtllib x.mtl\nmtllib m.mtl\nusemtl x\n", .25, 0, "again"},
+        {"newmtl z", "mtllib m.mtl x.mtl y.mtl # all\nusemtl x\n", .75, 0, "no Kd"},
+        {"newmtl x\nKd .25\nnewmtl x\nKd .5", "usemtl x\n", .5, 0, "m.mtl:3: warning"},
+        {" \tnewmtl x\n\tKd .25 .25 .25\n", "usemtl x\n", .25, 0, NULL},
+        {"newmtl x\nKd .5\nKe 5\n", "usemtl x\n", .5, 5, NULL},
+        {"newmtl x\nKd 0x1p-1\n", "usemtl x\n", .5, 0, NULL},
+        {"newmtl x\nKe 1 1 1\n", "usemtl x\n", .6, 1, "m.mtl:1: warning: material 'x' has no Kd"},
+        {"newmtl\nKd .25\n", "usemtl\n", .25, 0, NULL},
+        {"newmtl x\naniso 1\nNs abc\nd -halo 0.5\nKa spectral a.rfl\nKd .25\n", "usemtl x\n", .25,
+         0, NULL},
+        {"newmtl x\nKd .25 \\\n.25 \\\r\n.25\n", "usemtl x\n", .25, 0, NULL},
+        {"\xEF\xBB\xBFnewmtl x\nKd .25\n", "usemtl x\n", .25, 0, NULL},
+        {"newmtl x\rKd .25\rKe 1\r", "usemtl x\r", .25, 1, NULL},
+        {"", "", .6, 0, "a face before any usemtl"},
+        {"# nothing\n", "usemtl x\n", .6, 0, "its libraries are empty"},
+        {"Kd .25\nnewmtl x\nKd .5\n", "usemtl x\n", .5, 0, "Kd before any newmtl"},
+        {"newmtl x\nKd .25\nmap_Kd a.png\n", "usemtl x\n", .25, 0, "texture of material 'x'"},
+        {"newmtl x\nKd .25\nd 0.5\n", "usemtl x\n", .25, 0, "'x' is transparent"},
+        {"newmtl M #1\nKd .25\nnewmtl M #2\nKd .5\n", "usemtl M #1\n", .25, 0, NULL},
+        {"newmtl x # red\nKd .25 # dark\nnewmtl y#\nKd .5# light", "usemtl x\t# it\n", .25, 0,
+         NULL},
+        {"newmtl x\nKd .25\n", "usemtl x\nsurf 0 1 0 1 1\n", .25, 0, "starts with 'surf'"},
+    };
+    write_text("x.mtl", plain);
+    write_text("y.mtl", "newmtl y\nKd .5\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        static char text[10000];
+        write_text("m.mtl", rows[i].mtl);
+        snprintf(text, sizeof text,
+                 "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0#\n%sf 1 2 3 # a face\nf 1 3 2#too\n",
+                 rows[i].body);
+        struct scene_file file;
+        const char *obj = write_text("odd.obj", text);
+        struct scene s;
+        ck_assert_msg(read_scene(&s, obj, NULL) == 0, "row %zu: %s", i, last_error);
+        scene_free(&s);
+        ck_assert_msg(rows[i].told ? strstr(last_error, rows[i].told) != NULL : !*last_error,
+                      "row %zu: '%s'", i, last_error);
+        ck_assert_int_eq(scene_file_read(&file, obj, &(struct scene_options){.quiet = 1}), 0);
+        ck_assert_uint_eq(file.polygon_count, 2);
+        for (int j = 0; j < 2; j++)
+            for (int k = 0; k < 3; k++) {
+                const struct RadMaterial *m = &file.materials[file.polygon_materials[j]];
+                ck_assert_msg(m->reflectance[k] == rows[i].rho
+                                  && m->exitance[k] == rows[i].exitance,
+                              "row %zu: rho %g, E %g", i, m->reflectance[k], m->exitance[k]);
+            }
+        scene_file_free(&file);
+    }
 }
 END_TEST
 
@@ -579,7 +649,8 @@ START_TEST(test_errors)
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf a b c\n", "s.obj:5: error: 'a' is not a corner");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf\n", "s.obj:5: error: a face without corners");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\n", "there is no face");
-    expect_error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "all of its 1 faces are degenerate");
+    expect_error("usemtl a\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
+                 "all of its 1 faces are degenerate");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl aa\nf 1 2 3\n",
                  "s.obj:5: error: material 'aa' is in no material library");
     expect_error("mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
@@ -786,6 +857,7 @@ int main(void)
     tcase_add_test(t, test_black_and_grey);
     tcase_add_test(t, test_double);
     tcase_add_test(t, test_obj);
+    tcase_add_test(t, test_materials_said_oddly);
     tcase_add_test(t, test_lines);
     tcase_add_test(t, test_comment_ends);
     tcase_add_test(t, test_many_materials);
