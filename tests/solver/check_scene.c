@@ -334,6 +334,107 @@ START_TEST(test_star)
 }
 END_TEST
 
+/* The triangles of a polygon in the plane z = 0, turned into another: their sum against the
+ * shoelace formula; none turned over. */
+static void expect_triangles(double (*flat)[2], uint32_t n, double area, const char *what)
+{
+    static double v[400][3];
+    static uint32_t triangle[400][3], scratch[400];
+    for (int turned = 0; turned < 2; turned++) {
+        for (uint32_t i = 0; i < n; i++) {
+            v[i][0] = flat[i][0];
+            v[i][1] = turned ? 0.8 * flat[i][1] : flat[i][1];
+            v[i][2] = turned ? 0.6 * flat[i][1] : 0;
+        }
+        uint32_t count = polygon_triangulate(v, n, triangle, scratch);
+        double sum = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double t[3][3], normal[3];
+            for (int k = 0; k < 3; k++)
+                memcpy(t[k], v[triangle[i][k]], sizeof t[k]);
+            double part = polygon_normal(t, 3, normal);
+            ck_assert_msg(normal[2] > 0 || part <= 1e-13 * area, "%s: triangle %u turned over",
+                          what, (unsigned)i);
+            sum += polygon_degenerate(t, 3, 0x1p-53) ? 0 : part;
+        }
+        ck_assert_msg(fabs(sum - area) <= 1e-12 * area, "%s: %.15g, not %.15g", what, sum, area);
+    }
+}
+
+START_TEST(test_concave)
+{
+    double hole[][2] = {{0, 0}, {4, 0},   {4, 2},  {2, 2}, {2, 4},  {0, 4},
+                        {0, 0}, {.5, .5}, {.5, 1}, {1, 1}, {1, .5}, {.5, .5}};
+    expect_triangles(hole, 12, 11.75, "an L with a hole");
+    double two[][2] = {{0, 0}, {9, 0}, {9, 3}, {0, 3}, {0, 1}, {1, 1}, {1, 2}, {2, 2}, {2, 1},
+                       {6, 1}, {6, 2}, {8, 2}, {8, 1}, {6, 1}, {2, 1}, {1, 1}, {0, 1}};
+    expect_triangles(two, 17, 24, "two holes on one bridge");
+    double straight[][2] = {{0, 0}, {1, 0}, {2, 0},   {3, 0}, {3, .1}, {3, .2},
+                            {3, 3}, {2, 3}, {1.5, 3}, {0, 3}, {0, 2},  {0, .7}};
+    expect_triangles(straight, 12, 9, "straight corners");
+    double thirds[][2] = {{0, 0}, {.1, .1 / 3}, {.2, .2 / 3}, {.7, .7 / 3}, {1, 1. / 3}, {0, 1}};
+    expect_triangles(thirds, 6, .5, "straight corners that are rounded");
+    enum { TEETH = 40 };
+    double comb[4 * TEETH + 2][2];
+    uint32_t n = 0;
+    for (int i = 0; i < TEETH; i++) {
+        const double at[4][2] = {{2. * i, 0}, {2. * i + 1, 0}, {2. * i + 1, 5}, {2. * i + 2, 5}};
+        memcpy(comb[n], at, sizeof at);
+        n += 4;
+    }
+    const double back[2][2] = {{2. * TEETH, 6}, {0, 6}};
+    memcpy(comb[n], back, sizeof back);
+    expect_triangles(comb, n + 2, TEETH * 7, "a comb");
+}
+END_TEST
+
+static double shoelace(double (*v)[2], uint32_t n)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < n; i++)
+        sum += 0.5 * (v[i][0] * v[(i + 1) % n][1] - v[(i + 1) % n][0] * v[i][1]);
+    return sum;
+}
+
+/* Stars with a star cut out of them, joined by a bridge from corner to corner of the same angle. */
+START_TEST(test_bridged)
+{
+    const double pi = 3.14159265358979323846;
+    srand(16);
+    for (int round = 0; round < 2000; round++) {
+        double ring[130][2];
+        uint32_t outer = 3 + (uint32_t)rand() % 40, inner = 3 + (uint32_t)rand() % 20, n = 0;
+        double turn = rand() / (double)RAND_MAX, x = rand() % 100, y = rand() % 100;
+        for (uint32_t i = 0; i <= outer; i++, n++) {
+            double a = turn + 2 * pi * (i % outer) / outer;
+            double radius = i == outer ? 0 : 2 + (rand() % 4) * (rand() / (double)RAND_MAX);
+            ring[n][0] = x + radius * cos(a);
+            ring[n][1] = y + radius * sin(a);
+        }
+        memcpy(ring[outer], ring[0], sizeof ring[0]);
+        double area = shoelace(ring, outer);
+        /* within the circle that the outer star's edges leave free: 2 cos(pi / 3) */
+        for (uint32_t i = 0; i <= inner; i++, n++) {
+            double a = turn - 2 * pi * (i % inner) / inner;
+            double radius = i == inner ? 0 : .1 + .85 * (rand() / (double)RAND_MAX);
+            ring[n][0] = x + radius * cos(a);
+            ring[n][1] = y + radius * sin(a);
+        }
+        memcpy(ring[n - 1], ring[outer + 1], sizeof ring[0]);
+        area += shoelace(&ring[outer + 1], inner);
+        char what[80];
+        snprintf(what, sizeof what, "round %d, %u and %u corners", round, (unsigned)outer,
+                 (unsigned)inner);
+        /* from any corner on */
+        uint32_t from = (uint32_t)rand() % n;
+        double turned[130][2];
+        for (uint32_t i = 0; i < n; i++)
+            memcpy(turned[i], ring[(from + i) % n], sizeof turned[i]);
+        expect_triangles(turned, n, area, what);
+    }
+}
+END_TEST
+
 START_TEST(test_dropped)
 {
     char body[512];
@@ -853,6 +954,8 @@ int main(void)
     tcase_add_test(t, test_two_sided);
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_star);
+    tcase_add_test(t, test_concave);
+    tcase_add_test(t, test_bridged);
     tcase_add_test(t, test_dropped);
     tcase_add_test(t, test_black_and_grey);
     tcase_add_test(t, test_double);
