@@ -862,6 +862,145 @@ START_TEST(test_ply)
 }
 END_TEST
 
+static const char *write_bytes(const char *name, const char *bytes, size_t size)
+{
+    const char *path = in_folder(name);
+    FILE *f = fopen(path, "wb");
+    ck_assert_ptr_nonnull(f);
+    ck_assert_uint_eq(fwrite(bytes, 1, size, f), size);
+    ck_assert_int_eq(fclose(f), 0);
+    return path;
+}
+
+/* Every beginning of a file that misses more than blanks is refused, unless what is missing are
+ * digits of its last number: then it is told that the last line has no end. */
+static void expect_whole(const char *name, const char *bytes, size_t size, double area)
+{
+    struct scene s;
+    for (size_t cut = 0; cut < size; cut++) {
+        if (read_scene(&s, write_bytes(name, bytes, cut), NULL) == 0) {
+            ck_assert_msg(strstr(last_error, "the last line has no end") != NULL
+                              || bytes[cut - 1] == '\r',
+                          "%s of %zu bytes: %s", name, cut, last_error);
+            ck_assert_uint_ge(cut + 10, size);
+            scene_free(&s);
+        }
+        ck_assert_ptr_nonnull(strstr(last_error, name));
+    }
+    ck_assert_msg(read_scene(&s, write_bytes(name, bytes, size), NULL) == 0, "%s", last_error);
+    ck_assert_ptr_null(strstr(last_error, "passed over"));
+    ck_assert_double_eq_tol(total_area(&s), area, 1e-12);
+    ck_assert_double_eq(s.materials[s.faces[0].material].reflectance[0], 0.5);
+    scene_free(&s);
+    char more[2000];
+    memcpy(more, bytes, size);
+    memcpy(more + size, "1 2 3\n", 6);
+    if (read_scene(&s, write_bytes(name, more, size + 6), NULL) == 0) {
+        ck_assert_msg(strstr(last_error, "passed over") != NULL, "%s: %s", name, last_error);
+        scene_free(&s);
+    }
+}
+
+/* Bytes of a number in either order. */
+static size_t put_bytes(char *to, const void *value, size_t size, int big_endian)
+{
+    const uint16_t one = 1;
+    int little = *(const char *)&one;
+    for (size_t i = 0; i < size; i++)
+        to[i] = ((const char *)value)[little == !big_endian ? i : size - 1 - i];
+    return size;
+}
+
+START_TEST(test_cut_shapes)
+{
+    static const char off[] = "OFF # a square\n4 1 4\n0 0 0\n2 0 0 255 0 0\n2 2 0\n0 2 0\n\n"
+                              "4 0 1 2 3 0.5 0.5\n",
+                      plain_off[] = "3 1\r0 0 0\r2 0 0\r2 2 0\r3 0 1 2\r",
+                      ply[] = "ply\r\nformat ascii 1.0\r\ncomment x\r\nelement vertex 3\r\n"
+                              "property double x\r\nproperty double y\r\nproperty double z\r\n"
+                              "property uchar red\r\nelement face 1\r\n"
+                              "property list uchar int vertex_indices\r\nend_header\r\n"
+                              "1000000 0 0 1\r\n1000000.5 0 0 1\r\n1000000.5 1 0 1\r\n3 0 1 2\r\n",
+                      stl[] = "solid of a kind\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                              "vertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
+    expect_whole("cut.off", off, sizeof off - 1, 4);
+    expect_whole("plain.off", plain_off, sizeof plain_off - 1, 2);
+    expect_whole("cut.ply", ply, sizeof ply - 1, .25);
+    expect_whole("cut.stl", stl, sizeof stl - 1, .5);
+    const float corner[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+    const int32_t index[3] = {0, 1, 2};
+    char bytes[1000];
+    for (int big = 0; big < 2; big++) {
+        size_t size = (size_t)snprintf(
+            bytes, sizeof bytes,
+            "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty float x\n"
+            "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+            "vertex_index\nproperty short flag\nend_header\n",
+            big ? "big" : "little");
+        for (int i = 0; i < 9; i++)
+            size += put_bytes(bytes + size, &corner[i / 3][i % 3], 4, big);
+        bytes[size++] = 3;
+        for (int i = 0; i < 3; i++)
+            size += put_bytes(bytes + size, &index[i], 4, big);
+        bytes[size++] = 0;
+        bytes[size++] = 0;
+        expect_whole(big ? "big.ply" : "little.ply", bytes, size, .5);
+    }
+    memset(bytes, 0, sizeof bytes);
+    strcpy(bytes, "solid though of bytes");
+    const uint32_t two = 2;
+    size_t size = 80 + put_bytes(bytes + 80, &two, 4, 0);
+    for (int i = 0; i < 2; i++, size += 2) {
+        size += 12;
+        for (int j = 0; j < 9; j++)
+            size += put_bytes(bytes + size, &corner[j / 3][j % 3], 4, 0);
+    }
+    expect_whole("bytes.stl", bytes, size, 1);
+}
+END_TEST
+
+START_TEST(test_damaged_shapes)
+{
+    static const struct {
+        const char *name, *text, *error;
+    } rows[] = {
+        {"d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n",
+         "d.off:6: error: face 0 names vertex 3, but there are 3"},
+        {"d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 -1\n", "d.off:6: error: face 0 names"},
+        {"d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 nan 0\n3 0 1 2\n", "d.off:5: error: vertex 2"},
+        {"d.off", "OFF\n4000000000 4000000000 0\n0 0 0\n", "ends before vertex 1 of the 40000"},
+        {"d.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", "d.off:6: error: more lines"},
+        {"d.off", "4OFF\n1 1 1\n", "no numbers of vertices"},
+        {"d.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+         "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 "
+         "0 1\n",
+         "d.ply:11: error: face 0 names vertex 1"},
+        {"d.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+         "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1\n",
+         "d.ply:10: error: more numbers for vertex 0"},
+        {"d.ply", "ply\nformat ascii 1.0\nelement vertex 9999999999999\nend_header\n",
+         "no vertices with x, y and z"},
+        {"d.ply", "ply\nelement vertex -1\nend_header\n", "d.ply:2: error: an element without"},
+        {"d.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n",
+         "d.stl:4: error: a vertex with 2 numbers"},
+        {"d.stl", "solid x\nendsolid x\n", "no triangle"},
+        {"d.stl",
+         "solid a much longer name than eighty bytes so that there is room for a title and a "
+         "count\nendsolid\n",
+         "no triangle"},
+    };
+    struct scene s;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        ck_assert_int_eq(read_scene(&s, write_text(rows[i].name, rows[i].text), NULL), -1);
+        ck_assert_msg(strstr(last_error, rows[i].error) != NULL, "row %zu: '%s' is not in '%s'", i,
+                      rows[i].error, last_error);
+        ck_assert_ptr_eq(strchr(last_error, '\n'), last_error + strlen(last_error) - 1);
+    }
+}
+END_TEST
+
 /* ---- files written ---- */
 
 static int files_in_folder(void)
@@ -969,6 +1108,8 @@ int main(void)
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
     tcase_add_test(t, test_ply);
+    tcase_add_test(t, test_cut_shapes);
+    tcase_add_test(t, test_damaged_shapes);
     tcase_add_test(t, test_atomic);
     tcase_add_test(t, test_faces_csv);
     suite_add_tcase(suite, t);
