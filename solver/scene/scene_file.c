@@ -9,6 +9,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "scene/gltf_materials.h"
 #include "scene/read_assimp.h"
 #include "scene/read_obj.h"
 #include "scene/read_shapes.h"
@@ -146,7 +147,7 @@ static int check_materials(const struct scene_file *f, const char *path)
 
 int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)
 {
-    static const char *const obj[] = {".obj", NULL};
+    static const char *const obj[] = {".obj", NULL}, *const gltf[] = {".gltf", ".glb", NULL};
     const struct scene_options none = {0};
     options = options ? options : &none;
     struct stat status;
@@ -159,6 +160,8 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
     int result = shape                      ? read_shape(f, path, shape, options->quiet)
                  : has_extension(path, obj) ? read_obj(f, path, options->quiet)
                                             : read_assimp(f, path);
+    if (!result && has_extension(path, gltf))
+        result = gltf_materials(f, path, options->quiet);
     if (!result) {
         for (uint32_t i = 0; i < f->material_count; i++)
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");

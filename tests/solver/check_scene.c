@@ -846,6 +846,43 @@ START_TEST(test_gltf)
 }
 END_TEST
 
+/* What the lamp emits, and what faces without a material reflect. */
+START_TEST(test_gltf_materials)
+{
+    static const char form[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"materials\":[{\"name\":\"a\",\"pbrMetallicRoughness\":{"
+        "\"baseColorFactor\":[0.3,0.3,0.3,1]},\"emissiveFactor\":[0,0,0]},"
+        "{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.3,0.3,0.3,1]},"
+        "\"emissiveFactor\":[1,1,1]},"
+        "{\"name\":\"lamp\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.3,0.3,0.3,1]},"
+        "\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
+        "\"emissiveStrength\":40}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":2},"
+        "{\"attributes\":{\"POSITION\":0}},{\"attributes\":{\"POSITION\":0},\"material\":1}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+    char text[2048];
+    struct scene_file f;
+    snprintf(text, sizeof text, form, "glow");
+    ck_assert_int_eq(scene_file_read(&f, write_text("e.gltf", text), NULL), 0);
+    ck_assert_uint_eq(f.polygon_count, 3);
+    static const double rho[] = {0.3, 0.5, 0.3}, exitance[] = {40, 0, 1};
+    for (int i = 0; i < 3; i++) {
+        const struct RadMaterial *m = &f.materials[f.polygon_materials[i]];
+        ck_assert_double_eq_tol(m->reflectance[1], rho[i], 1e-7);
+        ck_assert_double_eq_tol(m->exitance[1], exitance[i], 1e-5);
+    }
+    scene_file_free(&f);
+    snprintf(text, sizeof text, form, "lamp");
+    struct scene s;
+    ck_assert_int_eq(read_scene(&s, write_text("e.gltf", text), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "two materials 'lamp' of one colour emit"));
+}
+END_TEST
+
 START_TEST(test_ply)
 {
     struct scene s;
@@ -1107,6 +1144,7 @@ int main(void)
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
+    tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
     tcase_add_test(t, test_cut_shapes);
     tcase_add_test(t, test_damaged_shapes);
