@@ -9,10 +9,10 @@
 #include <errno.h>
 #include <jansson.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "util/material_name.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
@@ -107,35 +107,6 @@ static int apply_strength(struct scene_file *f, const char *path, const json_t *
     return 0;
 }
 
-char *gltf_material_name(const char *name, const struct RadMaterial *m)
-{
-    static const char form[] = "%s {rho %.9g %.9g %.9g, E %.9g %.9g %.9g}";
-    const double *r = m->reflectance, *e = m->exitance;
-    int size = snprintf(NULL, 0, form, name, r[0], r[1], r[2], e[0], e[1], e[2]);
-    char *text = malloc((size_t)size + 1);
-    if (text)
-        snprintf(text, (size_t)size + 1, form, name, r[0], r[1], r[2], e[0], e[1], e[2]);
-    return text;
-}
-
-/* A material that this program wrote: its name is cut short. Returns 0 when it is not one. */
-static int read_name(char *name, struct RadMaterial *m)
-{
-    double v[6];
-    int end = 0;
-    char *brace = strrchr(name, '{');
-    if (!brace || brace == name || brace[-1] != ' '
-        || sscanf(brace, "{rho %lf %lf %lf, E %lf %lf %lf}%n", &v[0], &v[1], &v[2], &v[3], &v[4],
-                  &v[5], &end)
-               != 6
-        || !end || brace[end])
-        return 0;
-    memcpy(m->reflectance, v, sizeof m->reflectance);
-    memcpy(m->exitance, v + 3, sizeof m->exitance);
-    brace[-1] = 0;
-    return 1;
-}
-
 /* The library puts a white material behind all others, for faces without one. */
 static void replace_default(struct scene_file *f, const char *path, int quiet)
 {
@@ -169,7 +140,7 @@ int gltf_materials(struct scene_file *f, const char *path, int quiet)
     int result = 0;
     replace_default(f, path, quiet);
     for (uint32_t i = 0; i < f->material_count && !result; i++)
-        if (!read_name(f->names[i], &f->materials[i]))
+        if (!material_name_read(f->names[i], &f->materials[i]))
             result = apply_strength(f, path, materials, i);
     for (size_t i = 0; i < json_array_size(materials) && !quiet && !result; i++)
         if (has_texture(json_array_get(materials, i))) {

@@ -1,9 +1,7 @@
 /* gltf_materials.h - what glTF files say of materials and the import library does not hand on.
  *
  * The strength of emission (KHR_materials_emissive_strength); faces without a material, which are
- * grey; and meshes that this program wrote, whose materials' names end in what each reflects and
- * emits (names survive other programs, extras do not):
- *     NAME {rho R G B, E R G B}
+ * grey; and meshes that this program wrote (util/material_name.h).
  * SPDX-License-Identifier: MIT */
 #ifndef GLTF_MATERIALS_H
 #define GLTF_MATERIALS_H
@@ -12,8 +10,5 @@
 
 /* Mend the materials of a .gltf or .glb file that was read. Returns 0, or -1 after a message. */
 int gltf_materials(struct scene_file *file, const char *path, int quiet);
-
-/* The name under which a material is written, for free(); NULL when out of memory. */
-char *gltf_material_name(const char *name, const struct RadMaterial *material);
 
 #endif
