@@ -13,6 +13,7 @@
 #include "scene/read_assimp.h"
 #include "scene/read_obj.h"
 #include "scene/read_shapes.h"
+#include "scene/same_faces.h"
 #include "util/array.h"
 #include "util/ends_with.h"
 #include "util/report.h"
@@ -165,7 +166,7 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
     if (!result) {
         for (uint32_t i = 0; i < f->material_count; i++)
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
-        result = check_materials(f, path);
+        result = check_materials(f, path) || drop_same_faces(f, path, options->quiet) ? -1 : 0;
     }
     if (result)
         scene_file_free(f);

@@ -17,6 +17,7 @@
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
 #include "load_scene.h"
+#include "scene/read_obj.h"
 #include "scene/read_scene.h"
 #include "folder.h"
 #include "suite.h"
@@ -68,7 +69,7 @@ static int read_scene(struct scene *s, const char *path, const struct scene_opti
     return result;
 }
 
-static int read_obj(struct scene *s, const char *body)
+static int read_body(struct scene *s, const char *body)
 {
     write_text("m.mtl", MTL);
     char text[8192];
@@ -79,7 +80,7 @@ static int read_obj(struct scene *s, const char *body)
 static void expect_error(const char *body, const char *what)
 {
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), -1);
+    ck_assert_int_eq(read_body(&s, body), -1);
     ck_assert_msg(strstr(last_error, what) != NULL, "'%s' is not in '%s'", what, last_error);
     ck_assert_msg(strstr(last_error, ": error: ") != NULL, "%s", last_error);
     ck_assert_msg(strchr(last_error, '\n') == last_error + strlen(last_error) - 1, "one line: %s",
@@ -230,7 +231,7 @@ START_TEST(test_two_sided)
     char body[512];
     snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 1 2 3\n", SQUARE);
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.face_count, 3);
     ck_assert_uint_eq(s.input_count, 2);
     ck_assert_uint_eq(s.faces[0].back, 0);
@@ -284,7 +285,7 @@ START_TEST(test_polygons)
     };
     struct scene s;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        ck_assert_int_eq(read_obj(&s, cases[i].body), 0);
+        ck_assert_int_eq(read_body(&s, cases[i].body), 0);
         ck_assert_msg(s.face_count == cases[i].faces, "case %zu: %u faces", i,
                       (unsigned)s.face_count);
         double area = 0;
@@ -299,7 +300,7 @@ START_TEST(test_polygons)
         scene_free(&s);
     }
     /* Both halves of a quad that is not flat are one face of the file. */
-    ck_assert_int_eq(read_obj(&s, cases[0].body), 0);
+    ck_assert_int_eq(read_body(&s, cases[0].body), 0);
     ck_assert_uint_eq(s.input_count, 1);
     ck_assert_uint_eq(s.faces[0].input + s.faces[1].input, 0);
     scene_free(&s);
@@ -442,7 +443,7 @@ START_TEST(test_dropped)
              "%sv 0.5 0 0\nusemtl a\nf 1 2 5\nf 1 1 2\nf 1 2\nf 1\nf 1 2 3 4\nl 1 2\np 3\n",
              SQUARE);
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.dropped, 4);
     ck_assert_uint_eq(s.input_count, 5);
     ck_assert_uint_eq(s.face_count, 1);
@@ -460,12 +461,36 @@ START_TEST(test_dropped)
 }
 END_TEST
 
+/* A floor twice is one floor, the first; a wall with a face to either side is two. */
+START_TEST(test_same_faces)
+{
+    char body[512];
+    snprintf(body, sizeof body,
+             "%sv 0 1 0\nusemtl a\nf 1 2 3 4\nusemtl b_2s\nf 3 5 1 2\nusemtl black\nf 1 2 3 4\n"
+             "usemtl a\nf 1 2 3\nf 3 2 1\nf 2 3 1\n",
+             SQUARE);
+    struct scene s;
+    ck_assert_int_eq(read_body(&s, body), 0);
+    ck_assert_uint_eq(s.input_count, 6);
+    static const double area[] = {1, 0, 0, .5, .5, 0};
+    for (int i = 0; i < 6; i++)
+        ck_assert_double_eq_tol(s.areas[i], area[i], 1e-12);
+    ck_assert_ptr_nonnull(strstr(last_error, "s.obj:10: warning: face 1 has the corners of face 0, "
+                                             "which stays; 3 such faces are dropped"));
+    scene_free(&s);
+    snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
+    ck_assert_int_eq(read_body(&s, body), 0);
+    ck_assert_double_eq(s.areas[1], 0);
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(test_black_and_grey)
 {
     char body[512];
     snprintf(body, sizeof body, "%susemtl black\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.faces[0].black, 1);
     ck_assert_uint_eq(s.faces[1].black, 0);
     ck_assert_uint_eq(s.bands, 1); /* the coloured material is not used */
@@ -489,7 +514,7 @@ START_TEST(test_double)
                          "v %.4f %.4f 0.1234567890123456\n", at[i][0], at[i][1]);
     snprintf(body + size, sizeof body - (size_t)size, "usemtl a\nf 1 2 3 4\n");
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.face_count, 1);
     ck_assert_uint_eq(s.faces[0].vertices, 4);
     for (int i = 0; i < 4; i++) {
@@ -540,24 +565,27 @@ START_TEST(test_obj)
         "usemtl two words \n\tf 2 3 \\\r\n 4 5\ng d\nl 1 2\np 1\ncall x\n"
         "usemtl plain\nf +2 3 4 5\nmtllib an other.mtl");
     ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
-    ck_assert_uint_eq(s.face_count, 4);
-    ck_assert_uint_eq(s.dropped, 0);
+    ck_assert_uint_eq(s.face_count, 1); /* all four are in one place */
     ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
-    for (int i = 0; i < 4; i++) {
-        const struct face *f = &s.faces[i];
-        ck_assert_uint_eq(f->vertices, 4);
-        for (int j = 0; j < 4; j++)
-            for (int k = 0; k < 3; k++)
-                ck_assert_msg(fabs(f->vertex[j][k] - corner[j][k]) <= 0, "%s: %g at %d",
-                              expected[i].name, f->vertex[j][k], j);
-        ck_assert_str_eq(s.names[f->material], expected[i].material);
+    scene_free(&s);
+    struct scene_file file = {0};
+    ck_assert_int_eq(read_obj(&file, obj, 1), 0);
+    ck_assert_uint_eq(file.polygon_count, 4);
+    for (size_t i = 0; i < 4; i++) {
+        ck_assert_uint_eq(file.sizes[i], 4);
+        for (size_t j = 0; j < 4; j++)
+            for (size_t k = 0; k < 3; k++) {
+                double x = file.positions[3 * (size_t)file.indices[4 * i + j] + k];
+                ck_assert_msg(fabs(x - corner[j][k]) <= 0, "%s: %g at %zu", expected[i].name, x, j);
+            }
+        const struct RadMaterial *m = &file.materials[file.polygon_materials[i]];
+        ck_assert_str_eq(file.names[file.polygon_materials[i]], expected[i].material);
         for (int k = 0; k < 3; k++) {
-            ck_assert_double_eq(s.materials[f->material].reflectance[k], expected[i].rho);
-            ck_assert_double_eq(s.materials[f->material].exitance[k], expected[i].exitance);
+            ck_assert_double_eq(m->reflectance[k], expected[i].rho);
+            ck_assert_double_eq(m->exitance[k], expected[i].exitance);
         }
     }
-    ck_assert_uint_eq(s.bands, 1);
-    scene_free(&s);
+    scene_file_free(&file);
 }
 END_TEST
 
@@ -989,8 +1017,10 @@ START_TEST(test_cut_shapes)
     size_t size = 80 + put_bytes(bytes + 80, &two, 4, 0);
     for (int i = 0; i < 2; i++, size += 2) {
         size += 12;
-        for (int j = 0; j < 9; j++)
-            size += put_bytes(bytes + size, &corner[j / 3][j % 3], 4, 0);
+        for (int j = 0; j < 9; j++) {
+            const float x = corner[j / 3][j % 3] + (float)i;
+            size += put_bytes(bytes + size, &x, 4, 0);
+        }
     }
     expect_whole("bytes.stl", bytes, size, 1);
 }
@@ -1133,6 +1163,7 @@ int main(void)
     tcase_add_test(t, test_concave);
     tcase_add_test(t, test_bridged);
     tcase_add_test(t, test_dropped);
+    tcase_add_test(t, test_same_faces);
     tcase_add_test(t, test_black_and_grey);
     tcase_add_test(t, test_double);
     tcase_add_test(t, test_obj);
