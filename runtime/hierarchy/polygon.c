@@ -1,11 +1,14 @@
 /* polygon.c - see polygon.h.
  *
- * Ear clipping [Meisters 1975]: a polygon always has a corner whose triangle holds no other
- * corner; cut it off and go on. Among the ears we take the one with the shortest cut, which
- * keeps the triangles of convex polygons from degenerating into slivers.
+ * Ear clipping [Meisters 1975]: a polygon always has a corner whose triangle no edge enters; cut
+ * it off and go on. Among the ears we take the one with the shortest cut, which keeps the
+ * triangles of convex polygons from degenerating into slivers. Rings that a bridge joins to a hole
+ * pass some corners and edges twice: so it is edges that are tested, against the open triangle.
+ * Invariant: the ring and the triangles cut off make up the polygon's area.
  * SPDX-License-Identifier: MIT */
 #include "hierarchy/polygon.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "geometry.h"
@@ -97,82 +100,149 @@ int polygon_convex_quad(double (*vertex)[3])
     return 1;
 }
 
-static double side(const double a[3], const double b[3], const double c[3], const double normal[3])
+/* A ring of corners that triangles are cut off. */
+struct ring {
+    double (*vertex)[3];
+    uint32_t *corner, count;
+    double normal[3];
+    double rounding; /* no farther than that from a line is on it (m) */
+};
+
+static const double *at(const struct ring *r, uint32_t i)
+{
+    return r->vertex[r->corner[i % r->count]];
+}
+
+/* Twice the area of a, b, c: positive in the ring's sense of rotation, 0 when c is on the line. */
+static double side(const struct ring *r, const double a[3], const double b[3], const double c[3])
 {
     double u[3], v[3], w[3];
     sub3(u, b, a);
     sub3(v, c, a);
     cross3(w, u, v);
-    return dot3(w, normal);
+    double twice = dot3(w, r->normal);
+    return fabs(twice) <= r->rounding * length3(u) ? 0 : twice;
 }
 
-/* Is the triangle at place i of the remaining ring an ear? */
-static int ear(double (*vertex)[3], const uint32_t *ring, uint32_t count, uint32_t i,
-               const double normal[3])
+/* Does the edge from p to q enter what is on the positive side of all three lines? Given are the
+ * sides of both. */
+static int enters(const double p[3], const double q[3])
 {
-    const double *a = vertex[ring[(i + count - 1) % count]], *b = vertex[ring[i]],
-                 *c = vertex[ring[(i + 1) % count]];
-    if (side(a, b, c, normal) <= 0)
-        return 0;
-    for (uint32_t step = 2; step < count - 1; step++) {
-        const double *p = vertex[ring[(i + step) % count]];
-        /* A ring joined to a hole visits a point twice: that is no obstacle. */
-        if ((p[0] == a[0] && p[1] == a[1] && p[2] == a[2])
-            || (p[0] == c[0] && p[1] == c[1] && p[2] == c[2]))
-            continue;
-        if (side(a, b, p, normal) >= 0 && side(b, c, p, normal) >= 0 && side(c, a, p, normal) >= 0)
+    double from = 0, to = 1;
+    for (int k = 0; k < 3; k++) {
+        if (p[k] <= 0 && q[k] <= 0)
             return 0;
+        if (p[k] < 0)
+            from = fmax(from, p[k] / (p[k] - q[k]));
+        else if (q[k] < 0)
+            to = fmin(to, p[k] / (p[k] - q[k]));
+    }
+    return to - from > DBL_EPSILON;
+}
+
+/* Is the triangle at place i an ear? */
+static int ear(const struct ring *r, uint32_t i)
+{
+    const double *a = at(r, i + r->count - 1), *b = at(r, i), *c = at(r, i + 1);
+    double last[3] = {0, 0, 0};
+    if (side(r, a, b, c) <= 0)
+        return 0;
+    /* From c on to a; nothing may enter, and no corner stand on the cut. */
+    for (uint32_t step = 2; step < r->count; step++) {
+        const double *p = at(r, i + step);
+        const double now[3] = {side(r, a, b, p), side(r, b, c, p), side(r, c, a, p)};
+        if ((now[0] > 0 && now[1] > 0 && now[2] >= 0) || enters(last, now))
+            return 0;
+        for (int k = 0; k < 3; k++)
+            last[k] = now[k];
     }
     return 1;
+}
+
+static void drop(struct ring *r, uint32_t i)
+{
+    r->count--;
+    for (; i < r->count; i++)
+        r->corner[i] = r->corner[i + 1];
+}
+
+/* Where cutting has left a spike without area, its tip goes; 1: there was one. */
+static int drop_spike(struct ring *r, uint32_t i)
+{
+    const double *a = at(r, i + r->count - 1), *b = at(r, i), *c = at(r, i + 1);
+    double u[3], v[3];
+    sub3(u, a, b);
+    sub3(v, c, b);
+    int none = length3(u) <= r->rounding || length3(v) <= r->rounding;
+    if (r->count <= 3 || (!none && (dot3(u, v) <= 0 || side(r, a, b, c) != 0)))
+        return 0;
+    drop(r, i);
+    return 1;
+}
+
+/* The place to cut: of a few ears the one with the shortest cut. count: there is none. */
+static uint32_t find_ear(const struct ring *r, uint32_t start)
+{
+    uint32_t best = r->count;
+    double shortest = INFINITY;
+    for (uint32_t step = 0; step < r->count; step++) {
+        uint32_t i = (start + step) % r->count;
+        double d[3];
+        sub3(d, at(r, i + r->count - 1), at(r, i + 1));
+        if (!(length3(d) < shortest) || !ear(r, i))
+            continue;
+        shortest = length3(d);
+        best = i;
+        if (r->count > 64)
+            break; /* the best ear is a luxury that costs n^3 */
+    }
+    return best;
+}
+
+/* When only straight or crossing corners are left: the flattest. */
+static uint32_t find_flattest(const struct ring *r)
+{
+    double least = INFINITY;
+    uint32_t best = 0;
+    for (uint32_t i = 0; i < r->count; i++) {
+        double s = fabs(side(r, at(r, i + r->count - 1), at(r, i), at(r, i + 1)));
+        if (s < least) {
+            least = s;
+            best = i;
+        }
+    }
+    return best;
 }
 
 uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
                              uint32_t *scratch)
 {
-    double normal[3];
-    uint32_t *ring = scratch, triangles = 0, start = 0;
-    polygon_normal(vertex, count, normal);
-    for (uint32_t i = 0; i < count; i++)
-        ring[i] = i;
-    while (count > 3) {
-        uint32_t best = count;
-        double shortest = INFINITY;
-        for (uint32_t step = 0; step < count; step++) {
-            uint32_t i = (start + step) % count;
-            if (!ear(vertex, ring, count, i, normal))
-                continue;
-            double d[3];
-            sub3(d, vertex[ring[(i + count - 1) % count]], vertex[ring[(i + 1) % count]]);
-            if (length3(d) < shortest) {
-                shortest = length3(d);
-                best = i;
-            }
-            if (count > 64)
-                break; /* the best ear is a luxury that costs n^3 */
-        }
-        if (best < count) {
-            triangle[triangles][0] = ring[(best + count - 1) % count];
-            triangle[triangles][1] = ring[best];
-            triangle[triangles++][2] = ring[(best + 1) % count];
+    struct ring r = {.vertex = vertex, .corner = scratch, .count = count};
+    uint32_t triangles = 0, start = 0;
+    polygon_normal(vertex, count, r.normal);
+    for (uint32_t i = 0; i < count; i++) {
+        r.corner[i] = i;
+        for (int k = 0; k < 3; k++)
+            r.rounding = fmax(r.rounding, POLYGON_ON_LINE * DBL_EPSILON * fabs(vertex[i][k]));
+    }
+    while (r.count > 3) {
+        uint32_t best = find_ear(&r, start);
+        int found = best < r.count;
+        if (found) {
+            triangle[triangles][0] = r.corner[(best + r.count - 1) % r.count];
+            triangle[triangles][1] = r.corner[best];
+            triangle[triangles++][2] = r.corner[(best + 1) % r.count];
         } else {
-            /* Only straight or crossing corners are left: let go of the flattest. */
-            double least = INFINITY;
-            best = 0;
-            for (uint32_t i = 0; i < count; i++) {
-                double s = fabs(side(vertex[ring[(i + count - 1) % count]], vertex[ring[i]],
-                                     vertex[ring[(i + 1) % count]], normal));
-                if (s < least) {
-                    least = s;
-                    best = i;
-                }
-            }
+            best = find_flattest(&r);
         }
-        for (uint32_t i = best; i + 1 < count; i++)
-            ring[i] = ring[i + 1];
-        count--;
-        start = best % count;
+        drop(&r, best);
+        start = best % r.count;
+        while (
+            found
+            && (drop_spike(&r, start % r.count) || drop_spike(&r, (start + r.count - 1) % r.count)))
+            start = (start + r.count - 1) % r.count;
     }
     for (int k = 0; k < 3; k++)
-        triangle[triangles][k] = ring[k];
+        triangle[triangles][k] = r.corner[k];
     return triangles + 1;
 }

@@ -145,6 +145,10 @@
 #define SCENE_THIN 1e-7
 /* roundings of its largest coordinate. The same: of two corners, each may be off by one */
 #define SCENE_THIN_ROUNDINGS 2
+/* units in the last place of a polygon's largest coordinate. What is no farther from a line through
+ * two of its corners is on the line: a difference of two coordinates and a cross product round five
+ * times, and the corners themselves were rounded from decimals, once each of the three */
+#define POLYGON_ON_LINE 8
 
 /* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
  * face that is cut. */

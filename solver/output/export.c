@@ -14,7 +14,6 @@
 #include "output/exposure.h"
 #include "output/leaf_mesh.h"
 #include "util/report.h"
-#include "output/view.h"
 
 enum export_format export_format(const char *path)
 {
@@ -97,8 +96,8 @@ static void write_ply(FILE *out, const struct leaf_mesh *m, const struct vertex_
     }
 }
 
-static int write_format(const char *path, enum export_format format, int z_up, struct leaf_mesh *m,
-                        const struct vertex_values *v, float *colour)
+static int write_format(const char *path, enum export_format format, const struct surfaces *s,
+                        struct leaf_mesh *m, const struct vertex_values *v, float *colour)
 {
     struct atomic_file file;
     switch (format) {
@@ -112,11 +111,11 @@ static int write_format(const char *path, enum export_format format, int z_up, s
         if (leaf_mesh_triangulate(m, v))
             return report_error(path, 0,
                                 "out of memory for the mesh; write .ply, which needs less");
-        return export_assimp(path, format == EXPORT_GLB ? "glb2" : "gltf2", z_up, m, v, colour);
+        return export_assimp(path, format == EXPORT_GLB ? "glb2" : "gltf2", s, m, v, colour);
     case EXPORT_OBJ:
         for (size_t i = 0; i < 3 * (size_t)v->count; i++)
             colour[i] = (float)srgb_byte((double)colour[i]) / 255;
-        return export_assimp(path, "obj", 0, m, v, colour);
+        return export_assimp(path, "obj", s, m, v, colour);
     case EXPORT_UNKNOWN:
         break;
     }
@@ -138,8 +137,7 @@ int export_write(const char *path, const struct solution *s, const struct vertex
             for (size_t k = 0; k < 3; k++)
                 colour[3 * (size_t)i + k] = (float)c[k];
         }
-        result = write_format(path, export_format(path), view_up_axis(&s->surfaces) == 2, &mesh, v,
-                              colour);
+        result = write_format(path, export_format(path), &s->surfaces, &mesh, v, colour);
     }
     leaf_mesh_free(&mesh);
     free(colour);

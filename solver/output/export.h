@@ -7,7 +7,9 @@
  * in binary, little endian. glTF holds linear colours (COLOR_0) and an unlit material, so that
  * viewers show the radiosity and nothing else, with y up as glTF wants it; .obj holds sRGB colours
  * behind the coordinates of each vertex, as MeshLab and Blender read them. .gltf comes with a .bin
- * and .obj with a .mtl.
+ * and .obj with a .mtl. Read as scenes, .obj and glTF have the materials of the scene solved: Kd
+ * and Ke of MTL, and in glTF, whose materials say how to show it, in the materials' names
+ * (util/material_name.h).
  * SPDX-License-Identifier: MIT */
 #ifndef EXPORT_H
 #define EXPORT_H

@@ -103,7 +103,9 @@ int leaf_mesh_build(struct leaf_mesh *m, const struct solution *solution,
         if (!is_leaf(e))
             continue;
         const uint32_t *c = &values->corner[4 * (size_t)i];
-        failed |= push_number(&m->start, &m->polygons, &m->polygon_capacity, m->corners);
+        failed |= push_number(&m->start, &m->polygons, &m->polygon_capacity, m->corners)
+                  || push_number(&m->material, &m->materials, &m->material_capacity,
+                                 solution->surfaces.faces[e->face].material);
         for (uint32_t j = 0; j < e->vertices && !failed; j++)
             failed |= push_edge(m, values, c[j], c[j + 1 < e->vertices ? j + 1 : 0]);
         failed = failed || push_passing(m, values, i, m->start[m->polygons - 1]);
@@ -153,7 +155,7 @@ static uint32_t best_ear(const struct vertex_values *v, const uint32_t *ring, ui
 /* Push the triangles of a leaf: convex, with vertices of neighbours on its straight edges.
  * `ring` is used up. */
 static int push_triangles(struct leaf_mesh *m, const struct vertex_values *v, uint32_t *ring,
-                          uint32_t count)
+                          uint32_t count, uint32_t material)
 {
     double area = 0;
     int failed = 0;
@@ -167,7 +169,8 @@ static int push_triangles(struct leaf_mesh *m, const struct vertex_values *v, ui
         area -= twice_area(v, ear);
         memmove(&ring[i], &ring[i + 1], (count - i - 1) * sizeof *ring);
         count--;
-        failed |= push_number(&m->start, &m->polygons, &m->polygon_capacity, m->corners);
+        failed |= push_number(&m->start, &m->polygons, &m->polygon_capacity, m->corners)
+                  || push_number(&m->material, &m->materials, &m->material_capacity, material);
         for (int k = 0; k < 3; k++)
             failed |= push_number(&m->corner, &m->corners, &m->corner_capacity, ear[k]);
     }
@@ -179,8 +182,8 @@ int leaf_mesh_triangulate(struct leaf_mesh *m, const struct vertex_values *value
     struct leaf_mesh out = {0};
     int failed = 0;
     for (uint32_t i = 0; i < m->polygons && !failed; i++)
-        failed =
-            push_triangles(&out, values, &m->corner[m->start[i]], m->start[i + 1] - m->start[i]);
+        failed = push_triangles(&out, values, &m->corner[m->start[i]],
+                                m->start[i + 1] - m->start[i], m->material[i]);
     failed = finish(&out, failed);
     leaf_mesh_free(m);
     *m = out;
@@ -191,5 +194,6 @@ void leaf_mesh_free(struct leaf_mesh *m)
 {
     free(m->corner);
     free(m->start);
+    free(m->material);
     *m = (struct leaf_mesh){0};
 }

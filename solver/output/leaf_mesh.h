@@ -16,6 +16,8 @@ struct leaf_mesh {
     /* polygon i is corner[start[i]] .. corner[start[i + 1] - 1] */
     uint32_t *start, polygons;
     size_t polygon_capacity;
+    uint32_t *material, materials; /* of each polygon, of the scene's */
+    size_t material_capacity;
 };
 
 /* Returns 0, or -1 when out of memory; then *m is empty. */

@@ -12,34 +12,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel/hash.h"
+#include "scene/materials_by_name.h"
+#include "scene/read_numbers.h"
 #include "scene/text_lines.h"
-#include "util/array.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
-/* What MTL files' materials reflect unless they say so, and the material of faces without one: as
- * Assimp has them, which read these files before. */
-static const char STAND_IN[] = "DefaultMaterial";
-static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
-
 #define NONE UINT32_MAX /* no material */
-
-enum { QUOTED = 64 }; /* no message quotes more bytes of a word, so that it keeps its end */
 
 struct obj {
     struct scene_file *file;
     const char *path;
-    /* [material_count]: the line of the first usemtl of each that no library has defined yet,
-     * else 0 */
-    uint32_t *use;
-    size_t use_capacity;
-    /* [slot_count], a power of two: materials by their names, NONE where there is none; searched
-     * from the name's hash on */
-    uint32_t *slots, slot_count;
+    struct materials_by_name materials;
     uint32_t current; /* material of the faces to come */
-    uint32_t libraries;
-    int ahead; /* some face uses a vertex that comes after it */
+    int ahead;        /* some face uses a vertex that comes after it */
 };
 
 static int out_of_memory(const char *path)
@@ -47,177 +33,17 @@ static int out_of_memory(const char *path)
     return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
 }
 
-static int quoted_length(const char *from, const char *end)
+/* mtllib or usemtl: the rest of the line is a name, which may hold blanks. */
+static int read_name(struct obj *o, const struct text_lines *t)
 {
-    return end - from < QUOTED ? (int)(end - from) : QUOTED;
-}
-
-/* The finite numbers on the rest of the line, of which the first `most` go to `value`. Returns
- * how many; -1 after an error. */
-static int read_numbers(struct text_lines *t, const char *path, const char *what, int most,
-                        double *value)
-{
-    int count = 0;
-    while (next_word(t)) {
-        double x;
-        int length = quoted_length(t->word, t->word_end);
-        if (!word_number(t, &x))
-            return report_error(path, t->number,
-                                "'%.*s' is not a number in %s; write a decimal number", length,
-                                t->word, what);
-        if (!(fabs(x) <= (double)FLT_MAX))
-            return report_error(path, t->number, "%s is not finite ('%.*s'); write a finite number",
-                                what, length, t->word);
-        if (count < most)
-            value[count] = x;
-        count++;
-    }
-    return count;
-}
-
-/* ---- materials */
-
-/* The slot of that name, or the free one where it belongs. */
-static uint32_t *find_slot(const struct obj *o, const char *name)
-{
-    uint64_t h = 0;
-    for (const char *c = name; *c; c++)
-        h = hash64(h + (unsigned char)*c + HASH_STEP);
-    uint32_t i = (uint32_t)h & (o->slot_count - 1);
-    while (o->slots[i] != NONE && strcmp(o->file->names[o->slots[i]], name) != 0)
-        i = (i + 1) & (o->slot_count - 1);
-    return &o->slots[i];
-}
-
-/* Twice the slots, so that half of them stay free. Returns 0, or -1 when out of memory. */
-static int grow_slots(struct obj *o)
-{
-    uint32_t count = o->slot_count ? 2 * o->slot_count : 64;
-    uint32_t *slots = count ? malloc(count * sizeof *slots) : NULL;
-    if (!slots)
-        return -1;
-    free(o->slots);
-    o->slots = slots;
-    o->slot_count = count;
-    memset(slots, 0xff, count * sizeof *slots); /* NONE */
-    for (uint32_t i = 0; i < o->file->material_count; i++)
-        *find_slot(o, o->file->names[i]) = i;
-    return 0;
-}
-
-/* The material of that name, a new one when there is none. Returns NONE when out of memory. */
-static uint32_t find_material(struct obj *o, const char *name)
-{
-    uint32_t n = o->file->material_count;
-    if ((n >= o->slot_count / 2 && grow_slots(o))
-        || array_reserve(&o->use, (size_t)n + 1, &o->use_capacity, sizeof *o->use) < 0)
-        return NONE;
-    uint32_t *slot = find_slot(o, name);
-    if (*slot != NONE)
-        return *slot;
-    if (scene_file_add_material(o->file, name, &PLAIN))
-        return NONE;
-    o->use[n] = 0;
-    *slot = n;
-    return n;
-}
-
-static int read_newmtl(struct obj *o, const char *path, const struct text_lines *t,
-                       uint32_t *material)
-{
+    int library = *t->word == 'm';
     char *name = rest_of_line(t);
-    uint32_t before = o->file->material_count;
-    *material = name ? find_material(o, name) : NONE;
-    free(name);
-    if (*material == NONE)
-        return out_of_memory(path);
-    if (*material < before && !o->use[*material])
-        return 0; /* defined again: what it says now is added to what it said */
-    o->use[*material] = 0;
-    o->file->places[*material].file = strdup(path);
-    return o->file->places[*material].file ? 0 : out_of_memory(path);
-}
-
-/* Kd or Ke: three numbers, or one for all three. */
-static int read_colour(struct obj *o, const char *path, struct text_lines *t, uint32_t material)
-{
-    int diffuse = t->word[1] == 'd';
-    double value[3] = {0};
-    uint32_t line = t->number;
-    int count =
-        read_numbers(t, path, diffuse ? "a diffuse colour (Kd)" : "an exitance (Ke)", 3, value);
-    if (count < 0)
-        return -1;
-    if (count != 1 && count != 3)
-        return report_error(path, line,
-                            "a colour has %d numbers; give one per channel, three in all", count);
-    if (material == NONE)
-        return 0;
-    struct RadMaterial *m = &o->file->materials[material];
-    for (int k = 0; k < 3; k++)
-        (diffuse ? m->reflectance : m->exitance)[k] = value[count == 3 ? k : 0];
-    *(diffuse ? &o->file->places[material].diffuse_line
-              : &o->file->places[material].emissive_line) = line;
-    return 0;
-}
-
-static int read_library_text(struct obj *o, const char *path, struct text_lines t)
-{
-    uint32_t material = NONE;
-    while (next_line(&t)) {
-        if (!next_word(&t))
-            continue;
-        if (word_is(&t, "newmtl")
-                ? read_newmtl(o, path, &t, &material)
-                : (word_is(&t, "Kd") || word_is(&t, "Ke")) && read_colour(o, path, &t, material))
-            return -1;
-    }
-    return 0;
-}
-
-/* mtllib: the rest of the line is one name, which may hold blanks, beside the OBJ file. */
-static int read_library(struct obj *o, const struct text_lines *line)
-{
-    char *name = rest_of_line(line), *path = NULL;
-    const char *slash = strrchr(o->path, '/');
-    int result = -1;
-    if (name) {
-        size_t folder = slash && *name != '/' ? (size_t)(slash - o->path) + 1 : 0;
-        path = malloc(folder + strlen(name) + 1);
-        if (path) {
-            memcpy(path, o->path, folder);
-            strcpy(path + folder, name);
-            size_t size;
-            char *text = text_file_read_regular(path, &size);
-            if (text)
-                result = read_library_text(o, path, text_lines(text, size));
-            else
-                report_error(
-                    o->path, line->number,
-                    "cannot read the material library '%.*s': %s; put it there or correct the name",
-                    QUOTED * 4, path, strerror(errno));
-            free(text);
-            o->libraries++;
-        }
-    }
-    if (!path)
-        out_of_memory(o->path);
-    free(name);
-    free(path);
-    return result;
-}
-
-static int read_usemtl(struct obj *o, const struct text_lines *t)
-{
-    char *name = rest_of_line(t);
-    uint32_t before = o->file->material_count;
-    o->current = name ? find_material(o, name) : NONE;
-    free(name);
-    if (o->current == NONE)
+    if (!name)
         return out_of_memory(o->path);
-    if (o->current >= before)
-        o->use[o->current] = t->number;
-    return 0;
+    int result = library ? materials_library(&o->materials, name, t->number)
+                         : materials_use(&o->materials, name, t->number, &o->current);
+    free(name);
+    return result;
 }
 
 /* ---- faces */
@@ -233,6 +59,8 @@ static int read_vertex(struct obj *o, struct text_lines *t)
     if (count != 3 && count != 4 && count != 6)
         return report_error(o->path, line, "a vertex with %d numbers; give x, y and z", count);
     if (count == 4) {
+        if (p[3] < 1 || p[3] > 1)
+            materials_assume(&o->materials, WEIGHT, o->path, line, "", NULL);
         for (int k = 0; k < 3; k++)
             p[k] /= p[3];
         if (!(fabs(p[0]) <= (double)FLT_MAX && fabs(p[1]) <= (double)FLT_MAX
@@ -278,15 +106,25 @@ static int read_face(struct obj *o, struct text_lines *t)
     if (!corners)
         return report_error(o->path, line,
                             "a face without corners; give three vertex numbers or more");
-    if (o->current == NONE) {
-        o->current = find_material(o, STAND_IN);
-        if (o->current == NONE)
-            return out_of_memory(o->path);
-    }
+    if (o->current == NONE && materials_stand_in(&o->materials, line, &o->current))
+        return -1;
     return scene_file_add_polygon(f, corners, o->current, line) ? out_of_memory(o->path) : 0;
 }
 
 /* ---- the file */
+
+/* What changes neither faces nor materials, or the look of a picture alone. */
+static int is_passed_over(const struct text_lines *t)
+{
+    static const char *const words[] = {
+        "vn",     "vt",       "vp",       "o",     "g",     "s",          "mg",
+        "usemap", "maplib",   "bevel",    "lod",   "l",     "p",          "deg",
+        "cstype", "c_interp", "d_interp", "ctech", "stech", "shadow_obj", "trace_obj"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (word_is(t, words[i]))
+            return 1;
+    return 0;
+}
 
 static int read_lines(struct obj *o, struct text_lines t)
 {
@@ -296,34 +134,23 @@ static int read_lines(struct obj *o, struct text_lines t)
             continue;
         if (word_is(&t, "v"))
             failed = read_vertex(o, &t);
-        else if (word_is(&t, "f"))
+        else if (word_is(&t, "f") || word_is(&t, "fo")) /* so version 2.11 wrote it */
             failed = read_face(o, &t);
-        else if (word_is(&t, "usemtl"))
-            failed = read_usemtl(o, &t);
-        else if (word_is(&t, "mtllib"))
-            failed = read_library(o, &t);
-        else
-            o->file->other += word_is(&t, "l") || word_is(&t, "p");
+        else if (word_is(&t, "usemtl") || word_is(&t, "mtllib"))
+            failed = read_name(o, &t);
+        else if (!is_passed_over(&t))
+            materials_assume(&o->materials, UNKNOWN_LINE, o->path, t.number, t.word, t.word_end);
+        o->file->other += word_is(&t, "l") || word_is(&t, "p");
         if (failed)
             return -1;
     }
     return 0;
 }
 
-/* Is everything defined that was used before it was? */
-static int check_uses(const struct obj *o)
+/* Is every vertex there that a face used before it came? */
+static int check_indices(const struct obj *o)
 {
     const struct scene_file *f = o->file;
-    for (uint32_t i = 0; i < f->material_count; i++)
-        if (o->use[i])
-            return report_error(
-                o->path, o->use[i],
-                o->libraries
-                    ? "material '%.*s' is in no material library of this file; define it there or "
-                      "correct the name"
-                    : "material '%.*s' is used, but no mtllib line names a material library; add "
-                      "one",
-                QUOTED, f->names[i]);
     size_t at = 0;
     for (uint32_t i = 0; i < f->polygon_count && o->ahead; at += f->sizes[i], i++)
         for (uint32_t j = 0; j < f->sizes[i]; j++)
@@ -336,26 +163,28 @@ static int check_uses(const struct obj *o)
     return 0;
 }
 
-int read_obj(struct scene_file *file, const char *path)
+int read_obj(struct scene_file *file, const char *path, int quiet)
 {
-    struct obj o = {.file = file, .path = path, .current = NONE};
+    struct obj o = {
+        .file = file, .path = path, .materials = {.file = file, .path = path}, .current = NONE};
     size_t size;
     char *text = text_file_read(path, &size);
     if (!text)
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
     int result;
-    if (memchr(text, 0, size)) {
+    if (memchr(text, 0, size))
         result = report_error(path, 0, "not a text, hence no OBJ file; check the format");
-    } else {
-        int mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
+    else
+        result = read_lines(&o, text_lines(text, size)) || materials_check(&o.materials)
+                         || check_indices(&o)
+                     ? -1
+                     : 0;
+    if (!result && !file->polygon_count)
         result =
-            read_lines(&o, text_lines(text + mark, size - (size_t)mark)) || check_uses(&o) ? -1 : 0;
-        if (!result && !file->polygon_count)
-            result = report_error(path, 0,
-                                  "there is no face in it; a scene needs one `f` line at least");
-    }
+            report_error(path, 0, "there is no face in it; a scene needs one `f` line at least");
+    if (!result && !quiet)
+        materials_warn(&o.materials);
+    materials_free(&o.materials);
     free(text);
-    free(o.use);
-    free(o.slots);
     return result;
 }

@@ -9,11 +9,15 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "scene/gltf_materials.h"
 #include "scene/read_assimp.h"
 #include "scene/read_obj.h"
+#include "scene/read_shapes.h"
+#include "scene/same_faces.h"
 #include "util/array.h"
 #include "util/ends_with.h"
 #include "util/report.h"
+#include "util/text_file.h"
 
 int scene_file_add_position(struct scene_file *f, const double position[3])
 {
@@ -81,19 +85,36 @@ static int has_extension(const char *path, const char *const *extensions)
     return 0;
 }
 
-/* Formats of shape alone: Assimp's stand-in is white, which no radiosity can stand, and
- * two-sided. */
-static void replace_stand_in(struct scene_file *f, const char *path,
-                             const struct scene_options *options)
+typedef int read_shape_fn(struct scene_file *file, const char *path, char *text, size_t size,
+                          int quiet);
+
+static read_shape_fn *shape_reader(const char *path)
 {
-    static const char *const shapes[] = {".ply", ".stl", ".off", NULL};
-    if (!has_extension(path, shapes))
-        return;
-    for (uint32_t i = 0; i < f->material_count; i++)
-        f->materials[i] = (struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}};
-    if (!options->quiet)
+    static const char *const ply[] = {".ply", NULL}, *const stl[] = {".stl", NULL},
+                             *const off[] = {".off", NULL};
+    return has_extension(path, ply)   ? read_ply
+           : has_extension(path, stl) ? read_stl
+           : has_extension(path, off) ? read_off
+                                      : NULL;
+}
+
+/* Formats of shape alone: all faces are grey. */
+static int read_shape(struct scene_file *f, const char *path, read_shape_fn *read, int quiet)
+{
+    const struct RadMaterial grey = {.reflectance = {0.5, 0.5, 0.5}};
+    size_t size;
+    char *text = text_file_read(path, &size);
+    if (!text)
+        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+    int result =
+        scene_file_add_material(f, "DefaultMaterial", &grey)
+            ? report_error(path, 0, "out of memory; use a smaller scene or a larger machine")
+            : read(f, path, text, size, quiet);
+    free(text);
+    if (!result && !quiet)
         report_warning(path, 0,
                        "this format holds no materials: every face reflects 0.5 and none emits");
+    return result;
 }
 
 /* Materials that no polygon has may be anything. */
@@ -127,7 +148,7 @@ static int check_materials(const struct scene_file *f, const char *path)
 
 int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)
 {
-    static const char *const obj[] = {".obj", NULL};
+    static const char *const obj[] = {".obj", NULL}, *const gltf[] = {".gltf", ".glb", NULL};
     const struct scene_options none = {0};
     options = options ? options : &none;
     struct stat status;
@@ -139,12 +160,16 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
     if (!S_ISREG(status.st_mode))
         return report_error(path, 0,
                             "cannot read: this is a pipe or a device; write the scene to a file");
-    int result = has_extension(path, obj) ? read_obj(f, path) : read_assimp(f, path);
+    read_shape_fn *shape = shape_reader(path);
+    int result = shape                      ? read_shape(f, path, shape, options->quiet)
+                 : has_extension(path, obj) ? read_obj(f, path, options->quiet)
+                                            : read_assimp(f, path);
+    if (!result && has_extension(path, gltf))
+        result = gltf_materials(f, path, options->quiet);
     if (!result) {
-        replace_stand_in(f, path, options);
         for (uint32_t i = 0; i < f->material_count; i++)
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
-        result = check_materials(f, path);
+        result = check_materials(f, path) || drop_same_faces(f, path, options->quiet) ? -1 : 0;
     }
     if (result)
         scene_file_free(f);

@@ -1,7 +1,9 @@
 /* text_lines.h - the lines of a text in memory and their words.
  *
- * Words are parted by blanks; a word that starts with # ends the line. A backslash at the end of a
- * line joins it with the next, unless it is in such a comment: both become blanks in the text.
+ * Lines end in LF, CR LF or CR. Words are parted by blanks; a # ends the line's words (a name that
+ * is the rest of a line may hold one: rest_of_line). A backslash at the end of a line joins it with
+ * the next, unless it is in a comment: both become blanks in the text. A mark of UTF-8 at the start
+ * is no part of the text.
  * SPDX-License-Identifier: MIT */
 #ifndef TEXT_LINES_H
 #define TEXT_LINES_H
@@ -20,7 +22,8 @@ struct text_lines {
 
 static inline struct text_lines text_lines(char *text, size_t size)
 {
-    return (struct text_lines){.next = text, .end = text + size, .after = 1};
+    size_t mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    return (struct text_lines){.next = text + mark, .end = text + size, .after = 1};
 }
 
 static inline int is_blank(char c)
@@ -28,13 +31,13 @@ static inline int is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/* Does a word from here on start with #? */
-static inline int has_comment(const char *from, const char *end)
+/* Where the line that starts here ends; its break is of *size characters, 0 at the text's end. */
+static inline char *line_break(char *from, const char *end, size_t *size)
 {
-    for (const char *p = from; (p = memchr(p, '#', (size_t)(end - p))) != NULL; p++)
-        if (p == from || is_blank(p[-1]))
-            return 1;
-    return 0;
+    char *lf = memchr(from, '\n', (size_t)(end - from));
+    char *cr = memchr(from, '\r', (size_t)((lf ? lf : end) - from));
+    *size = cr ? 1 + (size_t)(lf == cr + 1) : lf ? 1 : 0;
+    return cr ? cr : lf ? lf : from + (end - from);
 }
 
 /* Returns 0 when there is no further line. */
@@ -46,17 +49,13 @@ static inline int next_line(struct text_lines *t)
     t->number = t->after;
     for (;;) {
         const char *part = t->next; /* what was joined before has no comment */
-        char *stop = memchr(t->next, '\n', (size_t)(t->end - t->next));
-        t->line_end = stop ? stop : t->end;
-        t->next = stop ? stop + 1 : t->end;
+        size_t size;
+        char *last = t->line_end = line_break(t->next, t->end, &size);
+        t->next = last + size;
         t->after++;
-        char *last = t->line_end;
-        while (last > part && last[-1] == '\r')
-            last--;
-        if (!stop || last == part || last[-1] != '\\' || has_comment(part, last))
+        if (!size || last == part || last[-1] != '\\' || memchr(part, '#', (size_t)(last - part)))
             return 1;
-        for (char *p = last - 1; p <= stop; p++)
-            *p = ' ';
+        memset(last - 1, ' ', 1 + size);
     }
 }
 
@@ -67,9 +66,9 @@ static inline int next_word(struct text_lines *t)
     while (t->word < t->line_end && is_blank(*t->word))
         t->word++;
     t->word_end = t->word;
-    while (t->word_end < t->line_end && !is_blank(*t->word_end))
+    while (t->word_end < t->line_end && !is_blank(*t->word_end) && *t->word_end != '#')
         t->word_end++;
-    return t->word < t->word_end && *t->word != '#';
+    return t->word < t->word_end;
 }
 
 static inline int word_is(const struct text_lines *t, const char *name)

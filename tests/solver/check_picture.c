@@ -701,42 +701,44 @@ static void check_read_back(const char *path, int y_up)
     double area = 0, highest = -INFINITY;
     uint32_t coloured = 0;
     ck_assert_uint_ge(scene->mNumMeshes, 1);
-    const struct aiMesh *m = scene->mMeshes[0];
-    ck_assert_ptr_nonnull(m->mColors[0]);
     struct aiMatrix4x4 t = scene->mRootNode->mTransformation;
     if (!scene->mRootNode->mNumMeshes)
         aiMultiplyMatrix4(&t, &scene->mRootNode->mChildren[0]->mTransformation);
-    for (uint32_t i = 0; i < m->mNumFaces; i++) {
-        double v[64][3], a[3], b[3], c[3], sum[3] = {0, 0, 0};
-        ck_assert_uint_le(m->mFaces[i].mNumIndices, 64);
-        for (uint32_t j = 0; j < m->mFaces[i].mNumIndices; j++) {
-            const struct aiVector3D *p = &m->mVertices[m->mFaces[i].mIndices[j]];
-            v[j][0] = (double)p->x;
-            v[j][1] = (double)p->y;
-            v[j][2] = (double)p->z;
+    for (uint32_t n = 0; n < scene->mNumMeshes; n++) { /* one per material */
+        const struct aiMesh *m = scene->mMeshes[n];
+        ck_assert_ptr_nonnull(m->mColors[0]);
+        for (uint32_t i = 0; i < m->mNumFaces; i++) {
+            double v[64][3], a[3], b[3], c[3], sum[3] = {0, 0, 0};
+            ck_assert_uint_le(m->mFaces[i].mNumIndices, 64);
+            for (uint32_t j = 0; j < m->mFaces[i].mNumIndices; j++) {
+                const struct aiVector3D *p = &m->mVertices[m->mFaces[i].mIndices[j]];
+                v[j][0] = (double)p->x;
+                v[j][1] = (double)p->y;
+                v[j][2] = (double)p->z;
+            }
+            for (uint32_t j = 2; j < m->mFaces[i].mNumIndices; j++) {
+                sub3(a, v[j - 1], v[0]);
+                sub3(b, v[j], v[0]);
+                cross3(c, a, b);
+                for (int k = 0; k < 3; k++)
+                    sum[k] += 0.5 * c[k];
+            }
+            area += length3(sum);
         }
-        for (uint32_t j = 2; j < m->mFaces[i].mNumIndices; j++) {
-            sub3(a, v[j - 1], v[0]);
-            sub3(b, v[j], v[0]);
-            cross3(c, a, b);
-            for (int k = 0; k < 3; k++)
-                sum[k] += 0.5 * c[k];
+        for (uint32_t i = 0; i < m->mNumVertices; i++) {
+            const struct aiColor4D *c = &m->mColors[0][i];
+            struct aiVector3D p = m->mVertices[i];
+            double x = (double)p.x, y = (double)p.y, z = (double)p.z;
+            int k = z > 1.5 ? 2 : y > 1e-6 ? 0 : y < -1e-6 ? 1 : -1;
+            double channel[3] = {(double)c->r, (double)c->g, (double)c->b};
+            for (int o = 0; o < 3 && k >= 0; o++)
+                ck_assert_msg(o == k || channel[k] > channel[o] + 0.2,
+                              "%s: vertex %g %g %g is %g %g %g", path, x, y, z, channel[0],
+                              channel[1], channel[2]);
+            coloured += k >= 0;
+            aiTransformVecByMatrix4(&p, &t);
+            highest = fmax(highest, (double)(y_up ? p.y : p.z));
         }
-        area += length3(sum);
-    }
-    for (uint32_t i = 0; i < m->mNumVertices; i++) {
-        const struct aiColor4D *c = &m->mColors[0][i];
-        struct aiVector3D p = m->mVertices[i];
-        double x = (double)p.x, y = (double)p.y, z = (double)p.z;
-        int k = z > 1.5 ? 2 : y > 1e-6 ? 0 : y < -1e-6 ? 1 : -1;
-        double channel[3] = {(double)c->r, (double)c->g, (double)c->b};
-        for (int o = 0; o < 3 && k >= 0; o++)
-            ck_assert_msg(o == k || channel[k] > channel[o] + 0.2,
-                          "%s: vertex %g %g %g is %g %g %g", path, x, y, z, channel[0], channel[1],
-                          channel[2]);
-        coloured += k >= 0;
-        aiTransformVecByMatrix4(&p, &t);
-        highest = fmax(highest, (double)(y_up ? p.y : p.z));
     }
     ck_assert_uint_gt(coloured, 50);
     /* two unit squares, half of |(2 0 0) x (0 1 1)| */

@@ -17,6 +17,7 @@
 #include "output/faces_csv.h"
 #include "hierarchy/polygon.h"
 #include "load_scene.h"
+#include "scene/read_obj.h"
 #include "scene/read_scene.h"
 #include "folder.h"
 #include "suite.h"
@@ -68,7 +69,7 @@ static int read_scene(struct scene *s, const char *path, const struct scene_opti
     return result;
 }
 
-static int read_obj(struct scene *s, const char *body)
+static int read_body(struct scene *s, const char *body)
 {
     write_text("m.mtl", MTL);
     char text[8192];
@@ -79,7 +80,7 @@ static int read_obj(struct scene *s, const char *body)
 static void expect_error(const char *body, const char *what)
 {
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), -1);
+    ck_assert_int_eq(read_body(&s, body), -1);
     ck_assert_msg(strstr(last_error, what) != NULL, "'%s' is not in '%s'", what, last_error);
     ck_assert_msg(strstr(last_error, ": error: ") != NULL, "%s", last_error);
     ck_assert_msg(strchr(last_error, '\n') == last_error + strlen(last_error) - 1, "one line: %s",
@@ -230,7 +231,7 @@ START_TEST(test_two_sided)
     char body[512];
     snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 1 2 3\n", SQUARE);
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.face_count, 3);
     ck_assert_uint_eq(s.input_count, 2);
     ck_assert_uint_eq(s.faces[0].back, 0);
@@ -284,7 +285,7 @@ START_TEST(test_polygons)
     };
     struct scene s;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        ck_assert_int_eq(read_obj(&s, cases[i].body), 0);
+        ck_assert_int_eq(read_body(&s, cases[i].body), 0);
         ck_assert_msg(s.face_count == cases[i].faces, "case %zu: %u faces", i,
                       (unsigned)s.face_count);
         double area = 0;
@@ -299,7 +300,7 @@ START_TEST(test_polygons)
         scene_free(&s);
     }
     /* Both halves of a quad that is not flat are one face of the file. */
-    ck_assert_int_eq(read_obj(&s, cases[0].body), 0);
+    ck_assert_int_eq(read_body(&s, cases[0].body), 0);
     ck_assert_uint_eq(s.input_count, 1);
     ck_assert_uint_eq(s.faces[0].input + s.faces[1].input, 0);
     scene_free(&s);
@@ -334,6 +335,107 @@ START_TEST(test_star)
 }
 END_TEST
 
+/* The triangles of a polygon in the plane z = 0, turned into another: their sum against the
+ * shoelace formula; none turned over. */
+static void expect_triangles(double (*flat)[2], uint32_t n, double area, const char *what)
+{
+    static double v[400][3];
+    static uint32_t triangle[400][3], scratch[400];
+    for (int turned = 0; turned < 2; turned++) {
+        for (uint32_t i = 0; i < n; i++) {
+            v[i][0] = flat[i][0];
+            v[i][1] = turned ? 0.8 * flat[i][1] : flat[i][1];
+            v[i][2] = turned ? 0.6 * flat[i][1] : 0;
+        }
+        uint32_t count = polygon_triangulate(v, n, triangle, scratch);
+        double sum = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double t[3][3], normal[3];
+            for (int k = 0; k < 3; k++)
+                memcpy(t[k], v[triangle[i][k]], sizeof t[k]);
+            double part = polygon_normal(t, 3, normal);
+            ck_assert_msg(normal[2] > 0 || part <= 1e-13 * area, "%s: triangle %u turned over",
+                          what, (unsigned)i);
+            sum += polygon_degenerate(t, 3, 0x1p-53) ? 0 : part;
+        }
+        ck_assert_msg(fabs(sum - area) <= 1e-12 * area, "%s: %.15g, not %.15g", what, sum, area);
+    }
+}
+
+START_TEST(test_concave)
+{
+    double hole[][2] = {{0, 0}, {4, 0},   {4, 2},  {2, 2}, {2, 4},  {0, 4},
+                        {0, 0}, {.5, .5}, {.5, 1}, {1, 1}, {1, .5}, {.5, .5}};
+    expect_triangles(hole, 12, 11.75, "an L with a hole");
+    double two[][2] = {{0, 0}, {9, 0}, {9, 3}, {0, 3}, {0, 1}, {1, 1}, {1, 2}, {2, 2}, {2, 1},
+                       {6, 1}, {6, 2}, {8, 2}, {8, 1}, {6, 1}, {2, 1}, {1, 1}, {0, 1}};
+    expect_triangles(two, 17, 24, "two holes on one bridge");
+    double straight[][2] = {{0, 0}, {1, 0}, {2, 0},   {3, 0}, {3, .1}, {3, .2},
+                            {3, 3}, {2, 3}, {1.5, 3}, {0, 3}, {0, 2},  {0, .7}};
+    expect_triangles(straight, 12, 9, "straight corners");
+    double thirds[][2] = {{0, 0}, {.1, .1 / 3}, {.2, .2 / 3}, {.7, .7 / 3}, {1, 1. / 3}, {0, 1}};
+    expect_triangles(thirds, 6, .5, "straight corners that are rounded");
+    enum { TEETH = 40 };
+    double comb[4 * TEETH + 2][2];
+    uint32_t n = 0;
+    for (int i = 0; i < TEETH; i++) {
+        const double at[4][2] = {{2. * i, 0}, {2. * i + 1, 0}, {2. * i + 1, 5}, {2. * i + 2, 5}};
+        memcpy(comb[n], at, sizeof at);
+        n += 4;
+    }
+    const double back[2][2] = {{2. * TEETH, 6}, {0, 6}};
+    memcpy(comb[n], back, sizeof back);
+    expect_triangles(comb, n + 2, TEETH * 7, "a comb");
+}
+END_TEST
+
+static double shoelace(double (*v)[2], uint32_t n)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < n; i++)
+        sum += 0.5 * (v[i][0] * v[(i + 1) % n][1] - v[(i + 1) % n][0] * v[i][1]);
+    return sum;
+}
+
+/* Stars with a star cut out of them, joined by a bridge from corner to corner of the same angle. */
+START_TEST(test_bridged)
+{
+    const double pi = 3.14159265358979323846;
+    srand(16);
+    for (int round = 0; round < 2000; round++) {
+        double ring[130][2];
+        uint32_t outer = 3 + (uint32_t)rand() % 40, inner = 3 + (uint32_t)rand() % 20, n = 0;
+        double turn = rand() / (double)RAND_MAX, x = rand() % 100, y = rand() % 100;
+        for (uint32_t i = 0; i <= outer; i++, n++) {
+            double a = turn + 2 * pi * (i % outer) / outer;
+            double radius = i == outer ? 0 : 2 + (rand() % 4) * (rand() / (double)RAND_MAX);
+            ring[n][0] = x + radius * cos(a);
+            ring[n][1] = y + radius * sin(a);
+        }
+        memcpy(ring[outer], ring[0], sizeof ring[0]);
+        double area = shoelace(ring, outer);
+        /* within the circle that the outer star's edges leave free: 2 cos(pi / 3) */
+        for (uint32_t i = 0; i <= inner; i++, n++) {
+            double a = turn - 2 * pi * (i % inner) / inner;
+            double radius = i == inner ? 0 : .1 + .85 * (rand() / (double)RAND_MAX);
+            ring[n][0] = x + radius * cos(a);
+            ring[n][1] = y + radius * sin(a);
+        }
+        memcpy(ring[n - 1], ring[outer + 1], sizeof ring[0]);
+        area += shoelace(&ring[outer + 1], inner);
+        char what[80];
+        snprintf(what, sizeof what, "round %d, %u and %u corners", round, (unsigned)outer,
+                 (unsigned)inner);
+        /* from any corner on */
+        uint32_t from = (uint32_t)rand() % n;
+        double turned[130][2];
+        for (uint32_t i = 0; i < n; i++)
+            memcpy(turned[i], ring[(from + i) % n], sizeof turned[i]);
+        expect_triangles(turned, n, area, what);
+    }
+}
+END_TEST
+
 START_TEST(test_dropped)
 {
     char body[512];
@@ -341,7 +443,7 @@ START_TEST(test_dropped)
              "%sv 0.5 0 0\nusemtl a\nf 1 2 5\nf 1 1 2\nf 1 2\nf 1\nf 1 2 3 4\nl 1 2\np 3\n",
              SQUARE);
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.dropped, 4);
     ck_assert_uint_eq(s.input_count, 5);
     ck_assert_uint_eq(s.face_count, 1);
@@ -359,12 +461,36 @@ START_TEST(test_dropped)
 }
 END_TEST
 
+/* A floor twice is one floor, the first; a wall with a face to either side is two. */
+START_TEST(test_same_faces)
+{
+    char body[512];
+    snprintf(body, sizeof body,
+             "%sv 0 1 0\nusemtl a\nf 1 2 3 4\nusemtl b_2s\nf 3 5 1 2\nusemtl black\nf 1 2 3 4\n"
+             "usemtl a\nf 1 2 3\nf 3 2 1\nf 2 3 1\n",
+             SQUARE);
+    struct scene s;
+    ck_assert_int_eq(read_body(&s, body), 0);
+    ck_assert_uint_eq(s.input_count, 6);
+    static const double area[] = {1, 0, 0, .5, .5, 0};
+    for (int i = 0; i < 6; i++)
+        ck_assert_double_eq_tol(s.areas[i], area[i], 1e-12);
+    ck_assert_ptr_nonnull(strstr(last_error, "s.obj:10: warning: face 1 has the corners of face 0, "
+                                             "which stays; 3 such faces are dropped"));
+    scene_free(&s);
+    snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
+    ck_assert_int_eq(read_body(&s, body), 0);
+    ck_assert_double_eq(s.areas[1], 0);
+    scene_free(&s);
+}
+END_TEST
+
 START_TEST(test_black_and_grey)
 {
     char body[512];
     snprintf(body, sizeof body, "%susemtl black\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.faces[0].black, 1);
     ck_assert_uint_eq(s.faces[1].black, 0);
     ck_assert_uint_eq(s.bands, 1); /* the coloured material is not used */
@@ -388,7 +514,7 @@ START_TEST(test_double)
                          "v %.4f %.4f 0.1234567890123456\n", at[i][0], at[i][1]);
     snprintf(body + size, sizeof body - (size_t)size, "usemtl a\nf 1 2 3 4\n");
     struct scene s;
-    ck_assert_int_eq(read_obj(&s, body), 0);
+    ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_uint_eq(s.face_count, 1);
     ck_assert_uint_eq(s.faces[0].vertices, 4);
     for (int i = 0; i < 4; i++) {
@@ -410,7 +536,7 @@ START_TEST(test_obj)
         double rho, exitance;
     } expected[] = {
         {"before usemtl", "DefaultMaterial", 0.6, 0},
-        {"defined later", "late", 0.25, 0},
+        {"defined later too", "late", 0.75, 0}, /* what usemtl meant stays */
         {"blanks", "two words", 0.125, 1e6},
         {"no Kd", "plain", 0.6, 3},
     };
@@ -439,24 +565,97 @@ START_TEST(test_obj)
         "usemtl two words \n\tf 2 3 \\\r\n 4 5\ng d\nl 1 2\np 1\ncall x\n"
         "usemtl plain\nf +2 3 4 5\nmtllib an other.mtl");
     ck_assert_int_eq(read_scene(&s, obj, NULL), 0);
-    ck_assert_uint_eq(s.face_count, 4);
-    ck_assert_uint_eq(s.dropped, 0);
+    ck_assert_uint_eq(s.face_count, 1); /* all four are in one place */
     ck_assert_ptr_nonnull(strstr(last_error, "2 points and lines"));
-    for (int i = 0; i < 4; i++) {
-        const struct face *f = &s.faces[i];
-        ck_assert_uint_eq(f->vertices, 4);
-        for (int j = 0; j < 4; j++)
-            for (int k = 0; k < 3; k++)
-                ck_assert_msg(fabs(f->vertex[j][k] - corner[j][k]) <= 0, "%s: %g at %d",
-                              expected[i].name, f->vertex[j][k], j);
-        ck_assert_str_eq(s.names[f->material], expected[i].material);
+    scene_free(&s);
+    struct scene_file file = {0};
+    ck_assert_int_eq(read_obj(&file, obj, 1), 0);
+    ck_assert_uint_eq(file.polygon_count, 4);
+    for (size_t i = 0; i < 4; i++) {
+        ck_assert_uint_eq(file.sizes[i], 4);
+        for (size_t j = 0; j < 4; j++)
+            for (size_t k = 0; k < 3; k++) {
+                double x = file.positions[3 * (size_t)file.indices[4 * i + j] + k];
+                ck_assert_msg(fabs(x - corner[j][k]) <= 0, "%s: %g at %zu", expected[i].name, x, j);
+            }
+        const struct RadMaterial *m = &file.materials[file.polygon_materials[i]];
+        ck_assert_str_eq(file.names[file.polygon_materials[i]], expected[i].material);
         for (int k = 0; k < 3; k++) {
-            ck_assert_double_eq(s.materials[f->material].reflectance[k], expected[i].rho);
-            ck_assert_double_eq(s.materials[f->material].exitance[k], expected[i].exitance);
+            ck_assert_double_eq(m->reflectance[k], expected[i].rho);
+            ck_assert_double_eq(m->exitance[k], expected[i].exitance);
         }
     }
-    ck_assert_uint_eq(s.bands, 1);
-    scene_free(&s);
+    scene_file_free(&file);
+}
+END_TEST
+
+/* One triangle each, whose material the file says in some way that is not the plainest. */
+START_TEST(test_materials_said_oddly)
+{
+    static char name[3000], mtl[8000], use[8000];
+    memset(name, 'n', sizeof name - 1);
+    snprintf(mtl, sizeof mtl, "newmtl %s\nKd .25\n", name);
+    snprintf(use, sizeof use, "usemtl %s\n", name);
+    static const char *const plain = "newmtl x\nKd .75\nnewmtl y\nKd .875\n";
+    const struct {
+        const char *mtl, *body;
+        double rho, exitance;
+        const char *told; /* NULL: nothing */
+    } rows[] = {
+        {mtl, use, .25, 0, NULL},
+        {"newmtl x\nKd .25", "usemtl x\nmtllib y.mtl\n", .25, 0, NULL},
+        {"newmtl x\nKd .25", "usemtl x\nmtllib x.mtl\n", .25, 0, "material 'x' is defined again"},
+        {"newmtl x\nKd .25", "mtllib x.mtl\nusemtl x\n", .75, 0, "x.mtl:1: warning: material 'x'"},
+        {"newmtl x\nKd .25", "usemtl x\nmtllib x.mtl\nmtllib m.mtl\n", .25, 0, "again"},
+        {"newmtl x\nKd .25", "mtllib x.mtl\nmtllib m.mtl\nusemtl x\n", .25, 0, "again"},
+        {"newmtl z", "mtllib m.mtl x.mtl y.mtl # all\nusemtl x\n", .75, 0, "no Kd"},
+        {"newmtl x\nKd .25\nnewmtl x\nKd .5", "usemtl x\n", .5, 0, "m.mtl:3: warning"},
+        {" \tnewmtl x\n\tKd .25 .25 .25\n", "usemtl x\n", .25, 0, NULL},
+        {"newmtl x\nKd .5\nKe 5\n", "usemtl x\n", .5, 5, NULL},
+        {"newmtl x\nKd 0x1p-1\n", "usemtl x\n", .5, 0, NULL},
+        {"newmtl x\nKe 1 1 1\n", "usemtl x\n", .6, 1, "m.mtl:1: warning: material 'x' has no Kd"},
+        {"newmtl\nKd .25\n", "usemtl\n", .25, 0, NULL},
+        {"newmtl x\naniso 1\nNs abc\nd -halo 0.5\nKa spectral a.rfl\nKd .25\n", "usemtl x\n", .25,
+         0, NULL},
+        {"newmtl x\nKd .25 \\\n.25 \\\r\n.25\n", "usemtl x\n", .25, 0, NULL},
+        {"\xEF\xBB\xBFnewmtl x\nKd .25\n", "usemtl x\n", .25, 0, NULL},
+        {"newmtl x\rKd .25\rKe 1\r", "usemtl x\r", .25, 1, NULL},
+        {"", "", .6, 0, "a face before any usemtl"},
+        {"# nothing\n", "usemtl x\n", .6, 0, "its libraries are empty"},
+        {"Kd .25\nnewmtl x\nKd .5\n", "usemtl x\n", .5, 0, "Kd before any newmtl"},
+        {"newmtl x\nKd .25\nmap_Kd a.png\n", "usemtl x\n", .25, 0, "texture of material 'x'"},
+        {"newmtl x\nKd .25\nd 0.5\n", "usemtl x\n", .25, 0, "'x' is transparent"},
+        {"newmtl M #1\nKd .25\nnewmtl M #2\nKd .5\n", "usemtl M #1\n", .25, 0, NULL},
+        {"newmtl x # red\nKd .25 # dark\nnewmtl y#\nKd .5# light", "usemtl x\t# it\n", .25, 0,
+         NULL},
+        {"newmtl x\nKd .25\n", "usemtl x\nsurf 0 1 0 1 1\n", .25, 0, "starts with 'surf'"},
+    };
+    write_text("x.mtl", plain);
+    write_text("y.mtl", "newmtl y\nKd .5\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        static char text[10000];
+        write_text("m.mtl", rows[i].mtl);
+        snprintf(text, sizeof text,
+                 "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0#\n%sf 1 2 3 # a face\nf 1 3 2#too\n",
+                 rows[i].body);
+        struct scene_file file;
+        const char *obj = write_text("odd.obj", text);
+        struct scene s;
+        ck_assert_msg(read_scene(&s, obj, NULL) == 0, "row %zu: %s", i, last_error);
+        scene_free(&s);
+        ck_assert_msg(rows[i].told ? strstr(last_error, rows[i].told) != NULL : !*last_error,
+                      "row %zu: '%s'", i, last_error);
+        ck_assert_int_eq(scene_file_read(&file, obj, &(struct scene_options){.quiet = 1}), 0);
+        ck_assert_uint_eq(file.polygon_count, 2);
+        for (int j = 0; j < 2; j++)
+            for (int k = 0; k < 3; k++) {
+                const struct RadMaterial *m = &file.materials[file.polygon_materials[j]];
+                ck_assert_msg(m->reflectance[k] == rows[i].rho
+                                  && m->exitance[k] == rows[i].exitance,
+                              "row %zu: rho %g, E %g", i, m->reflectance[k], m->exitance[k]);
+            }
+        scene_file_free(&file);
+    }
 }
 END_TEST
 
@@ -579,7 +778,8 @@ START_TEST(test_errors)
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf a b c\n", "s.obj:5: error: 'a' is not a corner");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf\n", "s.obj:5: error: a face without corners");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\n", "there is no face");
-    expect_error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "all of its 1 faces are degenerate");
+    expect_error("usemtl a\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
+                 "all of its 1 faces are degenerate");
     expect_error("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl aa\nf 1 2 3\n",
                  "s.obj:5: error: material 'aa' is in no material library");
     expect_error("mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
@@ -674,6 +874,43 @@ START_TEST(test_gltf)
 }
 END_TEST
 
+/* What the lamp emits, and what faces without a material reflect. */
+START_TEST(test_gltf_materials)
+{
+    static const char form[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"materials\":[{\"name\":\"a\",\"pbrMetallicRoughness\":{"
+        "\"baseColorFactor\":[0.3,0.3,0.3,1]},\"emissiveFactor\":[0,0,0]},"
+        "{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.3,0.3,0.3,1]},"
+        "\"emissiveFactor\":[1,1,1]},"
+        "{\"name\":\"lamp\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.3,0.3,0.3,1]},"
+        "\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
+        "\"emissiveStrength\":40}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":2},"
+        "{\"attributes\":{\"POSITION\":0}},{\"attributes\":{\"POSITION\":0},\"material\":1}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+    char text[2048];
+    struct scene_file f;
+    snprintf(text, sizeof text, form, "glow");
+    ck_assert_int_eq(scene_file_read(&f, write_text("e.gltf", text), NULL), 0);
+    ck_assert_uint_eq(f.polygon_count, 3);
+    static const double rho[] = {0.3, 0.5, 0.3}, exitance[] = {40, 0, 1};
+    for (int i = 0; i < 3; i++) {
+        const struct RadMaterial *m = &f.materials[f.polygon_materials[i]];
+        ck_assert_double_eq_tol(m->reflectance[1], rho[i], 1e-7);
+        ck_assert_double_eq_tol(m->exitance[1], exitance[i], 1e-5);
+    }
+    scene_file_free(&f);
+    snprintf(text, sizeof text, form, "lamp");
+    struct scene s;
+    ck_assert_int_eq(read_scene(&s, write_text("e.gltf", text), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "two materials 'lamp' of one colour emit"));
+}
+END_TEST
+
 START_TEST(test_ply)
 {
     struct scene s;
@@ -687,6 +924,147 @@ START_TEST(test_ply)
     ck_assert_double_eq(s.materials[s.faces[0].material].reflectance[0], 0.5);
     ck_assert_ptr_nonnull(strstr(last_error, "holds no materials"));
     scene_free(&s);
+}
+END_TEST
+
+static const char *write_bytes(const char *name, const char *bytes, size_t size)
+{
+    const char *path = in_folder(name);
+    FILE *f = fopen(path, "wb");
+    ck_assert_ptr_nonnull(f);
+    ck_assert_uint_eq(fwrite(bytes, 1, size, f), size);
+    ck_assert_int_eq(fclose(f), 0);
+    return path;
+}
+
+/* Every beginning of a file that misses more than blanks is refused, unless what is missing are
+ * digits of its last number: then it is told that the last line has no end. */
+static void expect_whole(const char *name, const char *bytes, size_t size, double area)
+{
+    struct scene s;
+    for (size_t cut = 0; cut < size; cut++) {
+        if (read_scene(&s, write_bytes(name, bytes, cut), NULL) == 0) {
+            ck_assert_msg(strstr(last_error, "the last line has no end") != NULL
+                              || bytes[cut - 1] == '\r',
+                          "%s of %zu bytes: %s", name, cut, last_error);
+            ck_assert_uint_ge(cut + 10, size);
+            scene_free(&s);
+        }
+        ck_assert_ptr_nonnull(strstr(last_error, name));
+    }
+    ck_assert_msg(read_scene(&s, write_bytes(name, bytes, size), NULL) == 0, "%s", last_error);
+    ck_assert_ptr_null(strstr(last_error, "passed over"));
+    ck_assert_double_eq_tol(total_area(&s), area, 1e-12);
+    ck_assert_double_eq(s.materials[s.faces[0].material].reflectance[0], 0.5);
+    scene_free(&s);
+    char more[2000];
+    memcpy(more, bytes, size);
+    memcpy(more + size, "1 2 3\n", 6);
+    if (read_scene(&s, write_bytes(name, more, size + 6), NULL) == 0) {
+        ck_assert_msg(strstr(last_error, "passed over") != NULL, "%s: %s", name, last_error);
+        scene_free(&s);
+    }
+}
+
+/* Bytes of a number in either order. */
+static size_t put_bytes(char *to, const void *value, size_t size, int big_endian)
+{
+    const uint16_t one = 1;
+    int little = *(const char *)&one;
+    for (size_t i = 0; i < size; i++)
+        to[i] = ((const char *)value)[little == !big_endian ? i : size - 1 - i];
+    return size;
+}
+
+START_TEST(test_cut_shapes)
+{
+    static const char off[] = "OFF # a square\n4 1 4\n0 0 0\n2 0 0 255 0 0\n2 2 0\n0 2 0\n\n"
+                              "4 0 1 2 3 0.5 0.5\n",
+                      plain_off[] = "3 1\r0 0 0\r2 0 0\r2 2 0\r3 0 1 2\r",
+                      ply[] = "ply\r\nformat ascii 1.0\r\ncomment x\r\nelement vertex 3\r\n"
+                              "property double x\r\nproperty double y\r\nproperty double z\r\n"
+                              "property uchar red\r\nelement face 1\r\n"
+                              "property list uchar int vertex_indices\r\nend_header\r\n"
+                              "1000000 0 0 1\r\n1000000.5 0 0 1\r\n1000000.5 1 0 1\r\n3 0 1 2\r\n",
+                      stl[] = "solid of a kind\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                              "vertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
+    expect_whole("cut.off", off, sizeof off - 1, 4);
+    expect_whole("plain.off", plain_off, sizeof plain_off - 1, 2);
+    expect_whole("cut.ply", ply, sizeof ply - 1, .25);
+    expect_whole("cut.stl", stl, sizeof stl - 1, .5);
+    const float corner[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+    const int32_t index[3] = {0, 1, 2};
+    char bytes[1000];
+    for (int big = 0; big < 2; big++) {
+        size_t size = (size_t)snprintf(
+            bytes, sizeof bytes,
+            "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty float x\n"
+            "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+            "vertex_index\nproperty short flag\nend_header\n",
+            big ? "big" : "little");
+        for (int i = 0; i < 9; i++)
+            size += put_bytes(bytes + size, &corner[i / 3][i % 3], 4, big);
+        bytes[size++] = 3;
+        for (int i = 0; i < 3; i++)
+            size += put_bytes(bytes + size, &index[i], 4, big);
+        bytes[size++] = 0;
+        bytes[size++] = 0;
+        expect_whole(big ? "big.ply" : "little.ply", bytes, size, .5);
+    }
+    memset(bytes, 0, sizeof bytes);
+    strcpy(bytes, "solid though of bytes");
+    const uint32_t two = 2;
+    size_t size = 80 + put_bytes(bytes + 80, &two, 4, 0);
+    for (int i = 0; i < 2; i++, size += 2) {
+        size += 12;
+        for (int j = 0; j < 9; j++) {
+            const float x = corner[j / 3][j % 3] + (float)i;
+            size += put_bytes(bytes + size, &x, 4, 0);
+        }
+    }
+    expect_whole("bytes.stl", bytes, size, 1);
+}
+END_TEST
+
+START_TEST(test_damaged_shapes)
+{
+    static const struct {
+        const char *name, *text, *error;
+    } rows[] = {
+        {"d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n",
+         "d.off:6: error: face 0 names vertex 3, but there are 3"},
+        {"d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 -1\n", "d.off:6: error: face 0 names"},
+        {"d.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 nan 0\n3 0 1 2\n", "d.off:5: error: vertex 2"},
+        {"d.off", "OFF\n4000000000 4000000000 0\n0 0 0\n", "ends before vertex 1 of the 40000"},
+        {"d.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", "d.off:6: error: more lines"},
+        {"d.off", "4OFF\n1 1 1\n", "no numbers of vertices"},
+        {"d.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+         "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 "
+         "0 1\n",
+         "d.ply:11: error: face 0 names vertex 1"},
+        {"d.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+         "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1\n",
+         "d.ply:10: error: more numbers for vertex 0"},
+        {"d.ply", "ply\nformat ascii 1.0\nelement vertex 9999999999999\nend_header\n",
+         "no vertices with x, y and z"},
+        {"d.ply", "ply\nelement vertex -1\nend_header\n", "d.ply:2: error: an element without"},
+        {"d.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n",
+         "d.stl:4: error: a vertex with 2 numbers"},
+        {"d.stl", "solid x\nendsolid x\n", "no triangle"},
+        {"d.stl",
+         "solid a much longer name than eighty bytes so that there is room for a title and a "
+         "count\nendsolid\n",
+         "no triangle"},
+    };
+    struct scene s;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        ck_assert_int_eq(read_scene(&s, write_text(rows[i].name, rows[i].text), NULL), -1);
+        ck_assert_msg(strstr(last_error, rows[i].error) != NULL, "row %zu: '%s' is not in '%s'", i,
+                      rows[i].error, last_error);
+        ck_assert_ptr_eq(strchr(last_error, '\n'), last_error + strlen(last_error) - 1);
+    }
 }
 END_TEST
 
@@ -782,10 +1160,14 @@ int main(void)
     tcase_add_test(t, test_two_sided);
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_star);
+    tcase_add_test(t, test_concave);
+    tcase_add_test(t, test_bridged);
     tcase_add_test(t, test_dropped);
+    tcase_add_test(t, test_same_faces);
     tcase_add_test(t, test_black_and_grey);
     tcase_add_test(t, test_double);
     tcase_add_test(t, test_obj);
+    tcase_add_test(t, test_materials_said_oddly);
     tcase_add_test(t, test_lines);
     tcase_add_test(t, test_comment_ends);
     tcase_add_test(t, test_many_materials);
@@ -793,7 +1175,10 @@ int main(void)
     tcase_add_test(t, test_errors);
     tcase_add_test(t, test_bad_materials);
     tcase_add_test(t, test_gltf);
+    tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
+    tcase_add_test(t, test_cut_shapes);
+    tcase_add_test(t, test_damaged_shapes);
     tcase_add_test(t, test_atomic);
     tcase_add_test(t, test_faces_csv);
     suite_add_tcase(suite, t);

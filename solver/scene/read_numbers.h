@@ -1,0 +1,41 @@
+/* read_numbers.h - the numbers of a line, with messages that name file and line.
+ * SPDX-License-Identifier: MIT */
+#ifndef READ_NUMBERS_H
+#define READ_NUMBERS_H
+
+#include <float.h>
+#include <math.h>
+#include "scene/text_lines.h"
+#include "util/report.h"
+
+enum { QUOTED = 64 }; /* no message quotes more bytes of a word, so that it keeps its end */
+
+static inline int quoted_length(const char *from, const char *end)
+{
+    return end - from < QUOTED ? (int)(end - from) : QUOTED;
+}
+
+/* The finite numbers on the rest of the line, of which the first `most` go to `value`. Returns
+ * how many; -1 after an error. */
+static inline int read_numbers(struct text_lines *t, const char *path, const char *what, int most,
+                               double *value)
+{
+    int count = 0;
+    while (next_word(t)) {
+        double x;
+        int length = quoted_length(t->word, t->word_end);
+        if (!word_number(t, &x))
+            return report_error(path, t->number,
+                                "'%.*s' is not a number in %s; write a decimal number", length,
+                                t->word, what);
+        if (!(fabs(x) <= (double)FLT_MAX))
+            return report_error(path, t->number, "%s is not finite ('%.*s'); write a finite number",
+                                what, length, t->word);
+        if (count < most)
+            value[count] = x;
+        count++;
+    }
+    return count;
+}
+
+#endif
