@@ -105,8 +105,8 @@
 
 /* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
 #define SAMPLER_PARALLELOGRAM 1e-12
-/* segments. Where one ray stands for a pair it is chosen from so many; chosen: what is missed of the
- * weights that way is what four rays miss of them */
+/* segments. Where one ray stands for a pair it is chosen from so many; chosen: what is missed of
+ * the weights that way is what four rays miss of them */
 #define VISIBILITY_CHOICE 4
 /* choices per segment. Then fewer segments than were asked for must do; chosen */
 #define CLUSTER_TRIES 8

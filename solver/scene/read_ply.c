@@ -173,7 +173,7 @@ static int cut(const struct ply *p, const struct ply_element *e, uint64_t i)
 }
 
 /* Returns 0, or -1 when there is none. */
-static int take(struct ply *p, enum type type, double *value)
+static int next_value(struct ply *p, enum type type, double *value)
 {
     if (!p->bytes)
         return next_word(&p->lines) && word_number(&p->lines, value) ? 0 : -1;
@@ -209,10 +209,10 @@ static int read_list(struct ply *p, const struct ply_element *e, uint64_t i,
                      const struct property *from, uint64_t vertices)
 {
     double count, value;
-    if (take(p, from->count_type, &count) || !is_index(count, 0x1p32))
+    if (next_value(p, from->count_type, &count) || !is_index(count, 0x1p32))
         return cut(p, e, i);
     for (uint32_t j = 0; j < (uint32_t)count; j++) {
-        if (take(p, from->type, &value))
+        if (next_value(p, from->type, &value))
             return cut(p, e, i);
         if (from->role != CORNERS)
             continue;
@@ -247,7 +247,7 @@ static int read_one(struct ply *p, const struct ply_element *e, uint64_t i, uint
                 return -1;
             continue;
         }
-        if (take(p, from->type, &value))
+        if (next_value(p, from->type, &value))
             return cut(p, e, i);
         if (from->role == PASSED_OVER)
             continue;
