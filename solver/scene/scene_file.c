@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -76,6 +77,10 @@ int scene_file_add_material(struct scene_file *f, const char *name,
     return 0;
 }
 
+/* of the scene's extent. Coarser rounding of coordinates is told; chosen: with 1e-5, what is a
+ * hundredth as long as the scene is known to a thousandth */
+static const double ROUNDING_TOLD = 1e-5;
+
 static int has_extension(const char *path, const char *const *extensions)
 {
     const char *dot = strrchr(path, '.');
@@ -146,6 +151,29 @@ static int check_materials(const struct scene_file *f, const char *path)
     return result;
 }
 
+/* Floats far from the origin are rounded more than a scene can bear: nothing brings that back. */
+static void warn_of_rounding(const struct scene_file *f, const char *path)
+{
+    double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
+    double far = 0, extent = 0;
+    for (size_t i = 0; i < f->position_count; i++)
+        for (int k = 0; k < 3; k++) {
+            double x = f->positions[3 * i + (size_t)k];
+            low[k] = fmin(low[k], x);
+            high[k] = fmax(high[k], x);
+            far = fmax(far, fabs(x));
+        }
+    for (int k = 0; k < 3 && f->position_count; k++)
+        extent = fmax(extent, high[k] - low[k]);
+    double rounding = far * FLT_EPSILON;
+    if (f->single_precision && rounding > ROUNDING_TOLD * extent)
+        report_warning(path, 0,
+                       "coordinates are floats up to %.3g m, rounded to %.2g m, of a scene of %.3g "
+                       "m: move it to the origin before it is exported, or export double PLY or "
+                       "OBJ",
+                       far, rounding, extent);
+}
+
 int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)
 {
     static const char *const obj[] = {".obj", NULL}, *const gltf[] = {".gltf", ".glb", NULL};
@@ -171,6 +199,8 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
         result = check_materials(f, path) || drop_same_faces(f, path, options->quiet) ? -1 : 0;
     }
+    if (!result && !options->quiet)
+        warn_of_rounding(f, path);
     if (result)
         scene_file_free(f);
     return result;

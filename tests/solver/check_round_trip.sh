@@ -78,7 +78,7 @@ compare() {
 solve() { "$radiosity" solve "$@" -q --no-correct --no-errors --oracle ff --set "limit=$limit" 2>err; }
 for name in again.obj again.glb again.gltf; do
     count=$((count + 1))
-    if solve box.obj -o "$name" --faces first.csv && solve "$name" --faces second.csv && [ ! -s err ]; then
+    if solve box.obj -o "$name" --faces first.csv && solve "$name" --faces second.csv && ! grep -v "more is absorbed" err; then
         sums first.csv 1 >first
         sums second.csv 0 >second
         compare first second || { bad=$((bad + 1)); echo "failed: $name is not box.obj"; }

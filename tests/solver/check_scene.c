@@ -976,6 +976,30 @@ static size_t put_bytes(char *to, const void *value, size_t size, int big_endian
     return size;
 }
 
+/* A metre a thousand kilometres away: floats know it to 6 cm, doubles to the last digit. */
+START_TEST(test_far_floats)
+{
+    static const char form[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty %s x\n"
+                               "property %s y\nproperty %s z\nelement face 1\n"
+                               "property list uchar int vertex_indices\nend_header\n"
+                               "%s000000 0 0\n%s000001 0 0\n%s000000 1 0\n3 0 1 2\n";
+    static const struct {
+        const char *type, *millions;
+        int told;
+    } rows[] = {{"float", "1", 1}, {"double", "1", 0}, {"float", "0", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *type = rows[i].type, *millions = rows[i].millions;
+        char text[1024];
+        struct scene s;
+        snprintf(text, sizeof text, form, type, type, type, millions, millions, millions);
+        ck_assert_int_eq(read_scene(&s, write_text("far.ply", text), NULL), 0);
+        ck_assert_int_eq(strstr(last_error, "move it to the origin") != NULL, rows[i].told);
+        ck_assert_double_eq_tol(s.areas[0], 0.5, 1e-12);
+        scene_free(&s);
+    }
+}
+END_TEST
+
 START_TEST(test_cut_shapes)
 {
     static const char off[] = "OFF # a square\n4 1 4\n0 0 0\n2 0 0 255 0 0\n2 2 0\n0 2 0\n\n"
@@ -1177,6 +1201,7 @@ int main(void)
     tcase_add_test(t, test_gltf);
     tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
+    tcase_add_test(t, test_far_floats);
     tcase_add_test(t, test_cut_shapes);
     tcase_add_test(t, test_damaged_shapes);
     tcase_add_test(t, test_atomic);
