@@ -12,12 +12,12 @@ VERSION = $(shell sed -n 's/^.define DAGC_VERSION "\(.*\)"/\1/p' dagc/dag.h)
 
 # dagc's part and radiosity's. Headers stand in one folder: radiosity.h includes those that refiners are compiled with.
 # The interpreter of graphs, for programs of other domains: sources, as it is compiled with their runtime (dagc-runtime(5)).
-INTERPRETER = $(addprefix oracle/,interpreter.c arguments.c refiner.c load_graph.c program.h refiner.h load_graph.h tool_table.h) \
+INTERPRETER = $(addprefix oracle/,interpreter.c arguments.c refiner.c load_graph.c node_counting.c program.h refiner.h load_graph.h tool_table.h node_counting.h node_counts.h) \
             $(addprefix util/,messages.c messages.h)
 GRAPHS    = $(wildcard examples/oracles/*.dag)
 OF_DAGC   = bin/dagc lib/libdagc.a lib/pkgconfig/dagc.pc \
             $(addprefix lib/cmake/dagc/,dagcConfig.cmake dagcConfigVersion.cmake) \
-            $(addprefix include/dagc/,dag.h catalog.h tool_table.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk $(GRAPHS:examples/%=%)) \
+            $(addprefix include/dagc/,dag.h catalog.h tool_table.h node_counts.h $(HEADERS)) $(addprefix share/dagc/,catalog.dag dagc.mk $(GRAPHS:examples/%=%)) \
             $(addprefix share/dagc/interpreter/,$(INTERPRETER)) \
             share/man/man1/dagc.1 share/man/man5/dagc-language.5 share/man/man5/dagc-runtime.5
 OF_RADIOSITY = bin/radiosity include/dagc/radiosity.h lib/pkgconfig/radiosity.pc \
@@ -35,7 +35,7 @@ install-dagc: dagc $(BUILD)/gen/catalog.h $(addprefix $(BUILD)/install/,dagc.pc 
 	$(INSTALL) -m 644 $(LIBDAGC) $(TO)/lib
 	$(INSTALL) -m 644 $(BUILD)/install/dagc.pc $(TO)/lib/pkgconfig
 	$(INSTALL) -m 644 dagc/package/dagcConfig.cmake $(BUILD)/install/dagcConfigVersion.cmake $(TO)/lib/cmake/dagc
-	$(INSTALL) -m 644 dagc/dag.h $(BUILD)/gen/catalog.h runtime/oracle/tool_table.h $(addprefix runtime/,$(filter-out tools/% terms/% kernel/%,$(HEADERS))) $(TO)/include/dagc
+	$(INSTALL) -m 644 dagc/dag.h $(BUILD)/gen/catalog.h runtime/oracle/tool_table.h runtime/oracle/node_counts.h $(addprefix runtime/,$(filter-out tools/% terms/% kernel/%,$(HEADERS))) $(TO)/include/dagc
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter tools/%,$(HEADERS))) $(TO)/include/dagc/tools
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter terms/%,$(HEADERS))) $(TO)/include/dagc/terms
 	$(INSTALL) -m 644 $(addprefix runtime/,$(filter kernel/%,$(HEADERS))) $(TO)/include/dagc/kernel

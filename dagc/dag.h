@@ -180,6 +180,8 @@ struct answer {
     const char *name;
     struct where where;
     enum kind kind;
+    /* of a command, NAME refuses: it could not; the terms that it writes are as they were */
+    unsigned char refuses;
 };
 
 enum tool_kind { TOOL_QUESTION, TOOL_COMMAND };
@@ -495,7 +497,8 @@ struct dag {
  * it). */
 extern const char dagc_standard_catalog[];
 
-/* Reads, resolves and checks the file `path` ("-": standard input) under a catalog; `catalog` is
+/* Reads, resolves and checks the file `path` ("-": standard input; NULL: none, the catalog alone)
+ * under a catalog; `catalog` is
  * its text (NULL: dagc_standard_catalog), `catalog_name` what messages call it (NULL: "catalog").
  * All errors go to `errors` as text (NULL: nowhere). Returns NULL after any error, else a dag
  * that dag_free frees, in which every index is valid, every oracle has a start, `order` is
@@ -539,9 +542,17 @@ struct dag_compiler {
 /* The oracles as machine code: emits C, compiles it against the runtime's headers (which the
  * library carries) and loads it. Returns dlopen's handle, in which each oracle is `const struct
  * oracle NAME_oracle` (oracle.h), or NULL with the cause in `message`. The dag must hold one oracle
- * at least. */
+ * at least. For each extern that they read the library has a variable
+ * `double (*extern_NAME)(const struct discussion *d)`, which is NULL: it is to be set before an
+ * oracle that reads it is asked. */
 void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
                           size_t size);
+
+/* A C file of the user's, compiled with the same flags against the same headers and, where it
+ * includes catalog.h, the standard catalog: dlopen's handle, or NULL with the cause in `message`.
+ */
+void *dag_compile_plugin(const char *path, const struct dag_compiler *compiler, char *message,
+                         size_t size);
 
 /* The oracles, and what they use of the catalog, as --emit=json gives them; for free(). NULL: out
  * of memory. */
@@ -582,6 +593,14 @@ struct dag_doubt dag_doubt(struct dag *dag, const struct node *node,
 
 /* Does an argument of some node that the oracle reaches read this fact? */
 int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact);
+
+/* Does one read this extern? */
+int dag_reads_extern(const struct dag *dag, const struct oracle_graph *oracle, int callback);
+
+/* An error that shows only when a graph is to run, printed as those of the passes:
+ * "FILE:LINE:COLUMN: error: MESSAGE", the line with a caret, the note. */
+void dag_print_error(const struct dag *dag, struct where where, const char *message,
+                     const char *note, FILE *out);
 
 /* The fingerprint as 16 hexadecimal digits and a NUL. */
 void dag_fingerprint_text(const struct oracle_graph *oracle, char text[17]);

@@ -23,7 +23,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 9
+#define RUNTIME_ABI 10
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 
@@ -72,6 +72,9 @@ struct element {
     uint32_t face;
     /* 1: a flat group of faces, given as the surface that is the rectangle around them */
     uint32_t group;
+    /* what an oracle has marked it with, 1 to 7, or what it is a part of; 0: nothing. Constant
+     * during a round */
+    uint32_t mark;
 };
 
 /* A straight line between two points, ends included. */

@@ -199,6 +199,15 @@ RAD_API const char *radGetDefaultOracle(void);
  * alone. Constant; NULL: there is none of that name. */
 RAD_API const char *radGetOracleText(const char *name);
 
+/* C functions `double NAME(const struct discussion *d)` (discussion.h) for the `extern NAME` of
+ * graphs that are loaded into this device afterwards; the compiled and the interpreted release call
+ * the same ones. `path`: a shared object that defines them and
+ * `const int radiosity_plugin_abi = RUNTIME_ABI;`, or a C file (its name ends in .c), which is
+ * compiled now against the library's own headers. Of plugins that define the same function the last
+ * one counts. They are called from many threads at once and may read the pair, the host and the
+ * terms that the extern's declaration names, and nothing else. Returns 0, or -1 after an error. */
+RAD_API int radLoadPlugin(RadDevice device, const char *path);
+
 /* A built-in oracle, or one that was registered, by name. Returns NULL on error. */
 RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release);
 /* A .dag file ("-": standard input), or the text of one under the name `path`; `oracle`: which of
@@ -447,7 +456,8 @@ struct RadReport {
     uint32_t elements, leaves, bands;
     uint64_t links, pairs, rounds, rays; /* pairs: discussions held */
     uint64_t marked[RAD_LINK_MARKS];     /* links with each mark; mark 1: a guard kept them whole */
-    uint64_t decided[8];                 /* how often each enum decision was taken */
+    uint64_t marked_elements[RAD_LINK_MARKS]; /* elements with each mark, [0] without */
+    uint64_t decided[8];                      /* how often each enum decision was taken */
     /* converged: iteration reached its tolerance, and no link changes any more; with linear
      * elements at most one in a thousand does */
     int passes, iterations, converged;

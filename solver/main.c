@@ -126,6 +126,7 @@ int main(int count, char **arguments)
     struct options o;
     int status = options_parse(&o, count, arguments);
     register_hand_releases(hand_releases);
+    use_plugins(o.plugins, o.plugin_count);
     if (status < 0) {
         status = check_outputs(&o);
         if (status == 0)

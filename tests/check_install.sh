@@ -2,36 +2,15 @@
 # check_install.sh - make install, and what it put there used from projects that know nothing of this folder.
 # DAGC names the command, in the build folder to install from. What a missing program does not let us try is said.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/.." && pwd)
-dagc=$(realpath -e "${DAGC:-$top/build/bin/dagc}") || exit 2
+. "$(dirname "$0")/dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")
 optimise=-O0 # what is installed is used alike
 [ -z "${THOROUGH-}" ] || optimise=-O2
 flags="-std=c11 $optimise -Wall -Wextra -Werror ${SANITIZE-}"
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
 compiler=${CC-} # what this build was made with: `make check CC=...` says it
 unset DAGC RADIOSITY MAKEFLAGS MFLAGS MAKELEVEL BUILD CC CFLAGS CPPFLAGS LDFLAGS OPT WARN
 prefix=$tmp/usr
-count=0 bad=0
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >"$tmp/out" 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 "$tmp/out"
-    fi
-}
-have() { # PROGRAM
-    command -v "$1" >/dev/null && return
-    echo "skipped: $1 is not installed"
-    return 1
-}
 is() { # WANTED COMMAND...
     wanted=$1
     shift
@@ -206,7 +185,7 @@ TOOL enum longer_answer tool_longer(struct discussion *d, int than) { return d->
 #endif
 END2
 echo 'graph long(than : bytes in [0, 65535]) exits (no, yes) { start a; node a = longer(than = than) { no -> no; yes -> yes; } }' >parts/long.dag
-printf 'catalog "net.dag";\nimport "parts/long.dag";\noracle gate { start a; node a = long(than = 100) { no -> pass; yes -> drop; } }\n' >gate.dag
+printf 'catalog "net.dag";\nimport "parts/long.dag";\noracle gate { start a; node a = long(than = 100) { no -> pass; yes -> b; } node b = longer(than = 60000) { no -> drop; yes -> pass; } }\n' >gate.dag
 printf 'catalog "../net.dag";\noracle low { start a; node a = longer(than = 10) { no -> pass; yes -> drop; } }\n' >sub/gate.dag
 cat >rules.cpp <<'END2'
 #include "gate.h"
@@ -320,28 +299,49 @@ fi
 cat >walk.c <<'END2'
 #include <stdio.h>
 #include "gate.h"
-#include "oracle/refiner.h"
+#include "oracle/node_counting.h"
 int main(void)
 {
+    static struct gate_counters counters, half;
+    struct gate_parameters parameters;
     struct messages messages = {0};
     struct interpretation how = {.path = "gate.dag"};
     struct refiner *dag = refiner_interpret(&how, &messages), *flat = refiner_compiled(&gate_oracle, "flat");
     if (!dag || !flat)
         return fprintf(stderr, "%s\n", messages_text(&messages)), 1;
+    struct node_counting *counting = node_counting_open(dag, NULL, NULL, &messages);
+    if (!counting || node_counting_open(flat, NULL, NULL, &messages))
+        return 1;
+    gate_defaults(&parameters);
     for (int size = 0; size < 200; size += 99) {
-        struct discussion d = {.size = size};
+        struct discussion d = {.size = size}, e = d, f = d;
         printf("%d%d ", (int)dag->refine(dag->state, &d), (int)flat->refine(flat->state, &d));
+        if (node_counting_ask(counting, &e) != gate_filter_counted(&parameters, &f, size > 0 ? &half : &counters))
+            return 1;
     }
+    NODE_COUNTS_ADD(gate, &counters, &half);
+    FILE *walked = fopen("walked", "w"), *called = fopen("called", "w");
+    node_counts_print(walked, node_counting_counts(counting));
+    node_counts_print(called, NODE_COUNTS(gate, &counters));
+    fclose(walked);
+    fclose(called);
+    node_counting_close(counting);
+    messages_free(&messages);
     refiner_close(dag);
     refiner_close(flat);
     return 0;
 }
 END2
 own=$prefix/share/dagc/interpreter
-check "catalog.h and catalog.c" sh -c "dagc --emit=catalog-h -o catalog.h net.dag && dagc --emit=catalog-c -o catalog.c net.dag && dagc -o gate.c --header gate.h gate.dag"
+check "catalog.h and catalog.c" sh -c "dagc --emit=catalog-h -o catalog.h net.dag && dagc --emit=catalog-c -o catalog.c net.dag && dagc --instrument -o gate.c --header gate.h gate.dag"
 # shellcheck disable=SC2086
 check "the interpreter in a domain of one's own" cc $flags -include net.h -I. -I"$own" -I"$prefix/include/dagc" -o walk walk.c gate.c catalog.c "$own"/oracle/*.c "$own"/util/*.c "$prefix/lib/libdagc.a" -ldl -lm
 check "it walks as the compiled one" is "00 00 11 " ./walk
+check "it counts as the compiled one" cmp walked called
+check "three packets, one of them long" sh -c "grep -q '^a.* 3 .* no 2 yes 1$' called && grep -q '^b  *1 .* no 1 yes 0$' called"
+cp -r "$top/examples/poisson" poisson
+check "poisson, from what is installed" make -s -C poisson DAGC=dagc COUNTS="$prefix/include/dagc" CFLAGS="$flags"
+check "poisson prints its nodes" sh -c "cd poisson && ./poisson | grep -q '^bent  *[1-9]'"
 cd ..
 
 # ---- dagc alone: a C compiler, make and the system's own, nothing else
@@ -486,5 +486,4 @@ fi
 check uninstall make -C "$top" uninstall PREFIX="$prefix"
 check "nothing is left" sh -c "find '$prefix' -type f | grep . && exit 1; [ ! -e '$prefix/share/dagc' ] && [ ! -L '$prefix/lib/libradiosity.so' ]"
 
-echo "install: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "install"

@@ -76,9 +76,10 @@ void dag_possible_terms(const struct dag *dag, const struct oracle_graph *oracle
                         unsigned char *possible);
 /* Does a decision read the term? Then a discussion gives it back, and may be handed it again. */
 int dag_is_kept(const struct dag *dag, int term);
-/* The least level that the tool leaves the term at, 0: it does not write it; and that asking the
- * node leaves it at, whose arguments may have read it. */
-int dag_written_level(const struct dag *dag, const struct tool *tool, int term);
-int dag_left_level(const struct dag *dag, const struct node *node, int term);
+/* The least level that the tool leaves the term at with this answer, 0: it does not write it (-1:
+ * with any that does not refuse); and that asking the node leaves it at, whose arguments may have
+ * read it. */
+int dag_written_level(const struct dag *dag, const struct tool *tool, int answer, int term);
+int dag_left_level(const struct dag *dag, const struct node *node, int answer, int term);
 
 #endif

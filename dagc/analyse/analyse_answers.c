@@ -99,7 +99,7 @@ static int is_idle(const struct classes *classes, const struct node *node)
 {
     const struct arc *arcs = &classes->dag->arcs[node->arcs.first];
     const struct tool *tool = &classes->dag->tools[node->tool];
-    if (node->arcs.count < 2 || tool->writes.count > 0)
+    if (node->arcs.count < 2 || tool->writes.count > 0 || tool->kind == TOOL_COMMAND)
         return 0;
     for (int a = 1; a < node->arcs.count; a++)
         if (class_of(classes, &arcs[a].target) != class_of(classes, &arcs[0].target))

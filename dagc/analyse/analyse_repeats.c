@@ -47,7 +47,7 @@ struct repeats {
 static int writes_any(const struct dag *dag, const struct tool *tool, struct span needs)
 {
     for (int i = needs.first; i < needs.first + needs.count; i++)
-        if (dag_written_level(dag, tool, dag->needs[i].term) > 0)
+        if (dag_written_level(dag, tool, -1, dag->needs[i].term) > 0)
             return 1;
     return 0;
 }

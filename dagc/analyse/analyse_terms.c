@@ -1,7 +1,8 @@
 /* analyse_terms.c - is every term that a path needs known there, at the level that is needed?
  *
  * A forward must-analysis: the fact about a term is the level at which it is surely known, where
- * paths meet the least of theirs holds, and a tool that writes the term raises it. A tool's
+ * paths meet the least of theirs holds, and a tool that writes the term raises it, but where it
+ * answers that it refuses. A tool's
  * `reads` without a level asks for nothing: such a tool computes what it lacks, and may also
  * do without (so it raises nothing either); what a node's arguments read is computed before the
  * tool is asked, and is known from there on. A level in `reads`, and whatever a decision reads,
@@ -12,18 +13,20 @@
 
 #include "analyse/analyse.h"
 
-int dag_written_level(const struct dag *dag, const struct tool *tool, int term)
+int dag_written_level(const struct dag *dag, const struct tool *tool, int answer, int term)
 {
     int level = 0;
+    if (answer >= 0 && dag->answers[tool->answers.first + answer].refuses)
+        return 0;
     for (int i = tool->writes.first; i < tool->writes.first + tool->writes.count; i++)
         if (dag->needs[i].term == term && dag->needs[i].level > level)
             level = dag->needs[i].level;
     return level;
 }
 
-int dag_left_level(const struct dag *dag, const struct node *node, int term)
+int dag_left_level(const struct dag *dag, const struct node *node, int answer, int term)
 {
-    int level = dag_written_level(dag, &dag->tools[node->tool], term);
+    int level = dag_written_level(dag, &dag->tools[node->tool], answer, term);
     for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
         if (dag->needs[i].term == term && dag->needs[i].level > level)
             level = dag->needs[i].level;
@@ -39,9 +42,9 @@ void dag_sure_levels(const struct dag *dag, const struct oracle_graph *oracle, i
     sure[0] = 0;
     for (int i = 0; i < oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, oracle, i);
-        int written = dag_left_level(dag, node, term);
-        unsigned char after = written > sure[i] ? (unsigned char)written : sure[i];
         for (int a = 0; a < node->arcs.count; a++) {
+            int written = dag_left_level(dag, node, a, term);
+            unsigned char after = written > sure[i] ? (unsigned char)written : sure[i];
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
             if (target->kind == TARGET_NODE && after < sure[dag->nodes[target->index].order])
                 sure[dag->nodes[target->index].order] = after;
@@ -96,8 +99,8 @@ struct wanted {
 static int lacks(const struct search *search, const struct node *node, int answer, int phase)
 {
     const struct wanted *wanted = search->context;
-    (void)answer, (void)phase;
-    int level = dag_left_level(search->dag, node, wanted->term);
+    (void)phase;
+    int level = dag_left_level(search->dag, node, answer, wanted->term);
     return level >= wanted->level ? -1 : 0;
 }
 
@@ -105,8 +108,7 @@ static int lacks(const struct search *search, const struct node *node, int answe
 static int reaches(const struct search *search, const struct node *node, int answer, int phase)
 {
     const struct wanted *wanted = search->context;
-    (void)answer;
-    return phase || dag_left_level(search->dag, node, wanted->term) >= wanted->level;
+    return phase || dag_left_level(search->dag, node, answer, wanted->term) >= wanted->level;
 }
 
 static const char *level_name(const struct dag *dag, int term, int level)
@@ -119,7 +121,7 @@ static void note_writers(struct dag *dag, const struct need *need)
 {
     const char *list = "";
     for (int i = 0; i < dag->tool_count; i++)
-        if (dag_written_level(dag, &dag->tools[i], need->term) >= need->level)
+        if (dag_written_level(dag, &dag->tools[i], -1, need->term) >= need->level)
             list = dag_join(dag, list, dag->tools[i].name);
     if (*list == '\0')
         dag_note(dag, dag_nowhere, "no tool of the catalog writes it so");
@@ -165,10 +167,10 @@ static void check_decision(struct search *search, int decision, const struct nee
     struct lack lack = {NULL, 0, 0};
     for (int i = 0; i < search->oracle->order.count; i++) {
         const struct node *node = dag_node_at(dag, search->oracle, i);
-        if (sure[i] >= need->level || dag_left_level(dag, node, need->term) >= need->level)
-            continue;
         for (int a = 0; a < node->arcs.count; a++) {
             const struct target *target = &dag->arcs[node->arcs.first + a].target;
+            if (sure[i] >= need->level || dag_left_level(dag, node, a, need->term) >= need->level)
+                continue;
             if (target->kind != TARGET_DECISION || target->index != decision)
                 continue;
             if (lack.count++ == 0) {
@@ -217,7 +219,7 @@ static void check_falling(struct search *search, int term, const unsigned char *
         int explicit = 0, answer = 0;
         for (int k = tool->writes.first; k < tool->writes.first + tool->writes.count; k++)
             explicit |= dag->needs[k].term == term && dag->needs[k].level_name != NULL;
-        int level = dag_written_level(dag, tool, term);
+        int level = dag_written_level(dag, tool, -1, term);
         if (!explicit || level >= sure[i])
             continue;
         dag->use = node->use;

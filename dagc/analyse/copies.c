@@ -69,12 +69,13 @@ static uint64_t cuts_below(const struct making *m, const struct node *node, int 
     uint64_t cuts = 0;
     for (int a = 0; a < node->arcs.count; a++) {
         const struct target *target = &m->dag->arcs[node->arcs.first + a].target;
-        if (target->kind == TARGET_NODE)
-            cuts |= cuts_at(m, m->dag->nodes[target->index].order)[term];
+        /* what the node leaves there needs no asking */
+        int left = dag_left_level(m->dag, node, a, term);
+        if (target->kind == TARGET_NODE && left < CUTS - 1)
+            cuts |=
+                cuts_at(m, m->dag->nodes[target->index].order)[term] & ~((UINT64_C(2) << left) - 1);
     }
-    /* what the node leaves there needs no asking */
-    int left = dag_left_level(m->dag, node, term);
-    return left >= CUTS - 1 ? 0 : cuts & ~((UINT64_C(2) << left) - 1);
+    return cuts;
 }
 
 static void find_cuts(struct making *m)
@@ -101,12 +102,13 @@ static void copy_knowledge(const struct making *m, struct knowledge to, struct k
     memcpy(to.high, from.high, (size_t)m->terms);
 }
 
-/* After the node was asked. A tool that writes a term may also make it coarser. */
-static void pass_node(const struct making *m, const struct node *node, struct knowledge known)
+/* After the node has answered. A tool that writes a term may also make it coarser. */
+static void pass_node(const struct making *m, const struct node *node, int answer,
+                      struct knowledge known)
 {
     for (int t = 0; t < m->terms; t++) {
-        int written = dag_written_level(m->dag, &m->dag->tools[node->tool], t);
-        int left = dag_left_level(m->dag, node, t);
+        int written = dag_written_level(m->dag, &m->dag->tools[node->tool], answer, t);
+        int left = dag_left_level(m->dag, node, answer, t);
         if (own_cuts(m->dag, node, t) == 0)
             continue;
         known.high[t] = (unsigned char)finest(m->dag, t);
@@ -264,20 +266,25 @@ static void note_entries(struct copies *copies, int way)
 static void make_ways(struct making *m, int at)
 {
     const struct node *node = dag_node_at(m->dag, m->oracle, m->copies->items[at].place);
-    struct knowledge known = new_knowledge(m);
+    struct knowledge known = new_knowledge(m), other_known = new_knowledge(m);
     int *ways = dag_alloc(&m->dag->arena, (size_t)node->arcs.count * sizeof *ways);
-    copy_knowledge(m, known, m->copies->items[at].known);
-    pass_node(m, node, known);
     m->copies->items[at].ways = ways;
     m->copies->items[at].checks = count_checks(m->dag, node, m->copies->items[at].known);
     for (int a = 0; a < node->arcs.count; a++) {
         const struct target *target = &m->dag->arcs[node->arcs.first + a].target;
+        copy_knowledge(m, known, m->copies->items[at].known);
+        pass_node(m, node, a, known);
         ways[a] = -1;
-        for (int b = 0; b < a; b++) {
+        for (int b = 0; b < node->arcs.count; b++) { /* answers with one target have one way */
             const struct target *other = &m->dag->arcs[node->arcs.first + b].target;
-            if (other->kind == TARGET_NODE && target->kind == TARGET_NODE
-                && other->index == target->index)
+            if (b == a || other->kind != TARGET_NODE || target->kind != TARGET_NODE
+                || other->index != target->index)
+                continue;
+            if (b < a)
                 ways[a] = ways[b];
+            copy_knowledge(m, other_known, m->copies->items[at].known);
+            pass_node(m, node, b, other_known);
+            widen(m, known, other_known);
         }
         if (target->kind == TARGET_NODE && ways[a] < 0)
             ways[a] = make_way(m, node, &m->dag->nodes[target->index], 0, known);

@@ -189,6 +189,14 @@ static void print_note(const struct dag *dag, struct where where, const char *me
     print_one(dag, &note, out);
 }
 
+void dag_print_error(const struct dag *dag, struct where where, const char *message,
+                     const char *note, FILE *out)
+{
+    const struct diagnostic error = {SEVERITY_ERROR, where, message, -1};
+    print_one(dag, &error, out);
+    print_note(dag, dag_nowhere, note, out);
+}
+
 /* How one comes to the branch that a message is about. */
 static void print_uses(const struct dag *dag, int use, FILE *out)
 {

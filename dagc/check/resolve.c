@@ -42,6 +42,9 @@ static void declare_exits(struct dag *dag, struct scope *scope)
     dag_resolve_answers(dag, span, "exit");
     for (int i = 0; i < span.count; i++) {
         const struct answer *exit = &dag->answers[span.first + i];
+        if (exit->refuses)
+            dag_error(dag, exit->where, "the exit '%s' cannot refuse: a command's answer does",
+                      exit->name);
         int decision = dag_find(&dag->decision_names, exit->name);
         dag_put(&dag->arena, &scope->exits, exit->name, i);
         if (decision >= 0) {

@@ -208,10 +208,35 @@ static void check_kept(struct dag *dag, const struct tool *tool)
                   " of its histogram");
 }
 
+/* Only who is told to do something refuses, and not always. */
+static void check_refusals(struct dag *dag, const struct tool *tool)
+{
+    int refusals = 0;
+    for (int i = tool->answers.first; i < tool->answers.first + tool->answers.count; i++) {
+        const struct answer *answer = &dag->answers[i];
+        refusals += answer->refuses;
+        if (answer->refuses && tool->kind != TOOL_COMMAND) {
+            dag_error(dag, answer->where, "'%s' cannot refuse: '%s' is a question", answer->name,
+                      tool->name);
+            dag_note(dag, dag_nowhere,
+                     "a command refuses; a question that does not know answers: "
+                     "%s other",
+                     answer->name);
+        }
+    }
+    if (tool->kind == TOOL_COMMAND && refusals > 0 && refusals == tool->answers.count) {
+        dag_error(dag, tool->where, "the command '%s' always refuses", tool->name);
+        dag_note(dag, dag_nowhere,
+                 "add the answer that says it is done: answers (done, %s refuses)",
+                 dag->answers[tool->answers.first].name);
+    }
+}
+
 static void resolve_tool(struct dag *dag, const struct tool *tool)
 {
     dag_resolve_parameters(dag, tool->parameters, 0);
     check_kept(dag, tool);
+    check_refusals(dag, tool);
     resolve_needs(dag, tool->reads, 0);
     resolve_needs(dag, tool->writes, 0);
     if (tool->answers.count > ANSWERS_MAX) {

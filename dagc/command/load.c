@@ -21,7 +21,8 @@ static void load(struct dag *dag, void *context)
     dag->folder_count = request->folder_count;
     dag->replacements = request->replacements;
     dag->replacement_count = request->replacement_count;
-    dag_run_passes(dag, &request->catalog, &request->file, PASSES);
+    dag_run_passes(dag, &request->catalog, request->file.name != NULL ? &request->file : NULL,
+                   PASSES);
 }
 
 /* Obeys words such as "no-unused-parameter error"; 0: there is one that is no switch. */
@@ -62,7 +63,7 @@ struct dag *dag_load_with(const char *path, const struct dag_options *options, F
         request.file.name = path;
         request.file.bytes = options->text;
         request.file.length = options->length;
-    } else
+    } else if (path != NULL)
         dag_input_open(&request.file, path);
     struct dag *dag = dag_new();
     int failed = dag == NULL || dag_protect(dag, load, &request) != 0;

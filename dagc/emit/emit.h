@@ -67,7 +67,9 @@ void dag_emit_shared_argument(struct dag *dag, struct text *out, const struct ar
                               const char *at, int doubtful);
 /* May some argument of a reached node be no number? The discussion must be able to say so. */
 int dag_emit_has_doubts(const struct dag *dag);
-void dag_emit_externs(struct dag *dag, struct text *out);   /* prototypes */
+void dag_emit_externs(struct dag *dag, struct text *out); /* prototypes */
+/* A C file that defines each of them by a variable `extern_NAME`. Returns how many. */
+int dag_emit_extern_calls(struct dag *dag, struct text *out);
 void dag_emit_accessors(struct dag *dag, struct text *out); /* headers of terms, small functions */
 void dag_emit_fact(const struct dag *dag, struct text *out, int fact);
 void dag_emit_fact_name(struct text *out, const struct fact *fact);

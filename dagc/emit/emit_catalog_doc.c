@@ -126,7 +126,8 @@ static void print_tools(struct dag *dag, struct text *out)
                   guards ? "---|" : "");
         for (int a = 0; a < tool->answers.count; a++) {
             const struct answer *answer = &dag->answers[tool->answers.first + a];
-            dag_print(out, "| `%s` | %s |", answer->name, dag_kind_name(answer->kind));
+            dag_print(out, "| `%s` | %s |", answer->name,
+                      answer->refuses ? "refuses" : dag_kind_name(answer->kind));
             if (guards)
                 dag_print(out, " %s |", dag_guard_allows(dag, tool, a, -1));
             dag_print(out, "\n");

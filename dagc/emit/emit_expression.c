@@ -337,6 +337,25 @@ void dag_emit_externs(struct dag *dag, struct text *out)
     }
 }
 
+int dag_emit_extern_calls(struct dag *dag, struct text *out)
+{
+    struct reached reached = reach_all(dag);
+    int count = 0;
+    dag_print(out, "#include \"%s\"\n", dag->runtime_header);
+    for (int i = 0; i < dag->callback_count; i++) {
+        const char *name = dag->callbacks[i].name;
+        if (!reached.callbacks[i])
+            continue;
+        count++;
+        dag_print(out,
+                  "\ndouble (*extern_%s)(const struct discussion *d);\n"
+                  "double %s(const struct discussion *d);\n"
+                  "double %s(const struct discussion *d)\n{\n    return extern_%s(d);\n}\n",
+                  name, name, name, name);
+    }
+    return count;
+}
+
 void dag_emit_accessors(struct dag *dag, struct text *out)
 {
     struct reached reached = reach_all(dag);

@@ -41,9 +41,21 @@ static int decides_nothing(const struct flat *flat, const struct node *node)
     return 1;
 }
 
+/* Is it to be given back? What a decision merely keeps, and no node handles, is as it came. */
+static int gives_back(const struct flat *flat, const struct need *need)
+{
+    return need->level > 0 || flat->handled[need->term];
+}
+
 int dag_flat_has_leaf(const struct flat *flat, const struct target *target)
 {
-    return target->kind == TARGET_DECISION && flat->dag->decisions[target->index].reads.count > 0;
+    if (target->kind != TARGET_DECISION)
+        return 0;
+    const struct span reads = flat->dag->decisions[target->index].reads;
+    for (int i = reads.first; i < reads.first + reads.count; i++)
+        if (gives_back(flat, &flat->dag->needs[i]))
+            return 1;
+    return 0;
 }
 
 static int part_of(const struct flat *flat, int place)
@@ -413,6 +425,8 @@ static void print_leaf(const struct flat *flat, const struct decision_tool *deci
     for (int i = 0; i < decision->reads.count; i++) {
         const struct term *term = &dag->terms[needs[i].term];
         int length = dag->types[term->type].length;
+        if (!gives_back(flat, &needs[i]))
+            continue;
         for (int k = 0; length > 1 && k < length; k++)
             dag_print(flat->out, "    discussion->terms.%s[%d] = d.terms.%s[%d];\n", term->name, k,
                       term->name, k);
@@ -606,6 +620,10 @@ static struct flat open_flat(struct dag *dag, struct text *out, const struct ora
     flat.node_label = dag_alloc(&dag->arena, (size_t)flat.copies.count);
     flat.leaf_label = dag_alloc(&dag->arena, (size_t)dag->decision_count);
     flat.leaf_used = dag_alloc(&dag->arena, (size_t)dag->decision_count);
+    flat.handled = dag_alloc(&dag->arena, (size_t)dag->term_count);
+    for (int i = 0, term; i < oracle->order.count; i++)
+        for (int k = 0; (term = term_of(dag, node_at(&flat, i), k)) >= 0; k++)
+            flat.handled[term] = 1;
     find_labels(&flat);
     for (int e = 0; flat.most > 1 && e < ENTRIES; e++)
         label_way(&flat, flat.copies.entry[e]);

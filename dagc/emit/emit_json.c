@@ -3,7 +3,8 @@
  * {"schema": "dagc/1", ...}: the number grows when a field goes or changes its meaning; new fields
  * alone leave it. Order is that of the sources, nodes are in topological order, and things name
  * each other by name, so the text is the same wherever it is made. Of the catalog only what the
- * oracles use is there. JSON has no infinity: such an end of a range is null.
+ * oracles use is there; an answer may allow a decision that they do not make. JSON has no infinity:
+ * such an end of a range is null.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 
@@ -24,10 +25,12 @@ static void print_text(struct text *out, const char *value)
     dag_print(out, "\"");
 }
 
-/* "name": "value", behind what has been printed. */
+/* "name": "value", behind what has been printed; a name of NULL: "value" alone. */
 static void print_field(struct text *out, const char *before, const char *name, const char *value)
 {
-    dag_print(out, "%s\"%s\": ", before, name);
+    dag_print(out, "%s", before);
+    if (name != NULL)
+        dag_print(out, "\"%s\": ", name);
     print_text(out, value);
 }
 
@@ -177,6 +180,34 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
     dag_print(out, "}");
 }
 
+/* The decisions that an answer allows; nothing when it allows none. */
+static void print_allows(const struct dag *dag, struct text *out, const struct tool *tool,
+                         int answer)
+{
+    int count = 0;
+    for (int i = tool->guards.first; i < tool->guards.first + tool->guards.count; i++)
+        if (dag->guards[i].answer_index == answer)
+            print_field(out, count++ == 0 ? ", \"allows\": [" : ", ", NULL,
+                        dag->guards[i].decision.name);
+    dag_print(out, "%s", count > 0 ? "]" : "");
+}
+
+/* Under which conditions a guard's answers allow what they do: a parameter above 0 (one of them),
+ * answers of another tool before. */
+static void print_conditions(const struct dag *dag, struct text *out, const struct tool *tool)
+{
+    for (int i = 0; i < tool->by.count; i++)
+        print_field(out, i == 0 ? ", \"by\": [" : ", ", NULL, dag->labels[tool->by.first + i].name);
+    dag_print(out, "%s", tool->by.count > 0 ? "]" : "");
+    if (tool->after.name == NULL)
+        return;
+    print_field(out, ", \"after\": {", "tool", tool->after.name);
+    for (int i = 0; i < tool->after_answers.count; i++)
+        print_field(out, i == 0 ? ", \"answers\": [" : ", ", NULL,
+                    dag->labels[tool->after_answers.first + i].name);
+    dag_print(out, "]}");
+}
+
 static void print_tool(const struct dag *dag, struct text *out, const struct tool *tool)
 {
     print_field(out, "      {", "name", tool->name);
@@ -191,12 +222,16 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
         const struct answer *answer = &dag->answers[tool->answers.first + i];
         print_field(out, i > 0 ? ", {" : "{", "name", answer->name);
         print_field(out, ", ", "kind", dag_kind_name(answer->kind));
+        if (answer->refuses)
+            print_flag(out, "refuses", 1);
+        print_allows(dag, out, tool, i);
         dag_print(out, "}");
     }
     dag_print(out, "]");
     print_needs(dag, out, "reads", tool->reads);
     print_needs(dag, out, "writes", tool->writes);
     print_flag(out, "guards", tool->guards.count > 0);
+    print_conditions(dag, out, tool);
     if (tool->keeps != KEEPS_NOTHING)
         print_field(out, ", ", "keeps", tool->keeps == KEEPS_COUNT ? "count" : "record");
     print_field(out, ",\n       ", "header", tool->header);

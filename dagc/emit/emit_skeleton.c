@@ -5,13 +5,12 @@
  * reads of the discussion (d->packet->size) becomes a field. dagc-runtime(5) tells of each part.
  * SPDX-License-Identifier: MIT */
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 
 #include "emit/emit.h"
 #include "emit/skeleton.h"
 
-static struct text *add_file(struct skeleton *s, const char *name)
+struct text *dag_skeleton_add(struct skeleton *s, const char *name)
 {
     s->files = dag_grow(&s->dag->arena, s->files, s->file_count, sizeof *s->files);
     s->files[s->file_count].name = name;
@@ -26,7 +25,7 @@ static struct text *file_of(struct skeleton *s, const char *name)
             dag_print(&s->files[i].text, "\n");
             return &s->files[i].text;
         }
-    return add_file(s, name);
+    return dag_skeleton_add(s, name);
 }
 
 /* ---- what facts read: fields of the discussion */
@@ -125,7 +124,7 @@ static void print_runtime(struct skeleton *s)
     struct dag *dag = s->dag;
     struct field *fields = dag_alloc(&dag->arena, FIELDS_MAX * sizeof *fields);
     const char *name = dag->runtime_header, *slash = strrchr(name, '/');
-    struct text *out = add_file(s, name);
+    struct text *out = dag_skeleton_add(s, name);
     const char *guard = dag_c_name(dag, slash != NULL ? slash + 1 : name);
     dag_print(out,
               "/* %s - what a tool sees of the world. dagc-runtime(5) says what it must define. "
@@ -142,105 +141,6 @@ static void print_runtime(struct skeleton *s)
     dag_print(out, "\n#endif\n");
 }
 
-/* ---- a graph that comes to a decision */
-
-/* The tool that leaves the term behind at that level or better; -1: none. */
-static int writer_of(const struct dag *dag, const struct need *need)
-{
-    for (int i = 0; i < dag->tool_count; i++) {
-        struct span writes = dag->tools[i].writes;
-        for (int k = writes.first; k < writes.first + writes.count; k++)
-            if (dag->needs[k].term == need->term && dag->needs[k].level >= need->level)
-                return i;
-    }
-    return -1;
-}
-
-/* Tools, in *tools from 0 on, that must be asked before the decision; -1: there is no way to it. */
-static int find_chain(const struct dag *dag, int decision, int *tools)
-{
-    const struct decision_tool *d = &dag->decisions[decision];
-    int count = 0;
-    for (int i = 0; d->subdivides && i < dag->tool_count && count == 0; i++)
-        if (dag->tools[i].guards.count > 0)
-            tools[count++] = i;
-    if (d->subdivides && count == 0)
-        return -1;
-    for (int k = d->reads.first; k < d->reads.first + d->reads.count; k++) {
-        int tool = writer_of(dag, &dag->needs[k]), known = dag->needs[k].level == 0;
-        for (int i = 0; i < count; i++)
-            known |= tools[i] == tool;
-        if (!known && tool < 0)
-            return -1;
-        if (!known)
-            tools[count++] = tool;
-    }
-    return count;
-}
-
-static int is_plain(const struct dag *dag, int decision)
-{
-    return dag->decisions[decision].reads.count == 0 && !dag->decisions[decision].subdivides;
-}
-
-static void print_node(const struct dag *dag, struct text *out, int tool, int at)
-{
-    const struct tool *t = &dag->tools[tool];
-    const char *gap = "";
-    dag_print(out, "  node n%d = %s(", at, t->name);
-    for (int i = t->parameters.first; i < t->parameters.first + t->parameters.count; i++) {
-        const struct parameter *p = &dag->parameters[i];
-        char number[32];
-        if (!isnan(p->value))
-            continue;
-        double value = isfinite(p->low) ? p->low : isfinite(p->high) ? p->high : 0;
-        dag_print(out, "%s%s = %s", gap, p->name, dag_number(value, number));
-        gap = ", ";
-    }
-    dag_print(out, ") { ");
-}
-
-static int print_graph(struct skeleton *s)
-{
-    struct dag *dag = s->dag;
-    int *tools = dag_alloc(&dag->arena, (size_t)(dag->tool_count + 1) * sizeof *tools);
-    int decision = -1, count = -1, other = -1, asks = 0;
-    for (int pass = 0; pass < 2 && count < 0; pass++) /* what splits comes last */
-        for (int i = 0; i < dag->decision_count && count < 0; i++)
-            if (pass == (dag->decisions[i].subdivides != 0))
-                count = find_chain(dag, decision = i, tools);
-    if (count < 0 || dag->tool_count == 0) {
-        dag_error(dag, dag_nowhere,
-                  count < 0 ? "no tools of this catalog lead to a decision"
-                            : "this catalog declares no tool");
-        return -1;
-    }
-    for (int i = 0; i < dag->tool_count && count == 0; i++)
-        if (dag->tools[i].answers.count > 1)
-            tools[count++] = i;
-    if (count == 0)
-        tools[count++] = 0;
-    const struct tool *last = &dag->tools[tools[count - 1]];
-    for (int i = 0; i < dag->decision_count && other < 0; i++)
-        if (i != decision && is_plain(dag, i) && last->answers.count > 1)
-            other = i;
-    struct text *out = add_file(s, dag_format(&dag->arena, "%s.dag", s->name));
-    dag_print(out,
-              "# One way through the catalog, to begin with.\ncatalog \"%s\";\n\noracle %s {\n"
-              "  start n1;\n",
-              s->catalog, s->name);
-    for (; asks < count - 1; asks++) {
-        print_node(dag, out, tools[asks], asks + 1);
-        dag_print(out, "otherwise -> n%d; }\n", asks + 2);
-    }
-    print_node(dag, out, tools[asks], asks + 1);
-    if (other >= 0)
-        dag_print(out, "%s -> %s; ", dag->answers[last->answers.first].name,
-                  dag->decisions[decision].name);
-    dag_print(out, "otherwise -> %s; }\n}\n", dag->decisions[other >= 0 ? other : decision].name);
-    return 0;
-}
-
 /* ---- the program */
 
 static void print_program(struct skeleton *s)
@@ -249,7 +149,7 @@ static void print_program(struct skeleton *s)
     struct field *fields = dag_alloc(&dag->arena, FIELDS_MAX * sizeof *fields);
     int count = find_fields(dag, fields);
     const char *n = s->name, *file = s->cxx ? "main.cpp" : "main.c";
-    struct text *out = add_file(s, file);
+    struct text *out = dag_skeleton_add(s, file);
     dag_print(out,
               "/* %s - fills in one discussion, asks the graph and prints what it decides. */\n"
               "#include <stdio.h>\n#include <string.h>\n#include \"%s.h\"\n\n"
@@ -274,7 +174,7 @@ static void print_program(struct skeleton *s)
 
 static void print_makefile(struct skeleton *s)
 {
-    struct text *out = add_file(s, "Makefile");
+    struct text *out = dag_skeleton_add(s, "Makefile");
     const char *n = s->name, *c = s->cxx ? "cpp" : "c", *compiler = s->cxx ? "CXX" : "CC";
     dag_print(out,
               "# make, then ./%s\nDAGC   = dagc\n"
@@ -302,7 +202,7 @@ void dag_emit_skeleton(struct skeleton *s)
         dag_emit_stub(dag, file_of(s, dag->tools[i].header), dag->tools[i].name);
     for (int i = 0; i < dag->term_count; i++)
         dag_emit_stub(dag, file_of(s, dag->terms[i].header), dag->terms[i].name);
-    if (print_graph(s) < 0)
+    if (dag_skeleton_graph(s) < 0)
         return;
     print_program(s);
     print_makefile(s);

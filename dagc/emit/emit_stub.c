@@ -84,7 +84,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
         dag_print_upper(out, tool->name);
         dag_print(out, "_");
         dag_print_upper(out, answer->name);
-        dag_print(out, ", %s\n", dag_kind_name(answer->kind));
+        dag_print(out, ", %s\n",
+                  answer->refuses ? "refuses: writes nothing" : dag_kind_name(answer->kind));
     }
     dag_print(out, "     */\n    return ");
     dag_print_upper(out, tool->name);

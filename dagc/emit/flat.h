@@ -30,6 +30,7 @@ struct flat {
     int shared_count;
     int *piece, *use, *member;
     const struct shared *inside; /* the function that is printed; NULL: that of the whole graph */
+    unsigned char *handled;      /* by term: does some node of the oracle? */
     int first_leaf;              /* the first decision whose leaf is used; -1: none */
 };
 

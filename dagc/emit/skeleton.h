@@ -21,4 +21,10 @@ struct skeleton {
 
 void dag_emit_skeleton(struct skeleton *skeleton);
 
+/* emit_first_graph.c. Adds the graph's file; -1 after an error: no graph can be made. */
+int dag_skeleton_graph(struct skeleton *skeleton);
+
+/* The text of a new file. */
+struct text *dag_skeleton_add(struct skeleton *skeleton, const char *name);
+
 #endif

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "prove/compile.h"
+#include "emit/emit.h"
 #include "emit/headers.h"
 #include "base/internal.h"
 
@@ -155,7 +156,8 @@ static int compile(const char *folder, char sources[SOURCES_MAX][PATH_SIZE], int
                  "cannot run the C compiler '%s': %s; install it or set CC to another", command,
                  strerror(errno));
     else {
-        snprintf(message, size, "the C compiler '%s' failed; set CC to another", command);
+        snprintf(message, size,
+                 "the C compiler '%s' failed; mend what it names, or set CC to another", command);
         quote(message, size, output);
     }
     return -1;
@@ -200,9 +202,31 @@ struct request {
     const struct dag_compiler *compiler;
     char *message;
     size_t size;
-    struct text c, catalog;
+    struct text c, catalog, externs;
+    const char *plugin; /* its path */
     void *library;
 };
+
+/* Files beside the catalog's header and those that the library carries. */
+static void *compile_with_headers(struct dag *dag, const struct c_file *own, int own_count,
+                                  const char *const *flags, struct request *r)
+{
+    int count = 0;
+    while (dagc_headers[count].name != NULL)
+        count++;
+    struct c_file *files =
+        dag_alloc(&dag->arena, ((size_t)count + 1 + (size_t)own_count) * sizeof *files);
+    dag_emit_catalog_h(dag, &r->catalog, NULL);
+    if (r->catalog.failed)
+        dag_out_of_memory(&dag->arena);
+    for (int i = 0; i < count; i++)
+        files[i] = (struct c_file){dagc_headers[i].name, dagc_headers[i].text,
+                                   strlen(dagc_headers[i].text)};
+    files[count++] = (struct c_file){"catalog.h", r->catalog.bytes, r->catalog.length};
+    for (int i = 0; i < own_count; i++)
+        files[count++] = own[i];
+    return dag_compile(files, count, flags, r->compiler, r->message, r->size);
+}
 
 static void build(struct dag *dag, void *context)
 {
@@ -213,32 +237,60 @@ static void build(struct dag *dag, void *context)
         slash == NULL ? "-I." : /* headers of the user's own tools */
             dag_format(&dag->arena, "-I%.*s", (int)(slash - source->name) + 1, source->name);
     const char *const flags[] = {"-O2", beside, NULL};
-    int count = 0;
-    while (dagc_headers[count].name != NULL)
-        count++;
-    struct c_file *files = dag_alloc(&dag->arena, ((size_t)count + 2) * sizeof *files);
     dag_emit_c(dag, &r->c, NULL, NULL, NULL);
-    dag_emit_catalog_h(dag, &r->catalog, NULL);
-    if (r->c.failed || r->catalog.failed)
+    int externs = dag_emit_extern_calls(dag, &r->externs);
+    if (r->c.failed || r->externs.failed)
         dag_out_of_memory(&dag->arena);
-    files[0] = (struct c_file){"oracles.c", r->c.bytes, r->c.length};
-    files[1] = (struct c_file){"catalog.h", r->catalog.bytes, r->catalog.length};
-    for (int i = 0; i < count; i++)
-        files[i + 2] = (struct c_file){dagc_headers[i].name, dagc_headers[i].text,
-                                       strlen(dagc_headers[i].text)};
-    r->library = dag_compile(files, count + 2, flags, r->compiler, r->message, r->size);
+    const struct c_file own[] = {{"oracles.c", r->c.bytes, r->c.length},
+                                 {"externs.c", r->externs.bytes, r->externs.length}};
+    r->library = compile_with_headers(dag, own, 1 + (externs > 0), flags, r);
+}
+
+static void *compile_protected(struct dag *dag, void (*body)(struct dag *dag, void *context),
+                               struct request *r)
+{
+    struct protector *outer = dag->arena.protector;
+    r->message[0] = '\0';
+    if (dag_protect(dag, body, r) != 0)
+        snprintf(r->message, r->size, "out of memory");
+    dag->arena.protector = outer;
+    dag_text_free(&r->c);
+    dag_text_free(&r->catalog);
+    dag_text_free(&r->externs);
+    return r->library;
 }
 
 void *dag_compile_oracles(struct dag *dag, const struct dag_compiler *compiler, char *message,
                           size_t size)
 {
-    struct request r = {compiler, message, size, {0}, {0}, NULL};
-    struct protector *outer = dag->arena.protector;
-    message[0] = '\0';
-    if (dag_protect(dag, build, &r) != 0)
+    struct request r = {.compiler = compiler, .message = message, .size = size};
+    return compile_protected(dag, build, &r);
+}
+
+/* ---- a user's C file */
+
+static void build_plugin(struct dag *dag, void *context)
+{
+    struct request *r = context;
+    const char *slash = strrchr(r->plugin, '/');
+    const char *beside =
+        slash == NULL ? "-I."
+                      : dag_format(&dag->arena, "-I%.*s", (int)(slash - r->plugin) + 1, r->plugin);
+    const char *file = *r->plugin == '-' ? dag_format(&dag->arena, "./%s", r->plugin) : r->plugin;
+    const char *const flags[] = {"-O2", beside, file, NULL};
+    r->library = compile_with_headers(dag, NULL, 0, flags, r);
+}
+
+void *dag_compile_plugin(const char *path, const struct dag_compiler *compiler, char *message,
+                         size_t size)
+{
+    struct request r = {.compiler = compiler, .message = message, .size = size, .plugin = path};
+    struct dag *dag = dag_load(NULL, NULL, NULL, NULL); /* for its catalog's header */
+    if (dag == NULL) {
         snprintf(message, size, "out of memory");
-    dag->arena.protector = outer;
-    dag_text_free(&r.c);
-    dag_text_free(&r.catalog);
-    return r.library;
+        return NULL;
+    }
+    void *library = compile_protected(dag, build_plugin, &r);
+    dag_free(dag);
+    return library;
 }

@@ -351,7 +351,8 @@ static void follow_arc(struct side *side, int answer)
     const struct tool *tool = &side->dag->tools[node->tool];
     for (int i = node->reads.first; i < node->reads.first + node->reads.count; i++)
         side->levels[side->dag->needs[i].term] = level_at(side, node, side->dag->needs[i].term);
-    for (int i = 0; i < tool->writes.count; i++) {
+    int refuses = side->dag->answers[tool->answers.first + answer].refuses;
+    for (int i = 0; i < tool->writes.count && !refuses; i++) {
         const struct need *need = &side->dag->needs[tool->writes.first + i];
         if (side->levels[need->term] < need->level)
             side->levels[need->term] = (unsigned char)need->level;

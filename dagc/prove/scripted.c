@@ -51,6 +51,10 @@ static void print_tool(struct dag *dag, struct text *out, int number, int width)
     for (int i = 0; i < tool->parameters.count; i++)
         dag_print(out, "    given[%d] = p%d;\n", i, i);
     dag_print(out, "    answer = prove_ask(d, %d, given, %d);\n", number, tool->answers.count);
+    for (int i = 0; i < tool->answers.count && tool->writes.count > 0; i++)
+        if (dag->answers[tool->answers.first + i].refuses)
+            dag_print(out, "    if (answer == %d)\n        return (enum %s_answer)answer;\n", i,
+                      tool->name);
     for (int i = 0; i < tool->writes.count; i++) {
         const struct need *need = &dag->needs[tool->writes.first + i];
         dag_print(out, "    if (d->terms.%s_level < %d) {\n", dag->terms[need->term].name,

@@ -179,7 +179,8 @@ static double looked_at(const struct proof *proof, struct prove_record *r, const
     return doubt.instead;
 }
 
-static void call_tool(const struct proof *proof, const struct node *node, struct prove_record *r)
+static void call_tool(const struct proof *proof, const struct node *node, int answer,
+                      struct prove_record *r)
 {
     const struct dag *dag = proof->dag;
     const struct tool *tool = &dag->tools[node->tool];
@@ -190,7 +191,8 @@ static void call_tool(const struct proof *proof, const struct node *node, struct
         proof->asked[i] = looked_at(proof, r, node, &arguments[i], proof->asked[i]);
     memcpy(note(proof, r, node->tool), proof->asked,
            (size_t)node->arguments.count * sizeof *proof->asked);
-    for (int i = 0; i < tool->writes.count; i++) {
+    int refuses = dag->answers[tool->answers.first + answer].refuses;
+    for (int i = 0; i < tool->writes.count && !refuses; i++) {
         const struct need *need = &dag->needs[tool->writes.first + i];
         if (r->end[need->term] < need->level)
             r->end[need->term] = (unsigned char)need->level;
@@ -205,7 +207,7 @@ static int walk(const struct proof *proof, struct prove_record *r)
     const struct node *node = prove_node_at(proof, 0);
     for (;;) {
         int answer = r->script[r->calls];
-        call_tool(proof, node, r);
+        call_tool(proof, node, answer, r);
         const struct target *target = &proof->dag->arcs[node->arcs.first + answer].target;
         if (target->kind == TARGET_DECISION)
             return target->index;

@@ -21,23 +21,34 @@ int dag_reads_parameters(const struct dag *dag, int expression)
            || (e->right >= 0 && dag_reads_parameters(dag, e->right));
 }
 
-static int reads_fact(const struct dag *dag, int expression, int fact)
+static int reads(const struct dag *dag, int expression, enum expression_kind kind, int index)
 {
     const struct expression *e = &dag->expressions[expression];
-    return (e->kind == EXPRESSION_FACT && e->index == fact)
-           || (e->left >= 0 && reads_fact(dag, e->left, fact))
-           || (e->right >= 0 && reads_fact(dag, e->right, fact));
+    return (e->kind == kind && e->index == index)
+           || (e->left >= 0 && reads(dag, e->left, kind, index))
+           || (e->right >= 0 && reads(dag, e->right, kind, index));
 }
 
-int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact)
+static int oracle_reads(const struct dag *dag, const struct oracle_graph *oracle,
+                        enum expression_kind kind, int index)
 {
     for (int i = oracle->order.first; i < oracle->order.first + oracle->order.count; i++) {
         const struct span arguments = dag->nodes[dag->order[i]].arguments;
         for (int k = arguments.first; k < arguments.first + arguments.count; k++)
-            if (reads_fact(dag, dag->arguments[k].expression, fact))
+            if (reads(dag, dag->arguments[k].expression, kind, index))
                 return 1;
     }
     return 0;
+}
+
+int dag_reads_fact(const struct dag *dag, const struct oracle_graph *oracle, int fact)
+{
+    return oracle_reads(dag, oracle, EXPRESSION_FACT, fact);
+}
+
+int dag_reads_extern(const struct dag *dag, const struct oracle_graph *oracle, int callback)
+{
+    return oracle_reads(dag, oracle, EXPRESSION_EXTERN, callback);
 }
 
 int dag_add_expression(struct dag *dag, const struct expression *expression)

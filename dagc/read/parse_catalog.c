@@ -305,8 +305,9 @@ int dag_parse_answers(struct parser *parser, struct span *span)
         else if (dag_take_word(parser, "approximate"))
             answer.kind = KIND_APPROXIMATE;
         else {
-            dag_take_word(parser, "other");
             answer.kind = KIND_OTHER;
+            if (!dag_take_word(parser, "other"))
+                answer.refuses = (unsigned char)dag_take_word(parser, "refuses");
         }
         int index = ADD(dag, answers, answer_count);
         dag->answers[index] = answer;

@@ -130,8 +130,8 @@
 
 /* square of a diagonal. Opposite sides that differ by less are equal; chosen: 1e-6 of a length */
 #define REFINER_SAMPLER_PARALLELOGRAM 1e-12
-/* segments. Where one ray stands for a pair it is chosen from so many; chosen: what is missed of the
- * weights that way is what four rays miss of them */
+/* segments. Where one ray stands for a pair it is chosen from so many; chosen: what is missed of
+ * the weights that way is what four rays miss of them */
 #define REFINER_VISIBILITY_CHOICE 4
 /* choices per segment. Then fewer segments than were asked for must do; chosen */
 #define REFINER_CLUSTER_TRIES 8
@@ -309,6 +309,10 @@
  * each alone, 0 one factor for all of a class. Of 0, 1/4, 1/2 and 1 the best for leaves on four
  * scenes of very different kind at 30,000 and 300,000 particles, between 0 and 1/2 by little */
 #define REFINER_MEND_OWN 0.25
+/* elements. A class counts as so many against the elements of its level that have a parent's parent
+ * in common: as much as MEND_OWN gives to one. Between 3 and 30 cells of five scenes differ by a
+ * hundredth (tests/tables/judge.sh) */
+#define REFINER_MEND_KIN (1 / REFINER_MEND_OWN - 1)
 /* standard deviations. How far the squares of a class must be above noise before its links are
  * mended, 2: one class in forty is by chance */
 #define REFINER_MEND_EVIDENCE 2.0
@@ -464,7 +468,11 @@
  * least. Chosen; make picture-table tells what comes of it */
 #define REFINER_GATHERING_MOST 256
 #define REFINER_GATHERING_FEWEST 64
-/* corners. So many of a face say what gathering is worth on it: known to a third; chosen */
+/* One corner in so many gathers a second time, by other rays, to tell the noise: chosen, a quarter
+ * more rays */
+#define REFINER_GATHERING_TWICE 4
+/* corners that gathered twice. So many of a face say what gathering is worth on it: known to a
+ * third; chosen */
 #define REFINER_GATHERING_TELLING 16
 /* of the way from a corner to the centre of the smallest leaf there. Chosen: between 1/64 and 1/2
  * pictures are equally good; what stands at the corner is clear of it */
@@ -478,9 +486,12 @@
 
 /* ---- where refinement ends that would not end by itself (engine/limits.c) */
 
-/* splits below a face: parts of 1e-12 of it, where default oracles allow 1e-7 of the scene. Less
- * than CAN_SPLIT_DEPTH, where guards with limits of 0 link all that they were to split: derived */
-#define REFINER_LIMIT_DEPTH 20
+/* splits below a face: parts of 2e-10 of it, where default oracles allow 1e-7 of the scene: 11
+ * splits. Where two faces meet, parts along the edge double with each split and end in links as
+ * fast as they are made, so that no other limit is met for long: bf_guarded with min_share = 0 on
+ * cornell has discussed 0.5 M pairs by 17 splits, 1.1 M by 19, and by 21 more than 30 s can hold.
+ * Less than CAN_SPLIT_DEPTH, where guards with limits of 0 link all that they were to split */
+#define REFINER_LIMIT_DEPTH 16
 /* elements count their depth in a byte */
 #define REFINER_LIMIT_DEPTH_MOST 250
 /* parts of faces ahead of twice the links and stops. chosen: they fit into 0.6 GB, and scenes at

@@ -1,207 +1,141 @@
 /* main.c - a Poisson solve on a mesh that a decision graph refines: -(u_xx + u_yy) = f in the unit
- * square, u a narrow peak, given on the boundary.
+ * square, u a narrow peak, 0 on the boundary (the peak has e^-180 there).
  *
- * Cells are finite volumes; what flows through half a side is the difference of the two cells'
- * means over the distance of their centres. After each solve every leaf is shown to the graph. At
- * last the mean error is held against that of an even mesh with at least as many cells, and the
- * mesh is drawn.
+ * Cells are finite volumes; what flows through a side is the difference of means over the distance
+ * of centres. Before each solve every cell is shown to the graph. At last the mean error is held
+ * against that of an even mesh with at least as many cells, and the mesh is drawn.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "node_counts.h"
 #include "refine.h"
 
-enum { CELLS_MAX = 1 << 16, SWEEPS = 400, ROUNDS = 12 };
+enum { SWEEPS = 400, ROUNDS = 12 };
 static const double width = 0.0005; /* of the peak, squared (m2) */
 
-static double exact(double x, double y)
-{
-    return exp(-((x - 0.3) * (x - 0.3) + (y - 0.6) * (y - 0.6)) / width);
-}
-
-static double source(double x, double y)
+/* The peak, or the source whose answer it is. */
+static double peak(double x, double y, int source)
 {
     double r = ((x - 0.3) * (x - 0.3) + (y - 0.6) * (y - 0.6)) / width;
-    return 4 / width * (1 - r) * exp(-r);
+    return source ? 4 / width * (1 - r) * exp(-r) : exp(-r);
 }
 
-static int leaf_at(const struct refine_mesh *mesh, double x, double y)
-{
-    int at = 0;
-    if (!(x > 0 && x < 1 && y > 0 && y < 1))
-        return -1;
-    while (mesh->cells[at].child != 0) {
-        const struct refine_cell *c = &mesh->cells[at];
-        at = c->child + (x > c->x + c->size / 2) + 2 * (y > c->y + c->size / 2);
-    }
-    return at;
-}
-
-int mesh_neighbour(const struct refine_mesh *mesh, int cell, int side)
+int mesh_neighbour(const struct refine_mesh *mesh, int cell, int side, int half)
 {
     const struct refine_cell *c = &mesh->cells[cell];
-    double along = c->size * (side % 2 ? 0.75 : 0.25), out = c->size * 1e-6;
-    double past = side / 2 % 2 ? c->size + out : -out;
-    return side < 4 ? leaf_at(mesh, c->x + past, c->y + along)
-                    : leaf_at(mesh, c->x + along, c->y + past);
-}
-
-/* u across half a side, on the line through the finer one's centre, and the distance of centres. */
-static double half_across(const struct refine_mesh *mesh, int cell, int side, int n,
-                          double *distance)
-{
-    const struct refine_cell *c = &mesh->cells[cell], *other = n < 0 ? c : &mesh->cells[n];
-    *distance = n < 0 ? 0.5 * c->size : 0.5 * (c->size + other->size);
-    if (n >= 0) {
-        const struct refine_cell *larger = other->size > c->size ? other : c;
-        double shift =
-            0.5 * (c->size - other->size) + (side < 4 ? c->y - other->y : c->x - other->x);
-        return other->u + shift * larger->slope[side < 4];
-    }
-    double along = c->size * (side % 2 ? 0.75 : 0.25), past = side / 2 % 2 ? c->size : 0;
-    return side < 4 ? exact(c->x + past, c->y + along) : exact(c->x + along, c->y + past);
+    double out = side % 2 ? 0.501 : -0.501, along = half ? 0.25 : -0.25;
+    double x = c->x + c->size * (side < 2 ? out : along);
+    double y = c->y + c->size * (side < 2 ? along : out);
+    int inside = x > 0 && x < 1 && y > 0 && y < 1;
+    return inside ? mesh->at[(int)(y * REFINE_GRID)][(int)(x * REFINE_GRID)] : -1;
 }
 
 double mesh_across(const struct refine_mesh *mesh, int cell, int side, double *distance)
 {
-    double a, b, u = 0;
-    u += 0.5 * half_across(mesh, cell, 2 * side, mesh_neighbour(mesh, cell, 2 * side), &a);
-    u += 0.5 * half_across(mesh, cell, 2 * side + 1, mesh_neighbour(mesh, cell, 2 * side + 1), &b);
-    *distance = 0.5 * (a + b);
+    double u = 0, size = mesh->cells[cell].size;
+    *distance = size / 2;
+    for (int half = 0; half < 2; half++) {
+        int n = mesh_neighbour(mesh, cell, side, half);
+        u += n < 0 ? 0 : mesh->cells[n].u / 2;
+        *distance += n < 0 ? 0 : mesh->cells[n].size / 4;
+    }
     return u;
 }
 
-static void split(struct refine_mesh *mesh, int cell)
+static void add(struct refine_mesh *mesh, double x, double y, double size, double u)
 {
-    struct refine_cell *c = &mesh->cells[cell];
-    if (mesh->count + 4 > CELLS_MAX)
-        return;
-    c->child = mesh->count;
-    for (int i = 0; i < 4; i++) {
-        struct refine_cell part = *c;
-        part.size = c->size / 2;
-        part.x += i % 2 * part.size;
-        part.y += i / 2 * part.size;
-        part.depth++;
-        part.child = 0;
-        mesh->cells[mesh->count++] = part;
-    }
+    const struct refine_cell cell = {x, y, size, u};
+    int column = (int)((x - size / 2) * REFINE_GRID), row = (int)((y - size / 2) * REFINE_GRID);
+    int side = (int)(size * REFINE_GRID); /* in squares of the grid */
+    for (int k = 0; k < side * side; k++)
+        mesh->at[row + k / side][column + k % side] = mesh->count;
+    mesh->cells[mesh->count++] = cell;
 }
 
-/* Successive over-relaxation; slopes follow every few sweeps. */
-static void solve(struct refine_mesh *mesh)
+/* Shows every cell to the graph; the next mesh has it, or its quarters. */
+static void refine(const struct refine_mesh *mesh, const struct refine_parameters *parameters,
+                   struct refine_counters *counters, struct refine_mesh *next)
 {
-    int *next = (int *)malloc(sizeof(int) * REFINE_SIDES * (size_t)mesh->count);
-    for (int i = 0; i < mesh->count * REFINE_SIDES; i++)
-        next[i] = mesh_neighbour(mesh, i / REFINE_SIDES, i % REFINE_SIDES);
-    for (int sweep = 0; sweep < SWEEPS; sweep++)
-        for (int i = 0; i < mesh->count; i++) {
-            struct refine_cell *c = &mesh->cells[i];
-            double sum = 0, all = 0, at[4] = {0, 0, 0, 0}, far[4] = {0, 0, 0, 0};
-            for (int k = 0; c->child == 0 && k < REFINE_SIDES; k++) {
-                double distance, u = half_across(mesh, i, k, next[i * REFINE_SIDES + k], &distance);
-                sum += u * c->size / distance;
-                all += c->size / distance;
-                at[k / 2] += u / 2;
-                far[k / 2] += distance / 2;
-            }
-            if (c->child != 0)
-                continue;
-            for (int k = 0; k < 4; k++) { /* Gauss's four points */
-                double x = k % 2 ? 0.78867513459481288 : 0.21132486540518712;
-                double y = k / 2 ? 0.78867513459481288 : 0.21132486540518712;
-                sum += source(c->x + c->size * x, c->y + c->size * y) * c->size * c->size / 2;
-            }
-            c->u += 1.8 * (sum / all - c->u);
-            for (int k = 0; sweep % 8 == 0 && k < 2; k++)
-                c->slope[k] = (at[2 * k + 1] - at[2 * k]) / (far[2 * k] + far[2 * k + 1]);
-        }
-    free(next);
-}
-
-/* Shows every leaf to the graph, then splits; how many were split. */
-static int refine(struct refine_mesh *mesh, const struct refine_parameters *parameters)
-{
-    int count = mesh->count, splits = 0, *chosen = (int *)malloc(sizeof(int) * (size_t)count);
-    for (int i = 0; i < count; i++) {
-        struct refine_discussion d;
+    struct refine_discussion d;
+    next->count = 0;
+    for (int i = 0; i < mesh->count; i++) {
+        const struct refine_cell *c = &mesh->cells[i];
         memset(&d, 0, sizeof d);
         d.mesh = mesh;
         d.cell = i;
-        if (mesh->cells[i].child == 0 && refine_decide(parameters, &d) == REFINE_DECISION_SPLIT)
-            chosen[splits++] = i;
+        int parts =
+            refine_decide_counted(parameters, &d, counters) == REFINE_DECISION_SPLIT ? 2 : 1;
+        double size = c->size / parts, first = (size - c->size) / 2;
+        for (int k = 0; k < parts * parts; k++)
+            add(next, c->x + first + k % parts * size, c->y + first + k / parts * size, size, c->u);
     }
-    for (int i = 0; i < splits; i++)
-        split(mesh, chosen[i]);
-    free(chosen);
-    return splits;
 }
 
-/* The mean of |u - exact| over the square, and the number of leaves. */
-static double error_of(const struct refine_mesh *mesh, int *leaves)
+/* Successive over-relaxation; the source is taken at Gauss's four points. Returns the mean of
+ * |u - peak| at centres (K). */
+static double solve(struct refine_mesh *mesh)
 {
-    double sum = 0;
-    *leaves = 0;
+    static const double gauss[] = {-0.28867513459481287, 0.28867513459481287};
+    double error = 0;
+    for (int i = 0; i < SWEEPS * mesh->count; i++) {
+        struct refine_cell *c = &mesh->cells[i % mesh->count];
+        double sum = 0, all = 0, distance;
+        for (int k = 0; k < 4; k++) {
+            double x = c->x + c->size * gauss[k % 2], y = c->y + c->size * gauss[k / 2];
+            sum += peak(x, y, 1) * c->size / 4;
+            sum += mesh_across(mesh, i % mesh->count, k, &distance) / distance;
+            all += 1 / distance;
+        }
+        c->u += 1.8 * (sum / all - c->u);
+    }
     for (int i = 0; i < mesh->count; i++) {
         const struct refine_cell *c = &mesh->cells[i];
-        if (c->child != 0)
-            continue;
-        sum += c->size * c->size * fabs(c->u - exact(c->x + c->size / 2, c->y + c->size / 2));
-        ++*leaves;
+        error += c->size * c->size * fabs(c->u - peak(c->x, c->y, 0));
     }
-    return sum;
+    return error;
 }
 
-static struct refine_mesh square(void)
-{
-    struct refine_mesh mesh = {(struct refine_cell *)calloc(CELLS_MAX, sizeof(struct refine_cell)),
-                               1};
-    mesh.cells[0].size = 1;
-    return mesh;
-}
-
-static void draw(const struct refine_mesh *mesh, const char *path)
+static int draw(const struct refine_mesh *mesh, const char *path)
 {
     FILE *out = fopen(path, "w");
     if (out == NULL)
-        return;
+        return -1;
     fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\" width=\"512\" "
                  "height=\"512\" stroke=\"#888\" stroke-width=\".0006\">\n");
-    for (int i = 0; i < mesh->count; i++)
-        if (mesh->cells[i].child == 0) {
-            const struct refine_cell *c = &mesh->cells[i];
-            int warm = (int)(255 * fmin(1, fmax(0, c->u)));
-            fprintf(out, "<path d=\"M%g %gh%gv%gh-%gz\" fill=\"#%02x%02xff\"/>\n", c->x,
-                    1 - c->y - c->size, c->size, c->size, c->size, 255 - warm, 255 - warm / 2);
-        }
+    for (int i = 0; i < mesh->count; i++) {
+        const struct refine_cell *c = &mesh->cells[i];
+        int warm = (int)(255 * fmin(1, fmax(0, c->u)));
+        fprintf(out, "<path d=\"M%g %gh%gv%gh-%gz\" fill=\"#%02x%02xff\"/>\n", c->x - c->size / 2,
+                1 - c->y - c->size / 2, c->size, c->size, c->size, 255 - warm, 255 - warm / 2);
+    }
     fprintf(out, "</svg>\n");
-    fclose(out);
+    return fclose(out);
 }
 
 int main(int count, char **arguments)
 {
-    struct refine_mesh adapted = square(), even = square();
+    static struct refine_mesh adapted[2], even;
+    static struct refine_counters counters;
     struct refine_parameters parameters;
-    int leaves, even_leaves = 0, splits = 1;
+    double error = 0, even_error;
+    int n = 1;
     refine_defaults(&parameters);
-    for (int round = 0; round < ROUNDS && splits > 0; round++) {
-        splits = refine(&adapted, &parameters);
-        solve(&adapted);
+    counters.clock = node_counts_seconds;
+    add(&adapted[0], 0.5, 0.5, 1, 0);
+    for (int round = 0; round < ROUNDS; round++) {
+        refine(&adapted[round % 2], &parameters, &counters, &adapted[(round + 1) % 2]);
+        error = solve(&adapted[(round + 1) % 2]);
     }
-    double error = error_of(&adapted, &leaves), even_error = 0;
-    while (even_leaves < leaves) {
-        for (int i = 0, n = even.count; i < n; i++)
-            if (even.cells[i].child == 0)
-                split(&even, i);
-        solve(&even);
-        even_error = error_of(&even, &even_leaves);
-    }
-    printf("adapted: %d cells, mean error %.2g K\neven:    %d cells, mean error %.2g K\n", leaves,
-           error, even_leaves, even_error);
-    draw(&adapted, count > 1 ? arguments[1] : "mesh.svg");
-    free(adapted.cells);
-    free(even.cells);
-    return 4 * error < even_error ? 0 : 1;
+    const struct refine_mesh *last = &adapted[ROUNDS % 2];
+    while (n * n < last->count)
+        n *= 2;
+    for (int i = 0; i < n * n; i++)
+        add(&even, (i % n + 0.5) / n, (i / n + 0.5) / n, 1.0 / n, 0);
+    even_error = solve(&even);
+    printf("adapted: %d cells, mean error %.2g K\neven:    %d cells, mean error %.2g K\n",
+           last->count, error, even.count, even_error);
+    node_counts_print(stdout, NODE_COUNTS(refine, &counters));
+    return draw(last, count > 1 ? arguments[1] : "mesh.svg") == 0 && 4 * error < even_error ? 0 : 1;
 }

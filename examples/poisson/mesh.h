@@ -1,5 +1,4 @@
-/* mesh.h - the runtime of mesh.dag: a quadtree over the unit square, and one cell of it to be
- * discussed.
+/* mesh.h - the runtime of mesh.dag: squares that tile the unit square, one of them to be discussed.
  * SPDX-License-Identifier: MIT */
 #ifndef MESH_H
 #define MESH_H
@@ -9,16 +8,17 @@
 #define RUNTIME_ABI 1
 #include "catalog.h"
 
+#define GRID 512 /* cells to a side if all are split as deep as the catalog allows */
+
 struct cell {
-    double x, y, size; /* lower left corner, side (m) */
+    double x, y, size; /* centre, side (m) */
     double u;          /* mean (K) */
-    double slope[2];   /* of u: along x, along y (K/m) */
-    int depth, child;  /* the first of four; 0: a leaf */
 };
 
 struct mesh {
-    struct cell *cells; /* the first is the square */
     int count;
+    struct cell cells[GRID * GRID];
+    int at[GRID][GRID]; /* row, column: the cell that covers this square of the grid */
 };
 
 struct discussion {
@@ -27,11 +27,9 @@ struct discussion {
     int cell;
 };
 
-enum { SIDES = 8 }; /* halves of sides, two to each: left, right, lower, upper */
-
-/* The leaf across half a side; -1: the boundary. */
-int mesh_neighbour(const struct mesh *mesh, int cell, int side);
-/* The mean of u across a side (0 to 3), and how far from the cell's centre that holds (m). */
+/* Sides are numbered left, right, lower, upper. The cell across half of one; -1: the boundary. */
+int mesh_neighbour(const struct mesh *mesh, int cell, int side, int half);
+/* The mean of u across a side, and how far from the cell's centre that holds (m). */
 double mesh_across(const struct mesh *mesh, int cell, int side, double *distance);
 
 #endif

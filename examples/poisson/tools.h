@@ -7,16 +7,17 @@
 
 static inline enum coarse_answer tool_coarse(struct discussion *d, int depth)
 {
-    return d->mesh->cells[d->cell].depth < depth ? COARSE_YES : COARSE_NO;
+    return d->mesh->cells[d->cell].size > ldexp(1, -depth) ? COARSE_YES : COARSE_NO;
 }
 
 static inline enum graded_answer tool_graded(struct discussion *d)
 {
-    for (int side = 0; side < SIDES; side++) {
-        int n = mesh_neighbour(d->mesh, d->cell, side);
-        if (n >= 0 && d->mesh->cells[n].depth > d->mesh->cells[d->cell].depth + 1)
-            return GRADED_NO;
-    }
+    for (int side = 0; side < 4; side++)
+        for (int half = 0; half < 2; half++) {
+            int n = mesh_neighbour(d->mesh, d->cell, side, half);
+            if (n >= 0 && d->mesh->cells[n].size < d->mesh->cells[d->cell].size / 2)
+                return GRADED_NO;
+        }
     return GRADED_YES;
 }
 

@@ -91,6 +91,9 @@ int api_progress(RadDevice device, const struct RadProgress *progress);
  * an error. */
 RadOracle api_oracle(RadDevice device, struct refiner *refiner);
 
+/* api_oracle.c. Those that radLoadPlugin has loaded so far. */
+const struct plugin *api_plugins(RadDevice device);
+
 /* api_graph.c. Keeps what the oracle was loaded from; where there is no memory for it, nothing. */
 void api_keep_source(RadOracle oracle, const char *path, const char *text, const char *name,
                      const char *const *replacements, int count);

@@ -9,11 +9,7 @@
 
 static char *copy(const char *text)
 {
-    size_t size = text ? strlen(text) + 1 : 0;
-    char *c = text ? malloc(size) : NULL;
-    if (c)
-        memcpy(c, text, size);
-    return c;
+    return text ? strdup(text) : NULL;
 }
 
 void api_keep_source(RadOracle oracle, const char *path, const char *text, const char *name,
@@ -50,6 +46,8 @@ struct refiner *api_interpret(RadOracle oracle)
         &(struct interpretation){.path = s->path,
                                  .text = s->text,
                                  .oracle = s->name,
+                                 .find_extern = plugin_find,
+                                 .find_where = api_plugins(oracle->device),
                                  .replacements = (const char *const *)s->replacements,
                                  .replacement_count = s->replacement_count},
         &messages);

@@ -56,6 +56,16 @@ static int check_compiled(RadDevice device, const struct oracle *oracle)
     return 0;
 }
 
+static enum RadError code_of(const struct messages *messages)
+{
+    static const enum RadError codes[] = {[MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY,
+                                          [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
+                                          [MESSAGE_GRAPH] = RAD_ERROR_INVALID_ORACLE,
+                                          [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
+                                          [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY};
+    return codes[messages->cause];
+}
+
 int radRegisterOracle(RadDevice device, const struct oracle *oracle)
 {
     if (!device || check_compiled(device, oracle) < 0)
@@ -66,6 +76,34 @@ int radRegisterOracle(RadDevice device, const struct oracle *oracle)
     return status < 0 ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for oracle %s",
                                  oracle->name)
                       : 0;
+}
+
+int radLoadPlugin(RadDevice device, const char *path)
+{
+    struct messages messages = {0};
+    if (!device)
+        return -1;
+    if (!path)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a plugin's file needs a name");
+    const struct dag_compiler compiler = {device->sources.compiler, device->sources.temporary};
+    struct plugin *plugin = plugin_load(path, &compiler, &messages);
+    if (plugin) {
+        pthread_mutex_lock(&device->lock);
+        plugin->next = device->sources.plugins;
+        device->sources.plugins = plugin;
+        pthread_mutex_unlock(&device->lock);
+    } else
+        api_fail(device, code_of(&messages), "%s", messages_text(&messages));
+    messages_free(&messages);
+    return plugin ? 0 : -1;
+}
+
+const struct plugin *api_plugins(RadDevice device)
+{
+    pthread_mutex_lock(&device->lock);
+    const struct plugin *plugins = device->sources.plugins;
+    pthread_mutex_unlock(&device->lock);
+    return plugins;
 }
 
 int radHasOracle(RadDevice device, const char *name, enum RadRelease release)
@@ -106,23 +144,19 @@ static int check_release(RadDevice device, enum RadRelease release)
 static RadOracle load(RadDevice device, const char *path, const char *text, const char *name,
                       enum RadRelease release, const char *const *replacements, int count)
 {
-    static const enum RadError codes[] = {[MESSAGE_NONE] = RAD_ERROR_OUT_OF_MEMORY,
-                                          [MESSAGE_ARGUMENT] = RAD_ERROR_INVALID_ARGUMENT,
-                                          [MESSAGE_GRAPH] = RAD_ERROR_INVALID_ORACLE,
-                                          [MESSAGE_COMPILER] = RAD_ERROR_UNSUPPORTED,
-                                          [MESSAGE_MEMORY] = RAD_ERROR_OUT_OF_MEMORY};
-    const struct oracle_sources how = {.compiler = device->sources.compiler,
-                                       .temporary = device->sources.temporary,
-                                       .replacements = replacements,
-                                       .replacement_count = count};
+    struct oracle_sources how = {.compiler = device->sources.compiler,
+                                 .temporary = device->sources.temporary,
+                                 .replacements = replacements,
+                                 .replacement_count = count};
     struct messages messages = {0};
     if (check_release(device, release) < 0)
         return NULL;
+    how.plugins = api_plugins(device);
     struct refiner *refiner = oracle_load(
         &how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
     RadOracle oracle = refiner ? api_oracle(device, refiner) : NULL;
     if (!refiner)
-        api_fail(device, codes[messages.cause], "%s",
+        api_fail(device, code_of(&messages), "%s",
                  messages.cause == MESSAGE_NONE ? "out of memory for an oracle"
                                                 : messages_text(&messages));
     if (oracle)

@@ -458,5 +458,7 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,
                    s->linear.seconds}};
     memcpy(report->marked, s->refinement.marked, sizeof report->marked);
+    for (uint32_t i = 0; i < s->hierarchy.count; i++)
+        report->marked_elements[s->hierarchy.elements[i].mark % RAD_LINK_MARKS]++;
     memcpy(report->decided, s->refinement.decided, sizeof report->decided);
 }

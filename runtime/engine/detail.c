@@ -90,34 +90,32 @@ static int light(struct solve *s, uint32_t first)
     return 0;
 }
 
-int detail_leaves(struct solve *s, double landings)
+/* Split leaves into as many parts as what each receives and covers asks for. */
+static int split_leaves(struct solve *s, double per_watt, double per_m2)
 {
     struct hierarchy *h = &s->hierarchy;
     uint32_t first = h->count;
-    double whole = 0;
     if (!s->linear.gradient)
         return 0;
     for (uint32_t i = 0; i < first; i++)
-        whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
-    for (uint32_t i = 0; whole > 0 && i < first; i++)
         if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
-            && split(h, i, landings * received(s, i) / whole / MEND_DETAIL) < 0)
+            && split(h, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0)
             return -1;
     return light(s, first);
 }
 
+int detail_leaves(struct solve *s, double landings)
+{
+    const struct hierarchy *h = &s->hierarchy;
+    double whole = 0;
+    for (uint32_t i = 0; i < h->count; i++)
+        whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
+    return whole > 0 ? split_leaves(s, landings / MEND_DETAIL / whole, 0) : 0;
+}
+
 int detail_places(struct solve *s)
 {
-    struct hierarchy *h = &s->hierarchy;
-    uint32_t first = h->count;
-    double most = PLACE_SHARE * h->elements[0].area;
-    if (!s->linear.gradient)
-        return 0;
-    for (uint32_t i = 0; i < first; i++)
-        if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
-            && split(h, i, h->elements[i].area / most) < 0)
-            return -1;
-    return light(s, first);
+    return split_leaves(s, 0, 1 / (PLACE_SHARE * s->hierarchy.elements[0].area));
 }
 
 int detail_drop(struct solve *s, uint32_t count)

@@ -125,8 +125,8 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     uint64_t each = surfaces ? rays * 3 / 10 : 0, counted = rays - 2 * each;
     double start = seconds();
     struct tracer t = solve_tracer(s);
-    s->told = 0;
     struct tally tally = {0};
+    s->told = 0;
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
                          || trace_rays(s, &t, &tally, counted, (double)rays) < 0
@@ -312,9 +312,9 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
 {
     double start = seconds();
     struct tracer t = solve_tracer(s);
-    s->told = 0;
     struct tally tally = {0};
     uint64_t spent = 0;
+    s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
     int failed = tracer_open(&t) < 0 || detail_leaves(s, landings(goal)) < 0

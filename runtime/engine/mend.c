@@ -12,10 +12,11 @@
  *
  * sum m^2 of two or four children is a noisy thing itself. So elements are put in classes, clusters
  * or surfaces by how many particles they met: within a class noise is alike, and what is seen of it
- * is what links are worth at that size in this scene. In place of an element's own sum m^2 stands a
- * mean of it and of what its class expects. Where a class shows nothing beyond noise, links are
- * left alone, so that good links are not made worse; but an element that is far out is believed
- * for itself.
+ * is what links are worth at that size in this scene; what is seen near by, among an element's kin,
+ * is what they are worth there: a shadow's edge on the floor is no reason to doubt a smooth wall.
+ * In place of an element's own sum m^2 stands a mean of it and of what class and kin expect. Where
+ * a class shows nothing beyond noise, links are left alone, so that good links are not made worse;
+ * but an element that is far out is believed for itself.
  *
  * s^2 above the faces and among them is told by the replicates, which see correlations that chance
  * does not; below, where few particles land and replicates would say little, it is that of chance,
@@ -56,6 +57,7 @@ struct mending {
     /* of this level, by the logarithm of their particles */
     struct sight class[CLASSES];
     struct trend trend[CLASSES];
+    struct sight *kin; /* [element]: of what hangs two levels below it, on this level */
 };
 
 enum { CHILDREN = 255 };
@@ -157,10 +159,10 @@ static int class_of(const struct mending *m, uint32_t e, uint32_t k)
     return class < CLASSES ? class : CLASSES - 1;
 }
 
-/* k of one element among its class. */
-static double believed(const struct sight *own, const struct sight *class)
+/* k of one element among its class; `above`: how far squares of its like are above noise. */
+static double believed(const struct sight *own, const struct sight *class, double above)
 {
-    double ratio = class->seen / class->noise, expected = own->noise * fmax(1, ratio), seen = 0;
+    double ratio = class->seen / class->noise, expected = own->noise * fmax(1, above), seen = 0;
     if (ratio > 1 + MEND_EVIDENCE * sqrt(2.0 / class->elements))
         seen = MEND_OWN * own->seen + (1 - MEND_OWN) * expected;
     if (own->seen > MEND_OUTLIER * MEND_OUTLIER * expected)
@@ -196,6 +198,22 @@ static void note_trend(struct mending *m, uint32_t e, uint32_t k)
     }
 }
 
+/* Its parent's parent, as far up as they are of one face: the head of its kin. */
+static uint32_t elder(const struct mending *m, uint32_t e)
+{
+    const struct element *elements = m->op->hierarchy->elements;
+    for (int up = 0; up < 2 && elements[e].vertices && elements[e].depth > 0; up++)
+        e = elements[e].parent;
+    return e;
+}
+
+static void add_sight(struct sight *sum, const struct sight *own)
+{
+    sum->seen += own->seen;
+    sum->noise += own->noise;
+    sum->elements++;
+}
+
 static void note_sight(struct mending *m, uint32_t e, uint32_t k)
 {
     struct sight *class = &m->class[class_of(m, e, k)];
@@ -204,9 +222,17 @@ static void note_sight(struct mending *m, uint32_t e, uint32_t k)
         return;
     foretold_shares(m, e, k, given);
     struct sight own = see(m, e, k, given);
-    class->seen += own.seen;
-    class->noise += own.noise;
-    class->elements++;
+    add_sight(class, &own);
+    add_sight(&m->kin[elder(m, e)], &own);
+}
+
+/* How far m^2 is above noise among elements like this one: of its kin, as far as they are many
+ * enough to tell, and of its class. */
+static double above_noise(const struct mending *m, uint32_t e, uint32_t k)
+{
+    const struct sight *class = &m->class[class_of(m, e, k)], *kin = &m->kin[elder(m, e)];
+    double n = kin->elements;
+    return (MEND_KIN * class->seen / class->noise + n * kin->seen / kin->noise) / (MEND_KIN + n);
 }
 
 /* Share out what e receives, mended by now, among its children. */
@@ -218,7 +244,7 @@ static void share_out(struct mending *m, uint32_t e, uint32_t k)
     foretold_shares(m, e, k, given);
     if (counted > 0) {
         struct sight own = see(m, e, k, given);
-        belief = believed(&own, &m->class[class_of(m, e, k)]);
+        belief = believed(&own, &m->class[class_of(m, e, k)], above_noise(m, e, k));
     }
     for (uint32_t c = 0; c < at->children; c++) {
         uint32_t j = at->child + c;
@@ -246,6 +272,7 @@ static void mend_level(struct mending *m, int depth)
 {
     m->depth = depth;
     memset(m->class, 0, sizeof m->class);
+    memset(m->kin, 0, m->op->hierarchy->count * sizeof *m->kin);
     memset(m->trend, 0, sizeof m->trend);
     each(m, note_trend);
     each(m, note_sight);
@@ -262,7 +289,7 @@ static void mend_root(struct mending *m, uint32_t k)
         noise += d * d / (REPLICATES * (REPLICATES - 1.0));
     }
     const struct sight own = {off * off, noise, 1};
-    double belief = believed(&own, &own);
+    double belief = believed(&own, &own, own.seen / own.noise);
     m->irradiance[place(m, 0, k)] =
         (m->linked[place(m, 0, k)] + belief * off) / h->elements[0].area;
 }
@@ -300,8 +327,9 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
     struct mending m = {.op = op, .tally = tally, .bands = tally->bands, .irradiance = irradiance};
     m.linked = malloc(values * sizeof *m.linked);
     m.received = malloc(values * sizeof *m.received);
+    m.kin = malloc((size_t)h->count * sizeof *m.kin);
     m.replicate = malloc((size_t)REPLICATES * h->built * m.bands * sizeof *m.replicate);
-    int result = m.linked && m.received && m.replicate ? 0 : -1;
+    int result = m.linked && m.received && m.replicate && m.kin ? 0 : -1;
     if (result == 0) {
         fill(&m);
         for (uint32_t k = 0; k < m.bands; k++)
@@ -313,6 +341,7 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
         for (int depth = CLUSTERS; depth < deepest; depth++)
             mend_level(&m, depth);
     }
+    free(m.kin);
     free(m.linked);
     free(m.received);
     free(m.replicate);

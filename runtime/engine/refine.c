@@ -7,6 +7,8 @@
  * alone, never on threads, timing or release. Taking from the end keeps the queue short: a few
  * rounds' worth, not the square of the faces.
  *
+ * Marks that a discussion gives its elements are seen by the rounds to come (mark_elements).
+ *
  * Where the oracle looks into the shaft between two elements, the candidates it found are handed on
  * to the pairs below: a list stands once in a pool and counts the pairs that refer to it, which
  * retain and release it. A pair whose discussion made none hands on what it was given; a list that
@@ -30,11 +32,13 @@ int decision_links(enum decision decision)
     return decision == DECISION_LINK || decision == DECISION_LINK_CLUSTERS;
 }
 
-void link_store(struct link *link, const struct terms *terms)
+void link_store(struct link *link, enum decision decision, const struct terms *terms)
 {
-    link->form_factor = (float)terms->form_factor;
-    link->levels = (uint8_t)(terms->form_factor_level | terms->visibility_level << 4);
-    link->mark = terms->mark_level ? (uint8_t)terms->mark : 0;
+    const int of_faces = decision == DECISION_LINK;
+    link->form_factor = of_faces ? (float)terms->form_factor : 0;
+    link->levels =
+        (uint8_t)((of_faces ? terms->form_factor_level : 0) | terms->visibility_level << 4);
+    link->mark = of_faces && terms->mark_level ? (uint8_t)terms->mark : 0;
     link->visibility = (uint16_t)(terms->visibility * LINK_VISIBLE + 0.5);
     if (link->visibility == 0 && terms->visibility > 0)
         link->visibility = 1;
@@ -137,11 +141,10 @@ static unsigned char discuss(const struct refinement *r, size_t i, int turned, s
     link_recall(link, &d.terms);
     enum decision decision = r->trace ? trace_ask(&r->trace->pairs[i], turned, r->refiner, &d)
                                       : r->refiner->refine(r->refiner->state, &d);
-    if (!decision_links(decision)) { /* the other way round asks of the visibility, too */
-        d.terms.form_factor = 0;
-        d.terms.form_factor_level = FORM_FACTOR_ABSENT;
-    }
-    link_store(link, &d.terms);
+    link_store(link, decision, &d.terms);
+    unsigned char *marks = r->outcomes[i].marks[turned];
+    marks[0] = d.terms.receiver_mark_level ? (unsigned char)d.terms.receiver_mark : 0;
+    marks[1] = d.terms.emitter_mark_level ? (unsigned char)d.terms.emitter_mark : 0;
     if (d.terms.no_number && !r->outcomes[i].none)
         r->outcomes[i].none = d.terms.no_number;
     return (unsigned char)decision;
@@ -189,6 +192,7 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
             list = r->pool[p->list].list;
         o->link[0] = there;
         o->none = NULL;
+        memset(o->marks, 0, sizeof o->marks);
         o->decision[0] = discuss(r, i, 0, &o->link[0], &list);
         if (p->both) {
             if (r->trace)
@@ -198,6 +202,29 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
             o->decision[1] = discuss(r, i, 1, &o->link[1], &list);
         }
         note_list(r, i, &list, divides(o->decision[0]) || (p->both && divides(o->decision[1])));
+    }
+}
+
+/* An element keeps the first mark that it is given, of those given in one round the least: which
+ * pair was discussed first makes no difference. */
+static void mark_element(struct refinement *r, uint32_t element, unsigned char mark)
+{
+    struct element *e = &r->hierarchy->elements[element];
+    if (mark && (!e->mark || mark < e->mark))
+        e->mark = mark;
+}
+
+/* After the discussions of a round, which have seen the marks of those before it; before anything
+ * is split, for parts are marked as what they are parts of. */
+static void mark_elements(struct refinement *r, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const struct outcome *o = &r->outcomes[i];
+        uint32_t receiver = o->link[0].receiver, emitter = o->link[0].emitter;
+        mark_element(r, receiver, o->marks[0][0]);
+        mark_element(r, emitter, o->marks[0][1]);
+        mark_element(r, emitter, o->marks[1][0]);
+        mark_element(r, receiver, o->marks[1][1]);
     }
 }
 
@@ -371,6 +398,7 @@ static int drain(struct refinement *r)
         thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_pairs, r);
         if (tell_round(r, count) < 0)
             return -1;
+        mark_elements(r, count);
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             int both = (int)r->round[i].both;
@@ -417,6 +445,7 @@ static void discuss_again(const void *again, size_t from, size_t to)
         list.known = BLOCKERS_UNKNOWN;
         o->link[0] = *l;
         o->none = NULL;
+        memset(o->marks, 0, sizeof o->marks);
         o->decision[1] = !a->changed || a->changed[l->receiver] || a->changed[l->emitter];
         o->decision[0] = o->decision[1] ? discuss(a->refinement, i, 0, &o->link[0], &list)
                                         : (unsigned char)DECISION_LINK;
@@ -437,6 +466,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
         thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_again, &a);
         if (tell_again(r, a.links, count) < 0)
             return -1;
+        mark_elements(r, count);
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
             if (!o->decision[1]) {

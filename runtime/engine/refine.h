@@ -36,6 +36,8 @@ struct pair {
 struct outcome {
     struct link link[2];
     unsigned char decision[2];
+    /* of each way round: what the discussion marks its receiver [0] and emitter [1] with */
+    unsigned char marks[2][2];
     unsigned char listed; /* refinement.found holds the pair's candidates */
     const char *none;     /* which argument of a node was no number; NULL: all were */
 };
@@ -117,8 +119,9 @@ void refinement_close(struct refinement *r);
 /* Does the decision make a link? */
 int decision_links(enum decision decision);
 
-/* The same link value from the terms of a discussion, and back. */
-void link_store(struct link *link, const struct terms *terms);
+/* The same link value from the terms of a discussion, and back: of those that the decision reads,
+ * as the others may be known to one release and not to another. */
+void link_store(struct link *link, enum decision decision, const struct terms *terms);
 void link_recall(const struct link *link, struct terms *terms);
 
 #endif

@@ -188,6 +188,7 @@ int hierarchy_split(struct hierarchy *h, uint32_t element)
         c->importance = e->importance;
         c->tolerance = e->tolerance;
         c->lower = e->lower;
+        c->mark = e->mark;
         c->id = child_id(e->id, i);
     }
     e->child = first;

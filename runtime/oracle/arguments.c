@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "oracle/load_graph.h"
 #include "oracle/program.h"
 #include "oracle/tool_table.h"
 
@@ -172,12 +173,8 @@ static int link_expression(const struct program *p, int expression, const char *
                 what = "term";
                 name = dag->terms[dag->needs[k].term].name;
             }
-        if (!p->externs[e->index].fact) {
-            return messages_say(messages, MESSAGE_ARGUMENT,
-                                "oracle %s: the extern '%s' is not registered; give its C "
-                                "function in interpretation.externs, or use the flat release",
-                                oracle, dag->callbacks[e->index].name);
-        }
+        if (!p->externs[e->index].fact)
+            return graph_lacks_extern(dag, e->index, messages);
     }
     if (what)
         return messages_say(messages, MESSAGE_ARGUMENT,

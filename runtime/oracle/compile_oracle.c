@@ -44,6 +44,29 @@ static struct refiner *open_library(void *library, const char *name, struct mess
     return NULL;
 }
 
+/* Externs of other oracles in the file stay NULL: nobody asks those. Returns 0, or -1 after a
+ * message. */
+static int find_externs(const struct dag *dag, int oracle, const struct plugin *plugins,
+                        struct messages *messages)
+{
+    for (int i = 0; i < dag->callback_count; i++)
+        if (dag_reads_extern(dag, &dag->oracles[oracle], i)
+            && !plugin_find(plugins, dag->callbacks[i].name))
+            return graph_lacks_extern(dag, i, messages);
+    return 0;
+}
+
+static void set_externs(void *library, const struct dag *dag, const struct plugin *plugins)
+{
+    char symbol[128];
+    for (int i = 0; i < dag->callback_count; i++) {
+        snprintf(symbol, sizeof symbol, "extern_%s", dag->callbacks[i].name);
+        extern_function **variable = dlsym(library, symbol);
+        if (variable)
+            *variable = plugin_find(plugins, dag->callbacks[i].name);
+    }
+}
+
 struct refiner *compile_oracle(const char *path, const char *text, const char *name,
                                const struct oracle_sources *how, struct messages *messages)
 {
@@ -60,14 +83,16 @@ struct refiner *compile_oracle(const char *path, const char *text, const char *n
         (void)messages_say(messages, MESSAGE_ARGUMENT,
                            "the graph's catalog declares terms that this program was built "
                            "without; leave them out, or build a program with that catalog");
-    } else {
+    } else if (find_externs(dag, index, how->plugins, messages) == 0) {
         const struct dag_compiler compiler = {how->compiler, how->temporary};
         char message[4096];
         void *library = dag_compile_oracles(dag, &compiler, message, sizeof message);
         if (!library)
             (void)messages_say(messages, MESSAGE_COMPILER, "%s", message);
-        else
+        else {
+            set_externs(library, dag, how->plugins);
             r = open_library(library, dag->oracles[index].name, messages);
+        }
     }
     dag_free(dag);
     return r;

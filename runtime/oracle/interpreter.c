@@ -132,10 +132,14 @@ static int find_externs(struct program *p, const struct interpretation *how)
     p->externs = calloc((size_t)p->dag->callback_count + 1, sizeof *p->externs);
     if (!p->externs)
         return -1;
-    for (int i = 0; i < p->dag->callback_count; i++)
+    for (int i = 0; i < p->dag->callback_count; i++) {
+        const char *name = p->dag->callbacks[i].name;
         for (int k = 0; k < how->extern_count; k++)
-            if (strcmp(how->externs[k].name, p->dag->callbacks[i].name) == 0)
+            if (strcmp(how->externs[k].name, name) == 0)
                 p->externs[i].fact = how->externs[k].call;
+        if (!p->externs[i].fact && how->find_extern)
+            p->externs[i].fact = how->find_extern(how->find_where, name);
+    }
     return 0;
 }
 

@@ -35,3 +35,25 @@ struct dag *load_graph(const char *path, const struct dag_options *options, cons
     dag_free(dag);
     return NULL;
 }
+
+int graph_lacks_extern(const struct dag *dag, int callback, struct messages *messages)
+{
+    const struct callback *c = &dag->callbacks[callback];
+    char what[200], note[400], *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        return messages_say(messages, MESSAGE_MEMORY, "out of memory");
+    snprintf(what, sizeof what, "nothing defines the extern '%s', which the oracle reads", c->name);
+    snprintf(note, sizeof note,
+             "define in C: double %s(const struct discussion *d); radiosity takes the file by "
+             "--plugin, other programs take the function in interpretation.externs",
+             c->name);
+    dag_print_error(dag, c->where, what, note, out);
+    if (fclose(out) != 0 || !text)
+        (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
+    else
+        (void)messages_say(messages, MESSAGE_GRAPH, "%s", text);
+    free(text);
+    return -1;
+}

@@ -12,4 +12,8 @@
 struct dag *load_graph(const char *path, const struct dag_options *options, const char *name,
                        int *index, struct messages *messages);
 
+/* The message to an extern that nobody defines: where it is declared, what it should be, and who
+ * may give it. Returns -1. */
+int graph_lacks_extern(const struct dag *dag, int callback, struct messages *messages);
+
 #endif

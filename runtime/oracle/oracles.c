@@ -30,6 +30,8 @@ void oracle_sources_free(struct oracle_sources *sources)
     sources->hand = NULL;
     sources->hand_count = 0;
     sources->hand_capacity = 0;
+    plugins_free(sources->plugins);
+    sources->plugins = NULL;
 }
 
 static int is_file(const char *oracle)
@@ -118,6 +120,8 @@ struct refiner *oracle_load(const struct oracle_sources *sources, const char *pa
             &(struct interpretation){.path = path,
                                      .text = text,
                                      .oracle = name,
+                                     .find_extern = plugin_find,
+                                     .find_where = sources->plugins,
                                      .replacements = sources->replacements,
                                      .replacement_count = sources->replacement_count},
             messages);

@@ -3,6 +3,7 @@
 #ifndef ORACLES_H
 #define ORACLES_H
 
+#include "oracle/plugin.h"
 #include "oracle/refiner.h"
 #include "util/messages.h"
 
@@ -22,6 +23,7 @@ struct oracle_sources {
     /* [replacement_count] of nodes of what oracle_load loads, as in struct dag_options */
     const char *const *replacements;
     int replacement_count;
+    const struct plugin *plugins; /* owned: where externs are */
 };
 
 /* Registers a release under its own name; it is borrowed. Returns 0, or -1: out of memory, or of

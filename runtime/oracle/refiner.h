@@ -35,9 +35,10 @@ struct refiner *refiner_interpreted(const char *path, const char *text, const ch
 
 /* A C function that an oracle names with `extern`, for the interpreter; the flat release is
  * linked with it. */
+typedef double extern_function(const struct discussion *d);
 struct extern_entry {
     const char *name;
-    double (*call)(const struct discussion *d);
+    extern_function *call;
 };
 
 /* All that the interpreter may be told; zero: as refiner_interpreted. Everything is the caller's
@@ -50,6 +51,9 @@ struct interpretation {
     int folder_count;
     const struct extern_entry *externs;
     int extern_count;
+    /* asked, with `find_where`, for an extern that is not among them; NULL: nobody is */
+    extern_function *(*find_extern)(const void *where, const char *name);
+    const void *find_where;
     /* of warnings, as in struct dag_options; NULL: errors alone */
     const char *switches;
     /* nodes that are to be otherwise, as in struct dag_options */
@@ -57,8 +61,8 @@ struct interpretation {
     int replacement_count;
 };
 
-/* The DAG release again. An `extern` of the oracle that is not among the entries is an error, and
- * so is a tool, term or fact that the program was built without. */
+/* The DAG release again. An `extern` of the oracle that nobody defines is an error, and so is a
+ * tool, term or fact that the program was built without. */
 struct refiner *refiner_interpret(const struct interpretation *how, struct messages *messages);
 
 /* Set a parameter. Returns 0, or -1 after a message that names the parameter and its range, or

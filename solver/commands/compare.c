@@ -27,7 +27,7 @@ static const enum RadRelease order[RELEASES] = {RAD_RELEASE_HAND, RAD_RELEASE_DA
 struct kept {
     float form_factor;
     double visibility;
-    unsigned char levels[2], mark;
+    unsigned char levels[2], mark, marks[2]; /* marks: of receiver and emitter */
 };
 
 /* The first pair that they do not do the same with: by identities, so the same on any number of
@@ -58,12 +58,16 @@ static int links(enum decision decision)
 
 static struct kept keep(enum decision decision, const struct terms *t)
 {
+    struct kept kept = {.marks = {(unsigned char)(t->receiver_mark_level ? t->receiver_mark : 0),
+                                  (unsigned char)(t->emitter_mark_level ? t->emitter_mark : 0)}};
     if (!links(decision))
-        return (struct kept){0};
-    return (struct kept){(float)t->form_factor,
-                         t->visibility,
-                         {t->form_factor_level, t->visibility_level},
-                         (unsigned char)(t->mark_level ? t->mark : 0)};
+        return kept;
+    kept.form_factor = (float)t->form_factor;
+    kept.visibility = t->visibility;
+    kept.levels[0] = t->form_factor_level;
+    kept.levels[1] = t->visibility_level;
+    kept.mark = (unsigned char)(t->mark_level ? t->mark : 0);
+    return kept;
 }
 
 /* Equal to the bit, for which NAN is like NAN. */
@@ -71,7 +75,8 @@ static int same(const struct kept *a, const struct kept *b)
 {
     return memcmp(&a->form_factor, &b->form_factor, sizeof a->form_factor) == 0
            && memcmp(&a->visibility, &b->visibility, sizeof a->visibility) == 0
-           && memcmp(a->levels, b->levels, sizeof a->levels) == 0 && a->mark == b->mark;
+           && memcmp(a->levels, b->levels, sizeof a->levels) == 0 && a->mark == b->mark
+           && memcmp(a->marks, b->marks, sizeof a->marks) == 0;
 }
 
 static void record(struct panel *p, const struct discussion *start, const enum decision *decision,
@@ -155,6 +160,8 @@ static void print_difference(const struct panel *p)
             printf(", F = %.9g (level %d), V = %.9g (level %d), mark %d",
                    (double)f->link[k].form_factor, f->link[k].levels[0], f->link[k].visibility,
                    f->link[k].levels[1], f->link[k].mark);
+        if (f->link[k].marks[0] || f->link[k].marks[1])
+            printf(", receiver marked %d, emitter %d", f->link[k].marks[0], f->link[k].marks[1]);
         printf("\n");
     }
     printf("the graph's way there, as release dag goes it:\n");

@@ -35,11 +35,11 @@ static json_t *parameters_json(RadOracle oracle, const struct RadOracleReport *r
     return all;
 }
 
-static json_t *marks_json(const struct RadReport *r)
+static json_t *marks_json(const uint64_t marked[RAD_LINK_MARKS])
 {
     json_t *all = json_array();
     for (int i = 0; i < RAD_LINK_MARKS; i++)
-        json_array_append_new(all, json_integer((json_int_t)r->marked[i]));
+        json_array_append_new(all, json_integer((json_int_t)marked[i]));
     return all;
 }
 
@@ -132,10 +132,12 @@ json_t *summary_json(const struct summary *s)
     for (int i = 0; i < s->options->replacement_count; i++)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));
     json_object_set_new(all, "replaced", replaced);
-    json_t *links = json_pack("{s:I, s:I, s:o, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links,
-                              "pairs", (json_int_t)r->pairs, "decisions", decisions_json(r),
-                              "guard_hits", (json_int_t)r->marked[GUARDED], "marks", marks_json(r),
-                              "rays", (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
+    json_object_set_new(all, "element_marks", marks_json(r->marked_elements));
+    json_t *links =
+        json_pack("{s:I, s:I, s:o, s:I, s:o, s:I, s:I}", "links", (json_int_t)r->links, "pairs",
+                  (json_int_t)r->pairs, "decisions", decisions_json(r), "guard_hits",
+                  (json_int_t)r->marked[GUARDED], "marks", marks_json(r->marked), "rays",
+                  (json_int_t)r->rays, "rounds", (json_int_t)r->rounds);
     json_t *solution =
         json_pack("{s:i, s:i, s:b, s:I, s:f, s:o, s:o, s:f, s:f, s:f}", "passes", r->passes,
                   "iterations", r->iterations, "converged", r->converged, "links_changing",
@@ -163,8 +165,8 @@ json_t *summary_json(const struct summary *s)
     return all;
 }
 
-/* Links that a graph has marked. A mark other than the guard's means what the graph's author
- * meant by it. */
+/* Links and elements that a graph has marked. A mark other than the guard's means what the graph's
+ * author meant by it. */
 static void print_marks(const struct RadReport *r)
 {
     for (int i = 1; i < RAD_LINK_MARKS; i++)
@@ -173,6 +175,11 @@ static void print_marks(const struct RadReport *r)
                    (unsigned long long)r->marked[i], 100 * (double)r->marked[i] / (double)r->links,
                    i,
                    i == GUARDED ? ": a guard kept them from being split, as the oracle asked" : "");
+    for (int i = 1; i < RAD_LINK_MARKS; i++)
+        if (r->marked_elements[i])
+            printf("marks     %llu elements (%.2g %%) with mark %d\n",
+                   (unsigned long long)r->marked_elements[i],
+                   100 * (double)r->marked_elements[i] / (double)r->elements, i);
 }
 
 static void print_solver(const struct options *o, const struct RadReport *r)

@@ -158,6 +158,17 @@ static int read_replacement(struct options *o, const struct option_row *row, con
     return 0;
 }
 
+static int read_plugin(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    if (array_reserve(&o->plugins, (size_t)o->plugin_count + 1, &o->plugin_capacity,
+                      sizeof *o->plugins)
+        < 0)
+        return -1;
+    o->plugins[o->plugin_count++] = (char *)(uintptr_t)value;
+    return 0;
+}
+
 /* The words that a choice is made of. */
 static const char *const *words_of(const struct option_row *row)
 {
@@ -494,6 +505,11 @@ const struct option_row option_rows[] = {
     {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
      "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
      .rare = 1},
+    {"plugin", "FILE.c|FILE.so", SOLVE, NULL, "C functions for the oracle's externs; repeatable",
+     NULL, .read = read_plugin, .rare = 1},
+    {"plugin", "FILE.c|FILE.so",
+     COMPARE | CLUSTERING | FORM_FACTORS | CAUSES | GREEDY | TUNE | DRAW | PANEL | EXPLAIN, NULL,
+     "C functions for the oracle's externs", NULL, .read = read_plugin},
     {"set", "PARAM=VALUE", SCENES | GREEDY | EXPLAIN, NULL,
      "a parameter of the oracle; may be repeated", NULL, .read = read_setting},
     {"params", "FILE", SOLVE | EXPLAIN, NULL,

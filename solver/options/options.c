@@ -462,7 +462,9 @@ void options_free(struct options *o)
     free(o->settings);
     free(o->scenes);
     free(o->replacements);
+    free(o->plugins);
     o->replacements = NULL;
+    o->plugins = NULL;
     o->settings = NULL;
     o->scenes = NULL;
 }

@@ -62,6 +62,9 @@ struct options {
     char **replacements; /* [replacement_count] "NODE=TOOL(...)" or "NODE=ANSWER"; owned */
     int replacement_count;
     size_t replacement_capacity;
+    char **plugins; /* [plugin_count] files; owned */
+    int plugin_count;
+    size_t plugin_capacity;
     const char *params;   /* a file of them, which settings go before */
     const char *clusters; /* NULL: the default */
     enum RadClosure closure;

@@ -127,18 +127,23 @@ int gathering_rows(struct gathering *g, const struct raster *r, const struct sol
 struct corner {
     double least;                /* radius of the smallest of them (m) */
     double sum[3];               /* of what they have told (W/m2) */
-    double all, square;          /* of that, bands together: sum, and sum of squares */
+    double all, again;           /* of that, bands together; of what other rays have told */
     uint32_t face;               /* of one of them */
     uint32_t leaves, next, told; /* how many; have had their turn; are not covered */
     int seen;
 };
 
-/* What gathering is worth on a face, or everywhere: sums over vertices of the squared step from the
- * mean of leaves to what was gathered, and of the latter's squared standard error. */
+/* What gathering is worth: sums over vertices that gathered twice of the squared step from the mean
+ * of leaves to what was gathered, and of the latter's squared error, half of what two such differ
+ * by. (Sets of directions are spread so evenly that what one set's parts differ by would tell too
+ * much.) */
 struct worth {
     double step, noise;
     uint32_t vertices;
 };
+
+/* That of places of a face that are alike bright: noise is not the same near a lamp and far off. */
+enum { OCTAVES = 4 };
 
 /* And what hangs on an edge that is seen. */
 static void see_edge(struct corner *corners, const struct vertex_values *v, uint32_t a, uint32_t b,
@@ -173,8 +178,8 @@ static void note_corners(struct corner *corners, const struct vertex_values *v,
 /* Where corner j of a leaf gathers: a part of the way to the centre, as long in all leaves there as
  * in the smallest. Together they have the directions that every vertex has, so that noise differs
  * little from one to the next. */
-static struct RadGatherPoint corner_point(const struct element *e, uint32_t j, struct corner *c,
-                                          uint32_t rays)
+static struct RadGatherPoint corner_point(const struct element *e, uint32_t j,
+                                          const struct corner *c, uint32_t rays)
 {
     uint32_t first = rays * c->next / c->leaves, end = rays * (c->next + 1) / c->leaves;
     struct RadGatherPoint point = {.face = e->face, .first = first, .rays = end - first};
@@ -182,7 +187,6 @@ static struct RadGatherPoint corner_point(const struct element *e, uint32_t j, s
         point.position[k] =
             e->vertex[j][k]
             + GATHERING_INWARD * c->least / e->radius * (e->centre[k] - e->vertex[j][k]);
-    c->next++;
     return point;
 }
 
@@ -205,6 +209,14 @@ struct corner_points {
     size_t count;
 };
 
+static void push_point(struct corner_points *p, const struct RadGatherPoint *point, uint32_t leaf,
+                       uint32_t vertex)
+{
+    p->point[p->count] = *point;
+    p->leaf[p->count] = leaf;
+    p->vertex[p->count++] = vertex;
+}
+
 /* Let them gather. Returns 0, or 1. */
 static int gather_points(const struct gathering *g, struct corner *corners,
                          const struct solution *s, struct corner_points *p)
@@ -218,13 +230,16 @@ static int gather_points(const struct gathering *g, struct corner *corners,
         double all = 0;
         if (is_covered(s, p->leaf[i], light))
             continue;
-        c->told++;
         for (uint32_t k = 0; k < bands; k++) {
-            c->sum[k] += light[k];
+            c->sum[k] += p->point[i].set ? 0 : light[k];
             all += light[k];
         }
+        if (p->point[i].set) {
+            c->again += all;
+            continue;
+        }
+        c->told++;
         c->all += all;
-        c->square += all * all;
     }
     p->count = 0;
     return 0;
@@ -232,15 +247,17 @@ static int gather_points(const struct gathering *g, struct corner *corners,
 
 /* ---- how far corners are believed */
 
-static void weigh_corner(struct worth *w, const struct corner *c, const double *mean,
-                         uint32_t bands)
+static void add_worth(struct worth *sum, const struct worth *w)
 {
-    double step = c->all / c->told, n = c->told;
-    for (uint32_t k = 0; k < bands; k++)
-        step -= mean[k];
-    w->step += step * step;
-    w->noise += fmax(c->square - c->all * c->all / n, 0) / (n * (n - 1));
-    w->vertices++;
+    sum->step += w->step;
+    sum->noise += w->noise;
+    sum->vertices += w->vertices;
+}
+
+static struct worth worth_of(const struct corner *c, double mean)
+{
+    double step = c->all / c->told, off = step - c->again / c->told;
+    return (struct worth){(step - mean) * (step - mean), off * off / 2, 1};
 }
 
 /* How much of the step to take: as far as steps stand out of noise. [James and Stein 1961] */
@@ -249,32 +266,49 @@ static double believed(const struct worth *w)
     return w->step > w->noise ? 1 - w->noise / w->step : 0;
 }
 
-/* Means of leaves go on towards what was gathered, by what that is worth on their face, or in all
- * the picture where the face has few corners to tell. Returns 0, or -1 when out of memory. */
+/* What gathering is worth at a vertex: by what is as bright on its face, by the face, or by all the
+ * picture, the first that has corners enough to tell. */
+static double share_of(const struct worth *face, int octave, const struct worth *all)
+{
+    struct worth whole = {0, 0, 0};
+    if (face[octave].vertices >= GATHERING_TELLING)
+        return believed(&face[octave]);
+    for (int i = 0; i < OCTAVES; i++)
+        add_worth(&whole, &face[i]);
+    return believed(whole.vertices >= GATHERING_TELLING ? &whole : all);
+}
+
+/* Means of leaves go on towards what was gathered. Returns 0, or -1 when out of memory. */
 static int take_steps(struct vertex_values *v, const struct solution *s,
                       const struct corner *corners)
 {
     uint32_t bands = v->bands;
     struct worth all = {0, 0, 0},
-                 *faces = calloc((size_t)s->surfaces.face_count + 1, sizeof *faces);
-    if (!faces)
-        return -1;
-    for (uint32_t i = 0; i < v->count; i++)
-        if (corners[i].told > 1) {
-            weigh_corner(&faces[corners[i].face], &corners[i], &v->value[(size_t)i * bands], bands);
-            weigh_corner(&all, &corners[i], &v->value[(size_t)i * bands], bands);
+                 *faces = calloc((size_t)s->surfaces.face_count * OCTAVES + 1, sizeof *faces);
+    unsigned char *octave = malloc((size_t)v->count + 1);
+    for (uint32_t i = 0; faces && octave && i < v->count; i++) {
+        double mean = 0;
+        for (uint32_t k = 0; k < bands; k++)
+            mean += v->value[(size_t)i * bands + k];
+        octave[i] = mean > 0 ? (unsigned char)(ilogb(mean) & (OCTAVES - 1)) : 0;
+        if (i % GATHERING_TWICE == 0 && corners[i].told > 0) {
+            struct worth own = worth_of(&corners[i], mean);
+            add_worth(&faces[(size_t)corners[i].face * OCTAVES + octave[i]], &own);
+            add_worth(&all, &own);
         }
-    for (uint32_t i = 0; i < v->count; i++) {
+    }
+    for (uint32_t i = 0; faces && octave && i < v->count; i++) {
         const struct corner *c = &corners[i];
-        const struct worth *w = &faces[c->face];
-        double share = believed(w->vertices < GATHERING_TELLING ? &all : w);
+        double share = share_of(&faces[(size_t)c->face * OCTAVES], octave[i], &all);
         for (uint32_t k = 0; k < bands && c->told > 0; k++) {
             double *value = &v->value[(size_t)i * bands + k];
             *value += share * (c->sum[k] / c->told - *value);
         }
     }
+    int result = faces && octave ? 0 : -1;
     free(faces);
-    return 0;
+    free(octave);
+    return result;
 }
 
 /* How many rays each corner may cast, for a picture of so many pixels: a power of two. */
@@ -307,11 +341,15 @@ int gathering_corners(struct gathering *g, struct vertex_values *values,
             uint32_t vertex = values->corner[4 * (size_t)i + j];
             if (!corners[vertex].seen || corners[vertex].leaves > rays)
                 continue;
-            p.leaf[p.count] = i;
-            p.vertex[p.count] = vertex;
-            p.point[p.count++] = corner_point(e, j, &corners[vertex], rays);
+            struct RadGatherPoint point = corner_point(e, j, &corners[vertex], rays);
+            push_point(&p, &point, i, vertex);
+            if (vertex % GATHERING_TWICE == 0) {
+                point.set = 1 + (uint64_t)vertex;
+                push_point(&p, &point, i, vertex);
+            }
+            corners[vertex].next++;
         }
-        if (p.count <= PART - 4 && i + 1 < solution->tree.count)
+        if (p.count <= PART - 8 && i + 1 < solution->tree.count)
             continue;
         result = gather_points(g, corners, solution, &p);
         if (g->progress)

@@ -14,6 +14,15 @@ void register_hand_releases(const struct oracle *const *table)
     hand_releases = table;
 }
 
+static char *const *plugins;
+static int plugin_count;
+
+void use_plugins(char *const *paths, int count)
+{
+    plugins = paths;
+    plugin_count = count;
+}
+
 /* Errors are told by whoever made the call, who knows what it was about. */
 static void say_warning(void *where, enum RadError code, const char *message)
 {
@@ -41,6 +50,12 @@ RadDevice open_device(const char *where, int threads)
     for (int i = 0; hand_releases && hand_releases[i]; i++)
         if (radRegisterOracle(device, hand_releases[i]) < 0) {
             report_device(device, hand_releases[i]->name);
+            radReleaseDevice(device);
+            return NULL;
+        }
+    for (int i = 0; i < plugin_count; i++)
+        if (radLoadPlugin(device, plugins[i]) < 0) {
+            report_device(device, plugins[i]);
             radReleaseDevice(device);
             return NULL;
         }

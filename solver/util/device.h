@@ -9,6 +9,9 @@
  * and is borrowed. */
 void register_hand_releases(const struct oracle *const *table);
 
+/* The files that devices opened from now on load by radLoadPlugin: [count], borrowed. */
+void use_plugins(char *const *paths, int count);
+
 /* `where` names in warnings what they are about, the scene's file as a rule, and is borrowed; NULL:
  * no warnings. Returns NULL after a message. */
 RadDevice open_device(const char *where, int threads);

@@ -2,25 +2,7 @@
 # check_copies.sh - dagc --copies: the same decisions, terms and calls from every start as without, and no
 # check of the data manager in a first discussion. DAGC names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
-catalog=$top/tests/dagc/test_catalog.dag
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >out 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 out
-    fi
-}
+. "$(dirname "$0")/lib.sh"
 
 # Paths that know the size, or where, or neither, meet at d, e and g.
 cat >meet.dag <<'END'
@@ -128,5 +110,4 @@ if [ -n "${THOROUGH-}" ]; then
         check "prove ${oracle##*/}" sh -c "'$dagc' -Wno-all --prove --copies=8 --instrument '$oracle' | grep -q 'proved on'"
     done
 fi
-echo "dagc --copies: $count checks, $bad failed"
-[ $bad = 0 ]
+finish "dagc --copies"

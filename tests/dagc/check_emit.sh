@@ -2,37 +2,15 @@
 # check_emit.sh - what dagc emits beyond the plain function: proofs, differences, standalone text and the
 # program that ships it. DAGC names the command; a compiler that is missing is reported as skipped.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
+. "$(dirname "$0")/lib.sh"
 engine=$(dirname "$dagc")/../tests/runtime/embed_engine
-catalog=$top/tests/dagc/test_catalog.dag
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >out 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 out
-    fi
-}
 status() { # WANTED COMMAND...
     wanted=$1
     shift
     "$@"
     got=$?
     [ $got = "$wanted" ] || { echo "exit $got, not $wanted"; return 1; }
-}
-says() { # TEXT COMMAND...
-    text=$1
-    shift
-    "$@" 2>&1 | tee said | grep -q -- "$text" || { cat said; return 1; }
 }
 
 # What optimises finds no other errors here, and takes ten times as long.
@@ -170,5 +148,4 @@ check "no header with a proof" status 2 "$dagc" --prove --header x.h "$bf"
 check "a proof of a drawing" status 2 "$dagc" --prove --emit=dot "$bf"
 check "no --header" status 2 "$dagc" --standalone -o x.c "$bf"
 
-echo "emit: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "emit"

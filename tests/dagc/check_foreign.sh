@@ -3,24 +3,8 @@
 # compiler there is; headers with all that C allows; the program's own headers beside a standalone text.
 # DAGC names the command; a compiler that is missing is reported as skipped.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+. "$(dirname "$0")/lib.sh"
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >out 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 out
-    fi
-}
 fails() { # STATUS TEXT COMMAND...
     wanted=$1 text=$2
     shift 2
@@ -292,6 +276,9 @@ for compiler; do
     check "$compiler poisson" make -s -C "$top/examples/poisson" OUT="$tmp/poisson" DAGC="$dagc" CC="$compiler" CFLAGS="-O1 $warnings"
     check "$compiler poisson runs" sh -c 'poisson/poisson poisson/mesh.svg >poisson/said'
     check "$compiler poisson adapts" awk '/^adapted/ { cells = $2; error = $6 } /^even/ { exit !(cells < $2 && 20 * error < $6) }' poisson/said
+    # Every node: answers are as many as calls, and what leaves one arrives at the next; the first is asked for every cell.
+    check "$compiler poisson counts" awk '$1 == "node" { on = 1; next } on { calls[$1] = $2; for (i = 4; i < NF; i += 2) { told += $(i + 1); of[$1, $i] = $(i + 1) } sum += $2; nodes++ }
+        END { exit !(nodes == 4 && sum == told && calls["large"] == of["small", "yes"] && calls["even"] == of["large", "no"] && calls["bent"] == of["even", "yes"] && of["bent", "yes"] > 0) }' poisson/said
     check "$compiler poisson draws" sh -c '[ "$(grep -c "<path" poisson/mesh.svg)" = "$(awk "/^adapted/ { print \$2 }" poisson/said)" ]'
 done
 check "nothing of radiosity" sh -c '! grep -wniE "radiosity|W/m2|element|emitter|receiver|shaft" poisson/refine.[ch]'
@@ -308,5 +295,4 @@ verb 'verb a; verb b;' && check "two verbs" fails 1 "a second verb" "$dagc" --ca
 verb 'verb;' && check "no verb" fails 1 "a name such as 'decide'" "$dagc" --catalog verb.dag --emit=none gate.dag
 verb '' && check "without: refine" sh -c "$dagc --catalog verb.dag gate.dag | grep -q gate_refine"
 
-echo "foreign: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "foreign"

@@ -2,30 +2,9 @@
 # check_line_directives.sh - dagc --line-directives: what a compiler says of generated text it says of the .dag file or of the
 # tool's file, and every line is where #line says that it is. DAGC names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
+. "$(dirname "$0")/lib.sh"
 tests=$top/tests/dagc
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >out 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 out
-    fi
-}
-says() { # TEXT COMMAND...
-    text=$1
-    shift
-    "$@" 2>&1 | tee said | grep -q -- "$text" || { cat said; return 1; }
-}
 warnings="-std=c11 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -fsyntax-only"
 
 cp -r "$tests/runtime" runtime
@@ -89,5 +68,4 @@ check "it compiles, too" cc $warnings bf.c
 check "nothing without the option" sh -c "! '$dagc' -Wno-all --catalog test_catalog.dag small.dag | grep -q '^#line'"
 check "to standard output" says '^#line [1-9][0-9]* "small.c"$' "$dagc" -Wno-all --catalog test_catalog.dag --line-directives small.dag
 check "it belongs to C text" says 'belong to C text' "$dagc" --line-directives --emit=dot small.dag
-echo "dagc --line-directives: $count checks, $bad failed"
-[ $bad = 0 ]
+finish "dagc --line-directives"

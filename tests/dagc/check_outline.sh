@@ -2,25 +2,7 @@
 # check_outline.sh - dagc --outline: a graph used more than once is one function where that makes the text shorter, and nothing
 # else changes: the same decisions, terms and calls from every start. DAGC names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
-catalog=$top/tests/dagc/test_catalog.dag
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >out 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 out
-    fi
-}
+. "$(dirname "$0")/lib.sh"
 
 # Four uses with other arguments, exits and places to go on; inside, a graph that is used twice.
 cat >often.dag <<'END'
@@ -134,5 +116,4 @@ if [ -n "${THOROUGH-}" ]; then
         check "prove ${oracle##*/}" sh -c "'$dagc' -Wno-all --prove --outline '$oracle' | grep -q 'proved on'"
     done
 fi
-echo "dagc --outline: $count checks, $bad failed"
-[ $bad = 0 ]
+finish "dagc --outline"

@@ -2,13 +2,7 @@
 # check_prove.sh - dagc --prove notices each thing that could be wrong in what runs: a C compiler that changes one place
 # of what it is given stands for an emitter or an interpreter that errs there. DAGC names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath "${DAGC:-$top/build/bin/dagc}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+. "$(dirname "$0")/lib.sh"
 
 fail() {
     bad=$((bad + 1))
@@ -121,5 +115,4 @@ done
 count=$((count + 1))
 sed 's/^runtime "discussion.h"/verb judge; runtime "judge.h"/' "$top/tests/dagc/test_catalog.dag" >judge.dag
 "$dagc" -Wno-all --catalog judge.dag --prove small.dag >said 2>&1 && grep -q ' states: judge, the interpreter$' said || fail "another verb"
-echo "prove: $count checks, $bad failed"
-[ $bad = 0 ]
+finish "prove"

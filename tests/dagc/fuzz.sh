@@ -15,12 +15,19 @@ for file in examples/oracles/*.dag examples/user_tool/*.dag runtime/catalog.dag 
 done
 echo '# run: --emit=catalog FILE' >>"$seeds/runtime_catalog.dag"
 
+# C headers, behind a graph that reaches every tool of a small catalog.
+for file in runtime/tools/*.h runtime/kernel/*.h runtime/discussion.h examples/poisson/*.h tests/dagc/runtime/*.h tests/dagc/runtime/*/*.h; do
+    { sed '/^# \(exit\|stderr\|stdout\):/,$d' tests/dagc/emit_standalone.dag; printf '\n// header:\n'; cat "$file"; } >"$seeds/$(echo "$file" | tr / _)"
+done
+
 # The words: those the parser asks for, those the catalog declares, and the marks.
 {
     grep -oh '"[a-z_]\{2,\}"' dagc/read/parse*.c
     grep -ohE '[a-z_]{3,}' runtime/catalog.dag tests/dagc/test_catalog.dag | sed 's/.*/"&"/'
     printf '"%s"\n' '->' '>=' '\x22' '{' '}' '(' ')' ' = ' ';' '|' 'in [0, inf]' 'otherwise -> stop; ' 'start a; ' \
-        'node a = ' ') exits (a, b) ' 'import \x22library/branches.dag\x22;' '# run: --catalog test_catalog.dag'
+        'node a = ' ') exits (a, b) ' 'import \x22library/branches.dag\x22;' '# run: --catalog test_catalog.dag' \
+        '#include \x22catalog.h\x22' '#define ' '#undef ' '#pragma once' '#if ' '#ifdef ' '#endif' 'typedef ' 'static inline ' \
+        'struct ' 'enum ' '/*' '*/' '\x5c\x0a' '##'
 } | sort -u >"$build/words"
 
 ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 \

@@ -5,14 +5,20 @@
  * a crash, shortened, is a regression file as it stands. Warnings are all on, so that all analyses
  * run, but errors by nature only, so that what they find is emitted all the same.
  *
+ * Behind a line "// header:" an input has a C header: every header that is looked for holds that
+ * text then, so that what --standalone takes in is mutated, too.
+ *
  * An import must not lead out of the folder: the linker's --wrap=fopen puts a gate before the one
  * function by which the compiler opens files. Run from the top folder (fuzz.sh does).
  * SPDX-License-Identifier: MIT */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
 
 #include "base/warn.h"
+#include "emit/skeleton.h"
 
 static const char folder[] = "tests/dagc/";
 static const char *const folders[] = {"tests/dagc/imports", "tests/dagc/library"};
@@ -25,6 +31,8 @@ struct run {
     int is_catalog;
 };
 
+static FILE *given; /* a file without a name; the input has a header if header_length > 0 */
+static size_t header_length;
 static int inside; /* the compiler runs: libFuzzer opens files of its own */
 
 FILE *__real_fopen(const char *path, const char *mode);
@@ -33,6 +41,12 @@ FILE *__wrap_fopen(const char *path, const char *mode)
 {
     if (!inside || *mode == 'w') /* libFuzzer saves an input that crashes; no pass writes files */
         return __real_fopen(path, mode);
+    size_t length = strlen(path);
+    if (header_length > 0 && length > 2 && strcmp(path + length - 2, ".h") == 0) {
+        char name[32]; /* the same file each time, as a path would lead to it */
+        snprintf(name, sizeof name, "/proc/self/fd/%d", fileno(given));
+        return __real_fopen(name, mode);
+    }
     if (strncmp(path, folder, sizeof folder - 1) != 0 || strstr(path, "..") != NULL) {
         errno = ENOENT;
         return NULL;
@@ -51,6 +65,12 @@ static void emit_catalog(struct dag *dag)
     for (int i = 0; i < dag->term_count; i++)
         dag_emit_stub(dag, &out, dag->terms[i].name);
     dag_text_free(&out);
+    for (int cxx = 0; cxx < 2; cxx++) {
+        struct skeleton skeleton = {.dag = dag, .catalog = "fuzz.dag", .cxx = cxx};
+        dag_emit_skeleton(&skeleton);
+        for (int i = 0; i < skeleton.file_count; i++)
+            dag_text_free(&skeleton.files[i].text);
+    }
 }
 
 static void emit_oracles(struct dag *dag)
@@ -113,6 +133,25 @@ static void passes(struct dag *dag, void *context)
         emit_oracles(dag);
 }
 
+/* Cuts the header off the input. */
+static void take_header(char *text)
+{
+    static const char mark[] = "\n// header:\n";
+    char *found = strstr(text, mark);
+    header_length = 0;
+    if (found == NULL)
+        return;
+    const char *begins = found + sizeof mark - 1;
+    header_length = strlen(begins);
+    if (given == NULL && (given = tmpfile()) == NULL)
+        abort();
+    rewind(given);
+    if (fwrite(begins, 1, header_length, given) != header_length || fflush(given) != 0
+        || ftruncate(fileno(given), (off_t)header_length) != 0)
+        abort();
+    found[1] = '\0';
+}
+
 /* The text behind the last "# run:", or "". */
 static const char *run_line(const char *text)
 {
@@ -163,10 +202,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     memcpy(text, data, size);
     text[size] = '\0';
+    take_header(text);
     choose(&run, text);
     run.file.name = "tests/dagc/fuzz.dag"; /* what it imports is looked for there */
     run.file.bytes = text;
-    run.file.length = size;
+    run.file.length = header_length > 0 ? strlen(text) : size;
     dag_warnings_default(&run.warnings);
     const char *nearest;
     dag_warnings_switch(&run.warnings, "all", &nearest);

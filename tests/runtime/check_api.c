@@ -7,8 +7,10 @@
 #include <check.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include "radiosity.h"
 #include "suite.h"
 
@@ -525,6 +527,70 @@ START_TEST(test_error_by_reference)
 END_TEST
 
 /* ---- oracles */
+
+/* What the oracle `graph` decides of a pair, by a release; NULL graphs are reported. */
+static int decides(RadDevice device, enum RadRelease release)
+{
+    static const char graph[] = "extern twice() : ratio in [0, inf]; oracle a { start b;"
+                                " node b = above(value = twice, limit = 1) "
+                                "{ yes -> v; no -> stop; } "
+                                "node v = presume_visible() { done -> link_clusters; } }";
+    const struct element receiver = {.area = 0.75}, emitter = {.area = 0.25};
+    const struct host host = {.area = 1};
+    struct discussion d = {.receiver = &receiver, .emitter = &emitter, .host = &host};
+    RadOracle oracle = radParseOracle(device, "mine", graph, NULL, release);
+    int decision = oracle ? (int)radAskOracle(oracle, &d) : -1;
+    radReleaseOracle(oracle);
+    return decision;
+}
+
+static const char *written(const char *name, const char *text)
+{
+    static char path[200];
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/%d_%s", folder ? folder : "/tmp", (int)getpid(), name);
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_int_ge(fputs(text, file), 0);
+    ck_assert_int_eq(fclose(file), 0);
+    return path;
+}
+
+START_TEST(test_plugins)
+{
+    static const enum RadRelease both[] = {RAD_RELEASE_FLAT, RAD_RELEASE_DAG};
+    RadDevice device = radNewDevice(NULL);
+    for (int i = 0; i < 2; i++) {
+        ck_assert_int_eq(decides(device, both[i]), -1);
+        expect_error(device, RAD_ERROR_INVALID_ORACLE,
+                     "mine:1:8: error: nothing defines the extern");
+    }
+    ck_assert_int_eq(radLoadPlugin(NULL, "x.c"), -1);
+    ck_assert_int_eq(radLoadPlugin(device, NULL), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "name");
+    ck_assert_int_eq(radLoadPlugin(device, "nowhere.c"), -1);
+    expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "cannot read");
+    const char *path = written("wrong.c", "int x = ;\n");
+    ck_assert_int_eq(radLoadPlugin(device, path), -1);
+    expect_error(device, RAD_ERROR_UNSUPPORTED, "wrong.c:1:9: error");
+    remove(path);
+    path = written("twice.c", "#include \"discussion.h\"\n"
+                              "double twice(const struct discussion *d)\n"
+                              "{ return 2 * d->receiver->area; }\n");
+    ck_assert_msg(radLoadPlugin(device, path) == 0, "%s", radGetDeviceErrorMessage(device));
+    remove(path);
+    for (int i = 0; i < 2; i++)
+        ck_assert_int_eq(decides(device, both[i]), DECISION_LINK_CLUSTERS);
+    path = written("less.c", "#include \"discussion.h\"\n"
+                             "double twice(const struct discussion *d)\n"
+                             "{ return 2 * d->emitter->area; }\n");
+    ck_assert_int_eq(radLoadPlugin(device, path), 0); /* the last one counts */
+    remove(path);
+    for (int i = 0; i < 2; i++)
+        ck_assert_int_eq(decides(device, both[i]), DECISION_STOP);
+    radReleaseDevice(device);
+}
+END_TEST
 
 START_TEST(test_oracles)
 {
@@ -1316,6 +1382,7 @@ int main(void)
     tcase_add_test(t, test_reference);
     tcase_add_test(t, test_error_by_reference);
     tcase_add_test(t, test_oracles);
+    tcase_add_test(t, test_plugins);
     tcase_add_test(t, test_registered);
     tcase_add_test(t, test_statistics);
     tcase_add_test(t, test_no_handle);

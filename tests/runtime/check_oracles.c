@@ -164,6 +164,7 @@ static const struct falling {
      {1e-3, 2e-4, 3e-4}},
     {"bracket", {"relative=1e-2"}, {"relative=1e-3"}, {"relative=1e-5"}, {2e-3, 2e-4, 1e-3}},
     {"ranked", {"relative=1e-3"}, {"relative=1e-4"}, {"relative=3e-6"}, {1e-3, 2e-4, 1e-3}},
+    {"masking", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
     {"kok", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
     {"by_reliability", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},
     {"tester", {"relative=0.5"}, {"relative=0.1"}, {"relative=0.02"}, {3e-3, 2e-4, 1.2e-3}},

@@ -77,25 +77,20 @@ struct all {
     atomic_uchar reached[NODES_MOST];
 };
 
-/* What a link keeps of the terms that the decision reads. */
+/* What refinement keeps of it: a link, and what receiver and emitter are marked with. */
 struct kept {
-    double form_factor, visibility;
-    int levels[2], mark;
+    struct link link;
+    int marks[2];
 };
 
 static struct kept keep(enum decision decision, const struct terms *t)
 {
     struct kept k;
     memset(&k, 0, sizeof k);
-    if (!decision_links(decision))
-        return k;
-    k.visibility = t->visibility;
-    k.levels[1] = t->visibility_level;
-    if (decision == DECISION_LINK_CLUSTERS)
-        return k;
-    k.form_factor = t->form_factor;
-    k.levels[0] = t->form_factor_level;
-    k.mark = t->mark_level ? t->mark : 0;
+    k.marks[0] = t->receiver_mark_level ? t->receiver_mark : 0;
+    k.marks[1] = t->emitter_mark_level ? t->emitter_mark : 0;
+    if (decision_links(decision))
+        link_store(&k.link, decision, t);
     return k;
 }
 
@@ -130,7 +125,7 @@ static enum decision ask_all(const void *state, struct discussion *d)
         list = *d->blockers;
     for (int way = 0; way < all->ways; way++) {
         enum decision first = DECISION_STOP;
-        struct kept link = {0};
+        struct kept first_kept = {0};
         for (int who = 0; who < ASKED; who++) {
             struct blockers blockers = list;
             struct discussion copy = start;
@@ -143,8 +138,8 @@ static enum decision ask_all(const void *state, struct discussion *d)
             struct kept kept = keep(decision, real ? &d->terms : &copy.terms);
             if (who == FLAT) {
                 first = decision;
-                link = kept;
-            } else if (decision != first || memcmp(&kept, &link, sizeof kept) != 0) {
+                first_kept = kept;
+            } else if (decision != first || memcmp(&kept, &first_kept, sizeof kept) != 0) {
                 if (atomic_fetch_add(&all->different, 1) == 0)
                     fprintf(stderr, "%s decides %d, %s %d\n", asked_names[FLAT], (int)first,
                             asked_names[who], (int)decision);

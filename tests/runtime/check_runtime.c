@@ -244,13 +244,17 @@ START_TEST(test_link)
         in.form_factor_level = FORM_FACTOR_POLYGON;
         in.visibility = v[i];
         in.visibility_level = VISIBILITY_RAYS_16;
-        link_store(&link, &in);
+        link_store(&link, DECISION_LINK, &in);
         link_recall(&link, &out);
         ck_assert((out.visibility <= 0) == (v[i] <= 0) && (out.visibility >= 1) == (v[i] >= 1));
         ck_assert_double_eq_tol(out.visibility, v[i], 1e-4);
         ck_assert_double_eq_tol(out.form_factor, 0.1, 1e-8);
         ck_assert_int_eq(out.form_factor_level, FORM_FACTOR_POLYGON);
         ck_assert_int_eq(out.axis_level, AXIS_ABSENT);
+        link_store(&link, DECISION_LINK_CLUSTERS, &in); /* which does not read the form factor */
+        link_recall(&link, &out);
+        ck_assert(out.form_factor_level == FORM_FACTOR_ABSENT && !(out.form_factor > 0));
+        ck_assert_int_eq(out.visibility_level, VISIBILITY_RAYS_16);
     }
 }
 END_TEST

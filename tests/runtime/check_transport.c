@@ -21,7 +21,7 @@
 struct script {
     int (*splits)(const struct element *receiver, const struct element *emitter);
     double (*factor)(const struct element *receiver, const struct element *emitter);
-    int groups; /* count them as links of groups, where passes may be rough */
+    int groups; /* some links are of groups: passes may be rough */
 };
 
 static enum decision follow(const void *state, struct discussion *d)
@@ -32,8 +32,10 @@ static enum decision follow(const void *state, struct discussion *d)
         return r->vertices   ? DECISION_SUBDIVIDE_EMITTER
                : e->vertices ? DECISION_SUBDIVIDE_RECEIVER
                              : DECISION_SUBDIVIDE_BOTH;
-    if (r->face == e->face)
-        return DECISION_STOP;
+    if (r->face == e->face) { /* dark, as its form factor is not kept */
+        memset(&d->terms, 0, sizeof d->terms);
+        return script->groups ? DECISION_LINK_CLUSTERS : DECISION_STOP;
+    }
     if (script->splits && script->splits(r, e))
         return DECISION_SUBDIVIDE_RECEIVER;
     memset(&d->terms, 0, sizeof d->terms);
@@ -41,7 +43,7 @@ static enum decision follow(const void *state, struct discussion *d)
     d->terms.visibility = 1;
     if (!(d->terms.form_factor > 0))
         return DECISION_STOP;
-    return script->groups ? DECISION_LINK_CLUSTERS : DECISION_LINK;
+    return DECISION_LINK;
 }
 
 static struct refiner scripted(const struct script *script)

@@ -77,7 +77,7 @@ int main(int count, char **arguments)
         if (g == 0) {            /* without the extern it must say so and fail */
             how.extern_count = 0;
             dag = refiner_interpret(&how, &messages);
-            if (dag || !strstr(messages_text(&messages), "the extern 'outside' is not registered"))
+            if (dag || !strstr(messages_text(&messages), "nothing defines the extern 'outside'"))
                 return fprintf(stderr, "an extern that is not registered: %s\n",
                                messages_text(&messages)),
                        1;
