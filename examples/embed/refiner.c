@@ -1914,10 +1914,10 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     case REFINER_CLUSTERS_APART:
         goto leaf_stop;
     case REFINER_CLUSTERS_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CLUSTERS_EMITTER:
     default:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
 node_faces__planes:
@@ -1950,9 +1950,9 @@ node_faces__split__guard:
     case REFINER_CAN_SPLIT_BOTH:
         goto node_faces__split__side;
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__split__note;
@@ -1961,10 +1961,10 @@ node_faces__split__guard:
 node_faces__split__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_LARGER_EMITTER:
     default:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
 node_faces__split__note:
@@ -1991,9 +1991,9 @@ node_faces__cut_receiver__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__cut_receiver__note;
@@ -2023,9 +2023,9 @@ node_faces__cut_emitter__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__cut_emitter__note;
@@ -2117,9 +2117,9 @@ node_faces__shade__guard:
     case REFINER_CAN_SPLIT_BOTH:
         goto node_faces__shade__side;
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__shade__note;
@@ -2128,10 +2128,10 @@ node_faces__shade__guard:
 node_faces__shade__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_LARGER_EMITTER:
     default:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
 node_faces__shade__note:
@@ -2155,14 +2155,4 @@ leaf_stop:
     discussion->terms.visibility = d.terms.visibility;
     discussion->terms.visibility_level = d.terms.visibility_level;
     return REFINER_DECISION_STOP;
-
-leaf_subdivide_receiver:
-    discussion->terms.visibility = d.terms.visibility;
-    discussion->terms.visibility_level = d.terms.visibility_level;
-    return REFINER_DECISION_SUBDIVIDE_RECEIVER;
-
-leaf_subdivide_emitter:
-    discussion->terms.visibility = d.terms.visibility;
-    discussion->terms.visibility_level = d.terms.visibility_level;
-    return REFINER_DECISION_SUBDIVIDE_EMITTER;
 }
