@@ -89,8 +89,7 @@ static struct kept keep(enum decision decision, const struct terms *t)
     memset(&k, 0, sizeof k);
     k.marks[0] = t->receiver_mark_level ? t->receiver_mark : 0;
     k.marks[1] = t->emitter_mark_level ? t->emitter_mark : 0;
-    if (decision_links(decision))
-        link_store(&k.link, decision, t);
+    link_store(&k.link, decision, t);
     return k;
 }
 
