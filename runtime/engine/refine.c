@@ -165,8 +165,9 @@ static void note_list(const struct refinement *r, size_t i, const struct blocker
 }
 
 /* What the discussion `there` says of the link back: visibility is the same both ways, also where
- * it hides the pair or has it split, so nobody casts a ray twice. And so is the exchange A_r F_rs =
- * A_s F_sr, which a link computes once for both: reciprocity holds to the rounding of a link's F.
+ * it hides the pair, whose rays nobody casts twice. And so is the exchange A_r F_rs = A_s F_sr,
+ * which a link computes once for both: reciprocity holds to the rounding of a link's F. Of a pair
+ * that is split nothing is said: most that the parts ask is their own.
  * Fails: rays to the emitter's light (tools/light_visibility.h) are taken for rays to its area. */
 static void reverse_link(struct link *back, const struct link *there,
                          const struct element *elements)
@@ -197,7 +198,8 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
         if (p->both) {
             if (r->trace)
                 r->trace->pairs[i].between = list;
-            reverse_link(&back, &o->link[0], r->hierarchy->elements);
+            if (!divides(o->decision[0]))
+                reverse_link(&back, &o->link[0], r->hierarchy->elements);
             o->link[1] = back;
             o->decision[1] = discuss(r, i, 1, &o->link[1], &list);
         }
@@ -351,7 +353,8 @@ static int tell_round(const struct refinement *r, int count)
             return -1;
         if (!p->both)
             continue;
-        reverse_link(&back, &o->link[0], r->hierarchy->elements);
+        if (!divides(o->decision[0]))
+            reverse_link(&back, &o->link[0], r->hierarchy->elements);
         if (trace_tell(r->trace, r, (size_t)i, 1, &back, &r->trace->pairs[i].between) < 0)
             return -1;
     }

@@ -54,7 +54,7 @@ static void start(struct pair *p, const struct discussion *d)
     p->list = d->blockers ? d->blockers : &p->own;
 }
 
-/* What the other way round starts from: all that is known of V. */
+/* What the other way round of a pair that is linked, or given up, starts from. */
 static enum decision hand_over(const struct pair *p, struct discussion *d, int decision)
 {
     d->terms.visibility = p->seen;
@@ -320,7 +320,7 @@ static enum decision surfaces(const struct parameters *by, struct discussion *d)
         if (worse != NEITHER) {
             decision = split(&p, by->min_share, worse);
             if (decision != GO_ON)
-                return hand_over(&p, d, decision);
+                return (enum decision)decision;
         }
         brought = s->radiosity * p.factor;
     }
@@ -378,13 +378,13 @@ static enum decision groups(const struct parameters *by, struct discussion *d)
             if (rays == 64 || !(sent * noise(&p) > lost))
                 return hand_over(&p, d, DECISION_STOP);
         } else if (p.seen < 1 && sent > half) {
-            return hand_over(&p, d, opened(&p, by));
+            return opened(&p, by);
         } else if (rays == 64 || !(sent * noise(&p) > limit)) {
             break;
         }
     }
     if (point_intensity(s, uneven(&p)) > here(&p, 0.5 * by->uneven * by->spot) * mean * p.square)
-        return hand_over(&p, d, opened(&p, by));
+        return opened(&p, by);
     return hand_over(&p, d, DECISION_LINK_CLUSTERS);
 }
 

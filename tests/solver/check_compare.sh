@@ -27,18 +27,18 @@ compare() { # CHANGE THREADS: of bf's flat release, on the room; the status is k
     status=$?
 }
 
-compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/receiver;/emitter;/' 2
+compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/RECEIVER;/BOTH;/' 2
 check "the status" [ $status = 1 ]
 check "it tells how many, and of which elements" grep -q '^different: [1-9][0-9]* of the first [0-9]* discussions; of receiver [0-9/b]*, emitter [0-9/b]*$' out
 check "what the graph decides" grep -q '^  dag  subdivide_receiver$' out
-check "what the other one does" grep -q '^  flat subdivide_emitter$' out
+check "what the other one does" grep -q '^  flat subdivide_both$' out
 check "the node and its answer" grep -q '^  node split__side = larger: receiver -> subdivide_receiver$' out
 check "the way there" grep -q '^  node energy = transfer: above -> split__guard$' out
 check "nothing is timed" sh -c '! grep -q " s  " out && ! grep -q seconds out.json'
-check "the same in JSON" sh -c 'grep -q "\"identical\": false" out.json && grep -q "\"node\": \"split__side\"" out.json && grep -q "\"flat\": \"subdivide_emitter\"" out.json'
+check "the same in JSON" sh -c 'grep -q "\"identical\": false" out.json && grep -q "\"node\": \"split__side\"" out.json && grep -q "\"flat\": \"subdivide_both\"" out.json'
 check "no other error" [ ! -s err ]
 cp out two
-compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/receiver;/emitter;/' 1
+compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/RECEIVER;/BOTH;/' 1
 check "the same by one thread" cmp out two
 compare 's/discussion->terms.visibility = /&0.5 * /' 2
 check "a link of other visibility" sh -c "[ $status = 1 ] && grep -q '^  dag  link, F = .*, V = 0[.]4131' out && grep -q '^  flat link, F = .*, V = 0[.]20655' out && grep -q 'node seen__form = form_factor: done -> link' out"
