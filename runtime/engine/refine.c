@@ -127,6 +127,11 @@ static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
 
 /* ---- discussions */
 
+static int divides(unsigned char decision)
+{
+    return !decision_links((enum decision)decision) && decision != DECISION_STOP;
+}
+
 /* One discussion, `turned` the second of pair i; the link's values go in and come out, of a pair
  * that is not linked the visibility alone, and so does the pair's list. */
 static unsigned char discuss(const struct refinement *r, size_t i, int turned, struct link *link,
@@ -141,18 +146,14 @@ static unsigned char discuss(const struct refinement *r, size_t i, int turned, s
     link_recall(link, &d.terms);
     enum decision decision = r->trace ? trace_ask(&r->trace->pairs[i], turned, r->refiner, &d)
                                       : r->refiner->refine(r->refiner->state, &d);
-    link_store(link, decision, &d.terms);
+    if (!divides((unsigned char)decision))
+        link_store(link, decision, &d.terms);
     unsigned char *marks = r->outcomes[i].marks[turned];
     marks[0] = d.terms.receiver_mark_level ? (unsigned char)d.terms.receiver_mark : 0;
     marks[1] = d.terms.emitter_mark_level ? (unsigned char)d.terms.emitter_mark : 0;
     if (d.terms.no_number && !r->outcomes[i].none)
         r->outcomes[i].none = d.terms.no_number;
     return (unsigned char)decision;
-}
-
-static int divides(unsigned char decision)
-{
-    return !decision_links((enum decision)decision) && decision != DECISION_STOP;
 }
 
 /* After the discussions of pair i: keep the list for the pairs below, if there will be any. */

@@ -89,7 +89,8 @@ static struct kept keep(enum decision decision, const struct terms *t)
     memset(&k, 0, sizeof k);
     k.marks[0] = t->receiver_mark_level ? t->receiver_mark : 0;
     k.marks[1] = t->emitter_mark_level ? t->emitter_mark : 0;
-    link_store(&k.link, decision, t);
+    if (decision_links(decision) || decision == DECISION_STOP)
+        link_store(&k.link, decision, t);
     return k;
 }
 
