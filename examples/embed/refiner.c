@@ -1918,10 +1918,10 @@ enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_
     case REFINER_CLUSTERS_APART:
         goto leaf_stop;
     case REFINER_CLUSTERS_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CLUSTERS_EMITTER:
     default:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
 node_faces__planes:
@@ -1954,9 +1954,9 @@ node_faces__split__guard:
     case REFINER_CAN_SPLIT_BOTH:
         goto node_faces__split__side;
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__split__note;
@@ -1965,10 +1965,10 @@ node_faces__split__guard:
 node_faces__split__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_LARGER_EMITTER:
     default:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
 node_faces__split__note:
@@ -1995,9 +1995,9 @@ node_faces__cut_receiver__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__cut_receiver__note;
@@ -2027,9 +2027,9 @@ node_faces__cut_emitter__guard:
     switch (refiner_tool_can_split(&d, parameters->min_area, parameters->min_share)) {
     case REFINER_CAN_SPLIT_BOTH:
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__cut_emitter__note;
@@ -2121,9 +2121,9 @@ node_faces__shade__guard:
     case REFINER_CAN_SPLIT_BOTH:
         goto node_faces__shade__side;
     case REFINER_CAN_SPLIT_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_CAN_SPLIT_EMITTER:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     case REFINER_CAN_SPLIT_NEITHER:
     default:
         goto node_faces__shade__note;
@@ -2132,10 +2132,10 @@ node_faces__shade__guard:
 node_faces__shade__side:
     switch (refiner_tool_larger(&d)) {
     case REFINER_LARGER_RECEIVER:
-        goto leaf_subdivide_receiver;
+        return REFINER_DECISION_SUBDIVIDE_RECEIVER;
     case REFINER_LARGER_EMITTER:
     default:
-        goto leaf_subdivide_emitter;
+        return REFINER_DECISION_SUBDIVIDE_EMITTER;
     }
 
 node_faces__shade__note:
@@ -2159,14 +2159,4 @@ leaf_stop:
     discussion->terms.visibility = d.terms.visibility;
     discussion->terms.visibility_level = d.terms.visibility_level;
     return REFINER_DECISION_STOP;
-
-leaf_subdivide_receiver:
-    discussion->terms.visibility = d.terms.visibility;
-    discussion->terms.visibility_level = d.terms.visibility_level;
-    return REFINER_DECISION_SUBDIVIDE_RECEIVER;
-
-leaf_subdivide_emitter:
-    discussion->terms.visibility = d.terms.visibility;
-    discussion->terms.visibility_level = d.terms.visibility_level;
-    return REFINER_DECISION_SUBDIVIDE_EMITTER;
 }
