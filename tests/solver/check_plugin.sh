@@ -116,7 +116,7 @@ says 1 "none.so: error: cannot read the plugin: No such file" "$radiosity" solve
 says 1 ".: error: cannot read the plugin: Is a directory" "$radiosity" solve "$scene" -q --plugin .
 says 1 "desk.dag: error: no shared object that can be loaded" "$radiosity" solve "$scene" -q --plugin desk.dag
 echo 'int x = ;' >wrong.c
-says 1 "wrong.c: error: the C compiler 'cc' failed; mend what it names" "$radiosity" solve "$scene" -q --plugin wrong.c
+says 1 "wrong.c: error: the C compiler '${CC:-cc}' failed; mend what it names" "$radiosity" solve "$scene" -q --plugin wrong.c
 grep -q "wrong.c:1:9: error" err || failed "the compiler's own words"
 cc -shared -fPIC -o other.so other.c
 says 1 "other.so: error: the plugin does not say which headers it was compiled against; write \`const int radiosity_plugin_abi" \
