@@ -47,6 +47,7 @@ static const struct run runs[] = {
     {"gap", "room", {"min_share=1e-3"}, {{"min_share=1"}}, 0, 0},
     {"error_control", "room", {"min_share=1e-3"}, {{"min_share=1"}}, 0, 0},
     {"importance", "room", {"min_share=1e-3"}, {{"min_share=1"}}, 0, 0},
+    {"masking", "maze_8", {"min_share=2e-3", "bright=0.05"}, {{"min_share=1"}}, 0, 0},
     {"tester",
      "room",
      {"min_share=1", "threshold_1=1e9", "reference=64", "from_faces=0"},
