@@ -67,7 +67,9 @@ for file in huge.ply huge_text.ply huge.off huge.dae fractions.dae deep.gltf dou
 done
 # Of files like the first three and of OFF counts others may say more before Assimp sees them.
 for file in huge.ply huge_text.ply huge.off; do refused $file "ran out of memory" "truncated" "holds" "fewer" "cut" "ends"; done
-for file in huge.dae fractions.dae doubles.gltf; do refused $file "the importer ran out of memory; the file is damaged"; done
+# Sanitizers need more address space than any limit leaves: these files then end by another one.
+without=${SANITIZE:+the importer }
+for file in huge.dae fractions.dae doubles.gltf; do refused $file "${without:-the importer ran out of memory; the file is damaged}"; done
 for file in deep.gltf early.model; do refused $file "the importer crashed: " "the importer crashed; "; done
 
 # ---- what is no file, and what is too large
