@@ -53,8 +53,11 @@ static inline int next_line(struct text_lines *t)
         char *last = t->line_end = line_break(t->next, t->end, &size);
         t->next = last + size;
         t->after++;
-        if (!size || last == part || last[-1] != '\\' || memchr(part, '#', (size_t)(last - part)))
+        if (!size || last == part || last[-1] != '\\' || memchr(part, '#', (size_t)(last - part))) {
+            if (t->next < t->end)
+                *last = '\0'; /* so that no number is looked for beyond it */
             return 1;
+        }
         memset(last - 1, ' ', 1 + size);
     }
 }
