@@ -19,10 +19,12 @@ solve() { # SCENE THE-SAME-OR-CUT FOLDER OPTION...
     # of a cut scene there are no faces: any table of the scene's will do, for cells are judged by the mesh
     [ "$scene" = "$solved" ] || "$build/bin/by_chance" "$scene" particles 1000 "$tmp/faces.csv" >"$tmp/chance"
     "$build/bin/cell_error" compare "$scene" "$folder/cells.csv" "$tmp/faces.csv" "$tmp/mesh.ply"
-    awk -F , 'NR > 1 {
-            if ($2 ~ /visibility$/ && $2 !~ /^(exact|presume)_/) asked += $6
-            if ($2 == "shaft" && $3 ~ /^(in)?visible$/ || $2 == "handed_down" && $3 == "whole" || $2 == "support_planes" && $3 == "away" \
-                || $2 == "clusters" && $3 == "apart") precise += $6
+    awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
+        $1 == "answer" {
+            tool = $at["tool"]; answer = $at["answer"]
+            if (tool ~ /visibility$/ && tool !~ /^(exact|presume)_/) asked += $at["count"]
+            if (tool == "shaft" && answer ~ /^(in)?visible$/ || tool == "handed_down" && answer == "whole" \
+                || tool == "support_planes" && answer == "away" || tool == "clusters" && answer == "apart") precise += $at["count"]
         } END { print "asked", asked + 0; print "precise", precise + 0 }' "$tmp/answers.csv"
     awk -f "$tables/json.awk" "$tmp/json" | awk -v cpu="$took" '
         { v[$1] = $2 }
