@@ -20,7 +20,7 @@ solve() { # SCENE THE-SAME-OR-CUT FOLDER OPTION...
     [ "$scene" = "$solved" ] || "$build/bin/by_chance" "$scene" particles 1000 "$tmp/faces.csv" >"$tmp/chance"
     "$build/bin/cell_error" compare "$scene" "$folder/cells.csv" "$tmp/faces.csv" "$tmp/mesh.ply"
     awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
-        $1 == "answer" {
+        $1 == "answer" && $at["pass"] == 0 { # of all passes
             tool = $at["tool"]; answer = $at["answer"]
             if (tool ~ /visibility$/ && tool !~ /^(exact|presume)_/) asked += $at["count"]
             if (tool == "shaft" && answer ~ /^(in)?visible$/ || tool == "handed_down" && answer == "whole" \
