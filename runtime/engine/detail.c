@@ -9,9 +9,12 @@
  * Quarters start from their parent's light: mean B + g . (centre - parent's centre), and its slope.
  * Where a solid covers a leaf in part, quarters receive by what of them is bare, and reflect what
  * the leaf did. So links alone say what they said. Emitters stay whole: what is reflected there is
- * no linear function. [Derived here]
+ * no linear function. Once the solution is mended, quarters go again where particles had nothing to
+ * say that the parent's mean and slope do not. [Derived here]
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "engine/detail.h"
 #include "kernel/constants.h"
 
@@ -116,6 +119,69 @@ int detail_leaves(struct solve *s, double landings)
 int detail_places(struct solve *s)
 {
     return split_leaves(s, 0, 1 / (PLACE_SHARE * s->hierarchy.elements[0].area));
+}
+
+/* Is the mended light of the quarters of an element its own linear function, so that they say
+ * nothing? */
+static int say_nothing(const struct solve *s, uint32_t parent)
+{
+    const struct element *elements = s->hierarchy.elements, *at = &elements[parent];
+    const double *B = s->mended.radiosity, *gradient = s->mended_gradient,
+                 *bare = s->operator.uncovered;
+    for (uint32_t j = at->child; j < at->child + at->children; j++) {
+        double off[3], radius = elements[j].radius;
+        if (elements[j].children || fabs(bare[j] - bare[parent]) > DETAIL_SAYS)
+            return 0; /* a solid stands on a part */
+        sub3(off, elements[j].centre, at->centre);
+        for (uint32_t k = 0; k < s->problem.bands; k++) {
+            size_t here = (size_t)j * s->problem.bands + k,
+                   above = (size_t)parent * s->problem.bands + k;
+            double turned[3], most = DETAIL_SAYS * B[above];
+            sub3(turned, &gradient[3 * here], &gradient[3 * above]);
+            double by_parent = B[above] + dot3(&gradient[3 * above], off);
+            if (fabs(B[here] - by_parent) + sqrt(dot3(turned, turned)) * radius > most)
+                return 0;
+        }
+    }
+    return 1;
+}
+
+/* Move what is kept of an array of `width` numbers per element to the front. */
+static void close_up(double *values, size_t width, uint32_t first, uint32_t count,
+                     const uint32_t *place)
+{
+    for (uint32_t i = first; values && i < count; i++)
+        if (place[i])
+            memmove(&values[place[i] * width], &values[i * width], width * sizeof *values);
+}
+
+int detail_merge(struct solve *s, uint32_t first)
+{
+    struct hierarchy *h = &s->hierarchy;
+    uint32_t count = h->count;
+    size_t bands = s->problem.bands;
+    if (count == first || !s->mended_gradient)
+        return 0;
+    uint32_t *place = malloc((size_t)count * sizeof *place);
+    if (place) {
+        for (uint32_t i = count; i-- > first;) { /* children follow their parents */
+            uint32_t parent = h->elements[i].parent;
+            if (h->elements[parent].child == i && say_nothing(s, parent))
+                h->elements[parent].children = 0;
+        }
+        hierarchy_close_up(h, first, place);
+        close_up(s->state.radiosity, bands, first, count, place);
+        close_up(s->state.irradiance, bands, first, count, place);
+        close_up(s->mended.radiosity, bands, first, count, place);
+        close_up(s->mended.irradiance, bands, first, count, place);
+        close_up(s->linear.gradient, 3 * bands, first, count, place);
+        close_up(s->mended_gradient, 3 * bands, first, count, place);
+        close_up(s->operator.uncovered, 1, first, count, place);
+        s->started = h->count;
+    }
+    int result = place ? refinement_sort(&s->refinement) : -1;
+    free(place);
+    return result;
 }
 
 int detail_drop(struct solve *s, uint32_t count)

@@ -314,6 +314,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     uint64_t spent = 0;
+    uint32_t elements = s->hierarchy.count;
     s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
@@ -321,7 +322,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
                  || tally_open(&tally, &t, MEND_STREAM, 1) < 0
                  || (goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
                  || trace_for_faces(s, &t, &tally, goal) < 0 || measure_faces(s, &tally, alone) < 0
-                 || mend(s, &t, &tally, &spent) < 0;
+                 || mend(s, &t, &tally, &spent) < 0 || detail_merge(s, elements) < 0;
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

@@ -204,6 +204,27 @@ void hierarchy_drop(struct hierarchy *h, uint32_t count)
     h->count = count;
 }
 
+void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place)
+{
+    uint32_t kept = first;
+    for (uint32_t i = 0; i < first; i++)
+        place[i] = i;
+    for (uint32_t i = first; i < h->count; i++) { /* children follow their parents */
+        uint32_t parent = h->elements[i].parent;
+        int gone = parent >= first && !place[parent];
+        parent = gone ? parent : place[parent];
+        place[i] = gone || !h->elements[parent].children ? 0 : kept++;
+        if (!place[i])
+            continue;
+        struct element *e = &h->elements[place[i]], *above = &h->elements[parent];
+        if (above->child == i)
+            above->child = place[i];
+        *e = h->elements[i];
+        e->parent = parent;
+    }
+    h->count = kept;
+}
+
 void hierarchy_free(struct hierarchy *h)
 {
     free(h->elements);

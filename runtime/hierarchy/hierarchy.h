@@ -60,6 +60,10 @@ int hierarchy_split(struct hierarchy *h, uint32_t element);
 /* Undo all splits since there were `count` elements. */
 void hierarchy_drop(struct hierarchy *h, uint32_t count);
 
+/* Take out of the elements from `first` on those whose parent has no children any more, or is taken
+ * out. place[]: [count]: the index each has from now on, 0 for those that are gone. */
+void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place);
+
 void hierarchy_free(struct hierarchy *h);
 
 /* The part of `order` below an element; of a part of a face the face's. */

@@ -394,6 +394,78 @@ START_TEST(test_detail)
 }
 END_TEST
 
+/* A copy of `count` numbers. */
+static double *copied(const double *values, size_t count)
+{
+    double *copy = malloc(count * sizeof *copy);
+    ck_assert_ptr_nonnull(copy);
+    memcpy(copy, values, count * sizeof *copy);
+    return copy;
+}
+
+/* Is the last of the elements below `i`, or `i` itself? */
+static int above_last(const struct solve *s, uint32_t i, uint32_t last)
+{
+    while (last != i && last != s->hierarchy.elements[last].parent)
+        last = s->hierarchy.elements[last].parent;
+    return last == i;
+}
+
+/* Mended as links say, but for one quarter: its siblings stay, and what is above them; the others
+ * go, and light is what it was. Where a solid stands on a part, quarters stay. */
+START_TEST(test_merge)
+{
+    struct scene scene;
+    struct solve s;
+    struct solve_options o = quick(1);
+    o.linear = 1;
+    furnished(&scene, 1);
+    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    uint32_t faces = s.hierarchy.face_count, before = s.hierarchy.count;
+    ck_assert_int_eq(detail_leaves(&s, 1000000), 0);
+    uint32_t count = s.hierarchy.count, odd = count;
+    while (!is_bare(&s, odd - 1) || !(s.state.radiosity[odd - 1] > 0))
+        odd--;
+    odd--;
+    s.mended.radiosity = copied(s.state.radiosity, count);
+    s.mended.irradiance = copied(s.state.irradiance, count);
+    s.mended_gradient = copied(s.linear.gradient, 3 * (size_t)count);
+    s.mended.radiosity[odd] *= 1.01;
+    uint64_t id = s.hierarchy.elements[odd].id;
+    double(*p)[3] = malloc(faces * sizeof *p), *light = malloc(faces * sizeof *light);
+    double marked = s.mended.radiosity[odd];
+    for (uint32_t f = 0; f < faces; f++) {
+        const struct element *e = &s.hierarchy.elements[s.hierarchy.face_element[f]];
+        for (int k = 0; k < 3; k++)
+            p[f][k] = 0.37 * e->vertex[0][k] + 0.41 * e->vertex[1][k] + 0.22 * e->vertex[2][k];
+        light[f] = light_at(&s, f, p[f]);
+    }
+    ck_assert_int_eq(detail_merge(&s, before), 0);
+    ck_assert_uint_lt(s.hierarchy.count, count);
+    ck_assert_uint_eq(s.started, s.hierarchy.count);
+    const struct element *elements = s.hierarchy.elements;
+    uint32_t found = 0;
+    for (uint32_t i = before; i < s.hierarchy.count; i++)
+        if (elements[i].id == id)
+            found = i;
+    ck_assert_uint_gt(found, 0);
+    ck_assert_double_eq(s.mended.radiosity[found], marked);
+    for (uint32_t i = 1; i < s.hierarchy.count; i++) {
+        const struct element *e = &elements[i], *parent = &elements[e->parent];
+        ck_assert_uint_lt(e->parent, i);
+        ck_assert(parent->child <= i && i < parent->child + parent->children);
+        if (i >= before && is_bare(&s, i))
+            ck_assert_msg(above_last(&s, e->parent, found), "element %u says nothing", i);
+    }
+    for (uint32_t f = 0; f < faces; f++)
+        ck_assert_double_eq_tol(light_at(&s, f, p[f]), light[f], DETAIL_SAYS * light[f] + 1e-12);
+    free(p);
+    free(light);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Exact links are seen to be so, within what chance allows; and those whose light is off by known
  * shares as far as they are, whatever noise the particles have. */
 START_TEST(test_split)
@@ -641,6 +713,7 @@ int main(void)
     tcase_add_test(tests, test_mends);
     tcase_add_test(tests, test_slopes);
     tcase_add_test(tests, test_detail);
+    tcase_add_test(tests, test_merge);
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_places);
     tcase_add_test(tests, test_same_bits);
