@@ -30,6 +30,7 @@
 
 enum {
     RAYS_OF_PATH = 4, /* about, before any is traced */
+    LOOK = 256,       /* paths of a first look at most: chosen, the variance is known to a tenth */
     ENOUGH = 4        /* times the paths of the first look: chosen, its noise is then halved */
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
@@ -157,12 +158,13 @@ static double light_known(const struct dim_faces *d, const struct dim_polygon *p
     return fmax((1 - weight) * p->light + weight * found, sqrt((1 - weight) * p->variance));
 }
 
-/* How many paths more make its standard error that share of its light; */
+/* How many paths more make its standard error that share of its light, but as many as are believed;
+ */
 static double paths_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
 {
-    double goal = share * light_known(d, p);
-    return fmax(
-        path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0) - (double)p->paths, 0);
+    double goal = share * light_known(d, p),
+           all = path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0);
+    return fmax(fmax(all, (double)(ENOUGH * p->looked)) - (double)p->paths, 0);
 }
 
 /* rays that these take. */
@@ -223,7 +225,7 @@ static void plan(struct dim_faces *d, double rays)
 static int trace_all(struct dim_faces *d, double budget)
 {
     uint64_t before = *d->rays;
-    double first = budget * FIRST / RAYS_OF_PATH / d->count;
+    double first = fmin(budget * FIRST / RAYS_OF_PATH / d->count, LOOK);
     for (uint32_t j = 0; j < d->count; j++)
         d->polygon[j].wanted = first > 1 ? (uint64_t)first : 1;
     for (int part = 2; part >= 0; part--) {

@@ -145,6 +145,22 @@ START_TEST(test_same_bits)
 }
 END_TEST
 
+/* However much a first look might have taken: what is paid for is believed. */
+START_TEST(test_large_budget)
+{
+    struct scene scene;
+    struct solve s;
+    uint64_t rays;
+    double root;
+    two_furnaces(&s, &scene, DARK, 2);
+    spoil_wall(&s);
+    ck_assert_int_eq(mend_apart(&s, 200000, 2000000, &rays, &root), 1);
+    ck_assert_double_eq_tol(of_face(&s, WALL) / DARK, 1, 0.05);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Where every large face is met by particles enough, nothing is asked and nothing paid. */
 START_TEST(test_bright)
 {
@@ -167,6 +183,7 @@ int main(void)
     tcase_set_timeout(tests, 60);
     tcase_add_test(tests, test_found);
     tcase_add_test(tests, test_same_bits);
+    tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_bright);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
