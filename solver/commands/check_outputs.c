@@ -14,6 +14,7 @@
 #include "scene/text_lines.h"
 #include "util/array.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/ends_with.h"
 #include "util/report.h"
 #include "util/text_file.h"
@@ -61,20 +62,6 @@ static int add_output(struct named_files *f, char *path, int beside)
 
 /* ---- which files */
 
-/* `name` as a file says it, in the folder of `path`; NULL when out of memory. */
-static char *in_folder_of(const char *path, const char *name, size_t length)
-{
-    const char *slash = strrchr(path, '/');
-    const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
-    char *joined = malloc(folder + length + 1);
-    if (joined) {
-        memcpy(joined, path, folder);
-        memcpy(joined + folder, name, length);
-        joined[folder + length] = 0;
-    }
-    return joined;
-}
-
 /* The material files of an OBJ scene. */
 static int add_libraries(struct named_files *f, const char *scene, char *text, size_t size)
 {
@@ -84,9 +71,9 @@ static int add_libraries(struct named_files *f, const char *scene, char *text, s
         if (!next_word(&t) || !word_is(&t, "mtllib"))
             continue;
         char *name = rest_of_line(&t);
-        failed = !name
-                 || add_input(f, in_folder_of(scene, name, strlen(name)),
-                              "a material file of the scene");
+        failed =
+            !name
+            || add_input(f, path_beside(scene, name, strlen(name)), "a material file of the scene");
         free(name);
     }
     return failed ? -1 : 0;
@@ -100,7 +87,7 @@ static int add_buffers(struct named_files *f, const char *scene, const char *tex
         const char *name = at + strspn(at, " \t\r\n:");
         const size_t length = *name == '"' ? strcspn(++name, "\"") : 0;
         if (length && strncmp(name, "data:", 5) != 0
-            && add_input(f, in_folder_of(scene, name, length), "a file of the scene"))
+            && add_input(f, path_beside(scene, name, length), "a file of the scene"))
             return -1;
     }
     return 0;

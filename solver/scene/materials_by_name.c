@@ -10,6 +10,7 @@
 #include "scene/read_numbers.h"
 #include "scene/text_lines.h"
 #include "util/array.h"
+#include "util/beside.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
@@ -21,11 +22,6 @@ static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 #define NONE UINT32_MAX /* no material */
 
 enum { QUOTED_PATH = 256 }; /* bytes of a path that a message quotes */
-
-static int out_of_memory(const char *path)
-{
-    return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
-}
 
 /* ---- names */
 
@@ -97,7 +93,7 @@ int materials_use(struct materials_by_name *m, const char *name, uint32_t line, 
     if (*material == NONE) {
         *material = add_material(m, name);
         if (*material == NONE)
-            return out_of_memory(m->path);
+            return scene_file_no_memory(m->path);
         m->use[*material] = line;
     }
     return 0;
@@ -109,7 +105,7 @@ int materials_stand_in(struct materials_by_name *m, uint32_t line, uint32_t *mat
     if (*material == NONE)
         *material = add_material(m, STAND_IN);
     if (*material == NONE)
-        return out_of_memory(m->path);
+        return scene_file_no_memory(m->path);
     materials_assume(m, NO_MATERIAL, m->path, line, "", NULL);
     return 0;
 }
@@ -149,7 +145,7 @@ static int read_newmtl(struct materials_by_name *m, const struct text_lines *t, 
 {
     char *name = rest_of_line(t);
     if (!name)
-        return out_of_memory(l->path);
+        return scene_file_no_memory(l->path);
     end_material(m, l);
     uint32_t found = find_material(m, name);
     int undefined = found != NONE && m->use[found];
@@ -162,12 +158,12 @@ static int read_newmtl(struct materials_by_name *m, const struct text_lines *t, 
     if (l->passed_over)
         return 0;
     if (l->material == NONE)
-        return out_of_memory(l->path);
+        return scene_file_no_memory(l->path);
     m->use[l->material] = 0;
     m->group[l->material] = m->groups;
     m->defined++;
     m->file->places[l->material].file = strdup(l->path);
-    return m->file->places[l->material].file ? 0 : out_of_memory(l->path);
+    return m->file->places[l->material].file ? 0 : scene_file_no_memory(l->path);
 }
 
 /* Kd or Ke: three numbers, or one for all three. */
@@ -247,13 +243,10 @@ static int has_read(const struct materials_by_name *m, const char *path)
 /* Returns 0, -1 after a message, or 1 when it cannot be opened and `may_miss`. */
 static int read_library(struct materials_by_name *m, const char *name, uint32_t line, int may_miss)
 {
-    const char *slash = strrchr(m->path, '/');
-    size_t folder = slash && *name != '/' ? (size_t)(slash - m->path) + 1 : 0, size;
-    char *path = malloc(folder + strlen(name) + 1);
+    size_t size;
+    char *path = path_beside(m->path, name, strlen(name));
     if (!path)
-        return out_of_memory(m->path);
-    memcpy(path, m->path, folder);
-    strcpy(path + folder, name);
+        return scene_file_no_memory(m->path);
     if (m->last && strcmp(m->last, path) == 0) {
         free(path);
         return 0;
@@ -291,7 +284,7 @@ int materials_library(struct materials_by_name *m, const char *line_text, uint32
     m->groups++;
     char *names = strndup(line_text, bare_length(line_text)), *rest = NULL;
     if (!names)
-        return out_of_memory(m->path);
+        return scene_file_no_memory(m->path);
     int several = strpbrk(names, " \t") != NULL, result = 1;
     if (strcmp(names, line_text) != 0)
         result = read_library(m, line_text, line, 1);
