@@ -89,8 +89,7 @@ static int read_element(struct ply *p)
         return damaged_header(p, "an element without a name");
     snprintf(e->name, sizeof e->name, "%.*s", quoted_length(p->lines.word, p->lines.word_end),
              p->lines.word);
-    if (!next_word(&p->lines) || !word_number(&p->lines, &count)
-        || !is_whole(count, 0x1p53))
+    if (!next_word(&p->lines) || !word_number(&p->lines, &count) || !is_whole(count, 0x1p53))
         return damaged_header(p, "an element without a count");
     e->count = (uint64_t)count;
     e->first = p->properties;

@@ -226,6 +226,25 @@ for name in furnace.mtl ./furnace.mtl link.mtl hard.mtl; do
 done
 says 2 "this is a material file of the scene" compare "$tmp.scene/furnace.obj" --json "$tmp.scene/link.mtl"
 says 2 "this is a material file of the scene" viewfactors "$tmp.scene/furnace.obj" --names "$tmp.scene/link.mtl"
+# mtllib names one file, with blanks or a comment behind it, or several: the reader's way of telling is the guard's.
+libraries() { # LINE NAME...: of these files that are there, the scene's
+    { echo "mtllib $1"; grep -v mtllib "$scenes/furnace.obj"; } >"$tmp.scene/named.obj"
+    shift
+    for name; do says 2 "$name: error: this is a material file of the scene" solve "$tmp.scene/named.obj" --json "$tmp.scene/$name"; done
+}
+cp "$scenes/furnace.mtl" "$tmp.scene/a.mtl" && cp "$scenes/furnace.mtl" "$tmp.scene/b.mtl"
+libraries "a.mtl b.mtl" a.mtl b.mtl
+libraries "a.mtl	b.mtl # both" a.mtl b.mtl
+libraries "a.mtl # warm" a.mtl
+libraries "missing.mtl b.mtl"
+says 1 "cannot read the material library '$tmp.scene/missing.mtl b.mtl'" solve "$tmp.scene/named.obj" --json "$tmp.scene/b.mtl"
+cp "$scenes/furnace.mtl" "$tmp.scene/a.mtl b.mtl" && cp "$scenes/furnace.mtl" "$tmp.scene/a.mtl # warm"
+libraries "a.mtl b.mtl # one" "a.mtl b.mtl"
+echo "mtllib a.mtl b.mtl" >"$tmp.scene/named.obj" # a.mtl alone is none of it
+says 1 "named.obj: error: there is no face" solve "$tmp.scene/named.obj" --json "$tmp.scene/a.mtl"
+libraries "a.mtl # warm" "a.mtl # warm"
+mv "$tmp.scene/named.obj" "$tmp.scene/named.Obj"
+says 2 "this is a material file of the scene" solve "$tmp.scene/named.Obj" --json "$tmp.scene/a.mtl # warm"
 cp "$tmp.scene/furnace.obj" "$tmp.scene/other.obj"
 rm "$tmp.scene/furnace.obj"
 says 2 "furnace.mtl: error: this is a material file of the scene" solve "$tmp.scene/other.obj" -o "$tmp.scene/furnace.obj"
