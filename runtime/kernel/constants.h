@@ -307,7 +307,8 @@
  * only later how many rays are cast. Chosen: two doublings */
 #define DETAIL_LANDINGS 4.0
 /* of a radiosity. Quarters whose light is nearer than that to their parent's linear function say
- * nothing: chosen, a quarter of a step of pictures of 8 bits and a sixtieth of RAD_CORRECT_PLACES */
+ * nothing: chosen, a quarter of a step of pictures of 8 bits and a sixtieth of what mending aims at
+ * on places (RAD_CORRECT_PLACES) */
 #define DETAIL_SAYS 1e-3
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
