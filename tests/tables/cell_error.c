@@ -34,7 +34,7 @@
 #include "util/ends_with.h"
 #include "util/report.h"
 
-enum { POINTS = 8 };              /* leaves may be a hundredth of a cell */
+enum { POINTS = 16 };             /* leaves may be a hundredth of a cell */
 static const double LARGE = 0.01; /* of the scene's area: faces that `worst` is sought among */
 
 struct sums {
