@@ -608,7 +608,7 @@ struct RadPlaces {
     double ray;       /* of particles of one ray; of r rays a share 1 / r of it */
     uint64_t rays;    /* that told it */
 };
-#define RAD_PLACES_SHARE 0.04
+#define RAD_PLACES_SHARE 0.1
 #define RAD_PLACES_LEAST (1u << 15)
 
 /* Measure that of the links, by about so many rays (0: RAD_PLACES_SHARE of what the solution has
