@@ -153,8 +153,12 @@ RAD_API int radSetSceneMaterials(RadScene scene, const struct RadMaterial *mater
                                  uint32_t count);
 /* Kept as it is: the arrays are borrowed until the commit. Returns 0, or -1. */
 RAD_API int radSetSceneSharedPolygons(RadScene scene, const struct RadPolygons *polygons);
-/* Check everything, cut faces where others stand in them. After it the scene does not change.
- * Returns 0, or -1. */
+/* Check everything, take off faces what others cover, cut faces where others stand in them. After
+ * it the scene does not change. Returns 0, or -1.
+ *
+ * Polygons that lie on others in one plane, with the same side in front, would take the same light
+ * twice. Each side of each place in a plane belongs to one polygon: of those that emit, if any
+ * does, the first, else the first; the others lose it, and RadSceneReport counts them. */
 RAD_API int radCommitScene(RadScene scene);
 
 /* A flat convex face as the engine has it. */
@@ -167,10 +171,17 @@ struct RadFace {
     uint8_t black;  /* 1: neither emits nor reflects */
 };
 
+enum { RAD_OVERLAPS_NAMED = 3 };
+
 struct RadSceneReport {
     uint32_t polygons;   /* as they were set */
     uint32_t dropped;    /* of them, without area */
     uint32_t cut, parts; /* faces cut where others stand in them, and into how many */
+    uint32_t overlaps;   /* polygons that lay on others in one plane and lost what was covered */
+    double overlap_area; /* that they lost, of all their sides (m2) */
+    struct RadOverlap {
+        uint32_t polygon, on; /* the polygon that stays */
+    } overlap[RAD_OVERLAPS_NAMED]; /* the first of them */
     uint32_t faces, materials, bands;
     double area;            /* of all faces, both sides of two-sided ones (m2) */
     double low[3], high[3]; /* their box (m) */
@@ -179,8 +190,8 @@ struct RadSceneReport {
 RAD_API int radGetSceneReport(RadScene scene, struct RadSceneReport *report);
 /* [RadSceneReport.faces], the scene's own. NULL before the commit. */
 RAD_API const struct RadFace *radGetSceneFaces(RadScene scene);
-/* One side's area of each polygon (m2), 0 of those that were dropped; [RadSceneReport.polygons],
- * the scene's own. */
+/* One side's area of each polygon (m2), 0 of those that were dropped or covered, of sides covered
+ * unequally the mean; [RadSceneReport.polygons], the scene's own. */
 RAD_API const double *radGetScenePolygonAreas(RadScene scene);
 RAD_API const struct RadMaterial *radGetSceneMaterials(RadScene scene);
 

@@ -195,6 +195,11 @@
  * table does not. Chosen */
 #define REFINER_CUT_COVER 0.5
 
+/* of an area, and of a length. Faces that cover less of the smaller of them do not overlap
+ * (hierarchy/overlaps.c): so a face with ten such neighbours takes a thousandth of light too much,
+ * which is what a gain may be. Derived from that */
+#define REFINER_OVERLAP_LEAST 1e-4
+
 /* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below
  * this no shipped graph links clusters, and the tree decides only in which order pairs are
  * found; chosen */

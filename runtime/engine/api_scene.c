@@ -100,9 +100,12 @@ static void make_report(RadScene scene)
                                  .dropped = s->dropped,
                                  .cut = s->cut,
                                  .parts = s->parts,
+                                 .overlaps = s->overlaps,
+                                 .overlap_area = s->overlap_area,
                                  .faces = s->face_count,
                                  .materials = s->material_count,
                                  .bands = s->bands};
+    memcpy(r->overlap, s->overlap, sizeof r->overlap);
     for (int k = 0; k < 3; k++) {
         r->low[k] = INFINITY;
         r->high[k] = -INFINITY;

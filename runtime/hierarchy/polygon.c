@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "geometry.h"
 #include "kernel/constants.h"
@@ -245,4 +246,32 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
     for (int k = 0; k < 3; k++)
         triangle[triangles][k] = r.corner[k];
     return triangles + 1;
+}
+
+uint32_t polygon_pieces(double (*vertex)[3], uint32_t n, double touch, struct piece *piece)
+{
+    uint32_t ring[POLYGON_CORNERS], rest[POLYGON_CORNERS], count = 0;
+    for (uint32_t i = 0; i < n; i++)
+        ring[i] = i;
+    for (; n > 4; n -= 2) {
+        uint32_t best = 0;
+        double shortest = INFINITY;
+        for (uint32_t i = 0; i < n; i++) {
+            double d[3];
+            sub3(d, vertex[ring[i]], vertex[ring[(i + 3) % n]]);
+            if (length3(d) < shortest - touch) {
+                shortest = length3(d);
+                best = i;
+            }
+        }
+        for (uint32_t j = 0; j < 4; j++)
+            piece[count].corner[j] = ring[(best + j) % n];
+        piece[count++].n = 4;
+        for (uint32_t j = 3; j <= n; j++)
+            rest[j - 3] = ring[(best + j) % n];
+        memcpy(ring, rest, sizeof ring);
+    }
+    memcpy(piece[count].corner, ring, sizeof piece->corner);
+    piece[count].n = n;
+    return count + 1;
 }

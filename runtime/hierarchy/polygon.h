@@ -28,4 +28,16 @@ int polygon_convex_quad(double (*vertex)[3]);
 uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
                              uint32_t *scratch);
 
+enum { POLYGON_CORNERS = 12 }; /* of a convex polygon that becomes pieces */
+
+/* Of a convex polygon: what becomes a face. */
+struct piece {
+    uint32_t corner[4], n;
+};
+
+/* Cut a convex polygon of up to POLYGON_CORNERS corners into quads and at most one triangle, each
+ * cut off where the cut is shortest; lengths that differ by less than `touch` (m) are equal.
+ * Returns how many; there is room for half as many as corners. */
+uint32_t polygon_pieces(double (*vertex)[3], uint32_t count, double touch, struct piece *piece);
+
 #endif

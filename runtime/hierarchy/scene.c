@@ -14,10 +14,13 @@
 #include <string.h>
 
 #include "hierarchy/cut_faces.h"
+#include "hierarchy/overlaps.h"
 #include "hierarchy/polygon.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 enum { NAMED = 1, SEEN = 2 };
+enum { FEW = 2048 }; /* faces for which one thread does */
 
 struct builder {
     struct scene *scene;
@@ -214,6 +217,24 @@ static uint32_t bands(const struct builder *b)
     return RAD_GREY;
 }
 
+/* Take off faces what is covered, then cut them where others stand. Returns 0 or -1. */
+static int part_faces(struct scene *scene, int threads)
+{
+    struct bvh tree;
+    threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : thread_pool_processors();
+    if (bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0)
+        return -1;
+    long changed = overlaps_take(scene, &tree, threads);
+    if (changed > 0) {
+        bvh_free(&tree);
+        if (bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0)
+            return -1;
+    }
+    int result = changed < 0 || scene_cut(scene, &tree, threads) < 0 ? -1 : 0;
+    bvh_free(&tree);
+    return result;
+}
+
 static int build(struct builder *b, int threads)
 {
     struct scene *scene = b->scene;
@@ -248,7 +269,7 @@ static int build(struct builder *b, int threads)
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
     scene->bands = bands(b);
-    return !b->polygons->as_given && scene_cut(scene, threads) < 0 ? out_of_memory(b->error) : 0;
+    return !b->polygons->as_given && part_faces(scene, threads) < 0 ? out_of_memory(b->error) : 0;
 }
 
 int scene_build(struct scene *scene, const struct RadPolygons *polygons,

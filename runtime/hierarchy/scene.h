@@ -26,6 +26,10 @@ struct scene {
     /* faces cut where others stand in them (cut_faces.h), far sides not counted */
     uint32_t cut;
     uint32_t parts; /* into so many, which share their face's polygon */
+    /* polygons that lay on others and have lost what was covered (overlaps.h); the first of them */
+    uint32_t overlaps;
+    double overlap_area; /* that they lost, of all their sides (m2) */
+    struct RadOverlap overlap[RAD_OVERLAPS_NAMED];
     /* Of a scene read by scene_read, for the tables; else NULL. */
     char **names;              /* [material_count] */
     uint32_t *input_materials; /* [input_count] */
