@@ -934,6 +934,47 @@ START_TEST(test_ply)
 }
 END_TEST
 
+/* Two rows of four triangles in strips, all upwards: with -1 between, turned by corners that are
+ * there twice, and as two lists. */
+START_TEST(test_ply_strips)
+{
+    static const char head[] =
+        "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty "
+        "float y\nproperty float z\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 "
+        "0\n0 2 0\n1 2 0\n2 2 0\n",
+                      *const strips[] = {"1", "13 3 0 4 1 5 2 -1 6 3 7 4 8 5\n",
+                                         "1", "14 3 0 4 1 5 2 2 6 6 3 7 4 8 5\n",
+                                         "2", "6 3 0 4 1 5 2\n8 -1 6 3 7 4 8 5 -1\n"};
+    const char *values = strstr(head, "0 0 0");
+    for (int i = 0; i < 6; i += 2) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "%.*selement tristrips %s\nproperty list int int vertex_indices\nend_header\n%s%s",
+                 (int)(values - head), head, strips[i], values, strips[i + 1]);
+        struct scene s;
+        ck_assert_int_eq(read_scene(&s, write_text("strips.ply", text), NULL), 0);
+        ck_assert_uint_eq(s.face_count, 8);
+        ck_assert_uint_eq(s.overlaps, 0);
+        ck_assert_double_eq_tol(total_area(&s), 4, 1e-12);
+        for (uint32_t j = 0; j < s.face_count; j++) {
+            double v[4][3], normal[3];
+            memcpy(v, s.faces[j].vertex, sizeof v);
+            polygon_normal(v, 3, normal);
+            ck_assert_double_eq(normal[2], 1);
+        }
+        scene_free(&s);
+    }
+    char text[512];
+    snprintf(
+        text, sizeof text,
+        "%.*selement tristrips 1\nproperty list int int vertex_indices\nend_header\n%s3 0 1 -2\n",
+        (int)(values - head), head, values);
+    struct scene s;
+    ck_assert_int_eq(read_scene(&s, write_text("strips.ply", text), NULL), -1);
+    ck_assert_ptr_nonnull(strstr(last_error, "strips.ply:19: error: tristrips 0 names vertex -2"));
+}
+END_TEST
+
 static const char *write_bytes(const char *name, const char *bytes, size_t size)
 {
     const char *path = in_folder(name);
@@ -1208,6 +1249,7 @@ int main(void)
     tcase_add_test(t, test_gltf);
     tcase_add_test(t, test_gltf_materials);
     tcase_add_test(t, test_ply);
+    tcase_add_test(t, test_ply_strips);
     tcase_add_test(t, test_far_floats);
     tcase_add_test(t, test_cut_shapes);
     tcase_add_test(t, test_damaged_shapes);
