@@ -127,7 +127,8 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after
  * it. Polygon i has sizes[i] corners (all have `size` when sizes is NULL), whose indices into
  * positions stand one polygon after the other, counter-clockwise seen from the front. Concave and
- * bent polygons are cut into flat convex ones. Polygons without area, also those of fewer than
+ * bent polygons are cut into flat convex ones. One whose outline crosses itself is all that the
+ * outline goes round, once, with its front where that of its larger part is. Polygons without area, also those of fewer than
  * three corners, are dropped and counted, and keep their place in all lists of polygons. */
 struct RadPolygons {
     const double *positions; /* [position_count * 3], m */
@@ -176,6 +177,8 @@ enum { RAD_OVERLAPS_NAMED = 3 };
 struct RadSceneReport {
     uint32_t polygons;   /* as they were set */
     uint32_t dropped;    /* of them, without area */
+    /* of them, whose outline crosses itself; the first */
+    uint32_t crossing, crossing_first;
     uint32_t cut, parts; /* faces cut where others stand in them, and into how many */
     uint32_t overlaps;   /* polygons that lay on others in one plane and lost what was covered */
     double overlap_area; /* that they lost, of all their sides (m2) */

@@ -98,6 +98,8 @@ static void make_report(RadScene scene)
     struct RadSceneReport *r = &scene->report;
     *r = (struct RadSceneReport){.polygons = s->input_count,
                                  .dropped = s->dropped,
+                                 .crossing = s->crossing,
+                                 .crossing_first = s->crossing_first,
                                  .cut = s->cut,
                                  .parts = s->parts,
                                  .overlaps = s->overlaps,

@@ -200,13 +200,18 @@ static uint32_t find_ear(const struct ring *r, uint32_t start)
     return best;
 }
 
+static double corner_side(const struct ring *r, uint32_t i)
+{
+    return side(r, at(r, i + r->count - 1), at(r, i), at(r, i + 1));
+}
+
 /* When only straight or crossing corners are left: the flattest. */
 static uint32_t find_flattest(const struct ring *r)
 {
     double least = INFINITY;
     uint32_t best = 0;
     for (uint32_t i = 0; i < r->count; i++) {
-        double s = fabs(side(r, at(r, i + r->count - 1), at(r, i), at(r, i + 1)));
+        double s = fabs(corner_side(r, i));
         if (s < least) {
             least = s;
             best = i;
@@ -216,10 +221,11 @@ static uint32_t find_flattest(const struct ring *r)
 }
 
 uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
-                             uint32_t *scratch)
+                             uint32_t *scratch, double *lost)
 {
     struct ring r = {.vertex = vertex, .corner = scratch, .count = count};
     uint32_t triangles = 0, start = 0;
+    *lost = 0;
     polygon_normal(vertex, count, r.normal);
     for (uint32_t i = 0; i < count; i++) {
         r.corner[i] = i;
@@ -235,6 +241,7 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
             triangle[triangles++][2] = r.corner[(best + 1) % r.count];
         } else {
             best = find_flattest(&r);
+            *lost += fabs(corner_side(&r, best)) / 2;
         }
         drop(&r, best);
         start = best % r.count;
@@ -245,6 +252,7 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
     }
     for (int k = 0; k < 3; k++)
         triangle[triangles][k] = r.corner[k];
+    *lost += fmax(0, -corner_side(&r, 1)) / 2;
     return triangles + 1;
 }
 

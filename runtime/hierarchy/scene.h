@@ -23,6 +23,8 @@ struct scene {
     double precision;
     uint32_t bands;   /* 1 when every material that is used is grey, else 3 */
     uint32_t dropped; /* polygons without area */
+    /* polygons that cross themselves (crossing.h), and the first of them */
+    uint32_t crossing, crossing_first;
     /* faces cut where others stand in them (cut_faces.h), far sides not counted */
     uint32_t cut;
     uint32_t parts; /* into so many, which share their face's polygon */

@@ -268,8 +268,16 @@ static void warn_of_overlaps(const struct scene_file *f, const char *path,
 
 void scene_file_warn(const struct scene_file *f, const char *path, const struct RadSceneReport *r)
 {
+    char name[48], more[40] = "";
     if (r->overlaps)
         warn_of_overlaps(f, path, r);
+    if (r->crossing > 1)
+        snprintf(more, sizeof more, " (and %lu more)", (unsigned long)r->crossing - 1);
+    if (r->crossing)
+        report_warning(path, f->lines[r->crossing_first],
+                       "the outline of %s crosses itself%s: it is taken for all that it goes "
+                       "round, with one front; check the order of its corners",
+                       face_name(f, r->crossing_first, name), more);
     if (r->dropped || f->other)
         report_warning(path, 0,
                        "%u degenerate faces dropped (no area, or fewer than three corners), %u "

@@ -317,6 +317,7 @@ START_TEST(test_star)
     enum { N = 400 };
     static double v[N][3];
     static uint32_t triangle[N][3], scratch[N];
+    double lost;
     double shoelace = 0, sum = 0;
     for (int i = 0; i < N; i++) {
         double angle = 2 * 3.14159265358979323846 * i / N, radius = i % 2 ? 0.3 : 1.0;
@@ -326,7 +327,7 @@ START_TEST(test_star)
     }
     for (int i = 0; i < N; i++)
         shoelace += 0.5 * (v[i][0] * v[(i + 1) % N][1] - v[(i + 1) % N][0] * v[i][1]);
-    uint32_t count = polygon_triangulate(v, N, triangle, scratch);
+    uint32_t count = polygon_triangulate(v, N, triangle, scratch, &lost);
     ck_assert_uint_eq(count, N - 2);
     for (uint32_t i = 0; i < count; i++) {
         double t[3][3], normal[3];
@@ -345,13 +346,14 @@ static void expect_triangles(double (*flat)[2], uint32_t n, double area, const c
 {
     static double v[400][3];
     static uint32_t triangle[400][3], scratch[400];
+    double lost;
     for (int turned = 0; turned < 2; turned++) {
         for (uint32_t i = 0; i < n; i++) {
             v[i][0] = flat[i][0];
             v[i][1] = turned ? 0.8 * flat[i][1] : flat[i][1];
             v[i][2] = turned ? 0.6 * flat[i][1] : 0;
         }
-        uint32_t count = polygon_triangulate(v, n, triangle, scratch);
+        uint32_t count = polygon_triangulate(v, n, triangle, scratch, &lost);
         double sum = 0;
         for (uint32_t i = 0; i < count; i++) {
             double t[3][3], normal[3];
@@ -362,6 +364,7 @@ static void expect_triangles(double (*flat)[2], uint32_t n, double area, const c
                           what, (unsigned)i);
             sum += polygon_degenerate(t, 3, 0x1p-53) ? 0 : part;
         }
+        ck_assert_double_le(lost, 1e-13 * area);
         ck_assert_msg(fabs(sum - area) <= 1e-12 * area, "%s: %.15g, not %.15g", what, sum, area);
     }
 }
@@ -488,6 +491,24 @@ START_TEST(test_same_faces)
     snprintf(body, sizeof body, "%susemtl b_2s\nf 1 2 3 4\nusemtl a\nf 4 3 2 1\n", SQUARE);
     ck_assert_int_eq(read_body(&s, body), 0);
     ck_assert_double_eq(s.areas[1], 0);
+    scene_free(&s);
+}
+END_TEST
+
+START_TEST(test_crossing)
+{
+    char body[512];
+    snprintf(body, sizeof body, "%sv 0 0 1\nusemtl a\nf 1 2 3 4\nf 1 2 5\nf 1 5 4 3\nf 5 2 1 4\n",
+             SQUARE);
+    struct scene s;
+    ck_assert_int_eq(read_body(&s, body), 0);
+    ck_assert_str_eq(last_error, "");
+    scene_free(&s);
+    snprintf(body, sizeof body, "%susemtl a\nf 1 2 4 3\nusemtl b_2s\nf 1 3 2 4\n", SQUARE);
+    ck_assert_int_eq(read_body(&s, body), 0);
+    ck_assert_ptr_nonnull(strstr(last_error, "s.obj:7: warning: the outline of face 0 (line 7) "
+                                             "crosses itself (and 1 more): "));
+    ck_assert_uint_eq(s.dropped, 0);
     scene_free(&s);
 }
 END_TEST
@@ -1236,6 +1257,7 @@ int main(void)
     tcase_add_test(t, test_bridged);
     tcase_add_test(t, test_dropped);
     tcase_add_test(t, test_same_faces);
+    tcase_add_test(t, test_crossing);
     tcase_add_test(t, test_black_and_grey);
     tcase_add_test(t, test_double);
     tcase_add_test(t, test_obj);

@@ -20,6 +20,8 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
         report_error(path, 0, "%s", error.text);
     } else {
         struct RadSceneReport report = {.dropped = scene->dropped,
+                                        .crossing = scene->crossing,
+                                        .crossing_first = scene->crossing_first,
                                         .overlaps = scene->overlaps,
                                         .overlap_area = scene->overlap_area};
         memcpy(report.overlap, scene->overlap, sizeof report.overlap);
