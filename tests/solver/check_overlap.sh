@@ -73,18 +73,48 @@ for what in 'usemtl w\nf 5 8 7 6\nusemtl l\nf 16 15 14 13' 'usemtl l\nf 16 15 14
     told 'lies on face'
 done
 
-# what is no overlap: a wall with a face to either side in the room, cut otherwise behind than before
-cp box.obj wall.obj
-cat >>wall.obj <<'END'
-v 1 0 0
-v 1 2 0
-v 1 2 1
-v 1 0 1
+# what is no overlap: a wall of two faces in the middle, lamps on both sides; also one that is cut otherwise behind than before,
+# and one with two sides and a picture on it. A ray meets either face first, by rounding: it must meet the one it comes to
+cat >middle.obj <<'END'
+mtllib box.mtl
+v 0 0 0
+v 4 0 0
+v 4 2 0
+v 0 2 0
+v 0 0 1
+v 4 0 1
+v 4 2 1
+v 0 2 1
+v 2 0 0
+v 2 .7 0
+v 2 2 0
+v 2 2 1
+v 2 .7 1
+v 2 0 1
+v 2 .3 .2
+v 2 .3 .8
+v 2 1.7 .8
+v 2 1.7 .2
 usemtl w
-f 17 18 19 20
-f 20 19 18 17
+f 1 2 3 4
+f 5 8 7 6
+f 1 5 6 2
+f 4 3 7 8
+usemtl l
+f 1 4 8 5
+f 2 6 7 3
 END
-solve wall.obj && [ ! -s err ] || failed "a thin wall"
+for what in 'w\nf 9 14 12 11\nf 9 11 12 14' 'w\nf 9 14 12 11\nf 9 10 13 14\nf 10 11 12 13' \
+    'w\nf 15 16 17 18\nusemtl w_2s\nf 9 14 12 11'; do
+    cp middle.obj wall.obj
+    # shellcheck disable=SC2059
+    printf "usemtl $what\n" >>wall.obj
+    count=$((count + 1))
+    "$radiosity" solve wall.obj -q --no-errors --json json 2>err && [ ! -s err ] || failed "a thin wall, $what"
+    sed -n 's/.*"power_absorbed": \([0-9.e+-]*\),.*/\1/p' json >out
+    read -r a <out
+    near "$a" 40 .001 || failed "a thin wall, $what: absorbed $a of 40"
+done
 
 count=$((count + 1))
 "$radiosity" solve "$scenes/td.obj" -q --no-correct --no-errors --oracle ff --set limit=100 2>err
