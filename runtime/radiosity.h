@@ -128,8 +128,9 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
  * it. Polygon i has sizes[i] corners (all have `size` when sizes is NULL), whose indices into
  * positions stand one polygon after the other, counter-clockwise seen from the front. Concave and
  * bent polygons are cut into flat convex ones. One whose outline crosses itself is all that the
- * outline goes round, once, with its front where that of its larger part is. Polygons without area, also those of fewer than
- * three corners, are dropped and counted, and keep their place in all lists of polygons. */
+ * outline goes round, once, with its front where that of its larger part is. Polygons without area,
+ * also those of fewer than three corners, are dropped and counted, and keep their place in all
+ * lists of polygons. */
 struct RadPolygons {
     const double *positions; /* [position_count * 3], m */
     size_t position_count;

@@ -174,6 +174,9 @@
  * two of its corners is on the line: a difference of two coordinates and a cross product round five
  * times, and the corners themselves were rounded from decimals, once each of the three */
 #define REFINER_POLYGON_ON_LINE 8
+/* of its area. A polygon of which ear clipping loses more than that crosses itself; less is what
+ * corners rounded to a millionth of it do. Chosen: far above the rounding of the sums */
+#define REFINER_POLYGON_LOST 1e-6
 
 /* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
  * face that is cut. */
