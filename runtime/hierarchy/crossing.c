@@ -25,11 +25,12 @@ struct edge {
 };
 
 struct scan {
-    struct edge *edges; /* [edge_count]: those that are not level */
-    uint32_t edge_count;
+    struct edge *edges; /* [edge_count]: those that are not level, by their lower ends */
+    uint32_t edge_count, next;
     double *heights; /* [height_count] */
     size_t height_count, height_capacity;
-    uint32_t *across; /* edges that cross the band, from left to right */
+    uint32_t *across; /* [across_count]: edges that cross the band, from left to right */
+    uint32_t across_count;
     /* between which edges parts are open, and from which height on; of this band and the last */
     struct open_part {
         uint32_t left, right;
@@ -78,7 +79,7 @@ static int find_heights(struct scan *s)
         const struct edge *a = &s->edges[i];
         if (add_height(s, a->y[0]) || add_height(s, a->y[1]))
             return -1;
-        for (uint32_t j = 0; j < i; j++) {
+        for (uint32_t j = i + 1; j < s->edge_count && s->edges[j].y[0] < a->y[1]; j++) {
             const struct edge *b = &s->edges[j];
             double low = fmax(a->y[0], b->y[0]), high = fmin(a->y[1], b->y[1]);
             if (!(low < high))
@@ -90,6 +91,15 @@ static int find_heights(struct scan *s)
         }
     }
     return 0;
+}
+
+static int by_lower_end(const void *a, const void *b)
+{
+    const struct edge *x = a, *y = b;
+    if (x->y[0] < y->y[0] || x->y[0] > y->y[0])
+        return x->y[0] < y->y[0] ? -1 : 1;
+    int k = x->end[0] == y->end[0];
+    return (x->end[k] > y->end[k]) - (x->end[k] < y->end[k]);
 }
 
 static int by_height(const void *a, const void *b)
@@ -126,31 +136,36 @@ static int end_part(const struct scan *s, const struct open_part *o, double y,
     return 0;
 }
 
-/* The edges across a band, by their places in its middle. */
-static uint32_t edges_across(struct scan *s, double from, double to)
+/* The edges across a band, by their places in its middle: those of the last band that go on, which
+ * are nearly in order, and those that begin. */
+static void edges_across(struct scan *s, double middle)
 {
-    double middle = from + (to - from) / 2;
     uint32_t n = 0;
-    for (uint32_t i = 0; i < s->edge_count; i++) {
-        if (!(s->edges[i].y[0] < middle && s->edges[i].y[1] > middle))
-            continue;
-        double x = x_at(&s->edges[i], middle);
-        uint32_t at = n++;
+    for (uint32_t i = 0; i < s->across_count; i++)
+        if (s->edges[s->across[i]].y[1] > middle)
+            s->across[n++] = s->across[i];
+    for (; s->next < s->edge_count && s->edges[s->next].y[0] < middle; s->next++)
+        if (s->edges[s->next].y[1] > middle)
+            s->across[n++] = s->next;
+    for (uint32_t i = 1; i < n; i++) {
+        uint32_t edge = s->across[i], at = i;
+        double x = x_at(&s->edges[edge], middle);
         for (; at && x_at(&s->edges[s->across[at - 1]], middle) > x; at--)
             s->across[at] = s->across[at - 1];
-        s->across[at] = i;
+        s->across[at] = edge;
     }
-    return n;
+    s->across_count = n;
 }
 
 /* The parts of the band from `from` to `to`: those that go on stay open. Returns 0 or -1. */
 static int scan_band(struct scan *s, double from, double to, struct round_parts *parts,
                      double touch)
 {
-    uint32_t n = edges_across(s, from, to), left = 0, count = 0;
+    uint32_t left = 0, count = 0;
     struct open_part *now = s->open[1];
     int round = 0;
-    for (uint32_t i = 0; i < n; i++) {
+    edges_across(s, from + (to - from) / 2);
+    for (uint32_t i = 0; i < s->across_count; i++) {
         int before = round;
         round += s->edges[s->across[i]].up;
         if (!before)
@@ -176,6 +191,7 @@ static int scan_band(struct scan *s, double from, double to, struct round_parts 
 
 static int scan_bands(struct scan *s, struct round_parts *parts, double touch)
 {
+    qsort(s->edges, s->edge_count, sizeof *s->edges, by_lower_end);
     if (find_heights(s))
         return -1;
     qsort(s->heights, s->height_count, sizeof *s->heights, by_height);

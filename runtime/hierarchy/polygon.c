@@ -221,12 +221,11 @@ static uint32_t find_flattest(const struct ring *r)
 }
 
 uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
-                             uint32_t *scratch, double *lost)
+                             uint32_t *scratch)
 {
     struct ring r = {.vertex = vertex, .corner = scratch, .count = count};
     uint32_t triangles = 0, start = 0;
-    *lost = 0;
-    polygon_normal(vertex, count, r.normal);
+    double lost = 0, most = POLYGON_LOST * polygon_normal(vertex, count, r.normal);
     for (uint32_t i = 0; i < count; i++) {
         r.corner[i] = i;
         for (int k = 0; k < 3; k++)
@@ -241,7 +240,9 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
             triangle[triangles++][2] = r.corner[(best + 1) % r.count];
         } else {
             best = find_flattest(&r);
-            *lost += fabs(corner_side(&r, best)) / 2;
+            lost += fabs(corner_side(&r, best)) / 2;
+            if (lost > most)
+                return 0;
         }
         drop(&r, best);
         start = best % r.count;
@@ -252,8 +253,8 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
     }
     for (int k = 0; k < 3; k++)
         triangle[triangles][k] = r.corner[k];
-    *lost += fmax(0, -corner_side(&r, 1)) / 2;
-    return triangles + 1;
+    lost += fmax(0, -corner_side(&r, 1)) / 2;
+    return lost > most ? 0 : triangles + 1;
 }
 
 uint32_t polygon_pieces(double (*vertex)[3], uint32_t n, double touch, struct piece *piece)

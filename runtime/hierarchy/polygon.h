@@ -24,10 +24,10 @@ int polygon_convex_quad(double (*vertex)[3]);
 
 /* Cut into count - 2 triangles or fewer by ear clipping, in the plane of the mean normal; concave
  * polygons are cut right. Triangles are corner indices in the polygon's own sense of rotation,
- * `scratch` holds `count` numbers. Where the outline crosses itself no ear is left in the end:
- * *lost is the area of what was cut off without one (m2). Returns the number of triangles. */
+ * `scratch` holds `count` numbers. Returns the number of triangles, 0 when the outline crosses
+ * itself: then corners are left that are no ears, with more than POLYGON_LOST of the area. */
 uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
-                             uint32_t *scratch, double *lost);
+                             uint32_t *scratch);
 
 enum { POLYGON_CORNERS = 12 }; /* of a convex polygon that becomes pieces */
 

@@ -225,15 +225,15 @@ static int add_polygon(struct builder *b, uint32_t input, const uint32_t *indice
 {
     struct scene *scene = b->scene;
     uint32_t count = gather_corners(b, indices, n), before = scene->face_count;
-    double normal[3], area = 0, lost = 0;
-    int result = 0, none = polygon_degenerate(b->corner, count, scene->precision);
+    double normal[3], part[3][3];
+    int none = polygon_degenerate(b->corner, count, scene->precision), crosses = 0, result = 0;
     if (!none && is_whole(b, b->corner, count)) {
         result = add_face(b, b->corner, whole, count, input);
     } else if (!none) {
-        uint32_t triangles = polygon_triangulate(b->corner, count, b->triangle, b->scratch, &lost);
-        area = polygon_normal(b->corner, count, normal);
-        for (uint32_t i = 0; i < triangles && !(lost > POLYGON_LOST * area) && !result; i++) {
-            double part[3][3];
+        uint32_t triangles = polygon_triangulate(b->corner, count, b->triangle, b->scratch);
+        crosses = !triangles;
+        polygon_normal(b->corner, count, normal);
+        for (uint32_t i = 0; i < triangles && !result; i++) {
             for (int k = 0; k < 3; k++)
                 memcpy(part[k], b->corner[b->triangle[i][k]], sizeof part[k]);
             if (!polygon_degenerate(part, 3, scene->precision))
@@ -241,15 +241,12 @@ static int add_polygon(struct builder *b, uint32_t input, const uint32_t *indice
         }
     } else if (count > 3) { /* loops that run opposite ways may cancel out */
         double size = polygon_size(b->corner, count);
-        lost = crossing_normal(b->corner, count, normal);
-        area = SCENE_THIN / POLYGON_LOST * size * size;
+        crosses = crossing_normal(b->corner, count, normal) > SCENE_THIN * size * size;
     }
-    if (lost > POLYGON_LOST * area) {
+    if (crosses) {
         result = add_crossing(b, input, count, normal);
-        if (!none || scene->face_count > before) {
-            scene->crossing_first = scene->crossing ? scene->crossing_first : input;
-            scene->crossing++;
-        }
+        if (!none || scene->face_count > before)
+            scene->crossing_first = scene->crossing++ ? scene->crossing_first : input;
     }
     if (scene->face_count > before)
         b->used[material_of(b->polygons, input)] = SEEN;

@@ -317,7 +317,6 @@ START_TEST(test_star)
     enum { N = 400 };
     static double v[N][3];
     static uint32_t triangle[N][3], scratch[N];
-    double lost;
     double shoelace = 0, sum = 0;
     for (int i = 0; i < N; i++) {
         double angle = 2 * 3.14159265358979323846 * i / N, radius = i % 2 ? 0.3 : 1.0;
@@ -327,7 +326,7 @@ START_TEST(test_star)
     }
     for (int i = 0; i < N; i++)
         shoelace += 0.5 * (v[i][0] * v[(i + 1) % N][1] - v[(i + 1) % N][0] * v[i][1]);
-    uint32_t count = polygon_triangulate(v, N, triangle, scratch, &lost);
+    uint32_t count = polygon_triangulate(v, N, triangle, scratch);
     ck_assert_uint_eq(count, N - 2);
     for (uint32_t i = 0; i < count; i++) {
         double t[3][3], normal[3];
@@ -346,14 +345,13 @@ static void expect_triangles(double (*flat)[2], uint32_t n, double area, const c
 {
     static double v[400][3];
     static uint32_t triangle[400][3], scratch[400];
-    double lost;
     for (int turned = 0; turned < 2; turned++) {
         for (uint32_t i = 0; i < n; i++) {
             v[i][0] = flat[i][0];
             v[i][1] = turned ? 0.8 * flat[i][1] : flat[i][1];
             v[i][2] = turned ? 0.6 * flat[i][1] : 0;
         }
-        uint32_t count = polygon_triangulate(v, n, triangle, scratch, &lost);
+        uint32_t count = polygon_triangulate(v, n, triangle, scratch);
         double sum = 0;
         for (uint32_t i = 0; i < count; i++) {
             double t[3][3], normal[3];
@@ -364,7 +362,7 @@ static void expect_triangles(double (*flat)[2], uint32_t n, double area, const c
                           what, (unsigned)i);
             sum += polygon_degenerate(t, 3, 0x1p-53) ? 0 : part;
         }
-        ck_assert_double_le(lost, 1e-13 * area);
+        ck_assert_uint_gt(count, 0);
         ck_assert_msg(fabs(sum - area) <= 1e-12 * area, "%s: %.15g, not %.15g", what, sum, area);
     }
 }
