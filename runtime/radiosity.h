@@ -127,8 +127,10 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
 /* Polygons in arrays of the caller's, which must outlive radCommitScene and are not looked at after
  * it. Polygon i has sizes[i] corners (all have `size` when sizes is NULL), whose indices into
  * positions stand one polygon after the other, counter-clockwise seen from the front. Concave and
- * bent polygons are cut into flat convex ones. Polygons without area, also those of fewer than
- * three corners, are dropped and counted, and keep their place in all lists of polygons. */
+ * bent polygons are cut into flat convex ones. One whose outline crosses itself is all that the
+ * outline goes round, once, with its front where that of its larger part is. Polygons without area,
+ * also those of fewer than three corners, are dropped and counted, and keep their place in all
+ * lists of polygons. */
 struct RadPolygons {
     const double *positions; /* [position_count * 3], m */
     size_t position_count;
@@ -153,8 +155,12 @@ RAD_API int radSetSceneMaterials(RadScene scene, const struct RadMaterial *mater
                                  uint32_t count);
 /* Kept as it is: the arrays are borrowed until the commit. Returns 0, or -1. */
 RAD_API int radSetSceneSharedPolygons(RadScene scene, const struct RadPolygons *polygons);
-/* Check everything, cut faces where others stand in them. After it the scene does not change.
- * Returns 0, or -1. */
+/* Check everything, take off faces what others cover, cut faces where others stand in them. After
+ * it the scene does not change. Returns 0, or -1.
+ *
+ * Polygons that lie on others in one plane, with the same side in front, would take the same light
+ * twice. Each side of each place in a plane belongs to one polygon: of those that emit, if any
+ * does, the first, else the first; the others lose it, and RadSceneReport counts them. */
 RAD_API int radCommitScene(RadScene scene);
 
 /* A flat convex face as the engine has it. */
@@ -167,10 +173,19 @@ struct RadFace {
     uint8_t black;  /* 1: neither emits nor reflects */
 };
 
+enum { RAD_OVERLAPS_NAMED = 3 };
+
 struct RadSceneReport {
     uint32_t polygons;   /* as they were set */
     uint32_t dropped;    /* of them, without area */
+    /* of them, whose outline crosses itself; the first */
+    uint32_t crossing, crossing_first;
     uint32_t cut, parts; /* faces cut where others stand in them, and into how many */
+    uint32_t overlaps;   /* polygons that lay on others in one plane and lost what was covered */
+    double overlap_area; /* that they lost, of all their sides (m2) */
+    struct RadOverlap {
+        uint32_t polygon, on; /* the polygon that stays */
+    } overlap[RAD_OVERLAPS_NAMED]; /* the first of them */
     uint32_t faces, materials, bands;
     double area;            /* of all faces, both sides of two-sided ones (m2) */
     double low[3], high[3]; /* their box (m) */
@@ -179,8 +194,8 @@ struct RadSceneReport {
 RAD_API int radGetSceneReport(RadScene scene, struct RadSceneReport *report);
 /* [RadSceneReport.faces], the scene's own. NULL before the commit. */
 RAD_API const struct RadFace *radGetSceneFaces(RadScene scene);
-/* One side's area of each polygon (m2), 0 of those that were dropped; [RadSceneReport.polygons],
- * the scene's own. */
+/* One side's area of each polygon (m2), 0 of those that were dropped or covered, of sides covered
+ * unequally the mean; [RadSceneReport.polygons], the scene's own. */
 RAD_API const double *radGetScenePolygonAreas(RadScene scene);
 RAD_API const struct RadMaterial *radGetSceneMaterials(RadScene scene);
 

@@ -98,11 +98,16 @@ static void make_report(RadScene scene)
     struct RadSceneReport *r = &scene->report;
     *r = (struct RadSceneReport){.polygons = s->input_count,
                                  .dropped = s->dropped,
+                                 .crossing = s->crossing,
+                                 .crossing_first = s->crossing_first,
                                  .cut = s->cut,
                                  .parts = s->parts,
+                                 .overlaps = s->overlaps,
+                                 .overlap_area = s->overlap_area,
                                  .faces = s->face_count,
                                  .materials = s->material_count,
                                  .bands = s->bands};
+    memcpy(r->overlap, s->overlap, sizeof r->overlap);
     for (int k = 0; k < 3; k++) {
         r->low[k] = INFINITY;
         r->high[k] = -INFINITY;

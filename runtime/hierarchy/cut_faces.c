@@ -34,20 +34,14 @@
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-enum { FEW = 2048 }; /* faces for which one thread does */
 /* of one face at the most, before polygons become quads; of one part */
-enum { PARTS = 256, CORNERS = 12 };
+enum { PARTS = 256, CORNERS = POLYGON_CORNERS };
 
 struct part {
     double vertex[CORNERS][3];
     uint32_t n;
     size_t line;    /* the line it is best cut along */
     double covered; /* length of contacts there (m); 0: it is not to be cut */
-};
-
-/* Of a part: what becomes a face. */
-struct piece {
-    uint32_t corner[4], n;
 };
 
 /* Where the parts of a face that was cut stand, in some cutter's list. */
@@ -117,43 +111,13 @@ static double covered_length(const struct cutter *c, const struct part *p, const
                                                                                            : 0;
 }
 
-/* A part becomes quads and at most one triangle, cut off where the cut is shortest. Returns how
- * many. */
-static uint32_t make_pieces(const struct cutter *c, const struct part *p, struct piece *piece)
-{
-    uint32_t ring[CORNERS], rest[CORNERS], n = p->n, count = 0;
-    for (uint32_t i = 0; i < n; i++)
-        ring[i] = i;
-    for (; n > 4; n -= 2) {
-        uint32_t best = 0;
-        double shortest = INFINITY;
-        for (uint32_t i = 0; i < n; i++) {
-            double d[3];
-            sub3(d, p->vertex[ring[i]], p->vertex[ring[(i + 3) % n]]);
-            if (length3(d) < shortest - c->frame.touch) {
-                shortest = length3(d);
-                best = i;
-            }
-        }
-        for (uint32_t j = 0; j < 4; j++)
-            piece[count].corner[j] = ring[(best + j) % n];
-        piece[count++].n = 4;
-        for (uint32_t j = 3; j <= n; j++)
-            rest[j - 3] = ring[(best + j) % n];
-        memcpy(ring, rest, sizeof ring);
-    }
-    memcpy(piece[count].corner, ring, sizeof piece->corner);
-    piece[count].n = n;
-    return count + 1;
-}
-
 /* Do all of a part's pieces have an area to speak of? */
-static int has_sound_pieces(const struct cutter *c, const struct part *p)
+static int has_sound_pieces(const struct cutter *c, struct part *p)
 {
     if (p->n < 3)
         return 0;
     struct piece piece[CORNERS / 2];
-    uint32_t count = make_pieces(c, p, piece);
+    uint32_t count = polygon_pieces(p->vertex, p->n, c->frame.touch, piece);
     for (uint32_t i = 0; i < count; i++) {
         double v[4][3];
         for (uint32_t j = 0; j < piece[i].n; j++)
@@ -247,7 +211,7 @@ static int cut_along_lines(struct cutter *c)
     }
     for (uint32_t i = 0; i < count && count > 1; i++) {
         struct piece piece[CORNERS / 2];
-        uint32_t n = make_pieces(c, &part[i], piece);
+        uint32_t n = polygon_pieces(part[i].vertex, part[i].n, c->frame.touch, piece);
         for (uint32_t j = 0; j < n; j++)
             if (emit_piece(c, &part[i], &piece[j]) < 0)
                 return -1;
@@ -340,21 +304,16 @@ static void cut_some(const void *all, size_t from, size_t to)
             *c->failed = 1;
 }
 
-int scene_cut(struct scene *scene, int threads)
+int scene_cut(struct scene *scene, const struct bvh *tree, int threads)
 {
     if (!scene->face_count)
         return 0;
-    threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : thread_pool_processors();
-    struct bvh tree;
     struct cutter *cutters = calloc((size_t)threads, sizeof *cutters);
-    if (!cutters
-        || bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0) {
-        free(cutters);
+    if (!cutters)
         return -1;
-    }
     for (int t = 0; t < threads; t++) {
         cutters[t].scene = scene;
-        cutters[t].tree = &tree;
+        cutters[t].tree = tree;
     }
     atomic_int failed = 0;
     const struct all_cutters all = {scene, cutters, &failed};
@@ -369,6 +328,5 @@ int scene_cut(struct scene *scene, int threads)
         free(cutters[t].cuttings);
     }
     free(cutters);
-    bvh_free(&tree);
     return status ? -1 : 0;
 }

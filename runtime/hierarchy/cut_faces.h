@@ -5,10 +5,10 @@
 
 #include "hierarchy/scene.h"
 
-/* Cut the scene's faces in place, on so many threads (0: as many as there are processors);
+/* Cut the scene's faces in place, on so many threads, with a tree over them;
  * scene->cut and scene->parts say how many and into how many. Materials and areas of polygons stay.
  * Returns 0, or -1 when out of memory; then nothing has changed. A scene cut before is cut no
  * further where it was not left at the limit. */
-int scene_cut(struct scene *scene, int threads);
+int scene_cut(struct scene *scene, const struct bvh *tree, int threads);
 
 #endif

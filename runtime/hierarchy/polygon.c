@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "geometry.h"
 #include "kernel/constants.h"
@@ -199,13 +200,18 @@ static uint32_t find_ear(const struct ring *r, uint32_t start)
     return best;
 }
 
+static double corner_side(const struct ring *r, uint32_t i)
+{
+    return side(r, at(r, i + r->count - 1), at(r, i), at(r, i + 1));
+}
+
 /* When only straight or crossing corners are left: the flattest. */
 static uint32_t find_flattest(const struct ring *r)
 {
     double least = INFINITY;
     uint32_t best = 0;
     for (uint32_t i = 0; i < r->count; i++) {
-        double s = fabs(side(r, at(r, i + r->count - 1), at(r, i), at(r, i + 1)));
+        double s = fabs(corner_side(r, i));
         if (s < least) {
             least = s;
             best = i;
@@ -219,7 +225,7 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
 {
     struct ring r = {.vertex = vertex, .corner = scratch, .count = count};
     uint32_t triangles = 0, start = 0;
-    polygon_normal(vertex, count, r.normal);
+    double lost = 0, most = POLYGON_LOST * polygon_normal(vertex, count, r.normal);
     for (uint32_t i = 0; i < count; i++) {
         r.corner[i] = i;
         for (int k = 0; k < 3; k++)
@@ -234,6 +240,9 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
             triangle[triangles++][2] = r.corner[(best + 1) % r.count];
         } else {
             best = find_flattest(&r);
+            lost += fabs(corner_side(&r, best)) / 2;
+            if (lost > most)
+                return 0;
         }
         drop(&r, best);
         start = best % r.count;
@@ -244,5 +253,34 @@ uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*tri
     }
     for (int k = 0; k < 3; k++)
         triangle[triangles][k] = r.corner[k];
-    return triangles + 1;
+    lost += fmax(0, -corner_side(&r, 1)) / 2;
+    return lost > most ? 0 : triangles + 1;
+}
+
+uint32_t polygon_pieces(double (*vertex)[3], uint32_t n, double touch, struct piece *piece)
+{
+    uint32_t ring[POLYGON_CORNERS], rest[POLYGON_CORNERS], count = 0;
+    for (uint32_t i = 0; i < n; i++)
+        ring[i] = i;
+    for (; n > 4; n -= 2) {
+        uint32_t best = 0;
+        double shortest = INFINITY;
+        for (uint32_t i = 0; i < n; i++) {
+            double d[3];
+            sub3(d, vertex[ring[i]], vertex[ring[(i + 3) % n]]);
+            if (length3(d) < shortest - touch) {
+                shortest = length3(d);
+                best = i;
+            }
+        }
+        for (uint32_t j = 0; j < 4; j++)
+            piece[count].corner[j] = ring[(best + j) % n];
+        piece[count++].n = 4;
+        for (uint32_t j = 3; j <= n; j++)
+            rest[j - 3] = ring[(best + j) % n];
+        memcpy(ring, rest, sizeof ring);
+    }
+    memcpy(piece[count].corner, ring, sizeof piece->corner);
+    piece[count].n = n;
+    return count + 1;
 }

@@ -24,8 +24,21 @@ int polygon_convex_quad(double (*vertex)[3]);
 
 /* Cut into count - 2 triangles or fewer by ear clipping, in the plane of the mean normal; concave
  * polygons are cut right. Triangles are corner indices in the polygon's own sense of rotation,
- * `scratch` holds `count` numbers. Returns the number of triangles. */
+ * `scratch` holds `count` numbers. Returns the number of triangles, 0 when the outline crosses
+ * itself: then corners are left that are no ears, with more than POLYGON_LOST of the area. */
 uint32_t polygon_triangulate(double (*vertex)[3], uint32_t count, uint32_t (*triangle)[3],
                              uint32_t *scratch);
+
+enum { POLYGON_CORNERS = 12 }; /* of a convex polygon that becomes pieces */
+
+/* Of a convex polygon: what becomes a face. */
+struct piece {
+    uint32_t corner[4], n;
+};
+
+/* Cut a convex polygon of up to POLYGON_CORNERS corners into quads and at most one triangle, each
+ * cut off where the cut is shortest; lengths that differ by less than `touch` (m) are equal.
+ * Returns how many; there is room for half as many as corners. */
+uint32_t polygon_pieces(double (*vertex)[3], uint32_t count, double touch, struct piece *piece);
 
 #endif

@@ -13,11 +13,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hierarchy/crossing.h"
 #include "hierarchy/cut_faces.h"
+#include "hierarchy/overlaps.h"
 #include "hierarchy/polygon.h"
 #include "kernel/constants.h"
+#include "util/array.h"
+#include "util/thread_pool.h"
 
 enum { NAMED = 1, SEEN = 2 };
+enum { FEW = 2048 }; /* faces for which one thread does */
 
 struct builder {
     struct scene *scene;
@@ -25,6 +30,8 @@ struct builder {
     uint8_t *used;       /* [material_count]: NAMED by a polygon, SEEN on one with an area */
     double (*corner)[3]; /* of the polygon at hand */
     uint32_t (*triangle)[3], *scratch;
+    struct round_parts round;
+    size_t capacity;        /* faces that there is room for */
     double low[3], high[3]; /* box of all polygons (m) */
     double flat;            /* corners no farther than that from a plane are in it (m) */
     struct scene_error *error;
@@ -129,11 +136,19 @@ static int check_polygons(struct builder *b, uint32_t *largest, size_t *most)
     return 0;
 }
 
-static void add_face(struct builder *b, const uint32_t *corners, uint32_t count, uint32_t material,
-                     uint32_t input)
+/* Add one of the input's faces, and its far side. Returns 0, or -1 when out of memory. */
+static int add_face(struct builder *b, double (*vertex)[3], const uint32_t *corners, uint32_t count,
+                    uint32_t input)
 {
+    uint32_t material = material_of(b->polygons, input);
     const struct RadMaterial *m = &b->scene->materials[material];
     int black = 1;
+    double normal[3];
+    if (b->scene->face_count > UINT32_MAX - 2
+        || array_reserve(&b->scene->faces, (size_t)b->scene->face_count + 2, &b->capacity,
+                         sizeof *b->scene->faces)
+               < 0)
+        return -1;
     for (int k = 0; k < 3; k++)
         black &= m->reflectance[k] <= 0 && m->exitance[k] <= 0;
     for (int back = 0; back <= !!m->two_sided; back++) {
@@ -144,8 +159,11 @@ static void add_face(struct builder *b, const uint32_t *corners, uint32_t count,
                            .back = (uint8_t)back,
                            .black = (uint8_t)black};
         for (uint32_t i = 0; i < count; i++)
-            memcpy(f->vertex[i], b->corner[corners[back ? count - 1 - i : i]], sizeof f->vertex[i]);
+            memcpy(f->vertex[i], vertex[corners[back ? count - 1 - i : i]], sizeof f->vertex[i]);
+        if (!back)
+            b->scene->areas[input] += polygon_normal(f->vertex, count, normal);
     }
+    return 0;
 }
 
 static int same_place(const double a[3], const double b[3])
@@ -167,39 +185,74 @@ static uint32_t gather_corners(struct builder *b, const uint32_t *indices, uint3
     return count;
 }
 
-/* A polygon becomes one face, several, or none. */
-static void add_polygon(struct builder *b, uint32_t input, const uint32_t *indices, uint32_t n)
+/* Is a polygon of three corners or four flat and convex? */
+static int is_whole(const struct builder *b, double (*vertex)[3], uint32_t count)
+{
+    return count == 3
+           || (count == 4
+               && (b->polygons->as_given
+                   || (polygon_flat(vertex, 4,
+                                    fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(vertex, 4)))
+                       && polygon_convex_quad(vertex))));
+}
+
+static const uint32_t whole[4] = {0, 1, 2, 3}, halves[2][3] = {{0, 1, 2}, {0, 2, 3}};
+
+/* Of an outline that crosses itself, all that it goes round. Returns 0, or -1 when out of memory.
+ */
+static int add_crossing(struct builder *b, uint32_t input, uint32_t count, const double normal[3])
+{
+    const double precision = b->scene->precision;
+    if (crossing_parts(&b->round, b->corner, count, normal) < 0)
+        return -1;
+    for (size_t i = 0; i < b->round.count; i++) {
+        struct round_part *p = &b->round.parts[i];
+        int one = is_whole(b, p->vertex, p->n);
+        for (int k = 0; k < 2 - one; k++) {
+            const uint32_t *corners = one ? whole : halves[k], n = one ? p->n : 3;
+            double part[4][3];
+            for (uint32_t j = 0; j < n; j++)
+                memcpy(part[j], p->vertex[corners[j]], sizeof part[j]);
+            if (!polygon_degenerate(part, n, precision) && add_face(b, part, whole, n, input) < 0)
+                return -1;
+        }
+    }
+    return 0;
+}
+
+/* A polygon becomes one face, several, or none. Returns 0, or -1 when out of memory. */
+static int add_polygon(struct builder *b, uint32_t input, const uint32_t *indices, uint32_t n)
 {
     struct scene *scene = b->scene;
-    const uint32_t whole[4] = {0, 1, 2, 3};
-    uint32_t material = material_of(b->polygons, input), count = gather_corners(b, indices, n);
-    double normal[3], *area = &scene->areas[input];
-    if (polygon_degenerate(b->corner, count, scene->precision)) {
+    uint32_t count = gather_corners(b, indices, n), before = scene->face_count;
+    double normal[3], part[3][3];
+    int none = polygon_degenerate(b->corner, count, scene->precision), crosses = 0, result = 0;
+    if (!none && is_whole(b, b->corner, count)) {
+        result = add_face(b, b->corner, whole, count, input);
+    } else if (!none) {
+        uint32_t triangles = polygon_triangulate(b->corner, count, b->triangle, b->scratch);
+        crosses = !triangles;
+        polygon_normal(b->corner, count, normal);
+        for (uint32_t i = 0; i < triangles && !result; i++) {
+            for (int k = 0; k < 3; k++)
+                memcpy(part[k], b->corner[b->triangle[i][k]], sizeof part[k]);
+            if (!polygon_degenerate(part, 3, scene->precision))
+                result = add_face(b, b->corner, b->triangle[i], 3, input);
+        }
+    } else if (count > 3) { /* loops that run opposite ways may cancel out */
+        double size = polygon_size(b->corner, count);
+        crosses = crossing_normal(b->corner, count, normal) > SCENE_THIN * size * size;
+    }
+    if (crosses) {
+        result = add_crossing(b, input, count, normal);
+        if (!none || scene->face_count > before)
+            scene->crossing_first = scene->crossing++ ? scene->crossing_first : input;
+    }
+    if (scene->face_count > before)
+        b->used[material_of(b->polygons, input)] = SEEN;
+    else
         scene->dropped++;
-        return;
-    }
-    b->used[material] = SEEN;
-    if (count == 3 || (count == 4 && b->polygons->as_given)
-        || (count == 4
-            && polygon_flat(b->corner, 4,
-                            fmin(b->flat, SCENE_FLAT_QUAD * polygon_size(b->corner, 4)))
-            && polygon_convex_quad(b->corner))) {
-        *area = polygon_normal(b->corner, count, normal);
-        add_face(b, whole, count, material, input);
-        return;
-    }
-    uint32_t triangles = polygon_triangulate(b->corner, count, b->triangle, b->scratch);
-    for (uint32_t i = 0; i < triangles; i++) {
-        double part[3][3];
-        for (int k = 0; k < 3; k++)
-            memcpy(part[k], b->corner[b->triangle[i][k]], sizeof part[k]);
-        if (polygon_degenerate(part, 3, scene->precision))
-            continue;
-        *area += polygon_normal(part, 3, normal);
-        add_face(b, b->triangle[i], 3, material, input);
-    }
-    if (!(*area > 0))
-        scene->dropped++;
+    return result;
 }
 
 static uint32_t bands(const struct builder *b)
@@ -214,6 +267,24 @@ static uint32_t bands(const struct builder *b)
     return RAD_GREY;
 }
 
+/* Take off faces what is covered, then cut them where others stand. Returns 0 or -1. */
+static int part_faces(struct scene *scene, int threads)
+{
+    struct bvh tree;
+    threads = scene->face_count < FEW ? 1 : threads > 0 ? threads : thread_pool_processors();
+    if (bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0)
+        return -1;
+    long changed = overlaps_take(scene, &tree, threads);
+    if (changed > 0) {
+        bvh_free(&tree);
+        if (bvh_build(&tree, scene->faces, scene->face_count, CLUSTERING_SAH, threads) < 0)
+            return -1;
+    }
+    int result = changed < 0 || scene_cut(scene, &tree, threads) < 0 ? -1 : 0;
+    bvh_free(&tree);
+    return result;
+}
+
 static int build(struct builder *b, int threads)
 {
     struct scene *scene = b->scene;
@@ -226,6 +297,7 @@ static int build(struct builder *b, int threads)
     if (check_polygons(b, &largest, &most) || check_materials(b))
         return -1;
     scene->faces = most <= UINT32_MAX ? malloc((most + 1) * sizeof *scene->faces) : NULL;
+    b->capacity = scene->faces ? most + 1 : 0;
     scene->areas = calloc(b->polygons->count, sizeof *scene->areas);
     b->corner = malloc(((size_t)largest + 1) * sizeof *b->corner);
     b->triangle = malloc(((size_t)largest + 1) * sizeof *b->triangle);
@@ -238,7 +310,8 @@ static int build(struct builder *b, int threads)
         fmax(fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]);
     b->flat = b->polygons->single_precision ? SCENE_FLAT_ROUNDED * extent : INFINITY;
     for (uint32_t i = 0; i < scene->input_count; i++) {
-        add_polygon(b, i, &b->polygons->indices[at], size_of(b->polygons, i));
+        if (add_polygon(b, i, &b->polygons->indices[at], size_of(b->polygons, i)) < 0)
+            return out_of_memory(b->error);
         at += size_of(b->polygons, i);
     }
     if (!scene->face_count)
@@ -248,7 +321,7 @@ static int build(struct builder *b, int threads)
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
     scene->bands = bands(b);
-    return !b->polygons->as_given && scene_cut(scene, threads) < 0 ? out_of_memory(b->error) : 0;
+    return !b->polygons->as_given && part_faces(scene, threads) < 0 ? out_of_memory(b->error) : 0;
 }
 
 int scene_build(struct scene *scene, const struct RadPolygons *polygons,
@@ -275,6 +348,7 @@ int scene_build(struct scene *scene, const struct RadPolygons *polygons,
     free(b.corner);
     free(b.triangle);
     free(b.scratch);
+    free(b.round.parts);
     if (result)
         scene_free(scene);
     return result;

@@ -23,9 +23,15 @@ struct scene {
     double precision;
     uint32_t bands;   /* 1 when every material that is used is grey, else 3 */
     uint32_t dropped; /* polygons without area */
+    /* polygons that cross themselves (crossing.h), and the first of them */
+    uint32_t crossing, crossing_first;
     /* faces cut where others stand in them (cut_faces.h), far sides not counted */
     uint32_t cut;
     uint32_t parts; /* into so many, which share their face's polygon */
+    /* polygons that lay on others and have lost what was covered (overlaps.h); the first of them */
+    uint32_t overlaps;
+    double overlap_area; /* that they lost, of all their sides (m2) */
+    struct RadOverlap overlap[RAD_OVERLAPS_NAMED];
     /* Of a scene read by scene_read, for the tables; else NULL. */
     char **names;              /* [material_count] */
     uint32_t *input_materials; /* [input_count] */

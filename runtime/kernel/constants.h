@@ -149,6 +149,9 @@
  * two of its corners is on the line: a difference of two coordinates and a cross product round five
  * times, and the corners themselves were rounded from decimals, once each of the three */
 #define POLYGON_ON_LINE 8
+/* of its area. A polygon of which ear clipping loses more than that crosses itself; less is what
+ * corners rounded to a millionth of it do. Chosen: far above the rounding of the sums */
+#define POLYGON_LOST 1e-6
 
 /* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
  * face that is cut. */
@@ -169,6 +172,11 @@
 /* of a chord. Contacts that cover less of it do not cut: a wall with a door does, the leg of a
  * table does not. Chosen */
 #define CUT_COVER 0.5
+
+/* of an area, and of a length. Faces that cover less of the smaller of them do not overlap
+ * (hierarchy/overlaps.c): so a face with ten such neighbours takes a thousandth of light too much,
+ * which is what a gain may be. Derived from that */
+#define OVERLAP_LEAST 1e-4
 
 /* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below
  * this no shipped graph links clusters, and the tree decides only in which order pairs are

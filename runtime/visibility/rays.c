@@ -226,7 +226,12 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
         return NULL;
     }
     rays->scene = rtcNewScene(rays->device);
-    rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST);
+#if EMBREE == 4
+    rtcSetSceneFlags(rays->scene,
+                     RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
+#else
+    rtcSetSceneFlags(rays->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+#endif
     rtcSetSceneBuildQuality(rays->scene, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = faces_geometry(rays, h);
     const int room = embree_has_memory(h->face_count);
@@ -261,27 +266,82 @@ static struct RTCRay ray_from(const struct rays *rays, const double p[3], const 
     return ray;
 }
 
+/* Is it hit from behind? */
+static int from_behind(const struct RTCRayHit *query)
+{
+    return query->hit.Ng_x * query->ray.dir_x + query->hit.Ng_y * query->ray.dir_y
+               + query->hit.Ng_z * query->ray.dir_z
+           > 0;
+}
+
+/* A filter of Embree's: passes over what is met from behind. A ray's direction begins at its fifth
+ * number, a hit's normal at its first (rtcore_ray.h). */
+static void fronts_alone(const struct RTCFilterFunctionNArguments *a)
+{
+    const float *ray = (const void *)a->ray, *hit = (const void *)a->hit;
+    for (unsigned i = 0; i < a->N; i++) {
+        float cosine = 0;
+        for (unsigned k = 0; k < 3; k++)
+            cosine += hit[k * a->N + i] * ray[(4 + k) * a->N + i];
+        if (cosine > 0)
+            a->valid[i] = 0;
+    }
+}
+
+static void intersect(const struct rays *rays, struct RTCRayHit *query, int fronts)
+{
+    query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if EMBREE == 4
+    struct RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.filter = fronts ? fronts_alone : NULL;
+    arguments.flags = fronts ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE;
+    rtcIntersect1(rays->scene, query, &arguments);
+#else
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.filter = fronts ? fronts_alone : NULL;
+    rtcIntersect1(rays->scene, &context, query);
+#endif
+}
+
+/* Where two one-sided faces lie back to back in one plane, a ray meets either of them first, by
+ * rounding. So of a black back that is met it is asked whether a front lies in the same place, as
+ * near as rays can tell; then that is met. Returns 1 when it is. */
+static int front_there(const struct rays *rays, struct RTCRayHit *query)
+{
+    struct RTCRayHit again = {.ray = query->ray};
+    const float near =
+        (float)(rays->host.ray_offset * rays->scale)
+        / sqrtf(query->ray.dir_x * query->ray.dir_x + query->ray.dir_y * query->ray.dir_y
+                + query->ray.dir_z * query->ray.dir_z);
+    again.ray.tnear = fmaxf(0, query->ray.tfar - near);
+    again.ray.tfar = query->ray.tfar + near;
+    intersect(rays, &again, 1);
+    if (again.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return 0;
+    const struct RTCHit *a = &again.hit, *b = &query->hit;
+    float cosine = -(a->Ng_x * b->Ng_x + a->Ng_y * b->Ng_y + a->Ng_z * b->Ng_z),
+          sizes = sqrtf((a->Ng_x * a->Ng_x + a->Ng_y * a->Ng_y + a->Ng_z * a->Ng_z)
+                        * (b->Ng_x * b->Ng_x + b->Ng_y * b->Ng_y + b->Ng_z * b->Ng_z));
+    if (!(cosine > (float)GROUP_COSINE * sizes))
+        return 0;
+    *query = again;
+    return 1;
+}
+
 /* What the ray meets first: 0 when nothing; *behind: it comes from behind. */
 static int first_hit(const struct rays *rays, const double from[3], const double direction[3],
                      struct RTCRayHit *query, int *behind)
 {
     query->ray = ray_from(rays, from, direction, INFINITY);
-    query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    {
-#if EMBREE == 4
-        struct RTCIntersectArguments arguments;
-        rtcInitIntersectArguments(&arguments);
-        rtcIntersect1(rays->scene, query, &arguments);
-#else
-        struct RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(rays->scene, &context, query);
-#endif
-    }
-    *behind = query->hit.Ng_x * query->ray.dir_x + query->hit.Ng_y * query->ray.dir_y
-                  + query->hit.Ng_z * query->ray.dir_z
-              > 0;
-    return query->hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    intersect(rays, query, 0);
+    if (query->hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return 0;
+    *behind =
+        from_behind(query)
+        && !(rays->behind[rays->face[query->hit.primID]] == BLACK_BACK && front_there(rays, query));
+    return 1;
 }
 
 enum ray_fate rays_first(const struct rays *rays, const double from[3], const double direction[3],
@@ -341,7 +401,8 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
             && query.hit.Ng_x[i] * query.ray.dir_x[i] + query.hit.Ng_y[i] * query.ray.dir_y[i]
                        + query.hit.Ng_z[i] * query.ray.dir_z[i]
                    > 0
-            && rays->behind[rays->face[query.hit.primID[i]]] == BLACK_BACK)
+            && rays->behind[rays->face[query.hit.primID[i]]] == BLACK_BACK
+            && rays_first(rays, from[i], direction, NULL, NULL) == RAY_MEETS_BACK)
             backs |= 1u << i;
     return backs;
 }

@@ -201,8 +201,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     }
     if (s.report.absorbed > (1 + GAIN_TOLD) * s.report.emitted)
         report_warning(o->scene, 0,
-                       "%.2g %% more is absorbed than emitted, which is error: look for faces that "
-                       "overlap in a plane, or use finer links",
+                       "%.2g %% more is absorbed than emitted, which is error: use finer links",
                        100 * (s.report.absorbed / s.report.emitted - 1));
     if (!o->quiet) {
         measured_warn(&measured, o->scene);

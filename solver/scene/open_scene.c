@@ -19,7 +19,7 @@ int open_scene(struct open_scene *s, const char *path, const struct scene_option
             && radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0
             && radGetSceneReport(s->scene, &s->report) == 0) {
             if (!options->quiet)
-                scene_file_warn(&s->file, path, s->report.dropped);
+                scene_file_warn(&s->file, path, &s->report);
             return 0;
         }
         report_device(s->device, path);

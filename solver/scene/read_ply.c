@@ -1,7 +1,9 @@
 /* read_ply.c - see read_shapes.h: PLY, a header that lists elements and their properties, then
  * their values as text or as bytes.
  *
- * Of vertices x, y and z are read, of faces vertex_indices; all else is stepped over.
+ * Of vertices x, y and z are read, of faces and of triangle strips (element tristrips, as scanners
+ * write them) vertex_indices; all else is stepped over. Each corner of a strip makes a triangle
+ * with the two before it, every second one turned over; -1 begins a new strip.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
@@ -25,7 +27,7 @@ static const struct {
     [F32] = {"float", "float32", 4}, [F64] = {"double", "float64", 8},
 };
 
-enum role { PASSED_OVER, X, Y, Z, CORNERS };
+enum role { PASSED_OVER, X, Y, Z, CORNERS, STRIPS };
 
 struct property {
     enum type type, count_type;
@@ -121,9 +123,10 @@ static int read_property(struct ply *p)
                    : word_is(&p->lines, "y") ? Y
                    : word_is(&p->lines, "z") ? Z
                                              : PASSED_OVER;
-    if (strcmp(of, "face") == 0 && to->list
-        && (word_is(&p->lines, "vertex_indices") || word_is(&p->lines, "vertex_index")))
-        to->role = CORNERS;
+    if (to->list && (word_is(&p->lines, "vertex_indices") || word_is(&p->lines, "vertex_index")))
+        to->role = strcmp(of, "face") == 0        ? CORNERS
+                   : strcmp(of, "tristrips") == 0 ? STRIPS
+                                                  : PASSED_OVER;
     p->element[p->elements - 1].properties++;
     p->properties++;
     return 0;
@@ -196,27 +199,52 @@ static int next_value(struct ply *p, enum type type, double *value)
     return 0;
 }
 
+struct strip {
+    uint32_t last[2]; /* corners, in the order that the next triangle has them */
+    uint32_t length;
+};
+
+/* Of corners that are there twice, to turn the strip, comes no triangle. Returns 0, or -1 when out
+ * of memory. */
+static int add_to_strip(struct scene_file *f, struct strip *s, uint32_t corner, uint32_t line)
+{
+    uint32_t i = s->length++, *last = s->last;
+    if (i >= 2 && last[0] != last[1] && last[0] != corner && last[1] != corner
+        && (scene_file_add_corner(f, last[0]) || scene_file_add_corner(f, last[1])
+            || scene_file_add_corner(f, corner) || scene_file_add_polygon(f, 3, 0, line)))
+        return -1;
+    last[i & 1] = corner;
+    return 0;
+}
+
 static int read_list(struct ply *p, const struct ply_element *e, uint64_t i,
                      const struct property *from, uint64_t vertices)
 {
+    struct strip strip = {.length = 0};
     double count, value;
+    uint32_t line = p->bytes ? 0 : p->lines.number;
     if (next_value(p, from->count_type, &count) || !is_whole(count, 0x1p32))
         return cut(p, e, i);
     for (uint32_t j = 0; j < (uint32_t)count; j++) {
         if (next_value(p, from->type, &value))
             return cut(p, e, i);
-        if (from->role != CORNERS)
+        if (from->role == PASSED_OVER)
             continue;
+        if (from->role == STRIPS && value >= -1 && value <= -1) {
+            strip.length = 0;
+            continue;
+        }
         if (!is_whole(value, (double)vertices))
-            return report_error(p->path, p->bytes ? 0 : p->lines.number,
-                                "face %llu names vertex %g, but there are %llu, counted from 0; "
+            return report_error(p->path, line,
+                                "%s %llu names vertex %g, but there are %llu, counted from 0; "
                                 "the file is damaged, export it again",
-                                (unsigned long long)i, value, (unsigned long long)vertices);
-        if (scene_file_add_corner(p->file, (uint32_t)value))
+                                e->name, (unsigned long long)i, value,
+                                (unsigned long long)vertices);
+        if (from->role == STRIPS ? add_to_strip(p->file, &strip, (uint32_t)value, line)
+                                 : scene_file_add_corner(p->file, (uint32_t)value))
             return scene_file_no_memory(p->path);
     }
-    if (from->role == CORNERS
-        && scene_file_add_polygon(p->file, (uint32_t)count, 0, p->bytes ? 0 : p->lines.number))
+    if (from->role == CORNERS && scene_file_add_polygon(p->file, (uint32_t)count, 0, line))
         return scene_file_no_memory(p->path);
     return 0;
 }
@@ -275,10 +303,11 @@ int read_ply(struct scene_file *file, const char *path, char *text, size_t size,
         return -1;
     const struct ply_element *vertices = find_element(&p, "vertex", X);
     if (!vertices || vertices != find_element(&p, "vertex", Y)
-        || vertices != find_element(&p, "vertex", Z) || !find_element(&p, "face", CORNERS))
+        || vertices != find_element(&p, "vertex", Z)
+        || (!find_element(&p, "face", CORNERS) && !find_element(&p, "tristrips", STRIPS)))
         return report_error(path, 0,
-                            "no vertices with x, y and z, or no faces with vertex_indices; export "
-                            "it as polygons");
+                            "no vertices with x, y and z, or neither faces nor triangle strips "
+                            "with vertex_indices; export it as polygons");
     for (uint32_t k = 0; k < p.properties; k++)
         file->single_precision |=
             p.property[k].role >= X && p.property[k].role <= Z && p.property[k].type == F32;

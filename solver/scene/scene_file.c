@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -14,7 +15,6 @@
 #include "scene/read_assimp.h"
 #include "scene/read_obj.h"
 #include "scene/read_shapes.h"
-#include "scene/same_faces.h"
 #include "util/array.h"
 #include "util/ends_with.h"
 #include "util/report.h"
@@ -200,7 +200,7 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
     if (!result) {
         for (uint32_t i = 0; i < f->material_count; i++)
             f->materials[i].two_sided |= options->two_sided || ends_with(f->names[i], "_2s");
-        result = check_materials(f, path) || drop_same_faces(f, path, options->quiet) ? -1 : 0;
+        result = check_materials(f, path);
     }
     if (!result && !options->quiet)
         warn_of_rounding(f, path);
@@ -239,11 +239,48 @@ struct RadPolygons scene_file_polygons(const struct scene_file *f)
     };
 }
 
-void scene_file_warn(const struct scene_file *f, const char *path, uint32_t dropped)
+/* "face 7 (line 12)" */
+static const char *face_name(const struct scene_file *f, uint32_t face, char name[48])
 {
-    if (dropped || f->other)
+    int n = snprintf(name, 48, "face %lu", (unsigned long)face);
+    if (f->lines[face])
+        snprintf(name + n, 48 - (size_t)n, " (line %lu)", (unsigned long)f->lines[face]);
+    return name;
+}
+
+static void warn_of_overlaps(const struct scene_file *f, const char *path,
+                             const struct RadSceneReport *r)
+{
+    char more[200] = "", name[2][48];
+    size_t n = 0;
+    for (uint32_t i = 1; i < r->overlaps && i < RAD_OVERLAPS_NAMED; i++)
+        n += (size_t)snprintf(more + n, sizeof more - n, "%s%s", i > 1 ? ", " : "; also ",
+                              face_name(f, r->overlap[i].polygon, name[0]));
+    if (r->overlaps > RAD_OVERLAPS_NAMED)
+        snprintf(more + n, sizeof more - n, " and %lu more",
+                 (unsigned long)(r->overlaps - RAD_OVERLAPS_NAMED));
+    report_warning(path, f->lines[r->overlap[0].polygon],
+                   "%s lies on %s in one plane and loses what is covered%s; %.3g m2 in all (where "
+                   "faces overlap, one that emits stays, else the first)",
+                   face_name(f, r->overlap[0].polygon, name[0]),
+                   face_name(f, r->overlap[0].on, name[1]), more, r->overlap_area);
+}
+
+void scene_file_warn(const struct scene_file *f, const char *path, const struct RadSceneReport *r)
+{
+    char name[48], more[40] = "";
+    if (r->overlaps)
+        warn_of_overlaps(f, path, r);
+    if (r->crossing > 1)
+        snprintf(more, sizeof more, " (and %lu more)", (unsigned long)r->crossing - 1);
+    if (r->crossing)
+        report_warning(path, f->lines[r->crossing_first],
+                       "the outline of %s crosses itself%s: it is taken for all that it goes "
+                       "round, with one front; check the order of its corners",
+                       face_name(f, r->crossing_first, name), more);
+    if (r->dropped || f->other)
         report_warning(path, 0,
                        "%u degenerate faces dropped (no area, or fewer than three corners), %u "
                        "points and lines ignored",
-                       (unsigned)dropped, (unsigned)f->other);
+                       (unsigned)r->dropped, (unsigned)f->other);
 }

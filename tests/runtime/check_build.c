@@ -48,16 +48,20 @@ END_TEST
  * under two indices. */
 START_TEST(test_mixed)
 {
-    const double at[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, 0, 1, 0, 0};
+    const double once[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, 0, 1, 0, 0};
+    double at[4 * 18]; /* the same at four heights, so that nothing lies on another */
+    for (int i = 0; i < 4 * 18; i++)
+        at[i] = once[i % 18] + (i % 3 == 2 ? i / 18 : 0);
     const uint32_t sizes[] = {4, 3, 3, 2, 5, 0, 4},
-                   indices[] = {0, 1, 2, 3, 0, 1, 2, 0, 4, 1, 0, 1, 0, 4, 1, 2, 3, 0, 1, 5, 2};
+                   indices[] = {0, 1,  2,  3,  6,  7,  8,  0,  4,  1, 0,
+                                1, 12, 16, 13, 14, 15, 18, 19, 23, 20};
     const uint32_t materials[] = {0, 1, 0, 0, 2, 0, 2};
     const struct RadMaterial of[] = {grey,
                                      {{0, 0, 0}, {0, 0, 0}, 1},
                                      {{0.1, 0.2, 0.3}, {0, 0, 0}, 0},
                                      {{2, 2, 2}, {-1, 0, 0}, 0}};
     const struct RadPolygons p = {.positions = at,
-                                  .position_count = 6,
+                                  .position_count = 24,
                                   .indices = indices,
                                   .sizes = sizes,
                                   .materials = materials,

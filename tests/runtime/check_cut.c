@@ -42,6 +42,18 @@ static void add_back(struct scene *s)
     s->input_count = s->face_count; /* made_face counts by faces: an input without a face is none */
 }
 
+static int cut(struct scene *s, int threads)
+{
+    struct bvh tree;
+    if (!s->face_count)
+        return scene_cut(s, NULL, threads);
+    if (bvh_build(&tree, s->faces, s->face_count, CLUSTERING_SAH, threads) < 0)
+        return -1;
+    int result = scene_cut(s, &tree, threads);
+    bvh_free(&tree);
+    return result;
+}
+
 static uint32_t parts_of(const struct scene *s, uint32_t input)
 {
     uint32_t n = 0;
@@ -102,7 +114,7 @@ static uint32_t cut_floor(struct scene *s)
 {
     struct scene was;
     copy(&was, s);
-    ck_assert_int_eq(scene_cut(s, 0), 0);
+    ck_assert_int_eq(cut(s, 1), 0);
     check_parts(&was, s);
     uint32_t parts = parts_of(s, 0);
     free(was.faces);
@@ -300,7 +312,7 @@ START_TEST(test_slanted)
                 add_back(&s);
         }
         copy(&was, &s);
-        ck_assert_int_eq(scene_cut(&s, 0), 0);
+        ck_assert_int_eq(cut(&s, 1), 0);
         check_parts(&was, &s);
         free(was.faces);
         made_close(&s);
@@ -363,8 +375,8 @@ START_TEST(test_scale)
                     a.faces[i].vertex[j][k] = b.faces[i].vertex[j][k] =
                         s.faces[i].vertex[j][k] * 1.25 + 0.01;
         made_scale(&b, ldexp(1, powers[p]));
-        ck_assert_int_eq(scene_cut(&a, 0), 0);
-        ck_assert_int_eq(scene_cut(&b, 0), 0);
+        ck_assert_int_eq(cut(&a, 1), 0);
+        ck_assert_int_eq(cut(&b, 1), 0);
         ck_assert_uint_gt(a.face_count, s.face_count);
         ck_assert_uint_eq(a.face_count, b.face_count);
         made_scale(&a, ldexp(1, powers[p]));
@@ -397,7 +409,7 @@ START_TEST(test_far)
             made_quad(&s, 0, 1.7, 0, z, 0, 3, 0, 0, 0, 2);
             made_quad(&s, 0, 1.7002, 4, z, 0, 30, 0, 0, 0, 2);
         }
-        ck_assert_int_eq(scene_cut(&s, 0), 0);
+        ck_assert_int_eq(cut(&s, 1), 0);
         ck_assert_uint_eq(s.face_count, 4 * n);
         ck_assert_uint_eq(s.cut, n);
         ck_assert_uint_eq(s.parts, 2 * n);
@@ -418,12 +430,12 @@ START_TEST(test_unchanged)
     const uint32_t grey[6] = {0};
     struct scene s, was;
     ck_assert_int_eq(made_open(&s), 0);
-    ck_assert_int_eq(scene_cut(&s, 0), 0); /* no faces at all */
+    ck_assert_int_eq(cut(&s, 1), 0); /* no faces at all */
     made_material(&s, 0.5, 0);
     made_room(&s, grey, 4, 5, 3);
     struct face *faces = s.faces;
     copy(&was, &s);
-    ck_assert_int_eq(scene_cut(&s, 0), 0);
+    ck_assert_int_eq(cut(&s, 1), 0);
     ck_assert_ptr_eq(s.faces, faces);
     ck_assert_uint_eq(s.face_count, 6);
     ck_assert_int_eq(memcmp(s.faces, was.faces, 6 * sizeof *faces), 0);
@@ -444,7 +456,7 @@ START_TEST(test_degenerate)
     made_face(&s, 0, 3, point);
     made_quad(&s, 0, 0, 0, 0, 4, 0, 0, 0, 3, 0);
     made_quad(&s, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0);
-    ck_assert_int_eq(scene_cut(&s, 0), 0);
+    ck_assert_int_eq(cut(&s, 1), 0);
     ck_assert_uint_eq(s.cut, 0);
     ck_assert_uint_eq(s.face_count, 5);
     made_close(&s);
@@ -509,7 +521,7 @@ START_TEST(test_many)
                       .input = s.face_count};
     s.face_count++;
     clock_t start = clock();
-    ck_assert_int_eq(scene_cut(&s, 0), 0);
+    ck_assert_int_eq(cut(&s, 1), 0);
     double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
     printf("%u faces cut in %.2f s\n", s.face_count, seconds);
     /* each field under the wall; its own contacts are short and on no one line */

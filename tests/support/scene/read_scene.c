@@ -3,6 +3,7 @@
 #include "scene/read_scene.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "util/report.h"
 
@@ -18,8 +19,14 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
     if (result) {
         report_error(path, 0, "%s", error.text);
     } else {
+        struct RadSceneReport report = {.dropped = scene->dropped,
+                                        .crossing = scene->crossing,
+                                        .crossing_first = scene->crossing_first,
+                                        .overlaps = scene->overlaps,
+                                        .overlap_area = scene->overlap_area};
+        memcpy(report.overlap, scene->overlap, sizeof report.overlap);
         if (!options || !options->quiet)
-            scene_file_warn(&file, path, scene->dropped);
+            scene_file_warn(&file, path, &report);
         scene->names = file.names;
         scene->input_materials = file.polygon_materials;
         for (uint32_t i = 0; i < file.material_count; i++)
