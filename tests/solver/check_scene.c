@@ -791,6 +791,8 @@ START_TEST(test_errors)
     ck_assert_ptr_nonnull(strstr(last_error, "this is a folder"));
     ck_assert_int_eq(read_scene(&s, write_text("g.xyz", "garbage"), NULL), -1);
     ck_assert_ptr_nonnull(strstr(last_error, "cannot be read as a scene"));
+    ck_assert_int_eq(read_scene(&s, write_text("g.x", "xof 0302a\nb\n0032\n"), NULL), -1);
+    ck_assert_msg(strchr(last_error, '\n')[1] == 0, "one line: %s", last_error);
     ck_assert_int_eq(read_scene(&s, write_text("g.gltf", "{\"garbage\": ["), NULL), -1);
     ck_assert_ptr_nonnull(strstr(last_error, "g.gltf: error: "));
     ck_assert_int_eq(read_scene(&s, write_text("empty.obj", ""), NULL), -1);
