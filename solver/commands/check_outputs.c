@@ -9,11 +9,15 @@
 #include <libgen.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "scene/materials_by_name.h"
 #include "scene/text_lines.h"
 #include "util/array.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/ends_with.h"
 #include "util/report.h"
 #include "util/text_file.h"
@@ -61,18 +65,19 @@ static int add_output(struct named_files *f, char *path, int beside)
 
 /* ---- which files */
 
-/* `name` as a file says it, in the folder of `path`; NULL when out of memory. */
-static char *in_folder_of(const char *path, const char *name, size_t length)
+struct libraries {
+    struct named_files *files;
+    const char *scene;
+};
+
+static int add_library(void *to, const char *name, size_t length, int may_miss)
 {
-    const char *slash = strrchr(path, '/');
-    const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
-    char *joined = malloc(folder + length + 1);
-    if (joined) {
-        memcpy(joined, path, folder);
-        memcpy(joined + folder, name, length);
-        joined[folder + length] = 0;
-    }
-    return joined;
+    const struct libraries *l = to;
+    struct stat status;
+    char *path = path_beside(l->scene, name, length);
+    if (path && may_miss && (stat(path, &status) || !S_ISREG(status.st_mode) || access(path, R_OK)))
+        return free(path), 1;
+    return add_input(l->files, path, "a material file of the scene");
 }
 
 /* The material files of an OBJ scene. */
@@ -84,9 +89,7 @@ static int add_libraries(struct named_files *f, const char *scene, char *text, s
         if (!next_word(&t) || !word_is(&t, "mtllib"))
             continue;
         char *name = rest_of_line(&t);
-        failed = !name
-                 || add_input(f, in_folder_of(scene, name, strlen(name)),
-                              "a material file of the scene");
+        failed = !name || materials_libraries(name, add_library, &(struct libraries){f, scene});
         free(name);
     }
     return failed ? -1 : 0;
@@ -100,7 +103,7 @@ static int add_buffers(struct named_files *f, const char *scene, const char *tex
         const char *name = at + strspn(at, " \t\r\n:");
         const size_t length = *name == '"' ? strcspn(++name, "\"") : 0;
         if (length && strncmp(name, "data:", 5) != 0
-            && add_input(f, in_folder_of(scene, name, length), "a file of the scene"))
+            && add_input(f, path_beside(scene, name, length), "a file of the scene"))
             return -1;
     }
     return 0;
@@ -112,8 +115,10 @@ static int add_scene_files(struct named_files *f, const char *scene, const char 
     struct stat status;
     if (add_input(f, strdup(scene), what))
         return -1;
-    const int is_obj = ends_with(scene, ".obj") || ends_with(scene, ".OBJ");
-    if ((!is_obj && !ends_with(scene, ".gltf")) || stat(scene, &status) || !S_ISREG(status.st_mode))
+    const char *dot = strrchr(scene, '.'), *kind = dot ? dot : "";
+    const int is_obj = strcasecmp(kind, ".obj") == 0;
+    if ((!is_obj && strcasecmp(kind, ".gltf") != 0) || stat(scene, &status)
+        || !S_ISREG(status.st_mode))
         return 0;
     size_t size;
     char *text = text_file_read(scene, &size);

@@ -12,20 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/read_numbers.h"
 #include "util/material_name.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
 /* relative. The library keeps colours as floats */
 static const double SAME_COLOUR = 1e-6;
-
-static uint32_t u32(const char *from)
-{
-    uint32_t value = 0;
-    for (int i = 0; i < 4; i++)
-        value |= (uint32_t)(unsigned char)from[i] << 8 * i;
-    return value;
-}
 
 /* The JSON of a file: all of it, or the first chunk of a GLB: 12 bytes, its length, "JSON". */
 static json_t *read_json(const char *path)
@@ -38,7 +31,7 @@ static json_t *read_json(const char *path)
     }
     const char *from = text;
     if (size >= 20 && memcmp(text, "glTF", 4) == 0) {
-        uint32_t length = u32(text + 12);
+        uint32_t length = (uint32_t)bytes_number(text + 12, 4, 0);
         size = length <= size - 20 ? length : 0;
         from += 20;
     }

@@ -24,6 +24,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "util/beside.h"
 #include "util/clock.h"
 #include "util/ends_with.h"
 #include "util/report.h"
@@ -80,9 +81,8 @@ static double size_of(const char *path)
     double size = stat(path, &status) ? 0 : (double)status.st_size;
     if (!ends_with(path, ".gltf"))
         return size;
-    const char *slash = strrchr(path, '/');
-    char *name = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
-    DIR *folder = name ? opendir(*name ? name : ".") : NULL;
+    char *name = path_beside(path, ".", 1);
+    DIR *folder = name ? opendir(name) : NULL;
     for (const struct dirent *e; folder && (e = readdir(folder)) != NULL;)
         if (ends_with(e->d_name, ".bin") && fstatat(dirfd(folder), e->d_name, &status, 0) == 0)
             size += (double)status.st_size;

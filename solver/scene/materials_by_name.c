@@ -10,6 +10,7 @@
 #include "scene/read_numbers.h"
 #include "scene/text_lines.h"
 #include "util/array.h"
+#include "util/beside.h"
 #include "util/report.h"
 #include "util/text_file.h"
 
@@ -21,11 +22,6 @@ static const struct RadMaterial PLAIN = {.reflectance = {0.6, 0.6, 0.6}};
 #define NONE UINT32_MAX /* no material */
 
 enum { QUOTED_PATH = 256 }; /* bytes of a path that a message quotes */
-
-static int out_of_memory(const char *path)
-{
-    return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
-}
 
 /* ---- names */
 
@@ -97,7 +93,7 @@ int materials_use(struct materials_by_name *m, const char *name, uint32_t line, 
     if (*material == NONE) {
         *material = add_material(m, name);
         if (*material == NONE)
-            return out_of_memory(m->path);
+            return scene_file_no_memory(m->path);
         m->use[*material] = line;
     }
     return 0;
@@ -109,7 +105,7 @@ int materials_stand_in(struct materials_by_name *m, uint32_t line, uint32_t *mat
     if (*material == NONE)
         *material = add_material(m, STAND_IN);
     if (*material == NONE)
-        return out_of_memory(m->path);
+        return scene_file_no_memory(m->path);
     materials_assume(m, NO_MATERIAL, m->path, line, "", NULL);
     return 0;
 }
@@ -149,7 +145,7 @@ static int read_newmtl(struct materials_by_name *m, const struct text_lines *t, 
 {
     char *name = rest_of_line(t);
     if (!name)
-        return out_of_memory(l->path);
+        return scene_file_no_memory(l->path);
     end_material(m, l);
     uint32_t found = find_material(m, name);
     int undefined = found != NONE && m->use[found];
@@ -162,12 +158,12 @@ static int read_newmtl(struct materials_by_name *m, const struct text_lines *t, 
     if (l->passed_over)
         return 0;
     if (l->material == NONE)
-        return out_of_memory(l->path);
+        return scene_file_no_memory(l->path);
     m->use[l->material] = 0;
     m->group[l->material] = m->groups;
     m->defined++;
     m->file->places[l->material].file = strdup(l->path);
-    return m->file->places[l->material].file ? 0 : out_of_memory(l->path);
+    return m->file->places[l->material].file ? 0 : scene_file_no_memory(l->path);
 }
 
 /* Kd or Ke: three numbers, or one for all three. */
@@ -228,46 +224,38 @@ static int read_library_text(struct materials_by_name *m, const char *path, stru
     return 0;
 }
 
-/* A library once more: its definitions are the newest again. */
-static void renew(struct materials_by_name *m, const char *path)
+/* A library once more: its definitions are the newest again. Returns 0 when it is new. */
+static int renew(const struct materials_by_name *m, const char *path)
 {
+    int has_read = 0;
     for (uint32_t i = 0; i < m->file->material_count; i++)
-        if (m->file->places[i].file && strcmp(m->file->places[i].file, path) == 0)
+        if (m->file->places[i].file && strcmp(m->file->places[i].file, path) == 0) {
             *find_slot(m, m->file->names[i]) = i;
-}
-
-static int has_read(const struct materials_by_name *m, const char *path)
-{
-    for (uint32_t i = 0; i < m->file->material_count; i++)
-        if (m->file->places[i].file && strcmp(m->file->places[i].file, path) == 0)
-            return 1;
-    return 0;
+            has_read = 1;
+        }
+    return has_read;
 }
 
 /* Returns 0, -1 after a message, or 1 when it cannot be opened and `may_miss`. */
-static int read_library(struct materials_by_name *m, const char *name, uint32_t line, int may_miss)
+static int read_library(void *to, const char *name, size_t length, int may_miss)
 {
-    const char *slash = strrchr(m->path, '/');
-    size_t folder = slash && *name != '/' ? (size_t)(slash - m->path) + 1 : 0, size;
-    char *path = malloc(folder + strlen(name) + 1);
+    struct materials_by_name *m = to;
+    char *path = path_beside(m->path, name, length);
     if (!path)
-        return out_of_memory(m->path);
-    memcpy(path, m->path, folder);
-    strcpy(path + folder, name);
+        return scene_file_no_memory(m->path);
     if (m->last && strcmp(m->last, path) == 0) {
         free(path);
         return 0;
     }
     int result = 0;
-    if (has_read(m, path)) {
-        renew(m, path);
-    } else {
+    if (!renew(m, path)) {
+        size_t size;
         char *text = text_file_read_regular(path, &size);
         if (!text && may_miss)
             result = 1;
         else if (!text)
             result = report_error(
-                m->path, line,
+                m->path, m->line,
                 "cannot read the material library '%.*s': %s; put it there or correct the name",
                 QUOTED_PATH, path, strerror(errno));
         else if (memchr(text, 0, size))
@@ -285,28 +273,35 @@ static int read_library(struct materials_by_name *m, const char *name, uint32_t 
     return 0;
 }
 
-/* One name, which may hold blanks, or several; each beside the OBJ file. */
+/* The first of several that is not there leaves one name of the whole line. */
+int materials_libraries(const char *line_text, library_fn *take, void *to)
+{
+    const size_t whole = strlen(line_text), bare = bare_length(line_text);
+    int result = 1;
+    if (bare < whole)
+        result = take(to, line_text, whole, 1);
+    if (result > 0)
+        result = take(to, line_text, bare, strcspn(line_text, " \t") < bare);
+    if (result <= 0)
+        return result;
+    for (size_t at = 0; at < bare; at += strspn(line_text + at, " \t")) {
+        size_t length = strcspn(line_text + at, " \t");
+        length = length < bare - at ? length : bare - at;
+        result = take(to, line_text + at, length, at == 0);
+        if (result > 0)
+            return take(to, line_text, whole, 0);
+        if (result < 0)
+            return -1;
+        at += length;
+    }
+    return 0;
+}
+
 int materials_library(struct materials_by_name *m, const char *line_text, uint32_t line)
 {
     m->groups++;
-    char *names = strndup(line_text, bare_length(line_text)), *rest = NULL;
-    if (!names)
-        return out_of_memory(m->path);
-    int several = strpbrk(names, " \t") != NULL, result = 1;
-    if (strcmp(names, line_text) != 0)
-        result = read_library(m, line_text, line, 1);
-    if (result > 0)
-        result = read_library(m, names, line, several);
-    int missing = result > 0;
-    for (char *name = missing ? strtok_r(names, " \t", &rest) : NULL; name && result >= 0;
-         name = strtok_r(NULL, " \t", &rest)) {
-        int first = result > 0;
-        result = read_library(m, name, line, first);
-        if (result > 0) /* not even the first of several: then it is one name */
-            result = read_library(m, line_text, line, 0);
-    }
-    free(names);
-    return result;
+    m->line = line;
+    return materials_libraries(line_text, read_library, m);
 }
 
 /* ---- the end of the file */

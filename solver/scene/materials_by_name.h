@@ -45,6 +45,7 @@ struct materials_by_name {
      * none; searched from the name's hash on */
     uint32_t *slots, slot_count, names;
     uint32_t groups;  /* mtllib lines so far */
+    uint32_t line;    /* of the last */
     uint32_t defined; /* newmtl so far */
     char *last;       /* the library read last */
     struct assumed assumed[ASSUMPTIONS];
@@ -54,6 +55,12 @@ struct materials_by_name {
 int materials_library(struct materials_by_name *m, const char *line_text, uint32_t line);
 int materials_use(struct materials_by_name *m, const char *name, uint32_t line, uint32_t *material);
 int materials_stand_in(struct materials_by_name *m, uint32_t line, uint32_t *material);
+
+/* The libraries of an mtllib line: one name, which may hold blanks, or several, with a comment
+ * behind. Which is meant is told by what is there, so each is handed to `take`, which returns 0, -1
+ * for an end, or 1 when there is no such file and it `may_miss`. Returns 0 or -1. */
+typedef int library_fn(void *to, const char *name, size_t length, int may_miss);
+int materials_libraries(const char *line_text, library_fn *take, void *to);
 
 /* At the end of the file: is all defined that was used? */
 int materials_check(struct materials_by_name *m);

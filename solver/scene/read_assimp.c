@@ -23,11 +23,6 @@ struct reader {
     const char *path;
 };
 
-static int out_of_memory(const struct reader *r)
-{
-    return report_error(r->path, 0, "out of memory; use a smaller scene or a larger machine");
-}
-
 static void read_material(const struct aiMaterial *from, struct RadMaterial *to)
 {
     struct aiColor4D colour;
@@ -66,13 +61,13 @@ static int read_materials(struct reader *r, const struct aiScene *from)
         to_one_line(name.data);
         read_material(from->mMaterials[i], &material);
         if (scene_file_add_material(r->file, name.length ? name.data : "unnamed", &material))
-            return out_of_memory(r);
+            return scene_file_no_memory(r->path);
     }
     /* A file without materials still gets one: grey, dark. */
     if (!from->mNumMaterials
         && scene_file_add_material(r->file, "unnamed",
                                    &(struct RadMaterial){.reflectance = {0.5, 0.5, 0.5}}))
-        return out_of_memory(r);
+        return scene_file_no_memory(r->path);
     return 0;
 }
 
@@ -89,7 +84,7 @@ static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct a
                              m->b1 * x + m->b2 * y + m->b3 * z + m->b4,
                              m->c1 * x + m->c2 * y + m->c3 * z + m->c4};
         if (scene_file_add_position(f, p))
-            return out_of_memory(r);
+            return scene_file_no_memory(r->path);
     }
     for (uint32_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *from = &mesh->mFaces[i];
@@ -107,10 +102,10 @@ static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct a
                                     "vertex %u of mesh '%s' is not finite; correct its coordinates",
                                     (unsigned)index, mesh->mName.data);
             if (scene_file_add_corner(f, (uint32_t)(first + index)))
-                return out_of_memory(r);
+                return scene_file_no_memory(r->path);
         }
         if (scene_file_add_polygon(f, from->mNumIndices, material, 0))
-            return out_of_memory(r);
+            return scene_file_no_memory(r->path);
     }
     return 0;
 }

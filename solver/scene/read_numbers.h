@@ -1,4 +1,4 @@
-/* read_numbers.h - the numbers of a line, with messages that name file and line.
+/* read_numbers.h - the numbers of a line and of bytes, with messages that name file and line.
  * SPDX-License-Identifier: MIT */
 #ifndef READ_NUMBERS_H
 #define READ_NUMBERS_H
@@ -36,6 +36,29 @@ static inline int read_numbers(struct text_lines *t, const char *path, const cha
         count++;
     }
     return count;
+}
+
+/* Is it 0, 1, 2 ... below `most`? */
+static inline int is_whole(double x, double most)
+{
+    return x >= 0 && x < most && floor(x) >= x;
+}
+
+/* The number without a sign that these bytes are, eight at most. */
+static inline uint64_t bytes_number(const void *from, unsigned size, int big_endian)
+{
+    const unsigned char *byte = from;
+    uint64_t number = 0;
+    for (unsigned i = 0; i < size; i++)
+        number |= (uint64_t)byte[i] << 8 * (big_endian ? size - 1 - i : i);
+    return number;
+}
+
+/* A text that was cut ends within a line, as a rule. */
+static inline void warn_of_cut(const char *path, uint32_t line, const char *text, size_t size)
+{
+    if (size && text[size - 1] != '\n' && text[size - 1] != '\r')
+        report_warning(path, line, "the last line has no end; the file may be cut");
 }
 
 #endif

@@ -28,18 +28,13 @@ struct obj {
     int ahead;        /* some face uses a vertex that comes after it */
 };
 
-static int out_of_memory(const char *path)
-{
-    return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
-}
-
 /* mtllib or usemtl: the rest of the line is a name, which may hold blanks. */
 static int read_name(struct obj *o, const struct text_lines *t)
 {
     int library = *t->word == 'm';
     char *name = rest_of_line(t);
     if (!name)
-        return out_of_memory(o->path);
+        return scene_file_no_memory(o->path);
     int result = library ? materials_library(&o->materials, name, t->number)
                          : materials_use(&o->materials, name, t->number, &o->current);
     free(name);
@@ -69,7 +64,7 @@ static int read_vertex(struct obj *o, struct text_lines *t)
                                 "a vertex is not finite when divided by its w, %g; give x, y and z",
                                 p[3]);
     }
-    return scene_file_add_position(o->file, p) ? out_of_memory(o->path) : 0;
+    return scene_file_add_position(o->file, p) ? scene_file_no_memory(o->path) : 0;
 }
 
 static int report_index(const struct obj *o, uint32_t line, int length, const char *index,
@@ -100,7 +95,7 @@ static int read_face(struct obj *o, struct text_lines *t)
             return report_index(o, line, quoted_length(t->word, stop), t->word, index < 0);
         o->ahead |= index > seen;
         if (scene_file_add_corner(f, (uint32_t)(index > 0 ? index - 1 : index + seen)))
-            return out_of_memory(o->path);
+            return scene_file_no_memory(o->path);
         corners++;
     }
     if (!corners)
@@ -108,7 +103,7 @@ static int read_face(struct obj *o, struct text_lines *t)
                             "a face without corners; give three vertex numbers or more");
     if (o->current == NONE && materials_stand_in(&o->materials, line, &o->current))
         return -1;
-    return scene_file_add_polygon(f, corners, o->current, line) ? out_of_memory(o->path) : 0;
+    return scene_file_add_polygon(f, corners, o->current, line) ? scene_file_no_memory(o->path) : 0;
 }
 
 /* ---- the file */

@@ -10,11 +10,6 @@
 #include "scene/text_lines.h"
 #include "util/report.h"
 
-static int out_of_memory(const char *path)
-{
-    return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
-}
-
 /* The next line that has words. Returns 0, or -1 at the end. */
 static int next_words(struct text_lines *t)
 {
@@ -29,7 +24,7 @@ static int next_words(struct text_lines *t)
 static int take_count(struct text_lines *t, uint32_t *count)
 {
     double x;
-    if (!next_word(t) || !word_number(t, &x) || !(x >= 0 && x < 0x1p32 && floor(x) >= x))
+    if (!next_word(t) || !word_number(t, &x) || !is_whole(x, 0x1p32))
         return -1;
     *count = (uint32_t)x;
     return 0;
@@ -79,7 +74,7 @@ static int read_vertex(struct scene_file *f, const char *path, struct text_lines
             return report_error(path, t->number,
                                 "vertex %u has no three finite numbers; give x, y and z",
                                 (unsigned)i);
-    return scene_file_add_position(f, p) ? out_of_memory(path) : 0;
+    return scene_file_add_position(f, p) ? scene_file_no_memory(path) : 0;
 }
 
 static int read_face(struct scene_file *f, const char *path, struct text_lines *t, uint32_t i)
@@ -105,9 +100,9 @@ static int read_face(struct scene_file *f, const char *path, struct text_lines *
                                 "correct the index",
                                 (unsigned)i, length, word, f->position_count);
         if (scene_file_add_corner(f, index))
-            return out_of_memory(path);
+            return scene_file_no_memory(path);
     }
-    return scene_file_add_polygon(f, corners, 0, t->number) ? out_of_memory(path) : 0;
+    return scene_file_add_polygon(f, corners, 0, t->number) ? scene_file_no_memory(path) : 0;
 }
 
 int read_off(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
@@ -132,7 +127,7 @@ int read_off(struct scene_file *f, const char *path, char *text, size_t size, in
         return report_error(path, t.number,
                             "more lines than its %u vertices and %u faces take; correct the counts",
                             (unsigned)vertices, (unsigned)faces);
-    if (size && text[size - 1] != '\n' && text[size - 1] != '\r' && !quiet)
-        report_warning(path, t.number, "the last line has no end; the file may be cut");
+    if (!quiet)
+        warn_of_cut(path, t.number, text, size);
     return faces ? 0 : report_error(path, 0, "there is no face in it; a scene needs one at least");
 }

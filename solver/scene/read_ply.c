@@ -89,8 +89,7 @@ static int read_element(struct ply *p)
         return damaged_header(p, "an element without a name");
     snprintf(e->name, sizeof e->name, "%.*s", quoted_length(p->lines.word, p->lines.word_end),
              p->lines.word);
-    if (!next_word(&p->lines) || !word_number(&p->lines, &count)
-        || !(count >= 0 && count < 0x1p53 && floor(count) >= count))
+    if (!next_word(&p->lines) || !word_number(&p->lines, &count) || !is_whole(count, 0x1p53))
         return damaged_header(p, "an element without a count");
     e->count = (uint64_t)count;
     e->first = p->properties;
@@ -178,11 +177,9 @@ static int next_value(struct ply *p, enum type type, double *value)
     if (!p->bytes)
         return next_word(&p->lines) && word_number(&p->lines, value) ? 0 : -1;
     unsigned size = types[type].size;
-    uint64_t bits = 0;
     if ((size_t)(p->end - p->next) < size)
         return -1;
-    for (unsigned i = 0; i < size; i++)
-        bits |= (uint64_t)p->next[i] << 8 * (p->big_endian ? size - 1 - i : i);
+    uint64_t bits = bytes_number(p->next, size, p->big_endian);
     p->next += size;
     uint64_t sign = (uint64_t)1 << (8 * size - 1);
     if (type == F64) {
@@ -199,35 +196,28 @@ static int next_value(struct ply *p, enum type type, double *value)
     return 0;
 }
 
-/* Is it 0, 1, 2 ... below `most`? */
-static int is_index(double x, double most)
-{
-    return x >= 0 && x < most && floor(x) >= x;
-}
-
 static int read_list(struct ply *p, const struct ply_element *e, uint64_t i,
                      const struct property *from, uint64_t vertices)
 {
     double count, value;
-    if (next_value(p, from->count_type, &count) || !is_index(count, 0x1p32))
+    if (next_value(p, from->count_type, &count) || !is_whole(count, 0x1p32))
         return cut(p, e, i);
     for (uint32_t j = 0; j < (uint32_t)count; j++) {
         if (next_value(p, from->type, &value))
             return cut(p, e, i);
         if (from->role != CORNERS)
             continue;
-        if (!is_index(value, (double)vertices))
+        if (!is_whole(value, (double)vertices))
             return report_error(p->path, p->bytes ? 0 : p->lines.number,
                                 "face %llu names vertex %g, but there are %llu, counted from 0; "
                                 "the file is damaged, export it again",
                                 (unsigned long long)i, value, (unsigned long long)vertices);
         if (scene_file_add_corner(p->file, (uint32_t)value))
-            return report_error(p->path, 0,
-                                "out of memory; use a smaller scene or a larger machine");
+            return scene_file_no_memory(p->path);
     }
     if (from->role == CORNERS
         && scene_file_add_polygon(p->file, (uint32_t)count, 0, p->bytes ? 0 : p->lines.number))
-        return report_error(p->path, 0, "out of memory; use a smaller scene or a larger machine");
+        return scene_file_no_memory(p->path);
     return 0;
 }
 
@@ -263,7 +253,7 @@ static int read_one(struct ply *p, const struct ply_element *e, uint64_t i, uint
                             "export it again",
                             e->name, (unsigned long long)i);
     if (strcmp(e->name, "vertex") == 0 && scene_file_add_position(p->file, position))
-        return report_error(p->path, 0, "out of memory; use a smaller scene or a larger machine");
+        return scene_file_no_memory(p->path);
     return 0;
 }
 
@@ -303,7 +293,7 @@ int read_ply(struct scene_file *file, const char *path, char *text, size_t size,
         if (next_word(&p.lines))
             return report_error(path, p.lines.number,
                                 "more lines than its header counts; correct the counts");
-    if (!p.bytes && size && text[size - 1] != '\n' && text[size - 1] != '\r' && !quiet)
-        report_warning(path, p.lines.number, "the last line has no end; the file may be cut");
+    if (!p.bytes && !quiet)
+        warn_of_cut(path, p.lines.number, text, size);
     return 0;
 }

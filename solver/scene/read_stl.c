@@ -13,24 +13,11 @@
 
 enum { TITLE = 80, HEAD = TITLE + 4, TRIANGLE = 50, NORMAL = 12 };
 
-static int out_of_memory(const char *path)
-{
-    return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
-}
-
-static uint32_t u32(const char *from)
-{
-    uint32_t value = 0;
-    for (int i = 0; i < 4; i++)
-        value |= (uint32_t)(unsigned char)from[i] << 8 * i;
-    return value;
-}
-
 static int add_corner(struct scene_file *f, const char *path, const double p[3])
 {
     return scene_file_add_position(f, p)
                    || scene_file_add_corner(f, (uint32_t)f->position_count - 1)
-               ? out_of_memory(path)
+               ? scene_file_no_memory(path)
                : 0;
 }
 
@@ -41,7 +28,7 @@ static int read_bytes(struct scene_file *f, const char *path, const char *text, 
         for (int j = 0; j < 3; j++) {
             double p[3];
             for (int k = 0; k < 3; k++, from += 4) {
-                uint32_t bits = u32(from);
+                uint32_t bits = (uint32_t)bytes_number(from, 4, 0);
                 float single;
                 memcpy(&single, &bits, sizeof single);
                 p[k] = (double)single;
@@ -55,7 +42,7 @@ static int read_bytes(struct scene_file *f, const char *path, const char *text, 
                 return -1;
         }
         if (scene_file_add_polygon(f, 3, 0, 0))
-            return out_of_memory(path);
+            return scene_file_no_memory(path);
     }
     return 0;
 }
@@ -98,7 +85,7 @@ static int read_text(struct scene_file *f, const char *path, struct text_lines t
         if (++step == STEPS) {
             step = 0;
             if (scene_file_add_polygon(f, 3, 0, line))
-                return out_of_memory(path);
+                return scene_file_no_memory(path);
         }
     }
     return open ? report_error(path, t.number,
@@ -108,15 +95,15 @@ static int read_text(struct scene_file *f, const char *path, struct text_lines t
 
 int read_stl(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
 {
-    uint32_t count = size >= HEAD ? u32(text + TITLE) : 0;
+    uint32_t count = size >= HEAD ? (uint32_t)bytes_number(text + TITLE, 4, 0) : 0;
     uint64_t needed = HEAD + (uint64_t)TRIANGLE * count;
     size_t blank = strspn(text, " \t\r\n");
     int result;
     f->single_precision = 1;
     if (needed != size && strncasecmp(text + blank, "solid", 5) == 0 && !memchr(text, 0, size)) {
         result = read_text(f, path, text_lines(text, size));
-        if (!result && text[size - 1] != '\n' && text[size - 1] != '\r' && !quiet)
-            report_warning(path, 0, "the last line has no end; the file may be cut");
+        if (!result && !quiet)
+            warn_of_cut(path, 0, text, size);
     } else if (size < HEAD || needed > size) {
         return report_error(path, 0,
                             "counts %u triangles, which take %llu bytes, but has %zu; the file is "

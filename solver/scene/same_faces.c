@@ -81,7 +81,7 @@ int drop_same_faces(struct scene_file *f, const char *path, int quiet)
     size_t at = 0;
     uint32_t count = 0, dropped = 0, first = 0, stays = 0;
     if (!keys)
-        return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
+        return scene_file_no_memory(path);
     for (uint32_t i = 0; i < f->polygon_count; at += f->sizes[i++])
         if (f->sizes[i] >= 3) {
             keys[count] = (struct key){.first = at, .polygon = i};

@@ -20,6 +20,11 @@
 #include "util/report.h"
 #include "util/text_file.h"
 
+int scene_file_no_memory(const char *path)
+{
+    return report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
+}
+
 int scene_file_add_position(struct scene_file *f, const double position[3])
 {
     if (f->position_count == UINT32_MAX
@@ -111,10 +116,9 @@ static int read_shape(struct scene_file *f, const char *path, read_shape_fn *rea
     char *text = text_file_read(path, &size);
     if (!text)
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
-    int result =
-        scene_file_add_material(f, "DefaultMaterial", &grey)
-            ? report_error(path, 0, "out of memory; use a smaller scene or a larger machine")
-            : read(f, path, text, size, quiet);
+    int result = scene_file_add_material(f, "DefaultMaterial", &grey)
+                     ? scene_file_no_memory(path)
+                     : read(f, path, text, size, quiet);
     free(text);
     if (!result && !quiet)
         report_warning(path, 0,
@@ -126,8 +130,7 @@ static int read_shape(struct scene_file *f, const char *path, read_shape_fn *rea
 static int check_materials(const struct scene_file *f, const char *path)
 {
     uint8_t *used = calloc((size_t)f->material_count + 1, 1);
-    int result =
-        used ? 0 : report_error(path, 0, "out of memory; use a smaller scene or a larger machine");
+    int result = used ? 0 : scene_file_no_memory(path);
     for (uint32_t i = 0; i < f->polygon_count && used; i++)
         used[f->polygon_materials[i]] = 1;
     for (uint32_t i = 0; i < f->material_count && !result; i++) {

@@ -67,4 +67,7 @@ int scene_file_add_polygon(struct scene_file *file, uint32_t size, uint32_t mate
 int scene_file_add_material(struct scene_file *file, const char *name,
                             const struct RadMaterial *material);
 
+/* What they say of that. Returns -1. */
+int scene_file_no_memory(const char *path);
+
 #endif

@@ -9,10 +9,8 @@ while [ ! -f "$top/install.mk" ]; do top=$(dirname "$top"); done
 dagc=$(realpath -e "${DAGC:-$top/build/bin/dagc}") || exit 2
 catalog=$top/tests/dagc/test_catalog.dag
 : "$catalog"
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+# shellcheck source=tests/support/script.sh
+. "$top/tests/support/script.sh"
 
 check() { # NAME COMMAND...
     name=$1
@@ -33,8 +31,4 @@ have() { # PROGRAM
     command -v "$1" >/dev/null && return
     echo "skipped: $1 is not installed"
     return 1
-}
-finish() { # NAME
-    echo "$1: $count checks, $bad failed"
-    [ "$bad" = 0 ]
 }

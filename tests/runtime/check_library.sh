@@ -3,25 +3,9 @@
 # nothing, ask no environment, end no process, and hold nothing of tests/.
 # DAGC names the command, in the build folder that the libraries stand in.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-dagc=$(realpath -e "${DAGC:-$top/build/bin/dagc}") || exit 2
+. "$(dirname "$0")/../dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    if ! "$@" >"$tmp/out" 2>&1; then
-        bad=$((bad + 1))
-        echo "failed: $name"
-        head -n 20 "$tmp/out"
-    fi
-}
 none() { # FILE: has no line
     [ ! -s "$1" ] || { cat "$1"; return 1; }
 }
@@ -115,5 +99,4 @@ check "it compiles dagc" grep -q 'dagc/read/parse\.c' steps
 grep -v '^install' steps | grep -nE '(runtime|solver)/[a-z_/]*\.c( |$)|embree|lapacke|assimp|jansson|-lpng' >more
 check "and nothing else" none more
 
-echo "library: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish library

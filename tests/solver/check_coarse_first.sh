@@ -2,16 +2,8 @@
 # check_coarse_first.sh - `radiosity solve`, links as coarse as they pay for: what is chosen, and when nothing is; --scale.
 # RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-scenes=$top/examples/scenes
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+. "$(dirname "$0")/lib.sh"
 
-failed() { bad=$((bad + 1)); echo "failed: $1"; cat err; }
 solve() { "$radiosity" solve "$@" -q --no-errors --json json --faces faces 2>err; }
 value() { tr -d '\n' <json | sed -n "s/.*\"$1\": *\([^,} ]*\).*/\1/p"; }
 # SCENE TIMES CHOSEN [OPTION...]: thresholds so many times what is set, chosen or not
@@ -57,5 +49,4 @@ count=$((count + 1))
 "$radiosity" solve "$scenes/furnace.obj" --scale 2 --accuracy 1% 2>err
 [ $? = 2 ] && grep -qF -- "--accuracy chooses the scale" err || failed "--scale goes with --accuracy"
 
-echo "coarse first: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "coarse first"

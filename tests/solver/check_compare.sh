@@ -2,23 +2,7 @@
 # check_compare.sh - radiosity compare where releases differ: a C compiler that changes one arc of the flat release stands
 # for an emitter that errs. It stops there, tells where, and times nothing. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    count=$((count + 1))
-    "$@" >said 2>&1 && return
-    bad=$((bad + 1))
-    echo "failed: $name"
-    head -n 12 out
-}
+. "$(dirname "$0")/lib.sh"
 
 compare() { # CHANGE THREADS: of bf's flat release, on the room; the status is kept
     printf '#!/bin/sh\nfor f; do case $f in *oracles.c) sed -i "%s" $f;; esac; done\nexec cc "$@" -O0\n' "$1" >cc && chmod +x cc
@@ -44,5 +28,4 @@ compare 's/discussion->terms.visibility = /&0.5 * /' 2
 check "a link of other visibility" sh -c "[ $status = 1 ] && grep -q '^  dag  link, F = .*, V = 0[.]4131' out && grep -q '^  flat link, F = .*, V = 0[.]20655' out && grep -q 'node seen__form = form_factor: done -> link' out"
 compare 's/nothing/to change/' 2
 check "no difference" sh -c "[ $status = 0 ] && grep -q '^identical: ' out && grep -q '^  flat .* s  ' out"
-echo "compare: $count checks, $bad failed"
-[ $bad = 0 ]
+finish compare

@@ -3,21 +3,8 @@
 # other means (statistics of the interpreter, rays of Embree's side), `explain` against the trace, --where against awk,
 # --replace against files edited by hand, and what is said of mistakes. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-scenes=$top/examples/scenes oracles=$top/examples/oracles
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
+. "$(dirname "$0")/lib.sh"
 export OMP_WAIT_POLICY=passive LC_ALL=C
-count=0 bad=0
-check() { # WHAT COMMAND...: the command must succeed
-    what=$1
-    shift
-    count=$((count + 1))
-    "$@" || { bad=$((bad + 1)); echo "failed: $what"; head -n 5 err 2>/dev/null; }
-}
 # STATUS TEXT ARGUMENT...: ends with this status, says this text, and leaves no file
 says() {
     wanted=$1 text=$2
@@ -26,9 +13,7 @@ says() {
     "$radiosity" "$@" >out 2>err
     status=$?
     if [ $status != "$wanted" ] || ! grep -qF -- "$text" err || [ -s out ] || [ -e x.csv ] || [ "$(wc -l <err)" -gt 12 ]; then
-        bad=$((bad + 1))
-        echo "failed: radiosity $*: exit $status, not $wanted with: $text"
-        head -n 8 err
+        failed "radiosity $*: exit $status, not $wanted with: $text"
         rm -f x.csv
     fi
 }
@@ -196,5 +181,4 @@ condition "5: + takes numbers" '1 + "a" == 2'
 deep=$(printf '%0100d' 0 | tr 0 '(')
 says 2 "parentheses in each other" solve "$small" --trace x.csv --where "$deep"
 
-echo "explain: $count checks, $bad failed"
-[ $bad = 0 ]
+finish explain

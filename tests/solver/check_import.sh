@@ -2,18 +2,7 @@
 # check_import.sh - damaged scene files on which the import library crashes, hangs or takes all memory: one line that names the
 # file, exit status 1, within 10 seconds of a processor. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-
-wrong() {
-    bad=$((bad + 1))
-    echo "failed: $*"
-}
+. "$(dirname "$0")/lib.sh"
 
 # FILE: what the command said of it is in FILE.err, its exit status in FILE.status.
 try() {
@@ -25,14 +14,14 @@ refused() {
     file=$1
     shift
     [ "$(cat "$file.status")" = 1 ] && [ "$(wc -l <"$file.err")" = 1 ] && [ ! -s "$file.out" ] || {
-        wrong "$file: exit $(cat "$file.status")"
+        failed "$file: exit $(cat "$file.status")"
         head -n 5 "$file.err"
         return
     }
     for text; do
         case $(cat "$file.err") in "$file:"*" error: "*"$text"*) return ;; esac
     done
-    wrong "$file: not a word of $*: $(cat "$file.err")"
+    failed "$file: not a word of $*: $(cat "$file.err")"
 }
 
 ply_header() {
@@ -86,7 +75,7 @@ refused sparse.obj "too large"
 # ---- whole files are read as ever
 collada 1 '0 1 2' >good.dae
 count=$((count + 1))
-"$radiosity" solve good.dae -q --faces faces.csv 2>err && [ ! -s err ] && [ "$(wc -l <faces.csv)" = 2 ] || wrong "good.dae: $(cat err)"
+"$radiosity" solve good.dae -q --faces faces.csv 2>err && [ ! -s err ] && [ "$(wc -l <faces.csv)" = 2 ] || failed good.dae
 
 # ---- nobody outlives a command that is ended
 sh -c 'echo $$ >pid; exec "$0" solve waits.gltf -q' "$radiosity" 2>err &
@@ -100,11 +89,10 @@ count=$((count + 1))
 kill -TERM "$job" 2>/dev/null
 wait "$job" 2>/dev/null
 sleep 0.2
-case $(ps -o stat= -p "${child:-0}") in '' | Z*) ;; *) wrong "the importer outlives the command" ;; esac
+case $(ps -o stat= -p "${child:-0}") in '' | Z*) ;; *) failed "the importer outlives the command" ;; esac
 
 wait
 refused cut.ply "the importer hung: stopped after " "header" "end_header"
 refused waits.gltf "the importer hung: it waited"
 
-echo "check_import: $((count - bad)) of $count passed"
-[ $bad = 0 ]
+finish import

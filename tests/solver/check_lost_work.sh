@@ -2,27 +2,10 @@
 # check_lost_work.sh - runs that are stopped, that find no memory, or whose names are odd: old outputs stay whole, nothing is
 # left behind, and one line says what happened. RADIOSITY names the command. With THOROUGH 200 runs are stopped, not 12.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-scenes=$top/examples/scenes
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
+. "$(dirname "$0")/lib.sh"
 mkdir scratch
 export TMPDIR=$tmp/scratch
-count=0 bad=0
-
-wrong() {
-    bad=$((bad + 1))
-    echo "failed: $*"
-}
-check() { # WHAT COMMAND...
-    what=$1
-    count=$((count + 1))
-    shift
-    "$@" >out 2>err || { wrong "$what"; head -n 3 err; }
-}
+quietly=into_files
 
 # ---- signals: it dies by them, says so, and leaves nothing
 # SIGNAL STATUS SECONDS ARGUMENT...
@@ -33,9 +16,9 @@ stopped() {
     timeout --preserve-status -s "$signal" "$after" "$radiosity" "$@" >out 2>err
     got=$?
     [ $got = "$wanted" ] && [ "$(wc -l <err)" = 1 ] && grep -q "^radiosity: stopped by a signal; nothing was written$" err ||
-        { wrong "$* by $signal: exit $got"; cat err; }
+        failed "$* by $signal: exit $got"
     left=$(ls -A scratch; ls -A | grep -vxE 'scratch|out|err|cc|.*\.dag')
-    [ -z "$left" ] || { wrong "$* by $signal left $left"; rm -rf scratch/* ./*.tmp; }
+    [ -z "$left" ] || { failed "$* by $signal left $left"; rm -rf scratch/* ./*.tmp; }
 }
 for signal in INT:130 TERM:143 HUP:129; do
     stopped ${signal%:*} ${signal#*:} 0.2 viewfactors "$scenes/sejour.obj" -q -o m.csv --names n
@@ -68,13 +51,13 @@ for after in $(awk -v n="$runs" -v whole="$whole" 'BEGIN { srand(7); for (i = 0;
     # Of a shell's own, which tells the terminal who was killed.
     sh -c 'timeout -s "$@"; exit $?' sh "$signal" "$after" "$radiosity" "$@" >out 2>&1 && ended=$((ended + 1))
     for file in f.csv m.obj m.mtl p.png; do
-        cmp -s o/$file old/$file || cmp -s o/$file new/$file || wrong "$signal after $after s: $file is neither old nor new"
+        cmp -s o/$file old/$file || cmp -s o/$file new/$file || failed "$signal after $after s: $file is neither old nor new"
     done
     [ "$signal" = KILL ] || { cmp -s o/m.obj old/m.obj && cmp -s o/m.mtl old/m.mtl; } || { cmp -s o/m.obj new/m.obj && cmp -s o/m.mtl new/m.mtl; } ||
-        wrong "$signal after $after s: of the mesh one file is new"
+        failed "$signal after $after s: of the mesh one file is new"
     # Nobody can tidy up after SIGKILL.
     [ "$signal" != KILL ] || rm -rf o/*.tmp scratch/*
-    [ "$(ls -A o | wc -l)" = 4 ] && [ -z "$(ls -A scratch)" ] || wrong "$signal after $after s left $(ls -A o scratch)"
+    [ "$(ls -A o | wc -l)" = 4 ] && [ -z "$(ls -A scratch)" ] || failed "$signal after $after s left $(ls -A o scratch)"
     rm -rf o/*.tmp scratch/*
 done
 echo "stopped at random: $ended of $runs had ended before"
@@ -86,7 +69,7 @@ check_json() { # FILE ARGUMENT...
     file=$1
     shift
     "$radiosity" "$@" >out 2>err && [ -s "$file" ] && iconv -f UTF-8 -t UTF-8 "$file" >out 2>&1 &&
-        ! grep -qiE '(inf|nan)(inity)?[,}]?$' "$file" || { wrong "JSON of $*"; cat err; }
+        ! grep -qiE '(inf|nan)(inity)?[,}]?$' "$file" || failed "JSON of $*"
     rm -f "$file"
 }
 odd=$(printf 'caf\351')
@@ -101,7 +84,7 @@ check_json j study causes "$odd.obj" -q --rays 100 --oracle "$odd.dag" --json j
 # ---- what was not reached is told, with -q, too
 count=$((count + 1))
 "$radiosity" solve "$scenes/cornell.obj" -q --no-correct --no-errors --iterations 1 >out 2>err
-[ $? = 3 ] && [ "$(wc -l <err)" = 1 ] && grep -q "warning: not converged after [0-9]* sweeps" err || { wrong "--iterations 1"; cat err; }
+[ $? = 3 ] && [ "$(wc -l <err)" = 1 ] && grep -q "warning: not converged after [0-9]* sweeps" err || failed "--iterations 1"
 
 # ---- the compiler's command may have words, its path blanks, and an oracle's name may look like an option
 mv "$odd.dag" ./-o.dag
@@ -114,7 +97,7 @@ check "CC whose path has a blank" env CC="./a folder/cc" "$radiosity" solve "$sc
 check "that compiler ran" grep -qx blanks ran
 count=$((count + 1))
 CC="no such-compiler" "$radiosity" solve "$scenes/furnace.obj" -q --oracle -o.dag >out 2>err
-[ $? = 1 ] && grep -q "cannot run the C compiler 'no such-compiler'" err || { wrong "no compiler"; cat err; }
+[ $? = 1 ] && grep -q "cannot run the C compiler 'no such-compiler'" err || failed "no compiler"
 
 # ---- no memory: one line from every phase, whatever the limit. Sanitizers need more address space than any.
 if (ulimit -v 4000000 && "$radiosity" --version) >out 2>&1; then
@@ -127,7 +110,7 @@ if (ulimit -v 4000000 && "$radiosity" --version) >out 2>&1; then
         [ $got = 0 ] && [ ! -s err ] && return
         # Below some limit the loader finds no room for the libraries.
         [ $got = 127 ] && grep -q "shared object" err && return
-        [ $got = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -qi "memory" err || { wrong "$* in $limit MB: exit $got"; head -n 3 err; }
+        [ $got = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -qi "memory" err || failed "$* in $limit MB: exit $got"
     }
     for limit in 100 150 ${THOROUGH:+200 205 210} 215 221 224 227 230 ${THOROUGH:+233 240 250 260 270 280}; do
         limited $limit viewfactors "$scenes/cornell.obj" -q -o out
@@ -138,5 +121,4 @@ if (ulimit -v 4000000 && "$radiosity" --version) >out 2>&1; then
     for limit in 215 ${THOROUGH:+220 225 230 235 240 245 250 255} 260; do limited $limit study visibility "$scenes/furnace.obj" -q --rays 4; done
 fi
 
-echo "lost work: $count checks, $bad failed"
-[ $bad = 0 ]
+finish "lost work"

@@ -2,16 +2,9 @@
 # check_marks.sh - elements that an oracle marks: the same marks, links and light by both releases and any number of threads;
 # a refused mark makes a difference; drawings, statistics and explanations show refusals. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+. "$(dirname "$0")/lib.sh"
 scene=$top/examples/scenes/cornell.obj
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
 
-failed() { bad=$((bad + 1)); echo "failed: $1"; cat err; }
 # NAME OPTION...: NAME.json and NAME.csv, by links alone
 solve() {
     name=$1
@@ -57,5 +50,4 @@ tr -d ' \n' <statistics.json | grep -q '"answer":"cannot","kind":"[a-z]*","count
 "$radiosity" solve "$scene" --no-correct --no-errors --oracle masking --set relative=0.2 --set min_share=2e-4 >out 2>err
 grep -q "^marks .* elements (.*) with mark 2" out || failed "summary"
 
-echo "$count checks, $bad failed"
-[ $bad = 0 ]
+finish marks

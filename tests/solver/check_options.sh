@@ -2,14 +2,7 @@
 # check_options.sh - what radiosity says to options that are empty, huge or malformed, and to outputs that cannot be written:
 # one line, at once, and nothing is left behind. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-scenes=$top/examples/scenes
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+. "$(dirname "$0")/lib.sh"
 
 # STATUS TEXT ARGUMENT...: ends with this status, and says one line with this text and no word about anything empty.
 says() {
@@ -19,15 +12,12 @@ says() {
     "$radiosity" "$@" >out 2>err
     status=$?
     if [ $status != "$wanted" ] || [ "$(wc -l <err)" != 1 ] || ! grep -qF -- "$text" err || grep -qE "not;|''|^:" err || [ -s out ]; then
-        bad=$((bad + 1))
-        echo "failed: radiosity $*: exit $status, not $wanted with: $text"
-        cat err
+        failed "radiosity $*: exit $status, not $wanted with: $text"
         head -n 3 out
     fi
     rm -f out err
     if [ -n "$(ls -A)" ]; then
-        bad=$((bad + 1))
-        echo "failed: radiosity $* left $(ls -A)"
+        failed "radiosity $* left $(ls -A)"
         rm -rf ./*
     fi
 }
@@ -126,7 +116,7 @@ says 2 "--s could be --set, --scale, --solver, --size, --statistics" solve "$sce
 says 2 "--t could be --tolerance, --two-sided, --threads, --trace" solve "$scene" --t=7
 # Options may stand before and behind the scene, whatever POSIX says of others.
 count=$((count + 1))
-POSIXLY_CORRECT=1 "$radiosity" solve none.obj --tolerance 7 2>&1 | grep -q "tolerance takes" || { bad=$((bad + 1)); echo "failed: POSIXLY_CORRECT"; }
+POSIXLY_CORRECT=1 "$radiosity" solve none.obj --tolerance 7 2>&1 | grep -q "tolerance takes" || failed "POSIXLY_CORRECT"
 says 1 "none.obj: error" solve -q none.obj
 says 1 "none.obj: error" solve -qo x.ply none.obj
 
@@ -137,8 +127,7 @@ for command in "" solve compare viewfactors reference error tune study "study st
         # shellcheck disable=SC2086
         if ! "$radiosity" $command $help >out 2>err || [ -s err ] || [ "$(wc -l <out)" -gt 24 ] ||
             [ "$(wc -L <out)" -gt 80 ] || ! grep -q "^usage: radiosity $command" out; then
-            bad=$((bad + 1))
-            echo "failed: radiosity $command $help: $(wc -l <out) lines of $(wc -L <out) columns"
+            failed "radiosity $command $help: $(wc -l <out) lines of $(wc -L <out) columns"
         fi
     done
     count=$((count + 1))
@@ -146,13 +135,13 @@ for command in "" solve compare viewfactors reference error tune study "study st
     # shellcheck disable=SC2086
     case $command in
     study | "study stability" | "study arvo" | "study greedy" | oracles) ;;
-    *) "$radiosity" $example >out 2>err; grep -q "^none.obj: error" err || { bad=$((bad + 1)); echo "failed: $example"; cat err; } ;;
+    *) "$radiosity" $example >out 2>err; grep -q "^none.obj: error" err || failed "$example" ;;
     esac
     rm -f out err
 done
 for command in solve compare viewfactors reference error tune "study stability" "study visibility" "study clustering" "study form-factors" "study arvo" "study causes" "study greedy" draw panel; do
     # shellcheck disable=SC2086
-    "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && { bad=$((bad + 1)); echo "failed: twice in $command --help"; }
+    "$radiosity" $command --help=all | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sort | uniq -d | grep . && failed "twice in $command --help"
 done
 
 # ---- parameters and oracles: exit 1
@@ -211,7 +200,7 @@ says 1 "none.obj: error" solve none.obj --faces x.csv --json y.json --image z.pn
 echo precious >../"$(basename "$tmp").kept"
 says 1 "none.obj: error" solve none.obj --faces ../"$(basename "$tmp").kept"
 count=$((count + 1))
-[ "$(cat ../"$(basename "$tmp").kept")" = precious ] || { bad=$((bad + 1)); echo "failed: an output was lost with the run"; }
+[ "$(cat ../"$(basename "$tmp").kept")" = precious ] || failed "an output was lost with the run"
 rm -f ../"$(basename "$tmp").kept"
 # The scene is no output, whatever its name is there.
 mkdir "$tmp.scene" && cp "$scenes"/furnace.* "$tmp.scene" && ln -s furnace.obj "$tmp.scene/link.obj"
@@ -226,6 +215,25 @@ for name in furnace.mtl ./furnace.mtl link.mtl hard.mtl; do
 done
 says 2 "this is a material file of the scene" compare "$tmp.scene/furnace.obj" --json "$tmp.scene/link.mtl"
 says 2 "this is a material file of the scene" viewfactors "$tmp.scene/furnace.obj" --names "$tmp.scene/link.mtl"
+# mtllib names one file, with blanks or a comment behind it, or several: the reader's way of telling is the guard's.
+libraries() { # LINE NAME...: of these files that are there, the scene's
+    { echo "mtllib $1"; grep -v mtllib "$scenes/furnace.obj"; } >"$tmp.scene/named.obj"
+    shift
+    for name; do says 2 "$name: error: this is a material file of the scene" solve "$tmp.scene/named.obj" --json "$tmp.scene/$name"; done
+}
+cp "$scenes/furnace.mtl" "$tmp.scene/a.mtl" && cp "$scenes/furnace.mtl" "$tmp.scene/b.mtl"
+libraries "a.mtl b.mtl" a.mtl b.mtl
+libraries "a.mtl	b.mtl # both" a.mtl b.mtl
+libraries "a.mtl # warm" a.mtl
+libraries "missing.mtl b.mtl"
+says 1 "cannot read the material library '$tmp.scene/missing.mtl b.mtl'" solve "$tmp.scene/named.obj" --json "$tmp.scene/b.mtl"
+cp "$scenes/furnace.mtl" "$tmp.scene/a.mtl b.mtl" && cp "$scenes/furnace.mtl" "$tmp.scene/a.mtl # warm"
+libraries "a.mtl b.mtl # one" "a.mtl b.mtl"
+echo "mtllib a.mtl b.mtl" >"$tmp.scene/named.obj" # a.mtl alone is none of it
+says 1 "named.obj: error: there is no face" solve "$tmp.scene/named.obj" --json "$tmp.scene/a.mtl"
+libraries "a.mtl # warm" "a.mtl # warm"
+mv "$tmp.scene/named.obj" "$tmp.scene/named.Obj"
+says 2 "this is a material file of the scene" solve "$tmp.scene/named.Obj" --json "$tmp.scene/a.mtl # warm"
 cp "$tmp.scene/furnace.obj" "$tmp.scene/other.obj"
 rm "$tmp.scene/furnace.obj"
 says 2 "furnace.mtl: error: this is a material file of the scene" solve "$tmp.scene/other.obj" -o "$tmp.scene/furnace.obj"
@@ -246,38 +254,36 @@ says 2 "this is the file of statistics, which would be lost" panel bf --statisti
 says 2 "this is the scene, which would be lost" viewfactors "$tmp.scene/furnace.obj" -o "$tmp.scene/../${tmp##*/}.scene/furnace.obj"
 says 2 "two outputs would go there" solve none.obj --faces "$tmp.scene/link.obj" --json "$tmp.scene/furnace.obj"
 count=$((count + 1))
-cmp -s "$tmp.scene/furnace.obj" "$scenes/furnace.obj" || { bad=$((bad + 1)); echo "failed: the scene was lost"; }
+cmp -s "$tmp.scene/furnace.obj" "$scenes/furnace.obj" || failed "the scene was lost"
 rm -rf "$tmp.scene"
 # Standard output that is full or closed is told.
 for arguments in oracles --help "solve $scenes/furnace.obj"; do
     count=$((count + 2))
     "$radiosity" $arguments >/dev/full 2>err
-    [ $? = 1 ] && grep -q "^standard output: error: cannot write: No space left" err || { bad=$((bad + 1)); echo "failed: $arguments to a full device"; cat err; }
+    [ $? = 1 ] && grep -q "^standard output: error: cannot write: No space left" err || failed "$arguments to a full device"
     "$radiosity" $arguments >&- 2>err
-    [ $? = 1 ] && grep -q "^standard output: error: cannot write: Bad file" err || { bad=$((bad + 1)); echo "failed: $arguments without standard output"; cat err; }
+    [ $? = 1 ] && grep -q "^standard output: error: cannot write: Bad file" err || failed "$arguments without standard output"
     rm -f err
 done
 # A pipe nobody reads must not be waited for.
 count=$((count + 1))
 mkfifo pipe && timeout 20 "$radiosity" solve none.obj --faces pipe >out 2>err
-[ $? = 1 ] && grep -q none.obj err || { bad=$((bad + 1)); echo "failed: a pipe as output"; cat err; }
+[ $? = 1 ] && grep -q none.obj err || failed "a pipe as output"
 
 # ---- the picture of the error takes what that of the light takes, and both come from one run
 count=$((count + 1))
 "$radiosity" solve "$scene" -q --image-error e.png --mesh --view 0.5,0.5,0.5:1,0.5,0.5 --size 60x40 >out 2>err &&
     "$radiosity" solve "$scene" -q --image i.png --image-error e.png --size 60x40 >>out 2>>err && [ -s i.png ] && [ -s e.png ] &&
-    [ ! -s err ] && [ ! -s out ] || { bad=$((bad + 1)); echo "failed: --image-error"; cat err; }
+    [ ! -s err ] && [ ! -s out ] || failed "--image-error"
 rm -f out err i.png e.png
 
 # ---- a chart of a single threshold draws without a word
 if ! command -v gnuplot >/dev/null; then
-    bad=$((bad + 1))
-    echo "failed: no chart can be looked at without gnuplot; install it (gnuplot-nox)"
+    failed "no chart can be looked at without gnuplot; install it (gnuplot-nox)"
 else
     count=$((count + 1))
     "$radiosity" study visibility "$scenes/cornell.obj" --thresholds 5 --rays 4 --set unit_share=1e-3 --set reference=64 --set min_share=1e-3 --chart one.svg -q >out 2>err &&
-        [ -s one.svg ] && [ ! -s err ] && [ ! -s out ] || { bad=$((bad + 1)); echo "failed: a chart of one threshold"; cat err; }
+        [ -s one.svg ] && [ ! -s err ] && [ ! -s out ] || failed "a chart of one threshold"
 fi
 
-echo "options: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish options

@@ -2,15 +2,8 @@
 # check_overlap.sh - faces that overlap in a plane make power: that is told even with -q; the box alone is quiet.
 # RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-bad=0
-failed() { bad=$((bad + 1)); echo "failed: $1"; cat err; }
-solve() { "$radiosity" solve "$1" -q --no-correct --no-errors --oracle ff --set limit=0.1 2>err; }
+. "$(dirname "$0")/lib.sh"
+solve() { count=$((count + 1)) && "$radiosity" solve "$1" -q --no-correct --no-errors --oracle ff --set limit=0.1 2>err; }
 
 printf 'newmtl w\nKd .3\nnewmtl l\nKd .3\nKe 10\n' >box.mtl
 cat >box.obj <<'END'
@@ -40,5 +33,4 @@ solve box.obj && [ ! -s err ] || failed "the box alone"
 cp box.obj over.obj
 printf 'usemtl w\nf 9 10 11 12\n' >>over.obj
 solve over.obj && grep -q 'over.obj: warning: .*more is absorbed than emitted' err || failed "the floor covered again"
-echo "overlap: 2 checks, $bad failed"
-[ "$bad" = 0 ]
+finish overlap

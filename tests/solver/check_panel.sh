@@ -3,19 +3,9 @@
 # line, the parameter file goes out and comes back, and the real `solve` takes both; a phone's width, light and dark, labels,
 # no error in the console, nothing asked of the network, no text of an oracle taken for markup. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+. "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/support/browser.sh
 . "$top/tests/support/browser.sh"
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-check() { # WHAT COMMAND...: the command must succeed
-    count=$((count + 1))
-    "${@:2}" || { bad=$((bad + 1)); echo "failed: $1"; }
-}
 is() { # WHAT WANTED FOUND
     count=$((count + 1))
     [ "$2" = "$3" ] || { bad=$((bad + 1)); printf 'failed: %s: wanted\n  %s\nfound\n  %s\n' "$1" "$2" "$3"; }
@@ -23,7 +13,7 @@ is() { # WHAT WANTED FOUND
 refused() { # STATUS TEXT ARGUMENT...
     count=$((count + 1))
     "$radiosity" panel "${@:3}" >out 2>err
-    [ $? = "$1" ] && [ "$(wc -l <err)" = 1 ] && grep -qF -- "$2" err && [ ! -s out ] && [ ! -e x.html ] || { bad=$((bad + 1)); echo "failed: panel ${*:3}: not $2"; cat err; }
+    [ $? = "$1" ] && [ "$(wc -l <err)" = 1 ] && grep -qF -- "$2" err && [ ! -s out ] && [ ! -e x.html ] || failed "panel ${*:3}: not $2"
 }
 
 # An oracle whose texts would be markup, or end a script, if anyone let them; with every kind of control, and names that
@@ -71,8 +61,7 @@ done
 
 if ! browser_command >/dev/null; then
     echo "panel: skipped: pages in a browser; install chromium"
-    echo "panel: $count checks, $bad failed"
-    [ "$bad" = 0 ]
+    finish panel
     exit
 fi
 browser_begin || { echo "failed: the browser does not start"; tail -n 5 browser.log; exit 1; }
@@ -268,5 +257,4 @@ check "no error in the console" sh -c '! grep -e Runtime.exceptionThrown -e Log.
 check "nothing is asked of the network" sh -c '! grep Network.requestWillBeSent events | grep -v "\"url\":\"file:///[^\"]*html\"" | grep -v "\"url\":\"\(blob\|data\):"'
 check "pages were read" grep -q Network.requestWillBeSent events
 
-echo "panel: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish panel

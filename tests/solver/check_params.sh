@@ -2,16 +2,9 @@
 # check_params.sh - `radiosity solve --params FILE`: what a parameter file does, that --set goes before, and what is said
 # of a file that is wrong: file, line, cause. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+. "$(dirname "$0")/lib.sh"
 scene=$top/examples/scenes/furnace.obj
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
 
-failed() { bad=$((bad + 1)); echo "failed: $1"; cat err; }
 solve() { "$radiosity" solve "$scene" -q --no-correct --no-errors "$@" 2>err; }
 # LINE TEXT FILE [OPTION...]: file f with this text (of printf) is refused in that line with this text, in one line
 refused() {
@@ -84,5 +77,4 @@ solve --oracle ff --set "rays=4" --set "limit=x" --params f >out && failed "--se
 solve --oracle mine.dag --release dag --set rays=4 >out && failed "--set of what is fixed"
 grep -q -- "--set: error: rays is fixed by the author of oracle mine, at 16" err || failed "not said by --set: fixed"
 
-echo "params: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish params

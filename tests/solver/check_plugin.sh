@@ -2,19 +2,12 @@
 # check_plugin.sh - `--plugin`: C functions behind an oracle's externs, from a C file or a shared object. Both releases
 # decide the same with them, and what is wrong with one is said. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+. "$(dirname "$0")/lib.sh"
 headers="-I$top/runtime -I$(dirname "$radiosity")/../gen"
 scene=$top/examples/scenes/cornell.obj
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
 cp "$top"/examples/plugin/desk.* .
 sed -i "s|import \"../oracles|import \"$top/examples/oracles|" desk.dag
-count=0 bad=0
 
-failed() { bad=$((bad + 1)); echo "failed: $1"; cat err; }
 # NAME OPTION...: NAME.json and NAME.csv, by links alone
 solve() {
     name=$1
@@ -129,5 +122,4 @@ cc -shared -fPIC -o undefined.so undefined.c
 says 1 "undefined symbol: nowhere" "$radiosity" solve "$scene" -q --plugin undefined.so
 says 2 "--plugin takes" "$radiosity" solve "$scene" --plugin ""
 
-echo "$count checks, $bad failed"
-[ $bad = 0 ]
+finish plugin

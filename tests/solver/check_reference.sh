@@ -2,20 +2,7 @@
 # check_reference.sh - `radiosity reference`: its table, the accuracy that it promises, runs that are stopped and go on, and
 # states that are damaged or of another scene. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-scenes=$top/examples/scenes
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-check() { # WHAT COMMAND...: the command must succeed
-    what=$1
-    shift
-    count=$((count + 1))
-    "$@" || { bad=$((bad + 1)); echo "failed: $what"; cat err 2>/dev/null; }
-}
+. "$(dirname "$0")/lib.sh"
 value() { sed -n "s/.*\"$1\": \\([-0-9.e+]*\\),*$/\\1/p" "$2" | head -n 1; }
 less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
 
@@ -86,9 +73,7 @@ says() { # TEXT: the run with the state x.csv.state ends with 1 and this line, a
     "$radiosity" reference "$scenes/cornell.obj" --accuracy 3% -o x.csv >out 2>err
     if [ $? != 1 ] || ! grep -q "^x.csv.state: error: $1.*; remove it to start anew" err || [ "$(wc -l <err)" != 1 ] ||
         [ -e x.csv ] || ! cmp -s before x.csv.state; then
-        bad=$((bad + 1))
-        echo "failed: $1"
-        cat err
+        failed "$1"
     fi
 }
 "$radiosity" reference "$scenes/furnace.obj" --accuracy 3% -q --keep -o x.csv && rm x.csv
@@ -102,5 +87,4 @@ says "it is no state of a reference"
 echo "this is a text, and longer than what stands before a state, which is some hundred bytes long, as far as one can see, or more" >x.csv.state
 says "it is no state of a reference"
 
-echo "reference: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish reference

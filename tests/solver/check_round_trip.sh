@@ -3,13 +3,7 @@
 # reflect and emit are those of the first scene. THOROUGH=1 (a minute): so is what they receive, to 3 % of finer meshes.
 # RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
+. "$(dirname "$0")/lib.sh"
 limit=0.3
 [ "${THOROUGH:-}" ] && limit=0.02
 
@@ -81,12 +75,9 @@ for name in again.obj again.glb again.gltf; do
     if solve box.obj -o "$name" --faces first.csv && solve "$name" --faces second.csv && ! grep -v "more is absorbed" err; then
         sums first.csv 1 >first
         sums second.csv 0 >second
-        compare first second || { bad=$((bad + 1)); echo "failed: $name is not box.obj"; }
+        compare first second || failed "$name is not box.obj"
     else
-        bad=$((bad + 1))
-        echo "failed: $name is not solved"
-        cat err
+        failed "$name is not solved"
     fi
 done
-echo "round trips: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish "round trips"

@@ -2,21 +2,8 @@
 # check_tune.sh - what `radiosity tune` says to oracles, parameters, scenes and files that it cannot work with, where it
 # writes, and that what was found so far is kept when it is stopped. RADIOSITY names the command.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-scenes=$top/examples/scenes oracles=$top/examples/oracles
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
+. "$(dirname "$0")/lib.sh"
 export OMP_WAIT_POLICY=passive # many short solves beside other suites
-count=0 bad=0
-check() { # WHAT COMMAND...: the command must succeed
-    what=$1
-    shift
-    count=$((count + 1))
-    "$@" || { bad=$((bad + 1)); echo "failed: $what"; cat err 2>/dev/null; }
-}
 # STATUS TEXT ARGUMENT...: ends with this status, says one line with this text, and writes nothing
 says() {
     wanted=$1 text=$2
@@ -27,9 +14,7 @@ says() {
     status=$?
     rm -f out
     if [ $status != "$wanted" ] || [ "$(wc -l <err)" != 1 ] || ! grep -qF -- "$text" err || [ "$(ls | grep -v '^err$')" != "$(grep -v '^err$' before)" ]; then
-        bad=$((bad + 1))
-        echo "failed: radiosity tune $*: exit $status, not $wanted with: $text"
-        cat err
+        failed "radiosity tune $*: exit $status, not $wanted with: $text"
     fi
     rm -f err
 }
@@ -127,5 +112,4 @@ if [ -n "${THOROUGH-}" ]; then
     check "stopped by time" grep -q "stopped, the best so far" out
 fi
 
-echo "tune: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish tune

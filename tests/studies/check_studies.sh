@@ -2,25 +2,11 @@
 # check_studies.sh - studies: a run that was stopped goes on, and nothing runs twice; rows that are damaged are told; the
 # Pareto front, the sentences that follow from it and thresholds are right; what is missing is named. by_chance in the furnace.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
+. "$(dirname "$0")/../solver/lib.sh"
 export BUILD RESULTS=$tmp/results PAGES=$tmp/pages RADIOSITY=$radiosity
 BUILD=$(dirname "$(dirname "$radiosity")")
 unset BUDGET LIMIT SCENES_OF_STUDIES
-count=0 bad=0
-check() { # WHAT COMMAND...
-    what=$1
-    shift
-    count=$((count + 1))
-    "$@" >out 2>err && return
-    bad=$((bad + 1))
-    echo "failed: $what"
-    head -n 5 out err
-}
+quietly=into_files
 says() { # TEXT COMMAND...: fails, and says it
     text=$1
     shift
@@ -161,5 +147,4 @@ check "cells against themselves" sh -c '"$BUILD/bin/cell_error" compare "$1" cel
 awk -F , 'NR > 1 { $4 += NR % 2 ? .1 : -.1 } { OFS = ","; print }' cells.csv >off.csv
 check "cells off by a tenth" sh -c '"$BUILD/bin/cell_error" compare "$1" cells.csv faces.csv off.csv 1e-2 >errors' - "$furnace"
 check "L2 of cells" awk '$1 == "l2_cells" { found = $2 > .09 && $2 < .101 } END { exit !found }' errors
-echo "$count checks, $bad failed"
-[ $bad = 0 ]
+finish studies

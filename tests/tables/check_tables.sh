@@ -2,23 +2,9 @@
 # check_tables.sh - make tables: each marker has a generator and each generator a marker; a generator that fails leaves the
 # file as it was; nothing but what stands between the markers changes. And cell_error against light that is known.
 # SPDX-License-Identifier: MIT
-set -u
-top=$(cd "$(dirname "$0")/../.." && pwd)
-radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+. "$(dirname "$0")/../solver/lib.sh"
 build=$(dirname "$(dirname "$radiosity")")
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-cd "$tmp" || exit 2
-count=0 bad=0
-check() { # WHAT COMMAND...
-    what=$1
-    shift
-    count=$((count + 1))
-    "$@" >out 2>err && return
-    bad=$((bad + 1))
-    echo "failed: $what"
-    head -n 5 out err
-}
+quietly=into_files
 
 # ---- the three files and the generators beside this one
 for file in README.md examples/oracles/README.md examples/clustering.md; do
@@ -131,5 +117,4 @@ check "a reference of other cells is refused" refuses compare "$furnace" ref.csv
 head -c 3000 mesh.ply >short.ply
 check "a mesh that was cut short is refused" refuses compare "$furnace" ref.csv faces.csv short.ply 1e-3
 check "a table for a mesh is refused" refuses compare "$furnace" ref.csv faces.csv faces.csv 1e-3
-echo "$count checks, $bad failed"
-[ $bad = 0 ]
+finish tables

@@ -1,0 +1,24 @@
+/* beside.h - the path of a file that another file names.
+ * SPDX-License-Identifier: MIT */
+#ifndef BESIDE_H
+#define BESIDE_H
+
+#include <stdlib.h>
+#include <string.h>
+
+/* `name`, of so many bytes, from the folder of `path` on, unless it starts at the root; for free().
+ * NULL when out of memory. */
+static inline char *path_beside(const char *path, const char *name, size_t length)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
+    char *joined = malloc(folder + length + 1);
+    if (joined) {
+        memcpy(joined, path, folder);
+        memcpy(joined + folder, name, length);
+        joined[folder + length] = 0;
+    }
+    return joined;
+}
+
+#endif

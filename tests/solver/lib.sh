@@ -1,0 +1,29 @@
+# lib.sh - what the scripts that check radiosity share; they read it by `. "$(dirname "$0")/lib.sh"` and end with
+# `finish NAME`.
+#
+# They find themselves in an empty folder, $tmp, that goes when they end; $top is the project's folder, $radiosity the command
+# that RADIOSITY names, $scenes and $oracles the examples.
+# SPDX-License-Identifier: MIT
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd)
+radiosity=$(realpath "${RADIOSITY:-$top/build/bin/radiosity}")
+scenes=$top/examples/scenes oracles=$top/examples/oracles
+: "$radiosity" "$scenes" "$oracles"
+# shellcheck source=tests/support/script.sh
+. "$top/tests/support/script.sh"
+
+# TEXT...: this, and what the command wrote to the file err or else to out
+failed() {
+    bad=$((bad + 1))
+    echo "failed: $*"
+    if [ -s err ]; then head -n 12 err; elif [ -s out ]; then head -n 12 out; fi
+}
+check() { # WHAT COMMAND...: the command must succeed
+    what=$1
+    shift
+    count=$((count + 1))
+    ${quietly:-} "$@" || failed "$what"
+}
+into_files() { # COMMAND...; a script whose checks write too much says quietly=into_files
+    "$@" >out 2>err
+}
