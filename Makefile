@@ -211,8 +211,7 @@ fuzz:
 $(BUILD)/fuzz_%: $(BUILD)/tests/dagc/fuzz_%.o $(LIBDAGC)
 	$(CC) $(LDFLAGS) -fsanitize=fuzzer -Wl,--wrap=fopen -o $@ $^ -lm
 
-# First as the commands are, so that memory is measured; then everything once more, in a folder of its own. The seed of the
-# second run goes on where the first one ended.
+# First as the commands are, so that memory is measured; then everything once more, in a folder of its own, and other files.
 FUZZ_FILES = 20000
 DAMAGED    = $(BUILD)/damaged
 .PHONY: fuzz-scenes

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/tidy.h"
 #include "command/depfile.h"
 #include "prove/diff.h"
 #include "emit/emit_svg.h"
@@ -191,6 +192,7 @@ int main(int count, char **arguments)
 {
     int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
     struct job job = {0};
+    dag_tidy_watch();
     job.folders = calloc((size_t)count, sizeof *job.folders);
     job.host = calloc((size_t)count, sizeof *job.host);
     if (job.folders == NULL || job.host == NULL) {
