@@ -232,6 +232,11 @@ static int add_outputs(struct named_files *f, const struct options *o)
     for (int i = 0; i < count; i++)
         if (add_output(f, strdup(paths[i]), 0))
             return -1;
+    if (o->command == COMMAND_REFERENCE) { /* its state */
+        char *state = malloc(strlen(o->out) + sizeof ".state");
+        if (add_output(f, state ? strcat(strcpy(state, o->out), ".state") : NULL, 0))
+            return -1;
+    }
     const char *beside = o->command != COMMAND_SOLVE || !o->out ? NULL
                          : ends_with(o->out, ".obj")            ? ".mtl"
                          : ends_with(o->out, ".gltf")           ? ".bin"

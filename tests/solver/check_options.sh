@@ -189,6 +189,7 @@ says 2 "-o takes a file named .svg, not x.png" draw bf -o x.png
 says 2 "more than one oracle: gap" draw bf gap -o x.svg
 says 2 "two outputs would go there" solve none.obj --faces x --json x
 says 2 "two outputs would go there" viewfactors none.obj -o x --names x
+says 2 "two outputs would go there" reference none.obj -o x.csv --json ./x.csv.state
 says 2 "standard output: error: two outputs would go there" solve none.obj --statistics - --json -
 if [ "$(id -u)" != 0 ]; then
     mkdir "$tmp-closed" && chmod 555 "$tmp-closed"

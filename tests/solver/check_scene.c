@@ -628,6 +628,9 @@ START_TEST(test_materials_said_oddly)
         {"newmtl M #1\nKd .25\nnewmtl M #2\nKd .5\n", "usemtl M #1\n", .25, 0, NULL},
         {"newmtl x # red\nKd .25 # dark\nnewmtl y#\nKd .5# light", "usemtl x\t# it\n", .25, 0,
          NULL},
+        {"newmtl x\nKd .25\nke 5\n", "usemtl x\n", .25, 0,
+         "m.mtl:3: warning: a line that starts "
+         "with 'ke'"},
         {"newmtl x\nKd .25\n", "usemtl x\nsurf 0 1 0 1 1\n", .25, 0, "starts with 'surf'"},
     };
     write_text("x.mtl", plain);
