@@ -283,47 +283,75 @@ static double area_of(const struct plain_face *f, int *flat)
     return length;
 }
 
-/* May another face of the file lie on it in part? Then less of it may be left. */
+struct box {
+    double low[3], high[3];
+};
+
+static void grow(struct box *box, const struct plain_face *f)
+{
+    for (uint32_t c = 0; c < f->corners; c++)
+        for (int k = 0; k < 3; k++) {
+            box->low[k] = fmin(box->low[k], f->corner[c][k]);
+            box->high[k] = fmax(box->high[k], f->corner[c][k]);
+        }
+}
+
+static struct box box_of(const struct plain_face *f, uint32_t count)
+{
+    struct box box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
+    for (uint32_t i = 0; i < count; i++)
+        grow(&box, &f[i]);
+    return box;
+}
+
+static double width(const struct box *b)
+{
+    return fmax(fmax(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]);
+}
+
+/* The farthest of g's corners from f's plane. */
+static double distance(const struct plain_face *f, const struct plain_face *g)
+{
+    double normal[3], most = 0;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        const double *o = f->corner[0];
+        normal[k] = 0;
+        for (uint32_t c = 0; c < f->corners; c++) {
+            const double *p = f->corner[c], *q = f->corner[(c + 1) % f->corners];
+            normal[k] += (p[a] - o[a]) * (q[b] - o[b]) - (p[b] - o[b]) * (q[a] - o[a]);
+        }
+    }
+    const double length =
+        sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (uint32_t c = 0; c < g->corners; c++) {
+        double high = 0;
+        for (int k = 0; k < 3; k++)
+            high += normal[k] / length * (g->corner[c][k] - f->corner[0][k]);
+        most = isnan(high) ? 0 : fmax(most, fabs(high));
+    }
+    return most;
+}
+
+/* May another face of the file lie on it in part? Then less of it may be left. What is nearer than
+ * rays keep off surfaces, 2^-18 of the scene, may be taken for one plane. */
 static int may_be_covered(const struct plain_scene *s, uint32_t i)
 {
+    const struct box all = box_of(s->face, s->count), own = box_of(&s->face[i], 1);
     const struct plain_face *f = &s->face[i];
     for (uint32_t j = 0; j < s->count; j++) {
         const struct plain_face *g = &s->face[j];
+        const struct box other = box_of(g, 1);
+        const double near = 1e-4 * (width(&own) + width(&other)) + 0x1p-17 * width(&all);
         int meet = j != i && f->corners >= 3 && g->corners >= 3;
-        for (int k = 0; k < 3 && meet; k++) {
-            double low[2] = {DBL_MAX, DBL_MAX}, high[2] = {-DBL_MAX, -DBL_MAX};
-            for (int side = 0; side < 2; side++)
-                for (uint32_t c = 0; c < (side ? g : f)->corners; c++) {
-                    low[side] = fmin(low[side], (side ? g : f)->corner[c][k]);
-                    high[side] = fmax(high[side], (side ? g : f)->corner[c][k]);
-                }
-            meet = low[0] <= high[1] && low[1] <= high[0];
-        }
-        double normal[3], size = 0, most = 0;
-        for (int k = 0; k < 3; k++) {
-            const int a = (k + 1) % 3, b = (k + 2) % 3;
-            normal[k] = 0;
-            for (uint32_t c = 0; c < f->corners; c++) {
-                const double *p = f->corner[c], *q = f->corner[(c + 1) % f->corners],
-                             *o = f->corner[0];
-                normal[k] += (p[a] - o[a]) * (q[b] - o[b]) - (p[b] - o[b]) * (q[a] - o[a]);
-                size = fmax(size, fabs(p[k] - o[k]));
-            }
-        }
-        const double length =
-            sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-        for (uint32_t c = 0; c < g->corners && meet; c++) {
-            double high = 0;
-            for (int k = 0; k < 3; k++)
-                high += normal[k] / length * (g->corner[c][k] - f->corner[0][k]);
-            most = fmax(most, fabs(high));
-        }
+        for (int k = 0; k < 3; k++)
+            meet &= own.low[k] <= other.high[k] + near && other.low[k] <= own.high[k] + near;
         uint32_t shared = 0;
         for (uint32_t c = 0; c < f->corners * g->corners && meet; c++)
             shared +=
                 memcmp(f->corner[c % f->corners], g->corner[c / f->corners], sizeof f->corner[0])
                 == 0;
-        if (meet && (!(most > 1e-4 * size) || shared >= f->corners))
+        if (meet && (shared >= f->corners || distance(f, g) <= near || distance(g, f) <= near))
             return 1;
     }
     return 0;
