@@ -6,7 +6,7 @@
  * gigabyte; what is refused must be so in one line; what is read must be finite, be what a plain
  * reading says where that is sure (scene/plain_reading.h), and be solved to finite values.
  *
- * FUZZ_FILES (400) files from seed FUZZ_SEED (1), or as many as FUZZ_SECONDS allow; a file that
+ * FUZZ_FILES (800) files from seed FUZZ_SEED (1), or as many as FUZZ_SECONDS allow; a file that
  * fails stays in FUZZ_FOUND, a folder. `make fuzz-scenes` runs 20,000, and as many under sanitizers
  * as its time allows. Run from the top folder.
  * SPDX-License-Identifier: MIT */
@@ -35,14 +35,27 @@
 static const struct {
     const char *name, *beside;
 } seeds[] = {
-    {"room.obj", "room.mtl"}, {"styles.obj", "styles.mtl"}, {"bare.obj", NULL},
-    {"text.ply", NULL},       {"little.ply", NULL},         {"big.ply", NULL},
-    {"text.stl", NULL},       {"bytes.stl", NULL},          {"room.off", NULL},
-    {"colours.off", NULL},    {"inside.gltf", NULL},        {"beside.gltf", "beside.bin"},
-    {"room.glb", NULL},       {"room.dae", NULL},           {"room.3ds", NULL},
-    {"room.ac", NULL},        {"room.dxf", NULL},           {"room.x", NULL},
+    {"room.obj", "room.mtl"},
+    {"styles.obj", "styles.mtl"},
+    {"bare.obj", NULL},
+    {"later.obj", "later.mtl"},
+    {"text.ply", NULL},
+    {"little.ply", NULL},
+    {"big.ply", NULL},
+    {"text.stl", NULL},
+    {"bytes.stl", NULL},
+    {"room.off", NULL},
+    {"colours.off", NULL},
+    {"inside.gltf", NULL},
+    {"beside.gltf", "beside.bin"},
+    {"room.glb", NULL},
+    {"room.dae", NULL},
+    {"room.3ds", NULL},
+    {"room.ac", NULL},
+    {"room.dxf", NULL},
+    {"room.x", NULL},
 };
-enum { SEEDS = sizeof seeds / sizeof *seeds, ROOM = 1 << 15, FILES = 400 };
+enum { SEEDS = sizeof seeds / sizeof *seeds, ROOM = 1 << 15, FILES = 800 };
 static const long MEGABYTES = 1024;   /* beside what the program itself takes */
 static const double SAME_AREA = 1e-6; /* relative */
 
