@@ -14,9 +14,11 @@ struct tidy {
     struct tidy *below;
 };
 
-/* From now on these signals remove what is pushed before they end the process; those that are
- * ignored stay so. */
+/* The program's handler of these signals calls dag_tidy_all before it ends the process. */
+enum { TIDY_SIGNALS = 3 };
+extern const int dag_tidy_signals[TIDY_SIGNALS];
 void dag_tidy_watch(void);
+void dag_tidy_all(void);
 
 /* The last one pushed is the first to be popped. */
 void dag_tidy_push(struct tidy *tidy);
