@@ -217,6 +217,7 @@ DAMAGED    = $(BUILD)/damaged
 .PHONY: fuzz-scenes
 fuzz-scenes: commands
 	@$(MAKE) --no-print-directory $(BUILD)/tests/solver/check_damaged
+	@mkdir -p $(DAMAGED)
 	FUZZ_FILES=$(FUZZ_FILES) FUZZ_FOUND=$(DAMAGED)/found $(BUILD)/tests/solver/check_damaged
 	@$(MAKE) --no-print-directory BUILD=$(DAMAGED) OPT="-O1 -g" \
 	    SANITIZE="-fsanitize=address,undefined -fno-sanitize-recover=undefined" $(DAMAGED)/tests/solver/check_damaged
