@@ -7,6 +7,7 @@
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
 # make fuzz     FUZZ_SECONDS (60) of mutated sources through dagc under sanitizers; needs clang's libFuzzer
+# make fuzz-scenes  FUZZ_FILES (20000) damaged scene files through the readers and a solve, then FUZZ_SECONDS of them under sanitizers
 # make demo     the main job on real scenes, pictures included
 # make drawings the graphs of examples/oracles, drawn anew (needs Graphviz)
 # make heat     the graph of the default oracle with what it did in room.obj (needs Graphviz)
@@ -209,6 +210,18 @@ fuzz:
 	@sh tests/dagc/fuzz.sh $(FUZZ) $(FUZZ_SECONDS)
 $(BUILD)/fuzz_%: $(BUILD)/tests/dagc/fuzz_%.o $(LIBDAGC)
 	$(CC) $(LDFLAGS) -fsanitize=fuzzer -Wl,--wrap=fopen -o $@ $^ -lm
+
+# First as the commands are, so that memory is measured; then everything once more, in a folder of its own, and other files.
+FUZZ_FILES = 20000
+DAMAGED    = $(BUILD)/damaged
+.PHONY: fuzz-scenes
+fuzz-scenes: commands
+	@$(MAKE) --no-print-directory $(BUILD)/tests/solver/check_damaged
+	@mkdir -p $(DAMAGED)
+	FUZZ_FILES=$(FUZZ_FILES) FUZZ_FOUND=$(DAMAGED)/found $(BUILD)/tests/solver/check_damaged
+	@$(MAKE) --no-print-directory BUILD=$(DAMAGED) OPT="-O1 -g" \
+	    SANITIZE="-fsanitize=address,undefined -fno-sanitize-recover=undefined" $(DAMAGED)/tests/solver/check_damaged
+	ASAN_OPTIONS=allocator_may_return_null=1 FUZZ_SEED=2 FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_FOUND=$(DAMAGED)/found $(DAMAGED)/tests/solver/check_damaged
 
 demo: all
 	@sh examples/demo.sh $(BUILD)

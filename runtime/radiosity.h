@@ -241,6 +241,11 @@ RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char 
 RAD_API RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *text,
                                         enum RadRelease release, const char *const *replacements,
                                         int count);
+/* Calls each(user, path) for every file that a .dag file's graph is made of: itself, what it
+ * imports, and its catalog where that is a file; until one call does not return 0. Returns what the
+ * last call did; 0 without any when the graph has errors, which radLoadOracle tells. */
+RAD_API int radListOracleFiles(const char *path, int (*each)(void *user, const char *path),
+                               void *user);
 /* A refiner that dagc generated and that the program is linked with, or one written by hand.
  * Borrowed. */
 RAD_API RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *oracle,

@@ -59,6 +59,10 @@ followed and decided otherwise | runtime/oracle/follow.c | s/return (enum decisi
 differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/    if (1)/; s/    if (panel.differences) {/    if (0) {/ | solver/check_compare
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
+libraries: the first counts | solver/scene/materials_by_name.c | s/^    \*slot = n;/    if (*slot == NONE) *slot = n;/ | solver/check_damaged
+unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
+a proof's folder stays     | dagc/prove/compile.c | s/dag_tidy_push(&tidy);/(void)tidy;/ | dagc/check_signals
+imports are outputs        | solver/commands/check_outputs.c | s/return radListOracleFiles.*/return 0;/ | solver/check_options
 panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/strchr("\&", *at)/ | solver/check_panel
 panel: wrong files taken | solver/panel/result.js | s/if (wrong.length) throw/if (false) throw/ | solver/check_panel
 panel: all nodes are stops | solver/panel/graph.js | s/i ? "-1" : "0"/"0"/ | solver/check_panel

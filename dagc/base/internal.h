@@ -90,6 +90,8 @@ struct input {
     int on_disk;            /* these are known */
 };
 void dag_input_open(struct input *input, const char *path); /* "-": standard input */
+/* What a source names: a pipe may have no other end, and is refused with ENOTSUP. */
+void dag_input_open_named(struct input *input, const char *path);
 void dag_input_close(struct input *input);
 int dag_read(struct dag *dag, const struct input *input); /* index in sources; -1 after an error */
 int dag_read_text(struct dag *dag, const char *name, const char *text, size_t length);

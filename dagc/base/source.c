@@ -135,6 +135,15 @@ void dag_input_open(struct input *input, const char *path)
     }
 }
 
+void dag_input_open_named(struct input *input, const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode))
+        dag_input_open(input, path);
+    else
+        *input = (struct input){.name = path, .error = ENOTSUP};
+}
+
 void dag_input_close(struct input *input)
 {
     free(input->owned);

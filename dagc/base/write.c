@@ -13,12 +13,21 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/tidy.h"
 #include "base/write.h"
 
 static int fail(const char *path, int error)
 {
     fprintf(stderr, "dagc: error: cannot write %s: %s\n", path, strerror(error));
     return -1;
+}
+
+/* A signal's handler may look at it between any two of these. */
+static void forget_part(struct output *output)
+{
+    char *part = output->part;
+    output->part = NULL;
+    free(part);
 }
 
 /* Everything to the stream, which is closed unless it is stdout; 0 or an errno. */
@@ -51,11 +60,12 @@ static int plan(struct output *output)
     if (exists && !S_ISREG(status.st_mode))
         return 0;
     size_t length = strlen(output->real);
-    output->part = malloc(length + 8);
-    if (output->part == NULL)
+    char *part = malloc(length + 8);
+    if (part == NULL)
         return fail(output->path, ENOMEM);
-    memcpy(output->part, output->real, length);
-    memcpy(output->part + length, ".XXXXXX", 8);
+    memcpy(part, output->real, length);
+    memcpy(part + length, ".XXXXXX", 8);
+    output->part = part;
     return 0;
 }
 
@@ -64,8 +74,7 @@ static int write_part(struct output *output)
     int handle = mkstemp(output->part);
     if (handle < 0) {
         int error = errno;
-        free(output->part);
-        output->part = NULL;
+        forget_part(output);
         return fail(output->path, error);
     }
     mode_t mask = umask(0);
@@ -93,14 +102,30 @@ static int put_in_place(struct output *output)
 {
     if (rename(output->part, output->real) != 0)
         return fail(output->path, errno);
-    free(output->part);
-    output->part = NULL;
+    forget_part(output);
     return 0;
+}
+
+struct parts {
+    const struct output *outputs;
+    int count;
+};
+
+/* A signal ends us: only temporary files have been written. */
+static void remove_parts(const void *of)
+{
+    const struct parts *parts = of;
+    for (int i = 0; i < parts->count; i++)
+        if (parts->outputs[i].part != NULL)
+            unlink(parts->outputs[i].part);
 }
 
 int dag_write_outputs(struct output *outputs, int count)
 {
     int result = 0;
+    const struct parts parts = {outputs, count};
+    struct tidy tidy = {remove_parts, &parts, NULL};
+    dag_tidy_push(&tidy);
     for (int i = 0; i < count && result == 0; i++) {
         if (outputs[i].path != NULL && outputs[i].text.failed)
             result = fail(outputs[i].path, ENOMEM);
@@ -108,24 +133,25 @@ int dag_write_outputs(struct output *outputs, int count)
             result = plan(&outputs[i]);
             if (result == 0 && outputs[i].part != NULL)
                 result = write_part(&outputs[i]);
-            else {
-                free(outputs[i].part); /* nothing was made under that name */
-                outputs[i].part = NULL;
-            }
+            else
+                forget_part(&outputs[i]); /* nothing was made under that name */
         }
     }
     for (int i = 0; i < count && result == 0; i++)
         if (outputs[i].path != NULL && outputs[i].part == NULL)
             result = write_in_place(&outputs[i]);
+    dag_tidy_hold(); /* all of them, or none */
     for (int i = 0; i < count && result == 0; i++)
         if (outputs[i].part != NULL)
             result = put_in_place(&outputs[i]);
     for (int i = 0; i < count; i++) {
         if (outputs[i].part != NULL)
             unlink(outputs[i].part);
-        free(outputs[i].part);
+        forget_part(&outputs[i]);
         free(outputs[i].real);
-        outputs[i].part = outputs[i].real = NULL;
+        outputs[i].real = NULL;
     }
+    dag_tidy_pop(&tidy);
+    dag_tidy_release();
     return result;
 }

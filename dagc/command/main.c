@@ -3,10 +3,15 @@
  * Exit status: 0 done; 1 the sources have errors, or a file cannot be read or written; 2 the
  * command line is wrong. With a status other than 0 no output file has been touched.
  * SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700 /* sigaction */
+
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/tidy.h"
 #include "command/depfile.h"
 #include "prove/diff.h"
 #include "emit/emit_svg.h"
@@ -187,10 +192,33 @@ static int run_diff(const struct job *job)
     return fflush(stdout) != 0 ? 2 : result;
 }
 
+static void on_signal(int number)
+{
+    dag_tidy_all();
+    signal(number, SIG_DFL);
+    kill(getpid(), number);
+}
+
+/* Those that are ignored stay so. */
+static void watch_signals(void)
+{
+    struct sigaction action;
+    dag_tidy_watch();
+    for (int i = 0; i < TIDY_SIGNALS; i++) {
+        if (sigaction(dag_tidy_signals[i], NULL, &action) != 0 || action.sa_handler == SIG_IGN)
+            continue;
+        action.sa_handler = on_signal;
+        action.sa_flags = SA_RESTART;
+        sigfillset(&action.sa_mask); /* one is enough */
+        sigaction(dag_tidy_signals[i], &action, NULL);
+    }
+}
+
 int main(int count, char **arguments)
 {
     int diff = count > 1 && strcmp(arguments[1], "diff") == 0;
     struct job job = {0};
+    watch_signals();
     job.folders = calloc((size_t)count, sizeof *job.folders);
     job.host = calloc((size_t)count, sizeof *job.host);
     if (job.folders == NULL || job.host == NULL) {

@@ -13,7 +13,7 @@ static const char *text_of(struct dag *dag, const char *path)
 {
     struct input input;
     const char *text = NULL;
-    dag_input_open(&input, path);
+    dag_input_open_named(&input, path);
     for (int i = 0; i < dag->source_count && input.error == 0 && text == NULL; i++)
         if (dag->sources[i].on_disk && dag->sources[i].device == input.device
             && dag->sources[i].inode == input.inode)

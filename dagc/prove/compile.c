@@ -10,17 +10,20 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "prove/compile.h"
 #include "emit/emit.h"
 #include "emit/headers.h"
 #include "base/internal.h"
+#include "base/tidy.h"
 
 extern char **environ;
 
@@ -34,11 +37,16 @@ enum {
 
 static const char library_name[] = "oracles.so", output_name[] = "output.txt";
 
-/* folder/name; 0 when it does not fit. */
+/* folder/name; 0 when it does not fit. A signal's handler calls it, so no snprintf. */
 static int path_of(char path[PATH_SIZE], const char *folder, const char *name)
 {
-    int length = snprintf(path, PATH_SIZE, "%s/%s", folder, name);
-    return length > 0 && length < PATH_SIZE;
+    const size_t above = strlen(folder), length = strlen(name);
+    if (above + 1 + length >= PATH_SIZE)
+        return 0;
+    memcpy(path, folder, above);
+    path[above] = '/';
+    memcpy(path + above + 1, name, length + 1);
+    return 1;
 }
 
 static int write_file(const char *folder, const struct c_file *file)
@@ -80,6 +88,30 @@ static void remove_all(const char *folder, const struct c_file *files, int count
     rmdir(folder);
 }
 
+/* What stands in the temporary folder, and who writes there. */
+struct standing {
+    const char *folder;
+    const struct c_file *files;
+    int count;
+};
+
+static volatile sig_atomic_t compiler_running; /* its process; 0: none */
+
+/* When a signal ends us: the compiler ends first, or it would write there behind us, and has files
+ * of its own to remove. */
+static void remove_standing(const void *of)
+{
+    const struct standing *s = of;
+    const struct timespec moment = {0, 10000000}; /* ns */
+    const pid_t child = compiler_running;
+    int patience = 100; /* moments */
+    if (child > 0)
+        kill(child, SIGTERM);
+    while (child > 0 && waitpid(child, NULL, WNOHANG) == 0 && patience-- > 0)
+        nanosleep(&moment, NULL);
+    remove_all(s->folder, s->files, s->count);
+}
+
 /* Runs a program, its output going to a file. Its status; -1 with errno when it did not end by
  * itself. */
 static int run(char *const arguments[], const char *output)
@@ -100,10 +132,14 @@ static int run(char *const arguments[], const char *output)
         errno = error;
         return -1;
     }
-    int status;
-    while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR)
-            return -1;
+    int status, known;
+    compiler_running = child;
+    do
+        known = waitpid(child, &status, 0) == child;
+    while (!known && errno == EINTR);
+    compiler_running = 0;
+    if (!known)
+        return -1;
     errno = EINTR; /* by a signal */
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -196,7 +232,14 @@ void *dag_compile(const struct c_file *files, int count, const char *const *flag
     void *handle = NULL;
     int length = snprintf(folder, sizeof folder, "%s/dagc.XXXXXX", parent), bad = 0, count_c = 0;
     errno = ENAMETOOLONG;
-    if (length >= (int)sizeof folder || mkdtemp(folder) == NULL) {
+    struct standing standing = {folder, files, count};
+    struct tidy tidy = {remove_standing, &standing, NULL};
+    dag_tidy_hold();
+    const int made = length < (int)sizeof folder && mkdtemp(folder) != NULL;
+    if (made)
+        dag_tidy_push(&tidy);
+    dag_tidy_release();
+    if (!made) {
         snprintf(message, size,
                  "cannot make a temporary folder in %s: %s; set TMPDIR to another place", parent,
                  strerror(errno));
@@ -216,6 +259,7 @@ void *dag_compile(const struct c_file *files, int count, const char *const *flag
             snprintf(message, size, "cannot load what was compiled: %s", dlerror());
     }
     remove_all(folder, files, count);
+    dag_tidy_pop(&tidy);
     return handle;
 }
 

@@ -60,10 +60,10 @@ int dag_open_catalog(struct dag *dag, const char *path, const char *beside, stru
     int length = slash != NULL ? (int)(slash + 1 - beside) : 0;
     const char *at =
         path[0] == '/' ? path : dag_format(&dag->arena, "%.*s%s", length, beside, path);
-    dag_input_open(input, at);
+    dag_input_open_named(input, at);
     for (int i = 0; i < dag->folder_count && input->error == ENOENT && path[0] != '/'; i++) {
         dag_input_close(input);
-        dag_input_open(input, dag_format(&dag->arena, "%s/%s", dag->folders[i], path));
+        dag_input_open_named(input, dag_format(&dag->arena, "%s/%s", dag->folders[i], path));
     }
     return input->error == 0;
 }

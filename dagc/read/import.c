@@ -47,7 +47,8 @@ static const char *candidate(struct dag *dag, const struct import *import, int a
 
 static void cannot(struct dag *dag, const struct import *import, int error)
 {
-    dag_error(dag, import->where, "cannot import \"%s\": %s", import->path, strerror(error));
+    dag_error(dag, import->where, "cannot import \"%s\": %s", import->path,
+              error == ENOTSUP ? "it is a pipe or a device; give a file" : strerror(error));
     if (error != ENOENT)
         return;
     if (import->path[0] != '/')
@@ -64,7 +65,7 @@ static int read_import(struct dag *dag, const struct import *import, int *fresh)
     *fresh = 0;
     for (int at = 0; (path = candidate(dag, import, at)) != NULL; at++) {
         struct input input;
-        dag_input_open(&input, path);
+        dag_input_open_named(&input, path);
         dag->reading = input.owned; /* should memory run out, dag_free frees it */
         int source = -1;
         if (input.error == 0) {

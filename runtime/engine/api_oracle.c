@@ -229,6 +229,18 @@ RadOracle radLoadOracleReplaced(RadDevice device, const char *path, const char *
     return NULL;
 }
 
+int radListOracleFiles(const char *path, int (*each)(void *user, const char *path), void *user)
+{
+    const struct dag_options options = {0};
+    struct dag *dag = path ? dag_load_with(path, &options, NULL) : NULL;
+    int result = 0;
+    for (int i = 0; dag && i < dag->source_count && !result; i++)
+        if (dag->sources[i].on_disk)
+            result = each(user, dag->sources[i].name);
+    dag_free(dag);
+    return result;
+}
+
 RadOracle radNewOracleCompiled(RadDevice device, const struct oracle *compiled, const char *release)
 {
     if (!device || check_compiled(device, compiled) < 0)

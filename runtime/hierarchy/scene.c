@@ -285,6 +285,21 @@ static int part_faces(struct scene *scene, int threads)
     return result;
 }
 
+/* The longest side of the box of what has not been dropped (m). */
+static double width_of_faces(const struct scene *scene)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY},
+           width = 0;
+    for (uint32_t i = 0; i < scene->face_count; i++)
+        for (uint32_t j = 0; j < scene->faces[i].vertices; j++)
+            for (int k = 0; k < 3; k++) {
+                low[k] = fmin(low[k], scene->faces[i].vertex[j][k]);
+                high[k] = fmax(high[k], scene->faces[i].vertex[j][k]);
+                width = fmax(width, high[k] - low[k]);
+            }
+    return width;
+}
+
 static int build(struct builder *b, int threads)
 {
     struct scene *scene = b->scene;
@@ -318,6 +333,10 @@ static int build(struct builder *b, int threads)
         return fail(b->error, RAD_ERROR_INVALID_SCENE,
                     "all of its %u faces are degenerate; give one face with an area",
                     (unsigned)scene->dropped);
+    if (width_of_faces(scene) < SCENE_LEAST)
+        return fail(b->error, RAD_ERROR_INVALID_SCENE,
+                    "it is %g m wide, less than any scene; coordinates are metres: scale it",
+                    width_of_faces(scene));
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
     scene->bands = bands(b);

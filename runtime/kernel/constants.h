@@ -130,6 +130,10 @@
 
 /* ---- scenes (hierarchy) */
 
+/* m. A scene less wide is refused. Rays' directions are scaled as the scene is, and Embree takes
+ * none longer than 1.8e18 (2 / 1e-17 is less); what is a hundredth of a proton wide has mistaken
+ * its unit */
+#define SCENE_LEAST 1e-17
 /* Coordinates are off by at most their relative rounding times the largest of them. */
 /* relative. Rounding of a float: half a unit in its last place [IEEE 754] */
 #define SCENE_SINGLE 0x1p-24

@@ -63,6 +63,38 @@ static int add_output(struct named_files *f, char *path, int beside)
     return 0;
 }
 
+/* ---- which are the same */
+
+/* The folder that a file is in, and its name there. Returns 0, or -1 when there is no such folder.
+ */
+static int place_of(const char *path, struct stat *folder, char **name)
+{
+    char *above = strdup(path), *base = strdup(path);
+    const int failed = !above || !base || stat(dirname(above), folder) ? -1 : 0;
+    *name = failed ? NULL : strdup(basename(base));
+    free(above);
+    free(base);
+    return *name ? 0 : -1;
+}
+
+static int same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    const int here = stat(a, &x) == 0, there = stat(b, &y) == 0;
+    if (here && there)
+        return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    if (here != there)
+        return 0;
+    char *name = NULL, *other = NULL;
+    const int same =
+        strcmp(a, b) == 0
+        || (place_of(a, &x, &name) == 0 && place_of(b, &y, &other) == 0 && x.st_dev == y.st_dev
+            && x.st_ino == y.st_ino && strcmp(name, other) == 0);
+    free(name);
+    free(other);
+    return same;
+}
+
 /* ---- which files */
 
 struct libraries {
@@ -129,6 +161,33 @@ static int add_scene_files(struct named_files *f, const char *scene, const char 
     return failed;
 }
 
+struct imported {
+    struct named_files *files;
+    const char *oracle;
+};
+
+static int add_imported(void *to, const char *path)
+{
+    const struct imported *i = to;
+    return same_file(path, i->oracle)
+               ? 0
+               : add_input(i->files, strdup(path), "a file that the oracle imports");
+}
+
+/* An oracle's file and what it imports. A name that is no file's is a built-in one's; a pipe can be
+ * read but once. */
+static int add_oracle_files(struct named_files *f, const struct options *o)
+{
+    struct stat status;
+    if (!o->oracle || !(strchr(o->oracle, '/') || ends_with(o->oracle, ".dag"))
+        || stat(o->oracle, &status) || !S_ISREG(status.st_mode))
+        return 0;
+    /* The one that tune is given may be replaced by what tune makes of it. */
+    if (o->command != COMMAND_TUNE && add_input(f, strdup(o->oracle), "the oracle"))
+        return -1;
+    return radListOracleFiles(o->oracle, add_imported, &(struct imported){f, o->oracle});
+}
+
 static int add_inputs(struct named_files *f, const struct options *o)
 {
     const int judged = o->command == COMMAND_ERROR;
@@ -139,21 +198,19 @@ static int add_inputs(struct named_files *f, const struct options *o)
     for (int i = 0; i < o->scene_count; i++)
         if (add_scene_files(f, o->scenes[i], o->scene_count == 1 ? "the scene" : "a scene"))
             return -1;
-    /* The oracle that tune is given may be replaced by what tune makes of it. A name that is no
-     * file's is a built-in one's. */
-    const int is_file = o->oracle && o->command != COMMAND_TUNE
-                        && (strchr(o->oracle, '/') || ends_with(o->oracle, ".dag"));
+    for (int i = 0; i < o->plugin_count; i++)
+        if (add_input(f, strdup(o->plugins[i]), "a plugin"))
+            return -1;
     const struct {
         const char *path, *what;
     } others[] = {{o->reference, "the reference"},
                   {o->params, "the file of parameters"},
-                  {is_file ? o->oracle : NULL, "the oracle"},
                   {o->command == COMMAND_DRAW || o->command == COMMAND_PANEL ? o->statistics : NULL,
                    "the file of statistics"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].path && add_input(f, strdup(others[i].path), others[i].what))
             return -1;
-    return 0;
+    return add_oracle_files(f, o);
 }
 
 /* NAME.end instead of NAME.what; NULL when out of memory. */
@@ -175,6 +232,11 @@ static int add_outputs(struct named_files *f, const struct options *o)
     for (int i = 0; i < count; i++)
         if (add_output(f, strdup(paths[i]), 0))
             return -1;
+    if (o->command == COMMAND_REFERENCE) { /* its state */
+        char *state = malloc(strlen(o->out) + sizeof ".state");
+        if (add_output(f, state ? strcat(strcpy(state, o->out), ".state") : NULL, 0))
+            return -1;
+    }
     const char *beside = o->command != COMMAND_SOLVE || !o->out ? NULL
                          : ends_with(o->out, ".obj")            ? ".mtl"
                          : ends_with(o->out, ".gltf")           ? ".bin"
@@ -182,37 +244,7 @@ static int add_outputs(struct named_files *f, const struct options *o)
     return beside ? add_output(f, with_ending(o->out, beside), 1) : 0;
 }
 
-/* ---- which are the same */
-
-/* The folder that a file is in, and its name there. Returns 0, or -1 when there is no such folder.
- */
-static int place_of(const char *path, struct stat *folder, char **name)
-{
-    char *above = strdup(path), *base = strdup(path);
-    const int failed = !above || !base || stat(dirname(above), folder) ? -1 : 0;
-    *name = failed ? NULL : strdup(basename(base));
-    free(above);
-    free(base);
-    return *name ? 0 : -1;
-}
-
-static int same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    const int here = stat(a, &x) == 0, there = stat(b, &y) == 0;
-    if (here && there)
-        return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-    if (here != there)
-        return 0;
-    char *name = NULL, *other = NULL;
-    const int same =
-        strcmp(a, b) == 0
-        || (place_of(a, &x, &name) == 0 && place_of(b, &y, &other) == 0 && x.st_dev == y.st_dev
-            && x.st_ino == y.st_ino && strcmp(name, other) == 0);
-    free(name);
-    free(other);
-    return same;
-}
+/* ---- */
 
 /* Returns 0 or the exit status. */
 static int check(const struct named_files *f, size_t i)

@@ -351,7 +351,10 @@ static int compare(const struct options *o, const struct open_scene *scene, RadO
         return 1;
     for (int k = 0; k < panel.count && !o->quiet; k++)
         printf("  %-4s %9.3f s  %.3f\n", name_of(&panel, k), seconds[k], seconds[k] / seconds[0]);
-    return o->json && json_file_write(o->json, compare_json(&panel, report.links, seconds)) < 0;
+    const int unfinished = solved_status(&report, o->scene);
+    return o->json && json_file_write(o->json, compare_json(&panel, report.links, seconds)) < 0
+               ? 1
+               : unfinished;
 }
 
 int command_compare(const struct options *o, const struct open_scene *scene)

@@ -193,12 +193,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     if (status != 0)
         return status < 0 ? 1 : status;
     radGetReport(s.solution, &s.report);
-    if (!s.report.converged) {
-        char cause[SUMMARY_CAUSE];
-        summary_cause(&s.report, cause, sizeof cause);
-        report_warning(o->scene, 0, "not converged after %d sweeps (residual %.1e): %s",
-                       s.report.iterations, s.report.residual, cause);
-    }
+    const int unfinished = solved_status(&s.report, o->scene);
     if (s.report.absorbed > (1 + GAIN_TOLD) * s.report.emitted)
         report_warning(o->scene, 0,
                        "%.2g %% more is absorbed than emitted, which is error: use finer links",
@@ -209,8 +204,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     }
     status =
         write_outputs(o, scene, &surfaces, &s, &coarse, &measured, &promise, &accuracy, oracle);
-    if (!s.report.converged)
-        status = status ? status : 3;
+    status = status ? status : unfinished;
     if (!accuracy.reached) {
         report_warning(o->scene, 0, "--accuracy was not kept: stopped by %s", accuracy.why);
         status = status ? status : 3;

@@ -220,16 +220,6 @@ static void print_rows(const struct options *o, const struct RadReport *r)
                r->closed > 0 ? "; they take the mean of their face" : "");
 }
 
-void summary_cause(const struct RadReport *r, char *text, size_t size)
-{
-    if (r->changing)
-        snprintf(text, size,
-                 "%llu links still change after %d passes; larger thresholds (--set) split less",
-                 (unsigned long long)r->changing, r->passes);
-    else
-        snprintf(text, size, "allow more --iterations, or loosen --tolerance");
-}
-
 void summary_print(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -249,9 +239,9 @@ void summary_print(const struct summary *s)
            (unsigned long long)r->links, (unsigned long long)r->pairs,
            (unsigned long long)r->rounds, (double)r->rays);
     print_marks(r);
-    char cause[SUMMARY_CAUSE] = "";
+    char cause[SOLVED_CAUSE] = "";
     if (!r->converged)
-        summary_cause(r, cause, sizeof cause);
+        solved_cause(r, cause);
     printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
            r->residual, r->converged ? "converged" : "NOT converged: ", cause);
     print_solver(s->options, r);

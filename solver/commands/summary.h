@@ -12,8 +12,6 @@
 #include "scene/open_scene.h"
 #include "util/solved.h"
 
-enum { SUMMARY_CAUSE = 128 }; /* bytes that the longest cause fits in */
-
 struct summary {
     const struct options *options;
     const struct open_scene *scene;
@@ -25,9 +23,6 @@ struct summary {
     const struct accuracy *accuracy; /* NULL: none was asked for */
     double output_seconds;
 };
-
-/* Why the answer is not converged, and what to do: a phrase. */
-void summary_cause(const struct RadReport *report, char *text, size_t size);
 
 void summary_print(const struct summary *summary);
 

@@ -135,20 +135,26 @@ static void set_limits(double seconds, double memory)
 #endif
 }
 
+static void send(FILE *to, const void *array, size_t size, size_t count)
+{
+    if (count) /* or there may be no array */
+        fwrite(array, size, count, to);
+}
+
 static int send_file(FILE *to, const struct scene_file *f)
 {
     const struct header h = {f->position_count, f->index_count, f->polygon_count,
                              f->material_count, f->other,       f->single_precision};
-    fwrite(&h, sizeof h, 1, to);
-    fwrite(f->positions, 3 * sizeof *f->positions, f->position_count, to);
-    fwrite(f->indices, sizeof *f->indices, f->index_count, to);
-    fwrite(f->sizes, sizeof *f->sizes, f->polygon_count, to);
-    fwrite(f->polygon_materials, sizeof *f->polygon_materials, f->polygon_count, to);
-    fwrite(f->materials, sizeof *f->materials, f->material_count, to);
+    send(to, &h, sizeof h, 1);
+    send(to, f->positions, 3 * sizeof *f->positions, f->position_count);
+    send(to, f->indices, sizeof *f->indices, f->index_count);
+    send(to, f->sizes, sizeof *f->sizes, f->polygon_count);
+    send(to, f->polygon_materials, sizeof *f->polygon_materials, f->polygon_count);
+    send(to, f->materials, sizeof *f->materials, f->material_count);
     for (uint32_t i = 0; i < f->material_count; i++) {
         const uint32_t length = (uint32_t)strlen(f->names[i]);
-        fwrite(&length, sizeof length, 1, to);
-        fwrite(f->names[i], 1, length, to);
+        send(to, &length, sizeof length, 1);
+        send(to, f->names[i], 1, length);
     }
     return fclose(to) ? -1 : 0;
 }

@@ -217,6 +217,9 @@ static int read_library_text(struct materials_by_name *m, const char *path, stru
             read_opacity(m, &t, &l);
         else if ((word_is(&t, "map_Kd") || word_is(&t, "map_Ke")) && l.material != NONE)
             materials_assume(m, TEXTURE, path, t.number, m->file->names[l.material], NULL);
+        else if (word_is_any_case(&t, "newmtl") || word_is_any_case(&t, "Kd")
+                 || word_is_any_case(&t, "Ke")) /* a lamp may be dark for it */
+            materials_assume(m, UNKNOWN_LINE, path, t.number, t.word, t.word_end);
         if (failed)
             return -1;
     }

@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -43,12 +44,21 @@ static void read_material(const struct aiMaterial *from, struct RadMaterial *to)
     to->two_sided = !!two_sided;
 }
 
+/* Its words stay on the line of the message that has them. */
+static void to_one_line(char *text)
+{
+    for (; *text; text++)
+        if (*text == '\n' || *text == '\r')
+            *text = ' ';
+}
+
 static int read_materials(struct reader *r, const struct aiScene *from)
 {
     for (uint32_t i = 0; i < from->mNumMaterials; i++) {
         struct RadMaterial material = {0};
         struct aiString name = {0};
         aiGetMaterialString(from->mMaterials[i], AI_MATKEY_NAME, &name);
+        to_one_line(name.data);
         read_material(from->mMaterials[i], &material);
         if (scene_file_add_material(r->file, name.length ? name.data : "unnamed", &material))
             return scene_file_no_memory(r->path);
@@ -149,9 +159,12 @@ static int import(struct scene_file *file, const char *path)
     const char *cause = aiGetErrorString();
     if (strstr(cause, "bad_alloc") || strstr(cause, "length_error"))
         return IMPORT_MEMORY;
+    char words[512];
+    snprintf(words, sizeof words, "%s", cause);
+    to_one_line(words);
     return report_error(
         path, 0, "cannot be read as a scene: %s; check the format and that the file is whole",
-        cause);
+        words);
 }
 
 int read_assimp(struct scene_file *file, const char *path)

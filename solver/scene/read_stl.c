@@ -47,12 +47,6 @@ static int read_bytes(struct scene_file *f, const char *path, const char *text, 
     return 0;
 }
 
-static int word_is_any_case(const struct text_lines *t, const char *name)
-{
-    size_t size = strlen(name);
-    return (size_t)(t->word_end - t->word) == size && strncasecmp(t->word, name, size) == 0;
-}
-
 /* solid, then facets of a loop of three vertices, then endsolid; several of these. */
 static int read_text(struct scene_file *f, const char *path, struct text_lines t)
 {

@@ -12,6 +12,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 struct text_lines {
     char *next, *end;       /* where the next line starts, where the text ends: at a 0 */
@@ -78,6 +79,12 @@ static inline int word_is(const struct text_lines *t, const char *name)
 {
     size_t size = strlen(name);
     return (size_t)(t->word_end - t->word) == size && memcmp(t->word, name, size) == 0;
+}
+
+static inline int word_is_any_case(const struct text_lines *t, const char *name)
+{
+    size_t size = strlen(name);
+    return (size_t)(t->word_end - t->word) == size && strncasecmp(t->word, name, size) == 0;
 }
 
 /* The rest of the line without the blanks around it, for free(): names may hold blanks. NULL

@@ -207,6 +207,7 @@ static int find(const struct options *o, const char *path, struct found *f)
 int study_causes(const struct options *o, const struct open_scene *none)
 {
     json_t *table = o->json ? json_array() : NULL;
+    int unfinished = 0;
     (void)none;
     for (int i = 0; i < o->scene_count; i++) {
         struct found f;
@@ -214,6 +215,7 @@ int study_causes(const struct options *o, const struct open_scene *none)
             json_decref(table);
             return 1;
         }
+        unfinished |= solved_status(&f.solve, o->scenes[i]);
         if (!o->quiet) {
             print_found(o->scenes[i], o, &f);
             fflush(stdout);
@@ -221,5 +223,5 @@ int study_causes(const struct options *o, const struct open_scene *none)
         if (o->json)
             json_array_append_new(table, found_json(o->scenes[i], o, &f));
     }
-    return o->json && json_file_write(o->json, table) < 0;
+    return o->json && json_file_write(o->json, table) < 0 ? 1 : unfinished;
 }

@@ -35,8 +35,8 @@ struct row {
     double memory;          /* MB */
     uint64_t links, groups; /* groups: links with a cluster at an end */
     uint64_t pairs, rays;
-    double imbalance, error; /* shares; error: NAN without a reference */
-    int converged;
+    double imbalance, error;   /* shares; error: NAN without a reference */
+    int converged, unfinished; /* solved_status's */
 };
 
 struct table {
@@ -108,6 +108,7 @@ static void describe_solution(struct row *row, const struct solved *s)
     row->rays = r->rays;
     row->imbalance = r->emitted > 0 ? (r->emitted - r->absorbed) / r->emitted : 0;
     row->converged = r->converged;
+    row->unfinished = solved_status(r, row->strategy);
 }
 
 static int run(const struct options *o, const struct open_scene *scene,
@@ -289,6 +290,8 @@ int study_clustering(const struct options *o, const struct open_scene *scene)
     }
     status = (o->out && write_table(o->out, &t) < 0)
              || (o->chart && chart_draw(o->chart, print_plot, &t) < 0);
+    for (int i = 0; i < t.rows && status != 1; i++)
+        status |= t.row[i].unfinished;
 done:
     faces_table_free(&reference);
     return status;

@@ -255,7 +255,9 @@ int study_form_factors(const struct options *o, const struct open_scene *scene)
     if (!oracle)
         return 1;
     int status = solved_open(&s, scene->device, o->scene, scene->scene, oracle, &how);
+    int unfinished = 0;
     if (status == 0) {
+        unfinished = solved_status(&s.report, o->scene);
         status = factor_kinds_measure(&t.kinds, &s, scene->device, o->scene, &progress);
         solved_close(&s);
     }
@@ -266,5 +268,7 @@ int study_form_factors(const struct options *o, const struct open_scene *scene)
     if (!o->quiet)
         print_table(stdout, &t);
     return (o->out && write_table(o->out, &t) < 0)
-           || (o->chart && chart_draw(o->chart, print_plot, &t) < 0);
+                   || (o->chart && chart_draw(o->chart, print_plot, &t) < 0)
+               ? 1
+               : unfinished;
 }

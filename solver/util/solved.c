@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: MIT */
 #include "util/solved.h"
 
+#include <stdio.h>
+
 #include "util/device.h"
+#include "util/report.h"
 
 int solved_begin(struct solved *s, RadDevice device, const char *where, RadScene scene,
                  RadOracle oracle, const struct RadSolveOptions *how)
@@ -38,4 +41,25 @@ void solved_close(struct solved *s)
 {
     radReleaseSolution(s->solution);
     s->solution = NULL;
+}
+
+void solved_cause(const struct RadReport *r, char text[SOLVED_CAUSE])
+{
+    if (r->changing)
+        snprintf(text, SOLVED_CAUSE,
+                 "%llu links still change after %d passes; larger thresholds (--set) split less",
+                 (unsigned long long)r->changing, r->passes);
+    else
+        snprintf(text, SOLVED_CAUSE, "allow more --iterations, or loosen --tolerance");
+}
+
+int solved_status(const struct RadReport *r, const char *where)
+{
+    char cause[SOLVED_CAUSE];
+    if (r->converged)
+        return 0;
+    solved_cause(r, cause);
+    report_warning(where, 0, "not converged after %d sweeps (residual %.1e): %s", r->iterations,
+                   r->residual, cause);
+    return 3;
 }

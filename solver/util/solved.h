@@ -28,4 +28,12 @@ int solved_open(struct solved *s, RadDevice device, const char *where, RadScene 
                 RadOracle oracle, const struct RadSolveOptions *how);
 void solved_close(struct solved *s);
 
+/* Why the answer is not converged, and what to do: a phrase. */
+enum { SOLVED_CAUSE = 128 };
+void solved_cause(const struct RadReport *report, char text[SOLVED_CAUSE]);
+
+/* What the exit status has of it: 0, or of an answer that is not converged 3, after a warning that
+ * names `where`, also with -q. */
+int solved_status(const struct RadReport *report, const char *where);
+
 #endif

@@ -292,6 +292,8 @@ hostile "100,000 parentheses" 'nested more than 200 deep'
 hostile "100,000 signs" 'nested more than 200 deep'
 { printf 'oracle t { start a; node a = weigh(share = 1'; yes ' + 1' | head -n 100000 | tr -d '\n'; echo ')'; } >hostile.dag
 hostile "100,000 additions" 'too long: more than 1000 parts'
+mkfifo pipe && echo 'import "pipe";' >hostile.dag
+hostile "an import of a pipe" 'cannot import "pipe": it is a pipe or a device'
 printf 'import "folder"; import "hostile.dag"; import "none.dag"; oracle t { }' >hostile.dag
 hostile "an import of a folder" 'cannot import "folder": Is a directory'
 awk 'BEGIN { print "oracle t { start a; node a = g0() { x -> drop; } }"; for (i = 0; i < 100; i++) print "graph g" i "() exits (x) { start a; node a = g" i + 1 "() { x -> x; } }"; print "graph g100() exits (x) { start a; node a = look() { otherwise -> x; } }" }' >hostile.dag

@@ -219,6 +219,11 @@ START_TEST(test_refused)
         memcpy(&at[3 * i], &square[3 * (i % 2)], 3 * sizeof *at);
     p.size = 3;
     expect_refusal(&p, &grey, 1, "all of its 1 faces are degenerate");
+    for (int i = 0; i < 12; i++)
+        at[i] = 1e-30 * square[i];
+    p = good;
+    p.positions = at;
+    expect_refusal(&p, &grey, 1, "it is 1e-30 m wide");
     m.reflectance[2] = 1;
     expect_refusal(&good, &m, 1, "material 0 has reflectance 1;");
     m.reflectance[2] = NAN;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # check_lost_work.sh - runs that are stopped, that find no memory, or whose names are odd: old outputs stay whole, nothing is
-# left behind, and one line says what happened. RADIOSITY names the command. With THOROUGH 200 runs are stopped, not 12.
+# left behind, and one line says what happened. RADIOSITY names the command. With THOROUGH 296 runs are stopped, not 28.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 mkdir scratch
@@ -35,33 +35,53 @@ check "an oracle that is compiled" "$radiosity" solve "$scenes/furnace.obj" -q -
 check "what was compiled is gone" [ -z "$(ls -A scratch)" ]
 
 # ---- runs stopped at any moment: old outputs or new ones, whole, and nothing else
-mkdir o new old
-set -- solve "$scenes/furnace_4.obj" -q --no-errors --no-correct --faces o/f.csv -o o/m.obj --image o/p.png --size 320x240
-begin=$(date +%s.%N)
-check "a run to compare with" "$radiosity" "$@"
-whole=$(echo "$begin $(date +%s.%N)" | awk '{ print $2 - $1 }')
-cp o/* new
-for file in f.csv m.obj m.mtl p.png; do echo "old $file" >old/$file; done
-runs=$([ -n "${THOROUGH-}" ] && echo 200 || echo 12)
-ended=0 run=0
-for after in $(awk -v n="$runs" -v whole="$whole" 'BEGIN { srand(7); for (i = 0; i < n; i++) printf "%.3f ", 0.002 + 1.1 * whole * rand() }'); do
-    count=$((count + 1)) run=$((run + 1))
-    signal=$(echo "TERM INT HUP KILL" | cut -d ' ' -f $((run % 4 + 1)))
-    cp old/* o
-    # Of a shell's own, which tells the terminal who was killed.
-    sh -c 'timeout -s "$@"; exit $?' sh "$signal" "$after" "$radiosity" "$@" >out 2>&1 && ended=$((ended + 1))
-    for file in f.csv m.obj m.mtl p.png; do
-        cmp -s o/$file old/$file || cmp -s o/$file new/$file || failed "$signal after $after s: $file is neither old nor new"
+# RUNS "FILE..." "FILE TOGETHER..." ARGUMENT...: a command that writes these files to the folder o; those together are all new
+# or none. JSON tells seconds, and tune what it has by then: any that is whole is new. A state file is there to go on from.
+at_random() {
+    runs=$1 files=$2 together=$3
+    shift 3
+    mkdir o new old
+    begin=$(date +%s.%N)
+    check "a run to compare with: $*" "$radiosity" "$@"
+    whole=$(echo "$begin $(date +%s.%N)" | awk '{ print $2 - $1 }')
+    cp o/* new
+    for file in $files; do echo "old $file" >old/$file; done
+    ended=0 run=0
+    for after in $(awk -v n="$runs" -v whole="$whole" -v seed="$#" 'BEGIN { srand(seed); for (i = 0; i < n; i++) printf "%.3f ", 0.002 + 1.1 * whole * rand() }'); do
+        count=$((count + 1)) run=$((run + 1))
+        signal=$(echo "TERM INT HUP KILL" | cut -d ' ' -f $((run % 4 + 1)))
+        cp old/* o
+        # Of a shell's own, which tells the terminal who was killed.
+        sh -c 'timeout -s "$@"; exit $?' sh "$signal" "$after" "$radiosity" "$@" >out 2>&1 && ended=$((ended + 1))
+        rm -f o/*.state
+        for file in $files; do
+            cmp -s o/$file old/$file || cmp -s o/$file new/$file || is_whole o/$file ||
+                failed "$1: $signal after $after s: $file is neither old nor new"
+        done
+        news=0
+        for file in $together; do cmp -s o/$file old/$file || news=$((news + 1)); done
+        [ "$signal" = KILL ] || [ $news = 0 ] || [ $news = "$(echo $together | wc -w)" ] ||
+            failed "$1: $signal after $after s: of $together one is new"
+        # Nobody can tidy up after SIGKILL.
+        [ "$signal" != KILL ] || rm -rf o/*.tmp scratch/*
+        [ "$(ls -A o | wc -l)" = "$(echo $files | wc -w)" ] && [ -z "$(ls -A scratch)" ] || failed "$1: $signal after $after s left $(ls -A o scratch)"
+        rm -rf o/*.tmp scratch/*
     done
-    [ "$signal" = KILL ] || { cmp -s o/m.obj old/m.obj && cmp -s o/m.mtl old/m.mtl; } || { cmp -s o/m.obj new/m.obj && cmp -s o/m.mtl new/m.mtl; } ||
-        failed "$signal after $after s: of the mesh one file is new"
-    # Nobody can tidy up after SIGKILL.
-    [ "$signal" != KILL ] || rm -rf o/*.tmp scratch/*
-    [ "$(ls -A o | wc -l)" = 4 ] && [ -z "$(ls -A scratch)" ] || failed "$signal after $after s left $(ls -A o scratch)"
-    rm -rf o/*.tmp scratch/*
-done
-echo "stopped at random: $ended of $runs had ended before"
-rm -rf o new old
+    echo "$1, stopped at random: $ended of $runs had ended before"
+    rm -rf o new old
+}
+is_whole() { # FILE: does it begin and end as such a file does?
+    case $1 in
+    *.json) [ "$(head -n 1 "$1")" = "{" ] && [ "$(tail -n 1 "$1")" = "}" ] ;;
+    *.dag) grep -q '^oracle' "$1" && [ "$(tail -n 1 "$1")" = "}" ] ;;
+    *) false ;;
+    esac
+}
+at_random $([ -n "${THOROUGH-}" ] && echo 200 || echo 12) "f.csv m.obj m.mtl p.png" "m.obj m.mtl" solve "$scenes/furnace_4.obj" -q --no-errors --no-correct --faces o/f.csv -o o/m.obj --image o/p.png --size 320x240
+at_random ${THOROUGH:+2}4 "m.csv n.csv j.json" "" viewfactors "$scenes/furnace_4.obj" -q --tolerance 0.01 -o o/m.csv --names o/n.csv --json o/j.json
+at_random ${THOROUGH:+2}4 "t.dag j.json" "" tune ff "$scenes/furnace.obj" -q --evaluations 8 --error 20% -o o/t.dag --json o/j.json
+at_random ${THOROUGH:+2}4 "r.csv j.json" "" reference "$scenes/furnace_4.obj" -q --accuracy 2% -o o/r.csv --json o/j.json
+at_random ${THOROUGH:+2}4 "j.json" "" compare "$scenes/furnace_4.obj" -q --repeats 1 --json o/j.json
 
 # ---- names that are no UTF-8, and parameters without end: JSON all the same
 check_json() { # FILE ARGUMENT...
@@ -85,6 +105,16 @@ check_json j study causes "$odd.obj" -q --rays 100 --oracle "$odd.dag" --json j
 count=$((count + 1))
 "$radiosity" solve "$scenes/cornell.obj" -q --no-correct --no-errors --iterations 1 >out 2>err
 [ $? = 3 ] && [ "$(wc -l <err)" = 1 ] && grep -q "warning: not converged after [0-9]* sweeps" err || failed "--iterations 1"
+
+unfinished() { # ARGUMENT...
+    count=$((count + 1))
+    "$radiosity" "$@" -q --iterations 1 >out 2>err
+    [ $? = 3 ] && [ "$(wc -l <err)" = 1 ] && grep -q "warning: not converged after [0-9]* sweeps" err || failed "$*"
+}
+unfinished compare "$scenes/furnace.obj" --repeats 1
+unfinished study clustering "$scenes/furnace.obj" --only sah
+unfinished study form-factors "$scenes/furnace.obj"
+unfinished study causes "$scenes/furnace.obj" --rays 1000
 
 # ---- the compiler's command may have words, its path blanks, and an oracle's name may look like an option
 mv "$odd.dag" ./-o.dag

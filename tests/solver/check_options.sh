@@ -189,6 +189,7 @@ says 2 "-o takes a file named .svg, not x.png" draw bf -o x.png
 says 2 "more than one oracle: gap" draw bf gap -o x.svg
 says 2 "two outputs would go there" solve none.obj --faces x --json x
 says 2 "two outputs would go there" viewfactors none.obj -o x --names x
+says 2 "two outputs would go there" reference none.obj -o x.csv --json ./x.csv.state
 says 2 "standard output: error: two outputs would go there" solve none.obj --statistics - --json -
 if [ "$(id -u)" != 0 ]; then
     mkdir "$tmp-closed" && chmod 555 "$tmp-closed"
@@ -249,6 +250,13 @@ echo data >"$tmp.scene/x.json"
 says 2 "this is a file of the scene, which would be lost" solve "$tmp.scene/x.gltf" --json "$tmp.scene/x.json"
 cp "$top/examples/oracles/bf.dag" "$tmp.scene/bf.dag"
 says 2 "this is the oracle, which would be lost" solve "$scene" --oracle "$tmp.scene/bf.dag" --json "$tmp.scene/bf.dag"
+cp "$top/examples/oracles/common.dag" "$tmp.scene/common.dag"
+says 2 "this is a file that the oracle imports, which would be lost" solve "$scene" --oracle "$tmp.scene/bf.dag" --json "$tmp.scene/./common.dag"
+says 2 "this is a file that the oracle imports, which would be lost" tune "$tmp.scene/bf.dag" "$scene" -o "$tmp.scene/common.dag"
+ln "$tmp.scene/common.dag" "$tmp.scene/common.svg"
+says 2 "this is a file that the oracle imports, which would be lost" draw "$tmp.scene/bf.dag" -o "$tmp.scene/common.svg"
+echo 'int a;' >"$tmp.scene/p.c"
+says 2 "this is a plugin, which would be lost" explain "$scene" --pair 0,1 --plugin "$tmp.scene/p.c" --json "$tmp.scene/p.c"
 says 2 "this is the file of parameters, which would be lost" solve "$scene" --params "$tmp.scene/x.json" --faces "$tmp.scene/x.json"
 says 2 "this is the file of statistics, which would be lost" panel bf --statistics "$tmp.scene/p.html" -o "$tmp.scene/link.html"
 says 2 "this is the scene, which would be lost" viewfactors "$tmp.scene/furnace.obj" -o "$tmp.scene/../${tmp##*/}.scene/furnace.obj"

@@ -654,6 +654,9 @@ START_TEST(test_materials_said_oddly)
         {"newmtl M #1\nKd .25\nnewmtl M #2\nKd .5\n", "usemtl M #1\n", .25, 0, NULL},
         {"newmtl x # red\nKd .25 # dark\nnewmtl y#\nKd .5# light", "usemtl x\t# it\n", .25, 0,
          NULL},
+        {"newmtl x\nKd .25\nke 5\n", "usemtl x\n", .25, 0,
+         "m.mtl:3: warning: a line that starts "
+         "with 'ke'"},
         {"newmtl x\nKd .25\n", "usemtl x\nsurf 0 1 0 1 1\n", .25, 0, "starts with 'surf'"},
     };
     write_text("x.mtl", plain);
@@ -817,6 +820,8 @@ START_TEST(test_errors)
     ck_assert_ptr_nonnull(strstr(last_error, "this is a folder"));
     ck_assert_int_eq(read_scene(&s, write_text("g.xyz", "garbage"), NULL), -1);
     ck_assert_ptr_nonnull(strstr(last_error, "cannot be read as a scene"));
+    ck_assert_int_eq(read_scene(&s, write_text("g.x", "xof 0302a\nb\n0032\n"), NULL), -1);
+    ck_assert_msg(strchr(last_error, '\n')[1] == 0, "one line: %s", last_error);
     ck_assert_int_eq(read_scene(&s, write_text("g.gltf", "{\"garbage\": ["), NULL), -1);
     ck_assert_ptr_nonnull(strstr(last_error, "g.gltf: error: "));
     ck_assert_int_eq(read_scene(&s, write_text("empty.obj", ""), NULL), -1);
