@@ -144,7 +144,8 @@ static int copy_for(struct making *m, int place, struct knowledge known)
     int last = -1, count = 0;
     for (int i = copies->first[place]; i >= 0; i = copies->items[i].next, count++) {
         last = i;
-        if (m->general || (count > 0 && agree(m, place, copies->items[i].known, known))) {
+        if (m->general
+            || ((count > 0 || !m->kept) && agree(m, place, copies->items[i].known, known))) {
             widen(m, copies->items[i].known, known);
             return i;
         }
@@ -310,15 +311,14 @@ int dag_making_copies(struct making *m)
     find_cuts(m);
     for (int t = 0; t < m->terms; t++)
         known.high[t] = (unsigned char)(dag_is_kept(m->dag, t) ? dag_making_finest(m->dag, t) : 0);
-    m->general = 1;
+    m->general = m->kept || m->most == nodes;
     copies->general = dag_making_entry(m, known);
     make_all(m);
     m->general = 0;
     if (m->most == nodes)
         return 0;
     dag_making_starts(m, known);
-    known = dag_making_knowledge(m);
-    copies->nothing = dag_making_entry(m, known);
+    copies->nothing = dag_making_entry(m, dag_making_knowledge(m));
     make_all(m);
     return (size_t)copies->count <= m->most ? 0 : -1;
 }
@@ -332,6 +332,8 @@ struct copies dag_copies(struct dag *dag, const struct oracle_graph *oracle, int
     m.early = dag_alloc(&dag->arena, terms * sizeof *m.early);
     m.cuts = dag_alloc(&dag->arena, nodes * terms * sizeof *m.cuts);
     m.most = nodes * (size_t)most;
+    for (int t = 0; t < m.terms; t++)
+        m.kept |= dag_is_kept(dag, t);
     if (most > 1)
         dag_making_find_left(&m);
     (void)dag_making_copies(&m);

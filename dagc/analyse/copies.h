@@ -46,8 +46,8 @@ struct copies {
     int start_count;
 };
 
-/* At most `most` copies of each node. The first is general: it has what is known on every path from
- * any start. With one there are no others. */
+/* At most `most` times as many copies as nodes. The first of each node is general: it has what is
+ * known on every path from any start. With `most` 1 there are no others. */
 struct copies dag_copies(struct dag *dag, const struct oracle_graph *oracle, int most);
 
 #endif

@@ -18,6 +18,7 @@ struct making {
     unsigned char *left; /* by decision and term: the level that every path to it leaves; 0: none */
     int terms;
     size_t most; /* copies */
+    int kept;    /* may discussions begin with something? If not, nothing is general */
     int general; /* are the general copies being made? They lead to each other, without looks */
 };
 

@@ -99,6 +99,9 @@ check "one that knows what keep left looks less than half as often" \
     sh -c '[ $((2 * $(cut -d" " -f2 more.checks))) -lt "$(cut -d" " -f2 one.checks)" ]'
 check "too few copies to know anything cost no look" sh -c 'cut -d" " -f2 two.checks | cmp -s - one.again'
 check "a copy stands under a name of its own" grep -q '^copy2_d:' more/meet.c
+# Where decisions read nothing, all discussions begin with nothing, by whichever entry.
+sed 's/^decision keep reads ([^)]*)/decision keep/' "$catalog" >forgets.dag
+check "nothing is kept: one entry's copies serve both" sh -c "'$dagc' -Wno-all --catalog forgets.dag --copies=8 meet.dag -o - >forgets.c && grep -q 'copy2_d:' forgets.c && ! grep -q 'copy2_a:' forgets.c"
 check "without the option the text has no second entry" sh -c '! grep -q refine_first one/meet.c'
 check "all are proved" sh -c "'$dagc' -Wno-all --catalog '$catalog' --prove --copies=8 --instrument meet.dag | grep -q 'proved on'"
 for change in 's/goto copy2_d;/goto copy2_e;/' 's/goto node_a;/goto node_e;/'; do
