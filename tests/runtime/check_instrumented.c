@@ -159,9 +159,9 @@ static unsigned long long checks_of(struct solve *s, const struct scene *scene, 
 }
 
 /* default: the first; tester is too large for one function, which has no copies */
-static const char *const copied[] = {"power",
+static const char *const copied[] = {"bf_guarded",
                                      "bf",
-                                     "bf_guarded",
+                                     "power",
                                      "bfv",
                                      "bracket",
                                      "by_reliability",
