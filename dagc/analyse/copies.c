@@ -1,13 +1,18 @@
 /* copies.c - what paths know of the terms, with a node copied where they disagree.
  *
- * Knowledge of a term is an interval of levels. Forward from the entries, in topological order,
- * each node exists once for each knowledge that a path brings to it, so that a check whose outcome
- * hangs on the path is none: a path that knows and one that does not run through different copies.
+ * Knowledge of a term is an interval of levels. Each node exists once for all that may be known
+ * anywhere: the general copy, which looks at whatever is open. Beside it, forward from what
+ * discussions begin with, in topological order, it exists once for each knowledge that a path
+ * brings to it, so that a check whose outcome hangs on the path is none: a path that knows and one
+ * that does not run through different copies. Discussions begin with nothing, or with what some
+ * decision leaves on every path to it, since what it left is handed back when the pair is discussed
+ * again: one look at all of that at once, and nothing of it is looked at below. Whoever comes with
+ * something else runs through the general copies (copies_starts.c).
+ *
  * Where a tool leaves open what it computed, one look at the level, just behind the call, says
  * which copy is next (a compiler that has inlined the tool knows, and takes the look out); where
- * the host left it open, the look is taken when somebody first asks. Two rules keep the text short:
- * levels that nobody below asks for are not told apart, and beyond `most` copies of a node the
- * nearest serves all others.
+ * the host left it open, the look is taken when somebody first asks. Levels that nobody below asks
+ * for are not told apart, nor are those for which there would be too many copies (copies_told.c).
  *
  * `low` is what writes declare, and may be stated as a fact. `high` is a guess, since a tool may
  * compute terms on its way that it does not name: it decides where copies are made, never what
@@ -18,26 +23,15 @@
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "analyse/copies.h"
+#include "analyse/making.h"
 
-enum { CUTS = 64 }; /* levels above are not told apart */
-
-struct making {
-    struct dag *dag;
-    const struct oracle_graph *oracle;
-    struct copies *copies;
-    uint64_t
-        *cuts; /* by term and place: bit L, somebody from here on asks whether level L is there */
-    int terms, most;
-};
-
-static int finest(const struct dag *dag, int term)
+int dag_making_finest(const struct dag *dag, int term)
 {
     int levels = dag->terms[term].levels.count;
     return levels > 0 ? levels : 1;
 }
 
-static uint64_t bit_of(int level)
+uint64_t dag_making_bit(int level)
 {
     return level > 0 && level < CUTS ? UINT64_C(1) << level : 0;
 }
@@ -49,9 +43,8 @@ static uint64_t *cuts_at(const struct making *m, int place)
 
 /* ---- what is asked for */
 
-/* The levels of a term that the node itself asks for. Without a level any may be asked for: whether
- * there is one at all is what matters. */
-static uint64_t own_cuts(const struct dag *dag, const struct node *node, int term)
+/* Without a level any may be asked for: whether there is one at all is what matters. */
+uint64_t dag_making_asked(const struct dag *dag, const struct node *node, int term)
 {
     const struct tool *tool = &dag->tools[node->tool];
     const struct span *const spans[] = {&node->reads, &tool->reads, &tool->writes};
@@ -59,7 +52,7 @@ static uint64_t own_cuts(const struct dag *dag, const struct node *node, int ter
     for (int s = 0; s < 3; s++)
         for (int i = spans[s]->first; i < spans[s]->first + spans[s]->count; i++)
             if (dag->needs[i].term == term)
-                cuts |= bit_of(dag->needs[i].level > 0 ? dag->needs[i].level : 1);
+                cuts |= dag_making_bit(dag->needs[i].level > 0 ? dag->needs[i].level : 1);
     return cuts;
 }
 
@@ -83,20 +76,21 @@ static void find_cuts(struct making *m)
     for (int place = m->oracle->order.count - 1; place >= 0; place--) {
         const struct node *node = dag_node_at(m->dag, m->oracle, place);
         for (int t = 0; t < m->terms; t++)
-            cuts_at(m, place)[t] = own_cuts(m->dag, node, t) | cuts_below(m, node, t);
+            cuts_at(m, place)[t] =
+                (dag_making_asked(m->dag, node, t) & m->told[t]) | cuts_below(m, node, t);
     }
 }
 
 /* ---- what is known */
 
-static struct knowledge new_knowledge(const struct making *m)
+struct knowledge dag_making_knowledge(const struct making *m)
 {
     struct knowledge known = {dag_alloc(&m->dag->arena, (size_t)m->terms),
                               dag_alloc(&m->dag->arena, (size_t)m->terms)};
     return known;
 }
 
-static void copy_knowledge(const struct making *m, struct knowledge to, struct knowledge from)
+void dag_making_copy(const struct making *m, struct knowledge to, struct knowledge from)
 {
     memcpy(to.low, from.low, (size_t)m->terms);
     memcpy(to.high, from.high, (size_t)m->terms);
@@ -109,9 +103,9 @@ static void pass_node(const struct making *m, const struct node *node, int answe
     for (int t = 0; t < m->terms; t++) {
         int written = dag_written_level(m->dag, &m->dag->tools[node->tool], answer, t);
         int left = dag_left_level(m->dag, node, answer, t);
-        if (own_cuts(m->dag, node, t) == 0)
+        if (dag_making_asked(m->dag, node, t) == 0)
             continue;
-        known.high[t] = (unsigned char)finest(m->dag, t);
+        known.high[t] = (unsigned char)dag_making_finest(m->dag, t);
         if (written > 0)
             known.low[t] = (unsigned char)written;
         else if (left > known.low[t])
@@ -121,17 +115,16 @@ static void pass_node(const struct making *m, const struct node *node, int answe
 
 /* ---- copies */
 
-/* The cuts that lie between two knowledges of the terms: what one of them is told, and not the
- * other. */
-static int distance(const struct making *m, int place, struct knowledge a, struct knowledge b)
+/* Do two knowledges of the terms say the same of all that is asked for from this place on? */
+static int agree(const struct making *m, int place, struct knowledge a, struct knowledge b)
 {
-    int cuts = 0;
     for (int t = 0; t < m->terms; t++)
-        for (int level = 1; level <= finest(m->dag, t) && level < CUTS; level++)
-            if (cuts_at(m, place)[t] & bit_of(level))
-                cuts += ((a.low[t] >= level) != (b.low[t] >= level))
-                        + ((a.high[t] >= level) != (b.high[t] >= level));
-    return cuts;
+        for (int level = 1; level <= dag_making_finest(m->dag, t) && level < CUTS; level++)
+            if (cuts_at(m, place)[t] & dag_making_bit(level)
+                && ((a.low[t] >= level) != (b.low[t] >= level)
+                    || (a.high[t] >= level) != (b.high[t] >= level)))
+                return 0;
+    return 1;
 }
 
 static void widen(const struct making *m, struct knowledge known, struct knowledge by)
@@ -144,28 +137,23 @@ static void widen(const struct making *m, struct knowledge known, struct knowled
     }
 }
 
-/* The copy of the node at this place for what is known: one that is there, a new one, or, when
- * there are `most`, the nearest, which then knows less. */
+/* The copy of the node at this place for what is known, one that is there or a new one. */
 static int copy_for(struct making *m, int place, struct knowledge known)
 {
     struct copies *copies = m->copies;
-    int last = -1, count = 0, nearest = -1, least = 0;
+    int last = -1, count = 0;
     for (int i = copies->first[place]; i >= 0; i = copies->items[i].next, count++) {
-        int d = distance(m, place, copies->items[i].known, known);
-        if (nearest < 0 || d < least) {
-            nearest = i;
-            least = d;
-        }
         last = i;
-    }
-    if (nearest >= 0 && (least == 0 || count == m->most)) {
-        widen(m, copies->items[nearest].known, known);
-        return nearest;
+        if (m->general
+            || ((count > 0 || !m->kept) && agree(m, place, copies->items[i].known, known))) {
+            widen(m, copies->items[i].known, known);
+            return i;
+        }
     }
     copies->items = dag_grow(&m->dag->arena, copies->items, copies->count, sizeof *copies->items);
     struct copy *copy = &copies->items[copies->count];
-    *copy = (struct copy){place, count, -1, 0, 0, NULL, new_knowledge(m)};
-    copy_knowledge(m, copy->known, known);
+    *copy = (struct copy){place, count, -1, 0, 0, NULL, dag_making_knowledge(m)};
+    dag_making_copy(m, copy->known, known);
     if (last >= 0)
         copies->items[last].next = copies->count;
     else
@@ -178,11 +166,11 @@ static int look_at(const struct making *m, const struct node *from, const struct
                    struct knowledge known)
 {
     uint64_t cuts = cuts_at(m, to->order)[term];
-    uint64_t here = own_cuts(m->dag, to, term) ? cuts_below(m, to, term) : 0;
-    if (from != NULL && own_cuts(m->dag, from, term))
+    uint64_t here = dag_making_asked(m->dag, to, term) ? cuts_below(m, to, term) : 0;
+    if (from != NULL && dag_making_asked(m->dag, from, term))
         here |= cuts;
     for (int level = known.low[term] + 1; level <= known.high[term] && level < CUTS; level++)
-        if (here & bit_of(level))
+        if (here & dag_making_bit(level))
             return level;
     return 0;
 }
@@ -192,7 +180,7 @@ static int is_left_open(const struct dag *dag, const struct need *need, int any,
                         struct knowledge known)
 {
     int low = known.low[need->term], high = known.high[need->term];
-    if (any && need->level_name == NULL && finest(dag, need->term) > 1)
+    if (any && need->level_name == NULL && dag_making_finest(dag, need->term) > 1)
         return high > 0 && low == 0;
     return low < need->level && high >= need->level;
 }
@@ -220,7 +208,7 @@ static int new_way(struct making *m, struct way way)
 static int make_way(struct making *m, const struct node *from, const struct node *to, int term,
                     struct knowledge known)
 {
-    for (; term < m->terms && m->most > 1; term++) {
+    for (; term < m->terms && !m->general; term++) {
         int cut = look_at(m, from, to, term, known);
         if (cut == 0)
             continue;
@@ -245,8 +233,8 @@ static void note_looks(struct making *m, const struct node *from, int way, struc
     struct way *w = &m->copies->ways[way];
     if (w->cut == 0)
         return;
-    w->checked =
-        !own_cuts(m->dag, from, w->term) || (known.low[w->term] == 0 && known.high[w->term] > 0);
+    w->checked = !dag_making_asked(m->dag, from, w->term)
+                 || (known.low[w->term] == 0 && known.high[w->term] > 0);
     note_looks(m, from, w->below, known);
     note_looks(m, from, w->above, known);
 }
@@ -262,17 +250,24 @@ static void note_entries(struct copies *copies, int way)
     }
 }
 
+int dag_making_entry(struct making *m, struct knowledge known)
+{
+    int way = make_way(m, NULL, dag_node_at(m->dag, m->oracle, 0), 0, known);
+    note_entries(m->copies, way);
+    return way;
+}
+
 /* The ways out of a copy; all that lead to it have been made. */
 static void make_ways(struct making *m, int at)
 {
     const struct node *node = dag_node_at(m->dag, m->oracle, m->copies->items[at].place);
-    struct knowledge known = new_knowledge(m), other_known = new_knowledge(m);
+    struct knowledge known = dag_making_knowledge(m), other_known = dag_making_knowledge(m);
     int *ways = dag_alloc(&m->dag->arena, (size_t)node->arcs.count * sizeof *ways);
     m->copies->items[at].ways = ways;
     m->copies->items[at].checks = count_checks(m->dag, node, m->copies->items[at].known);
     for (int a = 0; a < node->arcs.count; a++) {
         const struct target *target = &m->dag->arcs[node->arcs.first + a].target;
-        copy_knowledge(m, known, m->copies->items[at].known);
+        dag_making_copy(m, known, m->copies->items[at].known);
         pass_node(m, node, a, known);
         ways[a] = -1;
         for (int b = 0; b < node->arcs.count; b++) { /* answers with one target have one way */
@@ -282,7 +277,7 @@ static void make_ways(struct making *m, int at)
                 continue;
             if (b < a)
                 ways[a] = ways[b];
-            copy_knowledge(m, other_known, m->copies->items[at].known);
+            dag_making_copy(m, other_known, m->copies->items[at].known);
             pass_node(m, node, b, other_known);
             widen(m, known, other_known);
         }
@@ -295,27 +290,56 @@ static void make_ways(struct making *m, int at)
     }
 }
 
+static void make_all(struct making *m)
+{
+    for (int place = 0; place < m->oracle->order.count; place++)
+        for (int i = m->copies->first[place]; i >= 0 && (size_t)m->copies->count <= m->most;
+             i = m->copies->items[i].next)
+            if (m->copies->items[i].ways == NULL)
+                make_ways(m, i);
+}
+
+int dag_making_copies(struct making *m)
+{
+    struct copies *copies = m->copies;
+    size_t nodes = (size_t)m->oracle->order.count;
+    struct knowledge known = dag_making_knowledge(m);
+    copies->first = dag_alloc(&m->dag->arena, nodes * sizeof *copies->first);
+    for (size_t i = 0; i < nodes; i++)
+        copies->first[i] = -1;
+    copies->count = copies->way_count = 0;
+    find_cuts(m);
+    for (int t = 0; t < m->terms; t++)
+        known.high[t] = (unsigned char)(dag_is_kept(m->dag, t) ? dag_making_finest(m->dag, t) : 0);
+    m->general = m->kept || m->most == nodes;
+    copies->general = dag_making_entry(m, known);
+    make_all(m);
+    m->general = 0;
+    if (m->most == nodes)
+        return 0;
+    dag_making_starts(m, known);
+    copies->nothing = dag_making_entry(m, dag_making_knowledge(m));
+    make_all(m);
+    return (size_t)copies->count <= m->most ? 0 : -1;
+}
+
 struct copies dag_copies(struct dag *dag, const struct oracle_graph *oracle, int most)
 {
     struct copies copies = {0};
-    struct making m = {dag, oracle, &copies, NULL, dag->term_count, most};
-    size_t nodes = (size_t)oracle->order.count;
-    m.cuts = dag_alloc(&dag->arena, nodes * (size_t)m.terms * sizeof *m.cuts);
-    copies.first = dag_alloc(&dag->arena, nodes * sizeof *copies.first);
-    for (size_t i = 0; i < nodes; i++)
-        copies.first[i] = -1;
-    find_cuts(&m);
-    struct knowledge known = new_knowledge(&m);
-    const struct node *start = dag_node_at(dag, oracle, 0);
-    copies.entry[ENTRY_FIRST] = make_way(&m, NULL, start, 0, known);
+    size_t nodes = (size_t)oracle->order.count, terms = (size_t)dag->term_count;
+    struct making m = {.dag = dag, .oracle = oracle, .copies = &copies, .terms = dag->term_count};
+    m.told = dag_alloc(&dag->arena, terms * sizeof *m.told);
+    m.early = dag_alloc(&dag->arena, terms * sizeof *m.early);
+    m.cuts = dag_alloc(&dag->arena, nodes * terms * sizeof *m.cuts);
+    m.most = nodes * (size_t)most;
     for (int t = 0; t < m.terms; t++)
-        if (dag_is_kept(dag, t))
-            known.high[t] = (unsigned char)finest(dag, t);
-    copies.entry[ENTRY_AGAIN] = make_way(&m, NULL, start, 0, known);
-    for (int e = 0; e < ENTRIES; e++)
-        note_entries(&copies, copies.entry[e]);
-    for (int place = 0; place < oracle->order.count; place++)
-        for (int i = copies.first[place]; i >= 0; i = copies.items[i].next)
-            make_ways(&m, i);
+        m.kept |= dag_is_kept(dag, t);
+    if (most > 1)
+        dag_making_find_left(&m);
+    (void)dag_making_copies(&m);
+    if (most > 1) {
+        dag_making_tell_apart(&m);
+        (void)dag_making_copies(&m);
+    }
     return copies;
 }

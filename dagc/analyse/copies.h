@@ -27,8 +27,10 @@ struct way {
     int checked; /* the look is a check of the data manager: no tool before it has settled it */
 };
 
-/* A discussion begins with nothing known; or with what an earlier one left, or not. */
-enum entry { ENTRY_FIRST, ENTRY_AGAIN, ENTRIES };
+/* Is the term at the level? Then the number of a start is larger by `weight`. */
+struct look {
+    int term, level, weight;
+};
 
 struct copies {
     struct copy *items;
@@ -36,11 +38,16 @@ struct copies {
     int *first; /* by place: its first copy, the others by `next` */
     struct way *ways;
     int way_count;
-    int entry[ENTRIES]; /* in ways */
+    int nothing; /* the way in where nothing is known */
+    int general; /* for what is not foreseen: to the general copies */
+    struct look *looks;
+    int look_count;
+    int *starts; /* by number: the way in, in ways */
+    int start_count;
 };
 
-/* At most `most` copies of each node. With one there are no looks, and each node has what is known
- * on every path. */
+/* At most `most` times as many copies as nodes. The first of each node is general: it has what is
+ * known on every path from any start. With `most` 1 there are no others. */
 struct copies dag_copies(struct dag *dag, const struct oracle_graph *oracle, int most);
 
 #endif

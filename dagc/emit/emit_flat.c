@@ -479,8 +479,49 @@ static void print_is_first(const struct flat *flat)
             dag_print(flat->out, "    first &= d.terms.%s_level == 0;\n", flat->dag->terms[i].name);
 }
 
+static int same_way(const struct copies *copies, int a, int b)
+{
+    return copies->ways[a].cut == 0 && copies->ways[b].cut == 0
+           && copies->ways[a].below == copies->ways[b].below;
+}
+
+/* All that a discussion may begin with, by one look: the levels as the digits of a number. */
+static void print_starts(const struct flat *flat)
+{
+    const struct copies *copies = &flat->copies;
+    struct text *out = flat->out;
+    if (copies->look_count == 0) {
+        dag_print(out, "    ");
+        print_way(flat, copies->general, 4);
+        return;
+    }
+    if (flat->flavour == FLAVOUR_COUNTED)
+        dag_print(out, "    counters->checks++;\n");
+    dag_print(out, "    switch (");
+    for (int i = 0; i < copies->look_count; i++) {
+        const struct look *look = &copies->looks[i];
+        const struct term *term = &flat->dag->terms[look->term];
+        dag_print(out, "%s(d.terms.%s_level >= ", i > 0 ? "\n            + " : "", term->name);
+        print_constant(out, term->name, level_name(flat->dag, term, look->level));
+        dag_print(out, ") * %d", look->weight);
+    }
+    dag_print(out, ") {\n");
+    for (int i = 0; i < copies->start_count; i++)
+        if (copies->starts[i] != copies->general) {
+            int next = i + 1 < copies->start_count ? copies->starts[i + 1] : copies->general;
+            dag_print(out, "    case %d:\n", i);
+            if (same_way(copies, copies->starts[i], next))
+                continue;
+            dag_print(out, "        ");
+            print_way(flat, copies->starts[i], 8);
+        }
+    dag_print(out, "    default:\n        ");
+    print_way(flat, copies->general, 8);
+    dag_print(out, "    }\n");
+}
+
 /* Terms that no decision reads are unknown at first; with copies, so are the others in a first
- * discussion, which enters where they are. */
+ * discussion, which enters where they are. Whoever begins with more enters where that is known. */
 static void print_absent(const struct flat *flat)
 {
     for (int i = 0; i < flat->dag->term_count; i++)
@@ -495,9 +536,9 @@ static void print_absent(const struct flat *flat)
         if (dag_is_kept(flat->dag, i))
             print_unknown(flat, i, "        ");
     dag_print(flat->out, "        ");
-    print_way(flat, flat->copies.entry[ENTRY_FIRST], 8);
-    dag_print(flat->out, "    }\n    ");
-    print_way(flat, flat->copies.entry[ENTRY_AGAIN], 4);
+    print_way(flat, flat->copies.nothing, 8);
+    dag_print(flat->out, "    }\n");
+    print_starts(flat);
 }
 
 static void print_watch_variables(const struct flat *flat)
@@ -625,8 +666,12 @@ static struct flat open_flat(struct dag *dag, struct text *out, const struct ora
         for (int k = 0; (term = term_of(dag, node_at(&flat, i), k)) >= 0; k++)
             flat.handled[term] = 1;
     find_labels(&flat);
-    for (int e = 0; flat.most > 1 && e < ENTRIES; e++)
-        label_way(&flat, flat.copies.entry[e]);
+    if (flat.most > 1) {
+        label_way(&flat, flat.copies.general);
+        label_way(&flat, flat.copies.nothing);
+        for (int i = 0; i < flat.copies.start_count; i++)
+            label_way(&flat, flat.copies.starts[i]);
+    }
     return flat;
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_copies.sh - dagc --copies: the same decisions, terms and calls from every start as without, and no
-# check of the data manager in a first discussion. DAGC names the command.
+# check_copies.sh - dagc --copies: the same decisions, terms and calls from every start as without, no
+# check of the data manager in a first discussion, and one in those that begin with what a decision left. DAGC names the command.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 
@@ -28,7 +28,7 @@ int main(int argc, char **argv)
 {
     (void)argv;
     struct meet_parameters p;
-    unsigned long long checks = 0;
+    unsigned long long checks = 0, again = 0;
     unsigned random = 1;
     meet_defaults(&p);
     for (int run = 0; run < 20000; run++) {
@@ -68,8 +68,9 @@ int main(int argc, char **argv)
         if (meet_refine_counted(&p, &c, &counters) != decision)
             printf("counted: another decision\n");
         checks += start == 0 ? counters.checks : 0;
+        again += start == 3 ? counters.checks : 0;
     }
-    fprintf(stderr, "%s\n", checks == 0 ? "none" : "some");
+    fprintf(stderr, "%s %llu\n", checks == 0 ? "none" : "some", again);
     return argc > 1 && checks > 0;
 }
 END
@@ -87,13 +88,20 @@ check "one of each" make_one one 1 cc -O1
 check "copies" make_one more 8 cc -O2
 check "two of each" make_one two 2 cc -O1
 one/host >one.txt 2>one.checks
+cut -d" " -f2 one.checks >one.again
 for which in two more; do
     check "$which: it runs" sh -c "$which/host >$which.txt 2>$which.checks"
     check "$which: the same from every start" cmp one.txt $which.txt
 done
 check "without copies, a first discussion looks" grep -q some one.checks
 check "with them it does not" grep -q none more.checks
+check "one that knows what keep left looks less than half as often" \
+    sh -c '[ $((2 * $(cut -d" " -f2 more.checks))) -lt "$(cut -d" " -f2 one.checks)" ]'
+check "too few copies to know anything cost no look" sh -c 'cut -d" " -f2 two.checks | cmp -s - one.again'
 check "a copy stands under a name of its own" grep -q '^copy2_d:' more/meet.c
+# Where decisions read nothing, all discussions begin with nothing, by whichever entry.
+sed 's/^decision keep reads ([^)]*)/decision keep/' "$catalog" >forgets.dag
+check "nothing is kept: one entry's copies serve both" sh -c "'$dagc' -Wno-all --catalog forgets.dag --copies=8 meet.dag -o - >forgets.c && grep -q 'copy2_d:' forgets.c && ! grep -q 'copy2_a:' forgets.c"
 check "without the option the text has no second entry" sh -c '! grep -q refine_first one/meet.c'
 check "all are proved" sh -c "'$dagc' -Wno-all --catalog '$catalog' --prove --copies=8 --instrument meet.dag | grep -q 'proved on'"
 for change in 's/goto copy2_d;/goto copy2_e;/' 's/goto node_a;/goto node_e;/'; do
