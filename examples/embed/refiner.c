@@ -343,6 +343,10 @@
 /* of the fewest rays of mending: leaves are made for so many landings at the least, as it shows
  * only later how many rays are cast. Chosen: two doublings */
 #define REFINER_DETAIL_LANDINGS 4.0
+/* of a radiosity. Quarters whose light is nearer than that to their parent's linear function say
+ * nothing: chosen, a quarter of a step of pictures of 8 bits and a sixtieth of what mending aims at
+ * on places (RAD_CORRECT_PLACES) */
+#define REFINER_DETAIL_SAYS 1e-3
 /* of the scene's area. What links and particles are compared on: the cells that solutions are
  * judged by, tests/tables/cell_error.c */
 #define REFINER_PLACE_SHARE 1e-4
@@ -352,9 +356,10 @@
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define REFINER_DIM_GOAL 0.0255
-/* of the rays of mending. So many may be spent on dim polygons, all together; chosen: mending loses
- * a twentieth of its accuracy by them where all are spent */
-#define REFINER_DIM_RAYS 0.1
+/* of the rays of mending. So many may be spent on dim polygons at the most, all together: mending
+ * then takes twice as many at worst. DIM_GOAL takes none to three tenths on the scenes at hand but
+ * panels, eight tenths */
+#define REFINER_DIM_RAYS 1.0
 /* ---- account of error (engine) */
 
 /* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats
