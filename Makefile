@@ -263,7 +263,7 @@ clean:
 	rm -rf $(BUILD)
 
 include install.mk
--include $(OBJECTS:.o=.d) $(TESTS:=.d)
+-include $(OBJECTS:.o=.d) $(TESTS:=.d) $(wildcard $(BUILD)/tests/*/*.d)
 
 # Rows of view factors against rays, in a room of 6,528 faces or any other number.
 .PHONY: factor-rays

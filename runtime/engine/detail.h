@@ -10,9 +10,9 @@
  * no link is added. A solution of constants stays as it is. Returns 0, or -1 when out of memory. */
 int detail_leaves(struct solve *s, double landings);
 
-/* Once the solution is mended: of the elements made since there were `first`, drop those whose light
- * is their parent's linear function, so that only such quarters stay as particles had something to
- * say of. Returns 0, or -1 when out of memory. */
+/* Once the solution is mended: of the elements made since there were `first`, drop those whose
+ * light is their parent's linear function, so that only such quarters stay as particles had
+ * something to say of. Returns 0, or -1 when out of memory. */
 int detail_merge(struct solve *s, uint32_t first);
 
 /* Split them until none is larger than PLACE_SHARE of the scene's area; the same holds. */

@@ -4,11 +4,12 @@
  * would be farther off: e^2 < s^2 / L, s^2 that of one ray (engine/ray_split.c). So links come
  * coarse first, with thresholds times COARSE, and few particles measure e and s. Finer links, of L'
  * rays and error e', spare s^2 (1 / e'^2 - 1 / e^2) rays. Were it rays that make the error, e^2
- * would fall with 1 / L; where elements make it, it falls more slowly: with L^-.4 on maze_8, office3
- * and td, whose e^2 halves as L grows six times. Then s^2 ((L' / L)^.4 - 1) / e^2 rays are spared,
- * fewer than L' for every L' where e^2 is above s^2 / (FINER L): particles are the cheaper way, and
- * the coarse links stay. Finer links are solved for anew: what was given up coarsely is not missed
- * then. All follows from counts, so the choice is the same on any machine. [Derived here]
+ * would fall with 1 / L; where elements make it, it falls more slowly: with L^-.4 on maze_8,
+ * office3 and td, whose e^2 halves as L grows six times. Then s^2 ((L' / L)^.4 - 1) / e^2 rays are
+ * spared, fewer than L' for every L' where e^2 is above s^2 / (FINER L): particles are the cheaper
+ * way, and the coarse links stay. Finer links are solved for anew: what was given up coarsely is
+ * not missed then. All follows from counts, so the choice is the same on any machine. [Derived
+ * here]
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "commands/coarse_first.h"

@@ -281,17 +281,20 @@ static double area_of(const struct plain_face *f, int *flat)
     length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     *flat = f->corners >= 3 && isfinite(length) && length > 1e-5 * longest * longest
             && far < 1e6 * longest && longest > 1e-15;
+    double round = 0; /* all turns; a convex outline makes one */
     for (uint32_t i = 0; i < f->corners && *flat && f->corners > 3; i++) {
         const double *p = f->corner[i], *q = f->corner[(i + 1) % f->corners],
                      *r = f->corner[(i + 2) % f->corners];
-        double turn = 0, high = 0;
+        double turn = 0, high = 0, on = 0;
         for (int k = 0; k < 3; k++) {
             const int a = (k + 1) % 3, b = (k + 2) % 3;
             turn += normal[k] / length
                     * ((q[a] - p[a]) * (r[b] - q[b]) - (q[b] - p[b]) * (r[a] - q[a]));
             high += normal[k] / length * (p[k] - f->corner[0][k]);
+            on += (q[k] - p[k]) * (r[k] - q[k]);
         }
-        *flat = turn > 1e-9 * longest * longest && fabs(high) < 1e-12 * longest;
+        round += atan2(turn, on);
+        *flat = turn > 1e-9 * longest * longest && fabs(high) < 1e-12 * longest && round < 7;
     }
     return length;
 }
