@@ -218,7 +218,7 @@ DAMAGED    = $(BUILD)/damaged
 fuzz-scenes: commands
 	@$(MAKE) --no-print-directory $(BUILD)/tests/solver/check_damaged
 	@mkdir -p $(DAMAGED)
-	FUZZ_FILES=$(FUZZ_FILES) FUZZ_FOUND=$(DAMAGED)/found $(BUILD)/tests/solver/check_damaged
+	FUZZ_FILES=$(FUZZ_FILES) FUZZ_SECONDS=0 FUZZ_FOUND=$(DAMAGED)/found $(BUILD)/tests/solver/check_damaged
 	@$(MAKE) --no-print-directory BUILD=$(DAMAGED) OPT="-O1 -g" \
 	    SANITIZE="-fsanitize=address,undefined -fno-sanitize-recover=undefined" $(DAMAGED)/tests/solver/check_damaged
 	ASAN_OPTIONS=allocator_may_return_null=1 FUZZ_SEED=2 FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_FOUND=$(DAMAGED)/found $(DAMAGED)/tests/solver/check_damaged
