@@ -417,9 +417,14 @@ static void check_finite(const struct open_scene *s)
 {
     const struct scene_file *f = &s->file;
     const double *areas = radGetScenePolygonAreas(s->scene);
-    for (size_t i = 0; i < 3 * f->position_count; i++)
-        if (!isfinite(f->positions[i]))
-            wrong("position", (uint32_t)(i / 3), f->positions[i], 0);
+    size_t corners = 0;
+    for (uint32_t i = 0; i < f->polygon_count; i++)
+        corners += f->sizes[i];
+    for (size_t i = 0; i < 3 * corners; i++) { /* what no face has may be what it likes */
+        const double x = f->positions[3 * (size_t)f->indices[i / 3] + i % 3];
+        if (!isfinite(x))
+            wrong("corner", (uint32_t)(i / 3), x, 0);
+    }
     for (uint32_t i = 0; i < f->polygon_count; i++) {
         const struct RadMaterial *m = &f->materials[f->polygon_materials[i]];
         if (!(areas[i] >= 0 && areas[i] <= DBL_MAX))
