@@ -56,12 +56,6 @@ struct finder {
     size_t out_count, out_capacity;
 };
 
-static int is_pair(const struct scene *s, uint32_t front)
-{
-    const struct face *f = &s->faces[front];
-    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input;
-}
-
 static int emits(const struct scene *s, uint32_t face)
 {
     const double *e = s->materials[s->faces[face].material].exitance;
@@ -78,8 +72,9 @@ static int ranks_before(const struct scene *s, uint32_t a, uint32_t b)
 static void sheet_of(struct sheet *sheet, const struct scene *s, uint32_t index)
 {
     struct face *f = &sheet->face;
-    *sheet = (struct sheet){
-        .face = s->faces[index], .index = index, .sides = is_pair(s, index) ? FRONT | BACK : FRONT};
+    *sheet = (struct sheet){.face = s->faces[index],
+                            .index = index,
+                            .sides = scene_is_pair(s, index) ? FRONT | BACK : FRONT};
     sheet->area = polygon_normal(f->vertex, f->vertices, sheet->normal);
     sheet->size = polygon_size(f->vertex, f->vertices);
     double centre[3] = {0};
@@ -314,7 +309,7 @@ static int replace_faces(struct scene *s, const struct loss *losses, size_t coun
         if (x->count)
             memcpy(&faces[n], &x->by->out[x->first], x->count * sizeof *faces);
         n += (uint32_t)x->count;
-        i += (uint32_t)is_pair(s, i);
+        i += (uint32_t)scene_is_pair(s, i);
         next++;
     }
     free(s->faces);
