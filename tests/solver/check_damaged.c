@@ -42,6 +42,7 @@ static const struct {
     {"text.ply", NULL},
     {"little.ply", NULL},
     {"big.ply", NULL},
+    {"strips.ply", NULL},
     {"text.stl", NULL},
     {"bytes.stl", NULL},
     {"room.off", NULL},
