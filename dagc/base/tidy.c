@@ -3,6 +3,7 @@
 #define _XOPEN_SOURCE 700
 
 #include <signal.h>
+#include <stdatomic.h>
 #include <stddef.h>
 
 #include "base/tidy.h"
@@ -29,6 +30,7 @@ void dag_tidy_push(struct tidy *tidy)
     if (!watching)
         return;
     tidy->below = top;
+    atomic_signal_fence(memory_order_release); /* a handler that sees it sees it whole */
     top = tidy;
 }
 

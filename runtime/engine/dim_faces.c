@@ -158,8 +158,8 @@ static double light_known(const struct dim_faces *d, const struct dim_polygon *p
     return fmax((1 - weight) * p->light + weight * found, sqrt((1 - weight) * p->variance));
 }
 
-/* How many paths more make its standard error that share of its light, but as many as are believed;
- */
+/* How many paths more make its standard error that share of its light. No fewer than ENOUGH times
+ * the first look in all: what fewer say is not taken. */
 static double paths_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
 {
     double goal = share * light_known(d, p),

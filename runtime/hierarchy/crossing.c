@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "geometry.h"
+#include "kernel/constants.h"
 #include "util/array.h"
 
 /* An edge from its lower end to its upper one, in the plane (m). */
@@ -241,7 +242,7 @@ int crossing_parts(struct round_parts *parts, double (*vertex)[3], uint32_t coun
                                                         .end = {end[low], end[!low]},
                                                         .up = low ? 1 : -1};
         }
-        result = scan_bands(&s, parts, 1e-12 * size);
+        result = scan_bands(&s, parts, CROSSING_TOUCH * size);
     }
     free(s.edges);
     free(s.heights);

@@ -64,13 +64,6 @@ struct cutter {
     size_t out_count, out_capacity;
 };
 
-static int is_pair(const struct scene *s, uint32_t front)
-{
-    const struct face *f = &s->faces[front];
-    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input
-           && f[1].vertices == f->vertices;
-}
-
 /* Heights of a part's corners over a line (m); corners that near to it are on it. */
 static void heights_over(const struct cut_frame *c, const struct part *p, const struct cut_line *l,
                          double h[CORNERS])
@@ -224,7 +217,7 @@ static int cut_face(struct cutter *c, uint32_t i)
 {
     const struct scene *s = c->scene;
     size_t before = c->out_count;
-    if (!cut_frame_of(&c->frame, s->faces, i, is_pair(s, i), s->precision))
+    if (!cut_frame_of(&c->frame, s->faces, i, scene_is_pair(s, i), s->precision))
         return 0;
     if (contacts_collect(&c->contacts, &c->frame, s->faces, c->tree) < 0)
         return -1;
@@ -278,8 +271,8 @@ static int replace_faces(struct scene *scene, const struct cutter *cutters, int 
         memcpy(&faces[n], &x->by->out[x->first], x->count * sizeof *faces);
         n += (uint32_t)x->count;
         scene->cut++;
-        scene->parts += (uint32_t)(x->count >> is_pair(scene, i));
-        i += (uint32_t)is_pair(scene, i);
+        scene->parts += (uint32_t)(x->count >> scene_is_pair(scene, i));
+        i += (uint32_t)scene_is_pair(scene, i);
         next++;
     }
     free(all);
@@ -299,7 +292,7 @@ static void cut_some(const void *all, size_t from, size_t to)
 {
     const struct all_cutters *c = all;
     for (uint32_t i = (uint32_t)from; i < to; i++)
-        if (!*c->failed && !(i > 0 && is_pair(c->scene, i - 1))
+        if (!*c->failed && !(i > 0 && scene_is_pair(c->scene, i - 1))
             && cut_face(&c->cutters[thread_pool_number()], i) < 0)
             *c->failed = 1;
 }

@@ -34,7 +34,7 @@ struct sheet {
 
 /* What becomes of a face that is covered. */
 struct loss {
-    uint32_t face, on; /* the polygon it lies on; of several the one that ranks first */
+    uint32_t face, on; /* what it lies on; of several that cover a part each the first by rank */
     double area;       /* m2, of both sides */
     size_t first, count;
     const struct finder *by;
@@ -56,12 +56,6 @@ struct finder {
     size_t out_count, out_capacity;
 };
 
-static int is_pair(const struct scene *s, uint32_t front)
-{
-    const struct face *f = &s->faces[front];
-    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input;
-}
-
 static int emits(const struct scene *s, uint32_t face)
 {
     const double *e = s->materials[s->faces[face].material].exitance;
@@ -78,8 +72,9 @@ static int ranks_before(const struct scene *s, uint32_t a, uint32_t b)
 static void sheet_of(struct sheet *sheet, const struct scene *s, uint32_t index)
 {
     struct face *f = &sheet->face;
-    *sheet = (struct sheet){
-        .face = s->faces[index], .index = index, .sides = is_pair(s, index) ? FRONT | BACK : FRONT};
+    *sheet = (struct sheet){.face = s->faces[index],
+                            .index = index,
+                            .sides = scene_is_pair(s, index) ? FRONT | BACK : FRONT};
     sheet->area = polygon_normal(f->vertex, f->vertices, sheet->normal);
     sheet->size = polygon_size(f->vertex, f->vertices);
     double centre[3] = {0};
@@ -272,6 +267,18 @@ static int by_face(const void *a, const void *b)
     return (x->face > y->face) - (x->face < y->face);
 }
 
+/* The face that a loss is told to lie on. One that covers it wholly may be covered wholly itself;
+ * what covers that ranks before it, so the way ends, and covers this as well. */
+static uint32_t stays_on(const struct loss *losses, size_t count, const struct loss *x)
+{
+    for (const struct loss *on = x; on && !on->count;) {
+        const struct loss key = {.face = x->on};
+        on = bsearch(&key, losses, count, sizeof *losses, by_face);
+        x = on && !on->count ? on : x;
+    }
+    return x->on;
+}
+
 /* Put what is left in the places of the faces. Areas of polygons are those of their faces: of two
  * sides that are no longer equal the mean. */
 static int replace_faces(struct scene *s, const struct loss *losses, size_t count, size_t out)
@@ -293,7 +300,8 @@ static int replace_faces(struct scene *s, const struct loss *losses, size_t coun
         }
         uint32_t polygon = s->faces[i].input;
         if (!lost[polygon] && s->overlaps < RAD_OVERLAPS_NAMED)
-            s->overlap[s->overlaps] = (struct RadOverlap){polygon, s->faces[x->on].input};
+            s->overlap[s->overlaps] =
+                (struct RadOverlap){polygon, s->faces[stays_on(losses, count, x)].input};
         s->overlaps += !lost[polygon];
         s->overlap_area += x->area;
         s->areas[polygon] = 0;
@@ -301,7 +309,7 @@ static int replace_faces(struct scene *s, const struct loss *losses, size_t coun
         if (x->count)
             memcpy(&faces[n], &x->by->out[x->first], x->count * sizeof *faces);
         n += (uint32_t)x->count;
-        i += (uint32_t)is_pair(s, i);
+        i += (uint32_t)scene_is_pair(s, i);
         next++;
     }
     free(s->faces);

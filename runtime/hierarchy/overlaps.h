@@ -11,9 +11,9 @@
 
 #include "hierarchy/scene.h"
 
-/* Take off the scene's faces what is covered, on so many threads. `tree` is over the
- * faces. Sets scene->overlaps, what belongs to it, and areas of the
- * polygons. Returns how many faces have changed, or -1 when out of memory; then nothing has. */
+/* Take off the scene's faces what is covered, on so many threads. `tree` is over the faces. Sets
+ * scene->overlaps, what belongs to it, and areas of the polygons. Returns how many faces have
+ * changed, or -1 when out of memory; then nothing has. */
 long overlaps_take(struct scene *scene, const struct bvh *tree, int threads);
 
 #endif

@@ -45,10 +45,18 @@ struct scene_error {
 
 /* Make a scene of polygons and materials, which are borrowed for the call alone, on so many threads
  * (0: as many as there are processors). Polygons without area, or with fewer than three corners,
- * are dropped and counted. Returns 0, or -1; then *scene is empty and *error says why. */
+ * are dropped, and what others cover is taken off (overlaps.h); both are counted. Returns 0, or -1;
+ * then *scene is empty and *error says why. */
 int scene_build(struct scene *scene, const struct RadPolygons *polygons,
                 const struct RadMaterial *materials, uint32_t material_count, int threads,
                 struct scene_error *error);
 void scene_free(struct scene *scene);
+
+/* Is it the front of a face with two sides, whose far side is the next face? */
+static inline int scene_is_pair(const struct scene *s, uint32_t front)
+{
+    const struct face *f = &s->faces[front];
+    return !f->back && front + 1 < s->face_count && f[1].back && f[1].input == f->input;
+}
 
 #endif

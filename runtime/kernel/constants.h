@@ -156,6 +156,10 @@
 /* of its area. A polygon of which ear clipping loses more than that crosses itself; less is what
  * corners rounded to a millionth of it do. Chosen: far above the rounding of the sums */
 #define POLYGON_LOST 1e-6
+/* of the size of a polygon whose outline crosses itself. Heights and edges no farther apart are
+ * one: far above what a crossing's place loses in rounding, far below what coordinates tell. Chosen
+ */
+#define CROSSING_TOUCH 1e-12
 
 /* Faces cut where others stand (hierarchy/cut_faces.c); `size` is the longest diagonal of the
  * face that is cut. */

@@ -244,7 +244,7 @@ static int add_outputs(struct named_files *f, const struct options *o)
     return beside ? add_output(f, with_ending(o->out, beside), 1) : 0;
 }
 
-/* ---- */
+/* ---- may they be written? */
 
 /* Returns 0 or the exit status. */
 static int check(const struct named_files *f, size_t i)

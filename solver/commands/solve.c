@@ -196,7 +196,8 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     const int unfinished = solved_status(&s.report, o->scene);
     if (s.report.absorbed > (1 + GAIN_TOLD) * s.report.emitted)
         report_warning(o->scene, 0,
-                       "%.2g %% more is absorbed than emitted, which is error: use finer links",
+                       "%.2g %% more is absorbed than emitted, which is error: use finer links "
+                       "(smaller thresholds, --set)",
                        100 * (s.report.absorbed / s.report.emitted - 1));
     if (!o->quiet) {
         measured_warn(&measured, o->scene);

@@ -220,6 +220,32 @@ static void print_rows(const struct options *o, const struct RadReport *r)
                r->closed > 0 ? "; they take the mean of their face" : "");
 }
 
+/* What oracles that rank, bound or aim tell besides. */
+static void print_aims(const struct options *o, const struct RadReport *r)
+{
+    if (r->importance.sweeps && !o->view_given)
+        printf("impact    of a watt that leaves a surface come %.3g W at all surfaces in the mean, "
+               "%.3g at the most; %d of the sweeps\n",
+               r->importance.mean, r->importance.largest, r->importance.sweeps);
+    else if (r->importance.sweeps)
+        printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
+               "%d of the sweeps\n",
+               r->importance.seen, r->importance.mean, r->importance.largest, r->importance.sweeps);
+    if (r->ranking.asked)
+        printf("ranked    error times impact of all links %.3g W, of the worst that can be split "
+               "%.3g W\n",
+               r->ranking.all, r->ranking.worst);
+    if (r->bracket.solves)
+        printf("bracket   proved: the radiosities of all surfaces come to %.6g W at least and %.6g "
+               "W at the most\n",
+               r->bracket.lower, r->bracket.upper);
+    if (r->tolerance.target > 0)
+        printf("control   estimated %.3g W/m2 at the most, %.3g were asked for; above that are "
+               "%.3g m2%s\n",
+               r->tolerance.largest, r->tolerance.target, r->tolerance.area,
+               r->tolerance.area > 0 ? ", which nothing more can split" : "");
+}
+
 void summary_print(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -250,27 +276,7 @@ void summary_print(const struct summary *s)
             "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
             "area, where a solid stands on a part\n",
             r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
-    if (r->importance.sweeps && !s->options->view_given)
-        printf("impact    of a watt that leaves a surface come %.3g W at all surfaces in the mean, "
-               "%.3g at the most; %d of the sweeps\n",
-               r->importance.mean, r->importance.largest, r->importance.sweeps);
-    else if (r->importance.sweeps)
-        printf("view      %.4g m2 in the picture; importance %.3g in the mean, %.3g at the most; "
-               "%d of the sweeps\n",
-               r->importance.seen, r->importance.mean, r->importance.largest, r->importance.sweeps);
-    if (r->ranking.asked)
-        printf("ranked    error times impact of all links %.3g W, of the worst that can be split "
-               "%.3g W\n",
-               r->ranking.all, r->ranking.worst);
-    if (r->bracket.solves)
-        printf("bracket   proved: the radiosities of all surfaces come to %.6g W at least and %.6g "
-               "W at the most\n",
-               r->bracket.lower, r->bracket.upper);
-    if (r->tolerance.target > 0)
-        printf("control   estimated %.3g W/m2 at the most, %.3g were asked for; above that are "
-               "%.3g m2%s\n",
-               r->tolerance.largest, r->tolerance.target, r->tolerance.area,
-               r->tolerance.area > 0 ? ", which nothing more can split" : "");
+    print_aims(s->options, r);
     printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", r->emitted, r->absorbed,
            100 * fabs(imbalance(r)),
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");

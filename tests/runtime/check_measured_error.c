@@ -277,6 +277,15 @@ START_TEST(test_mends)
 }
 END_TEST
 
+/* A furnished room, solved coarsely, with slopes. */
+static void furnished_linear(struct solve *s, struct scene *scene)
+{
+    struct solve_options o = quick(1);
+    o.linear = 1;
+    furnished(scene, 1);
+    solve_with(s, scene, "bf", RELEASE_FLAT, coarse, o);
+}
+
 static void furnished_solve(struct solve *s, struct scene *scene, int threads, double size)
 {
     furnished(scene, 1);
@@ -293,10 +302,7 @@ START_TEST(test_slopes)
     struct solve s;
     struct measured_error m[2];
     const char *cause;
-    struct solve_options o = quick(1);
-    o.linear = 1;
-    furnished(&scene, 1);
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    furnished_linear(&s, &scene);
     ck_assert_int_eq(
         measure_and_mend(&s, &(struct mending_goal){.noise = 0.01, .most = 1000}, &m[0], &cause),
         0);
@@ -348,10 +354,7 @@ START_TEST(test_detail)
     enum { LANDINGS = 1000000 };
     struct scene scene;
     struct solve s;
-    struct solve_options o = quick(1);
-    o.linear = 1;
-    furnished(&scene, 1);
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    furnished_linear(&s, &scene);
     uint32_t faces = s.hierarchy.face_count, before = s.hierarchy.count;
     double(*p)[3] = malloc(faces * sizeof *p), *light = malloc(faces * sizeof *light);
     double power = s.report.absorbed, whole = 0, tilted = 0;
@@ -417,10 +420,7 @@ START_TEST(test_merge)
 {
     struct scene scene;
     struct solve s;
-    struct solve_options o = quick(1);
-    o.linear = 1;
-    furnished(&scene, 1);
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    furnished_linear(&s, &scene);
     uint32_t faces = s.hierarchy.face_count, before = s.hierarchy.count;
     ck_assert_int_eq(detail_leaves(&s, 1000000), 0);
     uint32_t count = s.hierarchy.count, odd = count;
@@ -521,10 +521,7 @@ START_TEST(test_places)
     struct solve s;
     struct ray_split split;
     const char *cause;
-    struct solve_options o = quick(1);
-    o.linear = 1;
-    furnished(&scene, 1);
-    solve_with(&s, &scene, "bf", RELEASE_FLAT, coarse, o);
+    furnished_linear(&s, &scene);
     uint32_t elements = s.hierarchy.count;
     size_t bytes = elements * sizeof *s.hierarchy.elements;
     struct element *before = malloc(bytes);

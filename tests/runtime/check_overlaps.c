@@ -259,6 +259,31 @@ START_TEST(test_lamp)
 }
 END_TEST
 
+/* What a polygon is said to lie on has stayed there, whichever of those on it were found first. */
+START_TEST(test_named)
+{
+    srand(11);
+    for (int turn = 0; turn < 30; turn++) {
+        struct plane p;
+        open_plane(&p, 4, 0);
+        add_rectangle(&p, DARK, .45, .45, .1, .1, 0);
+        for (double room = .4; room > .05; room *= .8) {
+            double low[2], high[2];
+            for (int k = 0; k < 2; k++) {
+                low[k] = .45 - room * (.8 + .2 * rand() / RAND_MAX);
+                high[k] = .55 + room * (.8 + .2 * rand() / RAND_MAX);
+            }
+            add_rectangle(&p, LAMP, low[0], low[1], high[0] - low[0], high[1] - low[1], 0);
+        }
+        commit(&p, 0);
+        ck_assert_uint_eq(p.report.overlaps, p.count - 1);
+        for (int i = 0; i < RAD_OVERLAPS_NAMED; i++)
+            ck_assert_uint_eq(p.report.overlap[i].on, 1);
+        close_plane(&p);
+    }
+}
+END_TEST
+
 /* Of a two-sided sheet the side goes that is covered. */
 START_TEST(test_two_sided)
 {
@@ -387,6 +412,7 @@ int main(void)
     TCase *c = tcase_create("overlaps");
     tcase_add_loop_test(c, test_random, 0, 5);
     tcase_add_test(c, test_lamp);
+    tcase_add_test(c, test_named);
     tcase_add_test(c, test_two_sided);
     tcase_add_test(c, test_neighbours);
     tcase_add_test(c, test_near);
