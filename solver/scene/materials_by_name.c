@@ -375,7 +375,8 @@ void materials_warn(const struct materials_by_name *m)
         [TRANSPARENT] = "material '%.*s' is transparent; taken as opaque (%u lines)",
         [WEIGHT] = "a vertex with a weight w%.*s, by which its coordinates are divided (%u "
                    "vertices)",
-        [UNKNOWN_LINE] = "a line that starts with '%.*s' is passed over (%u lines of such kinds)",
+        [UNKNOWN_LINE] = "a line that starts with '%.*s' is passed over; write it as the format "
+                         "does, in its letters (%u lines of such kinds)",
     };
     for (int i = 0; i < ASSUMPTIONS; i++) {
         const struct assumed *a = &m->assumed[i];
