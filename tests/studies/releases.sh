@@ -97,7 +97,7 @@ awk -F , '
     END {
         for (i = 1; i <= n; i++) {
             s = scene[i]; o = oracle[i]
-            if (!(s in faces)) continue
+            if (!((s, o) in pairs)) continue
             base = (s, o, "hand") in sum ? "hand" : "flat"
             print s, faces[s], pairs[s, o], o, base, ratios(s, o, "dag", base), ratios(s, o, "flat", base), \
                 instructions(s, o, "dag", base), instructions(s, o, "flat", base), (sum[s, o, base] > 0 ? rays[s, o, base] / sum[s, o, base] : 0)
