@@ -176,15 +176,15 @@ struct RadFace {
 enum { RAD_OVERLAPS_NAMED = 3 };
 
 struct RadSceneReport {
-    uint32_t polygons;   /* as they were set */
-    uint32_t dropped;    /* of them, without area */
+    uint32_t polygons; /* as they were set */
+    uint32_t dropped;  /* of them, without area */
     /* of them, whose outline crosses itself; the first */
     uint32_t crossing, crossing_first;
     uint32_t cut, parts; /* faces cut where others stand in them, and into how many */
     uint32_t overlaps;   /* polygons that lay on others in one plane and lost what was covered */
     double overlap_area; /* that they lost, of all their sides (m2) */
     struct RadOverlap {
-        uint32_t polygon, on; /* the polygon that stays */
+        uint32_t polygon, on;      /* the polygon that stays */
     } overlap[RAD_OVERLAPS_NAMED]; /* the first of them */
     uint32_t faces, materials, bands;
     double area;            /* of all faces, both sides of two-sided ones (m2) */

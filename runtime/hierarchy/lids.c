@@ -182,8 +182,8 @@ static void divide(const struct bare_part *p, const struct lid *by, uint32_t edg
     half[0].sides = half[1].sides = p->sides;
 }
 
-/* Take from a part what is under those of the lids. Returns 0 or -1. */
-static int take(const struct taker *t, struct bare_part p, const uint32_t *lids, size_t count)
+/* Take from a part what is under those lids. Returns 0 or -1. */
+static int uncover(const struct taker *t, struct bare_part p, const uint32_t *lids, size_t count)
 {
     uint32_t *on = malloc((count + 1) * sizeof *on), edge = 0;
     struct bare_part half[2];
@@ -212,7 +212,7 @@ static int take(const struct taker *t, struct bare_part p, const uint32_t *lids,
             halve(&p, half);
         else
             divide(&p, by, edge, half);
-        result = take(t, half[0], on, left) || take(t, half[1], on, left) ? -1 : 0;
+        result = uncover(t, half[0], on, left) || uncover(t, half[1], on, left) ? -1 : 0;
     }
     free(on);
     return result;
@@ -228,7 +228,7 @@ int lids_take(struct bare_parts *bare, const struct face *face, unsigned sides,
     memcpy(whole.vertex, face->vertex, face->vertices * sizeof face->vertex[0]);
     for (uint32_t i = 0; i < count; i++)
         all[i] = i;
-    int result = take(&(struct taker){bare, lids}, whole, all, count);
+    int result = uncover(&(struct taker){bare, lids}, whole, all, count);
     free(all);
     return result;
 }

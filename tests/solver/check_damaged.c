@@ -35,26 +35,16 @@
 static const struct {
     const char *name, *beside;
 } seeds[] = {
-    {"room.obj", "room.mtl"},
-    {"styles.obj", "styles.mtl"},
-    {"bare.obj", NULL},
-    {"later.obj", "later.mtl"},
-    {"text.ply", NULL},
-    {"little.ply", NULL},
-    {"big.ply", NULL},
-    {"strips.ply", NULL},
-    {"text.stl", NULL},
-    {"bytes.stl", NULL},
-    {"room.off", NULL},
-    {"colours.off", NULL},
-    {"inside.gltf", NULL},
-    {"beside.gltf", "beside.bin"},
-    {"room.glb", NULL},
-    {"room.dae", NULL},
-    {"room.3ds", NULL},
-    {"room.ac", NULL},
-    {"room.dxf", NULL},
-    {"room.x", NULL},
+    {"room.obj", "room.mtl"}, {"styles.obj", "styles.mtl"},
+    {"bare.obj", NULL},       {"later.obj", "later.mtl"},
+    {"text.ply", NULL},       {"little.ply", NULL},
+    {"big.ply", NULL},        {"strips.ply", NULL},
+    {"text.stl", NULL},       {"bytes.stl", NULL},
+    {"room.off", NULL},       {"colours.off", NULL},
+    {"inside.gltf", NULL},    {"beside.gltf", "beside.bin"},
+    {"room.glb", NULL},       {"room.dae", NULL},
+    {"room.3ds", NULL},       {"room.ac", NULL},
+    {"room.dxf", NULL},       {"room.x", NULL},
 };
 enum { SEEDS = sizeof seeds / sizeof *seeds, ROOM = 1 << 15, FILES = 800 };
 static const long MEGABYTES = 1024;   /* beside what the program itself takes */
