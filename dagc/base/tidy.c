@@ -3,7 +3,6 @@
 #define _XOPEN_SOURCE 700
 
 #include <signal.h>
-#include <stdatomic.h>
 #include <stddef.h>
 
 #include "base/tidy.h"
@@ -25,13 +24,24 @@ void dag_tidy_all(void)
         t->remove(t->of);
 }
 
+static void block(sigset_t *was)
+{
+    sigset_t some;
+    sigemptyset(&some);
+    for (int i = 0; i < TIDY_SIGNALS; i++)
+        sigaddset(&some, dag_tidy_signals[i]);
+    sigprocmask(SIG_BLOCK, &some, was);
+}
+
 void dag_tidy_push(struct tidy *tidy)
 {
+    sigset_t was;
     if (!watching)
         return;
+    block(&was); /* a handler that sees it sees it whole */
     tidy->below = top;
-    atomic_signal_fence(memory_order_release); /* a handler that sees it sees it whole */
     top = tidy;
+    sigprocmask(SIG_SETMASK, &was, NULL);
 }
 
 void dag_tidy_pop(struct tidy *tidy)
@@ -42,12 +52,8 @@ void dag_tidy_pop(struct tidy *tidy)
 
 void dag_tidy_hold(void)
 {
-    sigset_t some;
-    sigemptyset(&some);
-    for (int i = 0; i < TIDY_SIGNALS; i++)
-        sigaddset(&some, dag_tidy_signals[i]);
     if (watching)
-        sigprocmask(SIG_BLOCK, &some, &before);
+        block(&before);
 }
 
 void dag_tidy_release(void)
