@@ -934,14 +934,24 @@ RAD_API void radReleaseExchange(RadExchange exchange);
  * -1. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 
+/* Shares of what polygon i sends that meet no front: what leaves the scene, what meets the black
+ * backs of one-sided polygons, what comes from parts that others stand on. With the sum of row i
+ * they make 1 where there is such a loss; 0 where the row lacks less than the tolerance and nobody
+ * asked. Returns 0, or -1. */
+struct RadExchangeLoss {
+    double sky, backs, covered;
+};
+RAD_API int radGetExchangeLoss(RadExchange exchange, uint32_t i, struct RadExchangeLoss *loss);
+
 struct RadExchangeReport {
     uint64_t links, pairs, rays;
     double low, high; /* of all rows' sums, before closure */
-    /* that ought to sum to 1; see the environment, or a black back; are covered in part */
-    uint32_t rows_closed, rows_open, rows_covered;
+    /* that ought to sum to 1; see the environment; a black back (some both); of the others those
+     * that are covered in part */
+    uint32_t rows_closed, rows_open, rows_backs, rows_covered;
     double defect_most, defect_mean; /* |1 - sum| of the closed ones, before closure */
-    /* what the open ones lack: the most, and the mean over all area */
-    double environment_most, environment_mean;
+    /* what goes to the environment and to backs: the most of a row, and the mean over all area */
+    double environment_most, environment_mean, backs_most, backs_mean;
     /* largest |factor - 1| that a view factor took; largest |1 - sum| left */
     double closure_change, closure_left;
     struct {

@@ -108,18 +108,33 @@ void radReleaseExchange(RadExchange x)
     free(x);
 }
 
+static int check_row(RadExchange x, uint32_t i)
+{
+    uint32_t count = x->exchange.areas.inputs;
+    return i < count
+               ? 0
+               : api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
+                          "there is no row %u; there are %u, from 0", (unsigned)i, (unsigned)count);
+}
+
 double radGetExchangeRow(RadExchange x, uint32_t i, double *row)
 {
-    if (!x)
+    if (!x || check_row(x, i) < 0)
         return -1;
     uint32_t count = x->exchange.areas.inputs;
-    if (i >= count)
-        return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
-                        "there is no row %u; there are %u, from 0", (unsigned)i, (unsigned)count);
     if (!row)
         return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
                         "row %u needs a place for %u values", (unsigned)i, (unsigned)count);
     return exchange_row(&x->exchange, i, row);
+}
+
+int radGetExchangeLoss(RadExchange x, uint32_t i, struct RadExchangeLoss *loss)
+{
+    if (!x || !loss || check_row(x, i) < 0)
+        return -1;
+    const struct exchange_loss *l = &x->exchange.losses[i];
+    *loss = (struct RadExchangeLoss){l->sky, l->backs, l->covered};
+    return 0;
 }
 
 void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report)
@@ -137,11 +152,14 @@ void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report
                                          .high = r->high,
                                          .rows_closed = r->rows_closed,
                                          .rows_open = r->rows_open,
+                                         .rows_backs = r->rows_backs,
                                          .rows_covered = r->rows_covered,
                                          .defect_most = r->defect_most,
                                          .defect_mean = r->defect_mean,
                                          .environment_most = r->environment_most,
                                          .environment_mean = r->environment_mean,
+                                         .backs_most = r->backs_most,
+                                         .backs_mean = r->backs_mean,
                                          .closure_change = r->closure_change,
                                          .closure_left = r->closure_left,
                                          .seconds = {r->seconds.refine, r->seconds.fill}};

@@ -3,9 +3,11 @@
  * A tree of flat groups (exchange_tree.c) is refined by an oracle with B = 1 on every face; its
  * links become exchange areas of faces (exchange_areas.c). Faces count as in the input: one with
  * two sides, or cut into parts, is one row, a mean over its parts. A row lacks something where
- * light leaves the scene, or by error; which of the two, rays say (visibility/environment.h). Rows
- * that sum to 1 within the tolerance need none, unless closure must know: what they lack is less
- * than what they may be wrong by.
+ * light leaves the scene or meets a black back, or by error; which of these, rays say
+ * (visibility/environment.h). Rows that sum to 1 within the tolerance need none, unless closure
+ * must know: what they lack is less than what they may be wrong by.
+ * Invariant: of a row that rays find a way out for, the sum and its losses make 1, unless the sum
+ * is more.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
@@ -15,11 +17,6 @@
 #include "util/clock.h"
 #include "util/thread_pool.h"
 #include "visibility/environment.h"
-
-/* Where a row's light goes that meets no front: shares of its area. */
-struct way_out {
-    float leaves, backs, covered;
-};
 
 /* The error of half shadow falls with what is left to it. */
 void exchange_set_tolerance(struct refiner *refiner, double tolerance)
@@ -59,7 +56,8 @@ static int refine(struct exchange *x, const struct refiner *refiner, struct watc
     return refinement_start(&x->refinement);
 }
 
-static struct way_out ask_row(const struct exchange *x, uint32_t i)
+/* Where the row's light goes that meets no front: shares of all rays. */
+static struct exchange_loss ask_row(const struct exchange *x, uint32_t i)
 {
     const struct exchange_areas *m = &x->areas;
     double leaves = 0, backs = 0, covered = 0;
@@ -71,51 +69,80 @@ static struct way_out ask_row(const struct exchange *x, uint32_t i)
         backs += ray * f.backs;
         covered += ray * f.covered;
     }
-    return (struct way_out){(float)(leaves / m->area[i]), (float)(backs / m->area[i]),
-                            (float)(covered / m->area[i])};
+    return (struct exchange_loss){leaves / m->area[i], backs / m->area[i], covered / m->area[i]};
+}
+
+/* Rays say which ways there are, and how they share it; how much is lost, the row knows better. */
+static void share_out(struct exchange_loss *way, double lacks)
+{
+    double seen = way->sky + way->backs, left = fmax(lacks, 0);
+    way->covered = seen > 0 ? fmin(way->covered, left) : way->covered > 0 ? left : 0;
+    left -= way->covered;
+    way->sky *= seen > 0 ? left / seen : 0;
+    way->backs *= seen > 0 ? left / seen : 0;
+}
+
+static int is_closed(const struct exchange_loss *way)
+{
+    return !(way->sky > 0) && !(way->backs > 0) && !(way->covered > 0);
 }
 
 /* The account of rows: what they sum to, and what becomes of the light that they lack.
  * closed[i]: row i ought to sum to 1. */
-static void account(struct exchange *x, const double *share, const struct way_out *ways,
-                    unsigned char *closed)
+static void account(struct exchange *x, const double *share, unsigned char *closed)
 {
     struct exchange_report *r = &x->report;
     const struct exchange_areas *m = &x->areas;
     double all = 0;
     r->low = INFINITY;
     for (uint32_t i = 0; i < m->inputs; i++) {
-        const struct way_out *way = &ways[i];
+        struct exchange_loss *way = &x->losses[i];
         double defect = fabs(1 - share[i]);
-        closed[i] = !(way->leaves > 0) && !(way->backs > 0) && !(way->covered > 0);
+        int sky = way->sky > 0, backs = way->backs > 0;
+        closed[i] = (unsigned char)is_closed(way);
         if (!(m->area[i] > 0))
             continue;
         all += m->area[i];
         r->low = fmin(r->low, share[i]);
         r->high = fmax(r->high, share[i]);
+        share_out(way, 1 - share[i]);
+        r->rows_open += (unsigned)sky;
+        r->rows_backs += (unsigned)backs;
+        r->rows_covered += !closed[i] && !sky && !backs;
+        r->environment_mean += m->area[i] * way->sky;
+        r->environment_most = fmax(r->environment_most, way->sky);
+        r->backs_mean += m->area[i] * way->backs;
+        r->backs_most = fmax(r->backs_most, way->backs);
         if (closed[i]) {
             r->rows_closed++;
             r->defect_mean += defect;
             r->defect_most = fmax(r->defect_most, defect);
-        } else if (way->leaves > 0 || way->backs > 0) {
-            double lacks = fmax(1 - share[i] - (double)way->covered, 0);
-            r->rows_open++;
-            r->environment_mean += m->area[i] * lacks;
-            r->environment_most = fmax(r->environment_most, lacks);
-        } else {
-            r->rows_covered++;
         }
     }
     r->defect_mean /= r->rows_closed ? r->rows_closed : 1;
     r->environment_mean /= all > 0 ? all : 1;
+    r->backs_mean /= all > 0 ? all : 1;
+}
+
+/* Closure changes what open rows sum to a little; their losses still make up for it. */
+static void follow_closure(struct exchange *x, double *sums)
+{
+    const struct exchange_areas *m = &x->areas;
+    const struct exchange_closure *c = &x->closure;
+    if (!c->scale)
+        return;
+    exchange_areas_sums(m, c->both ? c->scale : NULL, sums);
+    for (uint32_t i = 0; i < m->inputs; i++)
+        if (m->area[i] > 0)
+            share_out(&x->losses[i], 1 - c->scale[i] * sums[i] / m->area[i]);
 }
 
 /* Rows that may have to be asked where their light goes. */
 struct asking {
     const struct exchange *exchange;
     const struct exchange_options *options;
-    const double *share;  /* [input] */
-    struct way_out *ways; /* [input] */
+    const double *share;        /* [input] */
+    struct exchange_loss *ways; /* [input] */
 };
 
 static void ask_rows(const void *asking, size_t from, size_t to)
@@ -134,21 +161,22 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
     const struct exchange_areas *m = &x->areas;
     double *share = malloc((m->inputs + 1) * sizeof *share),
            *sums = malloc((m->inputs + 1) * sizeof *sums);
-    struct way_out *ways = calloc(m->inputs + 1, sizeof *ways);
     unsigned char *closed = malloc(m->inputs + 1);
     int status = -1;
-    if (share && sums && ways && closed) {
+    x->losses = calloc(m->inputs + 1, sizeof *x->losses);
+    if (share && sums && x->losses && closed) {
         exchange_areas_sums(m, NULL, sums);
         for (uint32_t i = 0; i < m->inputs; i++)
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
-        const struct asking a = {x, o, share, ways};
+        const struct asking a = {x, o, share, x->losses};
         thread_pool_run(o->threads, m->inputs, 16, ask_rows, &a);
-        account(x, share, ways, closed);
+        account(x, share, closed);
         status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
+        if (status == 0)
+            follow_closure(x, sums);
     }
     free(share);
     free(sums);
-    free(ways);
     free(closed);
     return status;
 }
@@ -197,6 +225,7 @@ int exchange_open(struct exchange *x, const struct scene *scene, const struct re
 
 void exchange_close(struct exchange *x)
 {
+    free(x->losses);
     exchange_closure_free(&x->closure);
     exchange_areas_close(&x->areas);
     refinement_close(&x->refinement);

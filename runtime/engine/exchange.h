@@ -22,11 +22,12 @@ struct exchange_options {
 struct exchange_report {
     uint64_t links, pairs, rays;
     double low, high; /* of all rows' sums, before closure */
-    /* that ought to sum to 1; see the environment, or a black back; are covered in part */
-    uint32_t rows_closed, rows_open, rows_covered;
+    /* that ought to sum to 1; see the environment; a black back (some both); of the others those
+     * that are covered in part */
+    uint32_t rows_closed, rows_open, rows_backs, rows_covered;
     double defect_most, defect_mean; /* |1 - sum| of the closed ones, before closure */
-    /* what the open ones lack: the most, and the mean over all area */
-    double environment_most, environment_mean;
+    /* what goes to the environment and to backs: the most of a row, and the mean over all area */
+    double environment_most, environment_mean, backs_most, backs_mean;
     /* largest |factor - 1| that a view factor took; largest |1 - sum| left */
     double closure_change, closure_left;
     struct {
@@ -34,11 +35,18 @@ struct exchange_report {
     } seconds;
 };
 
+/* What a row sends that meets no front, shares: out of the scene, to black backs, and from where
+ * something stands on the face. 0 of rows that lack less than the tolerance and were not asked. */
+struct exchange_loss {
+    double sky, backs, covered;
+};
+
 struct exchange {
     struct exchange_tree tree;
     struct refinement refinement; /* until the areas are computed */
     struct exchange_areas areas;
     struct exchange_closure closure;
+    struct exchange_loss *losses; /* [areas.inputs], after closure */
     struct exchange_report report;
     int cancelled;
 };

@@ -33,6 +33,9 @@ static void print(const struct options *o, const struct open_scene *scene,
         printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not "
                "normalised away\n",
                100 * r->environment_mean, 100 * r->environment_most, r->rows_open);
+    if (r->rows_backs)
+        printf("to backs  %.2f %% of what all faces send; up to %.2f %% of one of %u rows\n",
+               100 * r->backs_mean, 100 * r->backs_most, r->rows_backs);
     if (r->rows_covered)
         printf("covered   %u rows that others stand on: their covered parts see nothing\n",
                r->rows_covered);
@@ -48,7 +51,7 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
 {
     return json_pack(
         "{s:o, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, "
-        "s:f, s:f, s:f, s:f}",
+        "s:f, s:f, s:f, s:f, s:i, s:f, s:f}",
         "scene", json_text(o->scene), "faces", (int)scene->report.polygons, "links",
         (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays,
         "row_sum_smallest", r->low, "row_sum_largest", r->high, "row_defect_largest",
@@ -58,7 +61,8 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
         closure_words[o->closure], "closure_largest_change", r->closure_change,
         "closure_defect_left", r->closure_left, "seconds",
         r->seconds.refine + r->seconds.fill + write_seconds, "seconds_refine", r->seconds.refine,
-        "seconds_fill", r->seconds.fill, "seconds_write", write_seconds);
+        "seconds_fill", r->seconds.fill, "seconds_write", write_seconds, "rows_to_backs",
+        (int)r->rows_backs, "to_backs_largest", r->backs_most, "to_backs_mean", r->backs_mean);
 }
 
 /* Write what was asked for. Returns 0, or -1 after a message. */

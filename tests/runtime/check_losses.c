@@ -1,0 +1,175 @@
+/* check_losses.c - what rows of view factors lack is told apart: light that leaves the scene, that
+ * meets a black back, that comes from where something stands.
+ *
+ * A unit cube's walls exchange what is known in closed form, and so a wall that is missing, or is
+ * turned, takes just that. [Howell, A Catalog of Radiation Heat Transfer Configuration Factors,
+ * C-11 and C-14]
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <math.h>
+#include <string.h>
+#include "radiosity.h"
+#include "suite.h"
+
+static const double OPPOSITE = 0.1998248957, BESIDE = 0.2000437761;
+
+/* The cube from (0, 0, 0) to (1, 1, 1), fronts inside: floor, ceiling, and walls round. */
+static const double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+static const uint32_t cube[6][4] = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
+                                    {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+
+enum { MOST = 16 };
+struct shape {
+    uint32_t corner[MOST][4], count;
+    double position[64][3];
+    RadDevice device;
+    RadScene scene;
+    RadExchange exchange;
+    struct RadExchangeReport report;
+    double row[MOST][MOST], sum[MOST];
+    struct RadExchangeLoss loss[MOST];
+};
+
+static void put_cube(struct shape *s)
+{
+    memset(s, 0, sizeof *s);
+    memcpy(s->position, corners, sizeof corners);
+    memcpy(s->corner, cube, sizeof cube);
+    s->count = 6;
+}
+
+static void turn(struct shape *s, uint32_t i)
+{
+    uint32_t second = s->corner[i][1];
+    s->corner[i][1] = s->corner[i][3];
+    s->corner[i][3] = second;
+}
+
+static void drop(struct shape *s, uint32_t i)
+{
+    memmove(s->corner[i], s->corner[i + 1], (--s->count - i) * sizeof s->corner[0]);
+}
+
+static void compute(struct shape *s, enum RadClosure closure)
+{
+    static const struct RadMaterial grey = {{.5, .5, .5}, {0, 0, 0}, 0};
+    const struct RadPolygons polygons = {.positions = s->position[0],
+                                         .position_count = 64,
+                                         .indices = s->corner[0],
+                                         .size = 4,
+                                         .count = s->count};
+    s->device = radNewDevice(NULL);
+    s->scene = radNewScene(s->device);
+    ck_assert_int_eq(radSetSceneMaterials(s->scene, &grey, 1), 0);
+    ck_assert_int_eq(radSetSceneSharedPolygons(s->scene, &polygons), 0);
+    ck_assert_int_eq(radCommitScene(s->scene), 0);
+    s->exchange = radNewExchange(s->scene, NULL, &(struct RadExchangeOptions){.closure = closure});
+    ck_assert_ptr_nonnull(s->exchange);
+    radGetExchangeReport(s->exchange, &s->report);
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->sum[i] = radGetExchangeRow(s->exchange, i, s->row[i]);
+        ck_assert_int_eq(radGetExchangeLoss(s->exchange, i, &s->loss[i]), 0);
+    }
+}
+
+static void close_shape(struct shape *s)
+{
+    radReleaseExchange(s->exchange);
+    radReleaseScene(s->scene);
+    radReleaseDevice(s->device);
+}
+
+static void expect_loss(const struct shape *s, uint32_t i, double sky, double backs, double covered)
+{
+    ck_assert_double_eq_tol(s->loss[i].sky, sky, 1e-6);
+    ck_assert_double_eq_tol(s->loss[i].backs, backs, 1e-6);
+    ck_assert_double_eq_tol(s->loss[i].covered, covered, 1e-6);
+    ck_assert_double_eq_tol(s->sum[i] + sky + backs + covered, 1, 1e-6);
+}
+
+/* A closed cube loses nothing. */
+START_TEST(test_closed)
+{
+    struct shape s;
+    put_cube(&s);
+    compute(&s, RAD_CLOSURE_NONE);
+    for (uint32_t i = 0; i < 6; i++)
+        expect_loss(&s, i, 0, 0, 0);
+    ck_assert_uint_eq(s.report.rows_open + s.report.rows_backs + s.report.rows_covered, 0);
+    struct RadExchangeLoss loss;
+    ck_assert_int_eq(radGetExchangeLoss(s.exchange, 6, &loss), -1);
+    ck_assert_int_eq(radGetDeviceError(s.device), RAD_ERROR_INVALID_ARGUMENT);
+    ck_assert_int_eq(radGetExchangeLoss(s.exchange, 0, NULL), -1);
+    ck_assert_int_eq(radGetExchangeLoss(NULL, 0, &loss), -1);
+    close_shape(&s);
+}
+END_TEST
+
+/* Without the ceiling its share leaves. */
+START_TEST(test_sky)
+{
+    struct shape s;
+    for (int closure = RAD_CLOSURE_NONE; closure <= RAD_CLOSURE_RECIPROCAL; closure++) {
+        put_cube(&s);
+        drop(&s, 1);
+        compute(&s, (enum RadClosure)closure);
+        for (uint32_t i = 0; i < 5; i++)
+            expect_loss(&s, i, i ? BESIDE : OPPOSITE, 0, 0);
+        ck_assert_uint_eq(s.report.rows_open, 5);
+        ck_assert_uint_eq(s.report.rows_backs, 0);
+        close_shape(&s);
+    }
+}
+END_TEST
+
+/* A wall that is turned takes its share on its back, and sends all to the sky. */
+START_TEST(test_turned)
+{
+    struct shape s;
+    put_cube(&s);
+    turn(&s, 3);
+    compute(&s, RAD_CLOSURE_NONE);
+    for (uint32_t i = 0; i < 6; i++)
+        expect_loss(&s, i, i == 3 ? 1 : 0, i == 3 ? 0 : i == 5 ? OPPOSITE : BESIDE, 0);
+    ck_assert_uint_eq(s.report.rows_open, 1);
+    ck_assert_uint_eq(s.report.rows_backs, 5);
+    ck_assert_uint_eq(s.report.rows_closed, 0);
+    ck_assert_double_eq_tol(s.report.environment_mean, 1. / 6, 1e-6);
+    ck_assert_double_eq_tol(s.report.backs_mean, (4 * BESIDE + OPPOSITE) / 6, 1e-6);
+    ck_assert_double_eq_tol(s.report.backs_most, BESIDE, 1e-6);
+    close_shape(&s);
+}
+END_TEST
+
+/* Without the ceiling and with a turned wall a row loses to both, each its own. */
+START_TEST(test_both)
+{
+    struct shape s;
+    put_cube(&s);
+    turn(&s, 3);
+    drop(&s, 1);
+    compute(&s, RAD_CLOSURE_NONE);
+    for (uint32_t i = 0; i < 5; i++) {
+        if (i == 2)
+            continue;
+        ck_assert_double_eq_tol(s.loss[i].sky, i ? BESIDE : OPPOSITE, .03); /* by 1,024 rays */
+        ck_assert_double_eq_tol(s.sum[i] + s.loss[i].sky + s.loss[i].backs, 1, 1e-12);
+    }
+    ck_assert_uint_eq(s.report.rows_open, 5);
+    ck_assert_uint_eq(s.report.rows_backs, 4);
+    close_shape(&s);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("losses");
+    TCase *rows = tcase_create("rows");
+    tcase_add_test(rows, test_closed);
+    tcase_add_test(rows, test_sky);
+    tcase_add_test(rows, test_turned);
+    tcase_add_test(rows, test_both);
+    suite_add_tcase(suite, rows);
+    return suite_failures(suite) > 0;
+}
