@@ -950,6 +950,15 @@ struct RadExchangeReport {
 };
 RAD_API void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report);
 
+/* What points with normals, such as sensors, see, what stands between included: by cuts, nothing
+ * sampled. position[3 * count] in m, normal[3 * count], not 0. row[count * (polygons + 2)], the
+ * caller's: of each point the share of what meets it, if all were equally bright, that comes from
+ * each polygon, then that from outside the scene, then that which black backs keep away; in all 1.
+ * A polygon that the point lies on is not seen and hides nothing. Needs a committed scene, no
+ * exchange. Returns 0, or -1. */
+RAD_API int radGetPointFactors(RadScene scene, uint32_t count, const double *position,
+                               const double *normal, double *row);
+
 /* ---- references */
 
 /* Two ways of which neither knows of links, elements or form factors: particles from the emitters,
