@@ -919,6 +919,12 @@ RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t 
 struct RadExchangeOptions {
     double tolerance; /* error of a row's sum to work for; 0: 3e-4 */
     enum RadClosure closure;
+    /* only the first so many rows are asked for, as of a scene whose other polygons are copies; the
+     * report is of them. 0: all */
+    uint32_t rows;
+    /* 1: no matrix is kept, memory is that of polygons and links: products can be asked for, rows
+     * cannot, and closure is none or rows */
+    int stream;
 };
 /* The built-in oracle viewfactors, its limits made for the tolerance (0: the default). Returns
  * NULL on error. */
@@ -931,8 +937,12 @@ RAD_API void radReleaseExchange(RadExchange exchange);
 
 /* Row i of F_ij: share of what leaves polygon i evenly that meets polygon j;
  * row[RadSceneReport.polygons], the caller's. Safe from many threads at once. Returns its sum, or
- * -1. */
+ * -1. Of a stream, and beyond the rows asked for, there is none. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
+
+/* y = F x, after closure: x[polygons][columns], y[rows][columns], the caller's. Of a stream, what
+ * pairs exchange is computed anew. Returns 0, or -1. */
+RAD_API int radMultiplyExchange(RadExchange exchange, uint32_t columns, const double *x, double *y);
 
 struct RadExchangeReport {
     uint64_t links, pairs, rays;

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange.h"
+#include "engine/exchange_product.h"
 #include "kernel/constants.h"
 #include "util/clock.h"
 #include "util/thread_pool.h"
@@ -84,7 +85,7 @@ static void account(struct exchange *x, const double *share, const struct way_ou
     const struct exchange_areas *m = &x->areas;
     double all = 0;
     r->low = INFINITY;
-    for (uint32_t i = 0; i < m->inputs; i++) {
+    for (uint32_t i = 0; i < m->rows; i++) {
         const struct way_out *way = &ways[i];
         double defect = fabs(1 - share[i]);
         closed[i] = !(way->leaves > 0) && !(way->backs > 0) && !(way->covered > 0);
@@ -128,6 +129,20 @@ static void ask_rows(const void *asking, size_t from, size_t to)
             a->ways[i] = ask_row(a->exchange, (uint32_t)i);
 }
 
+/* All rows' sums of A_i F_ij. Returns 0 or -1. */
+static int find_sums(const struct exchange *x, double *sums)
+{
+    const struct exchange_areas *m = &x->areas;
+    if (m->values)
+        return exchange_areas_sums(m, NULL, sums), 0;
+    double *ones = malloc((m->inputs + 1) * sizeof *ones);
+    for (uint32_t i = 0; i < m->inputs && ones; i++)
+        ones[i] = 1;
+    int status = ones ? exchange_product(m, x->threads, 1, ones, sums) : -1;
+    free(ones);
+    return status;
+}
+
 /* Row sums, their account, and closure. */
 static int close_rows(struct exchange *x, const struct exchange_options *o)
 {
@@ -137,12 +152,15 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
     struct way_out *ways = calloc(m->inputs + 1, sizeof *ways);
     unsigned char *closed = malloc(m->inputs + 1);
     int status = -1;
-    if (share && sums && ways && closed) {
-        exchange_areas_sums(m, NULL, sums);
-        for (uint32_t i = 0; i < m->inputs; i++)
+    if (share && sums && ways && closed && find_sums(x, sums) == 0) {
+        for (uint32_t i = 0; i < m->inputs; i++) {
+            if (i >= m->rows) /* nobody asks for it */
+                sums[i] = m->area[i];
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
+            closed[i] = 0;
+        }
         const struct asking a = {x, o, share, ways};
-        thread_pool_run(o->threads, m->inputs, 16, ask_rows, &a);
+        thread_pool_run(o->threads, m->rows, 16, ask_rows, &a);
         account(x, share, ways, closed);
         status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
     }
@@ -165,9 +183,12 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     double middle = seconds();
     x->report.seconds.refine = middle - start;
     if (tell(&watcher, "factors") != 0
-        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
+        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads,
+                               o->rows, !o->stream)
+               < 0)
         return -1;
-    refinement_close(&x->refinement);
+    if (!o->stream)
+        refinement_close(&x->refinement);
     if (close_rows(x, o) < 0)
         return -1;
     x->report.seconds.fill = seconds() - middle;
@@ -182,7 +203,7 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
 int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
                   const struct exchange_options *options, const char **cause)
 {
-    memset(x, 0, sizeof *x);
+    *x = (struct exchange){.threads = options->threads};
     if (exchange_tree_open(&x->tree, scene->faces, scene->face_count, options->threads, cause) < 0)
         return -1;
     if (compute(x, scene, refiner, options) == 0)
@@ -221,4 +242,23 @@ double exchange_row(const struct exchange *x, uint32_t i, double *restrict row)
         sum += row[j];
     }
     return sum;
+}
+
+int exchange_multiply(const struct exchange *x, uint32_t columns, const double *in, double *out)
+{
+    const struct exchange_closure *c = &x->closure;
+    const struct exchange_areas *m = &x->areas;
+    size_t size = (size_t)m->inputs * columns;
+    double *scaled = malloc((2 * size + 1) * sizeof *scaled);
+    if (!scaled)
+        return -1;
+    for (size_t k = 0; k < size; k++)
+        scaled[k] = in[k] * (c->both ? c->scale[k / columns] : 1);
+    int status = exchange_product(m, x->threads, columns, scaled, scaled + size);
+    for (size_t k = 0; k < (size_t)m->rows * columns && status == 0; k++) {
+        uint32_t i = (uint32_t)(k / columns);
+        out[k] = m->area[i] > 0 ? scaled[size + k] * (c->scale ? c->scale[i] : 1) / m->area[i] : 0;
+    }
+    free(scaled);
+    return status;
 }
