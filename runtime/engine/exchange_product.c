@@ -24,22 +24,32 @@ struct product {
     uint32_t columns, across;
 };
 
+/* One column's part of a tile, both ways round. */
+static void add_column(const struct product *p, const struct exchange_block *b,
+                       const double *restrict v, uint32_t c, double *sums)
+{
+    const uint32_t *input = p->areas->input, n = p->columns;
+    double x[TILE], y[TILE] = {0};
+    for (uint32_t j = 0; j < b->columns; j++)
+        x[j] = p->x[(size_t)input[b->column + j] * p->across + c];
+    for (uint32_t i = 0; i < b->rows; i++, v += b->columns) {
+        double sum = 0, own = p->x[(size_t)input[b->row + i] * p->across + c];
+#pragma omp simd reduction(+ : sum)
+        for (uint32_t j = 0; j < b->columns; j++) {
+            sum += v[j] * x[j];
+            y[j] += v[j] * own;
+        }
+        sums[(size_t)input[b->row + i] * n + c] += sum;
+    }
+    for (uint32_t j = 0; j < b->columns; j++)
+        sums[(size_t)input[b->column + j] * n + c] += y[j];
+}
+
 static void add_tile(const struct product *p, const struct exchange_block *b, const double *v,
                      double *sums)
 {
-    const uint32_t *input = p->areas->input, n = p->columns;
-    for (uint32_t i = b->row; i < b->row + b->rows; i++) {
-        const double *xi = p->x + (size_t)input[i] * p->across;
-        double *yi = sums + (size_t)input[i] * n;
-        for (uint32_t j = b->column; j < b->column + b->columns; j++, v++) {
-            const double *xj = p->x + (size_t)input[j] * p->across;
-            double *yj = sums + (size_t)input[j] * n;
-            for (uint32_t c = 0; c < n; c++) {
-                yi[c] += *v * xj[c];
-                yj[c] += *v * xi[c];
-            }
-        }
-    }
+    for (uint32_t c = 0; c < p->columns; c++)
+        add_column(p, b, v, c, sums);
 }
 
 static void add_lane(const struct product *p, size_t lane)

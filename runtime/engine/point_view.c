@@ -205,13 +205,13 @@ static double past_many(struct watcher *w, const struct cell *c, size_t from, si
     double seen = 0, normal[3] = {0}, h[CORNERS];
     size_t last = w->cones.count, few = last - first < FEW ? last : first + FEW;
     halving_plane(c, normal);
-    if (few < last && depth < HALVINGS && cell_side(c, normal, 0, h) == 0) {
+    seen = past_few(w, c, first, few); /* the nearest, which as a rule hide most */
+    if (few < last && depth < HALVINGS && seen > 0 && cell_side(c, normal, 0, h) == 0) {
         struct cell half[2];
+        seen = 0;
         cell_cut(c, h, &half[0], &half[1]);
         for (int i = 0; i < 2; i++)
             seen += half[i].n < 3 ? 0 : past_many(w, &half[i], first, last, depth + 1);
-    } else {
-        seen = past_few(w, c, first, few);
     }
     w->cones.count = first;
     return seen;
@@ -285,40 +285,77 @@ static int box_matters(const struct watcher *w, const struct bounds *box,
     return 1;
 }
 
-/* The cones of all faces that could hide something of the cell, which is of face `own`. */
-static void find_cones(struct watcher *w, uint32_t own, const struct seen_face *of,
-                       const struct cell *cell)
+/* How far the point is from a box, squared. */
+static double box_distance(const struct watcher *w, const struct bounds *box)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        double d = fmax(fmax(box->low[k] - w->x[k], w->x[k] - box->high[k]), 0);
+        sum += d * d;
+    }
+    return sum;
+}
+
+/* A node's children go onto the stack, the nearest on top: it hides most. Returns the new depth. */
+static int push_children(const struct watcher *w, const struct bvh_node *node, uint32_t *stack,
+                         int depth)
+{
+    double far[PARTS_MAX];
+    for (uint32_t k = 0; k < node->children; k++) {
+        double d = box_distance(w, &w->view->tree.boxes[node->child + k]);
+        uint32_t i = k;
+        for (; i > 0 && far[i - 1] < d; i--) {
+            far[i] = far[i - 1];
+            stack[depth + (int)i] = stack[depth + (int)i - 1];
+        }
+        far[i] = d;
+        stack[depth + (int)i] = node->child + k;
+    }
+    return depth + (int)node->children;
+}
+
+/* Add the cone of a face where it could hide something of the cell. Returns 1 when it hides all. */
+static int add_cone(struct watcher *w, uint32_t face, const struct seen_face *of,
+                    const struct cell *cell)
+{
+    struct seen_face s;
+    if (array_reserve(&w->cones.all, w->cones.count + 1, &w->cones.capacity, sizeof *w->cones.all)
+        < 0) {
+        w->failed = 1;
+        return 0;
+    }
+    see_face(w, face, &s);
+    struct cone *cone = &w->cones.all[w->cones.count];
+    int side = make_cone(w, of, &s, cone) ? cell_to_cone(cell, cone, w->view->blur) : -1;
+    w->cones.count += side >= 0;
+    return side > 0;
+}
+
+/* The cones of all faces that could hide something of the cell, which is of face `own`. Returns 1
+ * when one hides all of it. */
+static int find_cones(struct watcher *w, uint32_t own, const struct seen_face *of,
+                      const struct cell *cell)
 {
     const struct bvh *t = &w->view->tree;
     struct cone around = {.n = 0}; /* EDGES: a face of 4 corners above the horizon */
     uint32_t stack[STACK];
-    int depth = 0;
+    int depth = 1;
     for (int i = 0, j = cell->n - 1; i < cell->n; j = i++, around.n++)
         side_normal(cell->p[j], cell->p[i], of->height > 0, around.normal[around.n]);
     w->cones.count = 0;
-    stack[depth++] = 0;
+    stack[0] = 0;
     while (depth && !w->failed) {
         uint32_t at = stack[--depth];
         const struct bvh_node *node = &t->nodes[at];
         if (!box_matters(w, &t->boxes[at], of, &around))
             continue;
-        for (uint32_t k = 0; k < node->children; k++)
-            stack[depth++] = node->child + k;
-        if (node->children)
-            continue;
+        depth = push_children(w, node, stack, depth);
         uint32_t face = t->order[node->from];
-        struct seen_face s;
-        if (face == own || w->view->scene->faces[face].back)
-            continue;
-        see_face(w, face, &s);
-        if (array_reserve(&w->cones.all, w->cones.count + 1, &w->cones.capacity,
-                          sizeof *w->cones.all)
-            < 0)
-            w->failed = 1;
-        else if (make_cone(w, of, &s, &w->cones.all[w->cones.count])
-                 && cell_to_cone(cell, &w->cones.all[w->cones.count], w->view->blur) >= 0)
-            w->cones.count++;
+        if (!node->children && face != own && !w->view->scene->faces[face].back
+            && add_cone(w, face, of, cell))
+            return 1;
     }
+    return 0;
 }
 
 /* How much is seen of a face, from whichever side. */
@@ -336,8 +373,7 @@ static double face_share(struct watcher *w, uint32_t face, const struct seen_fac
     cell.n = polygon_divide(&s->p[0][0], s->n, 3, h, EDGES, &cell.p[0][0], NULL, NULL);
     if (cell.n < 3)
         return 0;
-    find_cones(w, face, s, &cell);
-    return past_many(w, &cell, 0, w->cones.count, 0);
+    return find_cones(w, face, s, &cell) ? 0 : past_many(w, &cell, 0, w->cones.count, 0);
 }
 
 int point_view_row(const struct point_view *v, const double position[3], const double normal[3],
