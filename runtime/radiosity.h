@@ -919,6 +919,12 @@ RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t 
 struct RadExchangeOptions {
     double tolerance; /* error of a row's sum to work for; 0: 3e-4 */
     enum RadClosure closure;
+    /* only the first so many rows are asked for, as of a scene whose other polygons are copies; the
+     * report is of them. 0: all */
+    uint32_t rows;
+    /* 1: no matrix is kept, memory is that of polygons and links: products can be asked for, rows
+     * cannot, and closure is none or rows */
+    int stream;
 };
 /* The built-in oracle viewfactors, its limits made for the tolerance (0: the default). Returns
  * NULL on error. */
@@ -931,7 +937,7 @@ RAD_API void radReleaseExchange(RadExchange exchange);
 
 /* Row i of F_ij: share of what leaves polygon i evenly that meets polygon j;
  * row[RadSceneReport.polygons], the caller's. Safe from many threads at once. Returns its sum, or
- * -1. */
+ * -1. Of a stream, and beyond the rows asked for, there is none. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 
 /* Shares of what polygon i sends that meet no front: what leaves the scene, what meets the black
@@ -942,6 +948,10 @@ struct RadExchangeLoss {
     double sky, backs, covered;
 };
 RAD_API int radGetExchangeLoss(RadExchange exchange, uint32_t i, struct RadExchangeLoss *loss);
+
+/* y = F x, after closure: x[polygons][columns], y[rows][columns], the caller's. Of a stream, what
+ * pairs exchange is computed anew. Returns 0, or -1. */
+RAD_API int radMultiplyExchange(RadExchange exchange, uint32_t columns, const double *x, double *y);
 
 struct RadExchangeReport {
     uint64_t links, pairs, rays;
@@ -959,6 +969,15 @@ struct RadExchangeReport {
     } seconds;
 };
 RAD_API void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report);
+
+/* What points with normals, such as sensors, see, what stands between included: by cuts, nothing
+ * sampled. position[3 * count] in m, normal[3 * count], not 0. row[count * (polygons + 2)], the
+ * caller's: of each point the share of what meets it, if all were equally bright, that comes from
+ * each polygon, then that from outside the scene, then that which black backs keep away; in all 1.
+ * A polygon that the point lies on is not seen and hides nothing. Needs a committed scene, no
+ * exchange. Returns 0, or -1. */
+RAD_API int radGetPointFactors(RadScene scene, uint32_t count, const double *position,
+                               const double *normal, double *row);
 
 /* ---- references */
 

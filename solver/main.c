@@ -42,7 +42,7 @@ static int run(const struct options *o)
     if (!o->scene || o->scenes || o->command == COMMAND_ERROR)
         return commands[o->command](o, NULL);
     struct open_scene scene;
-    if (open_scene(&scene, o->scene, &how, o->threads) < 0)
+    if (open_whole_scene(&scene, o->scene, &how, &o->copies, o->threads) < 0)
         return 1;
     int status = commands[o->command](o, &scene);
     close_scene(&scene);

@@ -10,6 +10,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include "engine/measured_error.h"
+#include "engine/point_view.h"
 #include "engine/trace.h"
 #include "hierarchy/scene.h"
 #include "oracle/explain.h"
@@ -45,6 +46,7 @@ struct RadSceneObject {
     int polygons_set, committed;
     struct scene scene; /* empty before the commit */
     struct RadSceneReport report;
+    struct point_view points; /* of radGetPointFactors; .scene NULL: not yet asked */
 };
 
 /* What an oracle was loaded from; path NULL: nobody knows, or it is somebody's C. */

@@ -32,6 +32,10 @@ static int check_options(RadDevice device, const struct RadExchangeOptions *o)
         && o->closure != RAD_CLOSURE_RECIPROCAL)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadExchangeOptions.closure takes one of enum RadClosure");
+    if (o->closure == RAD_CLOSURE_RECIPROCAL && (o->stream || o->rows))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RAD_CLOSURE_RECIPROCAL needs all rows, kept: RadExchangeOptions.rows and "
+                        "stream must be 0");
     return 0;
 }
 
@@ -68,12 +72,20 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
     }
     if (check_options(device, o) < 0)
         return NULL;
+    if (o->rows > scene->scene.input_count) {
+        api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                 "RadExchangeOptions.rows is %u; the scene has %u polygons", (unsigned)o->rows,
+                 (unsigned)scene->scene.input_count);
+        return NULL;
+    }
     struct exchange_options options = {.tolerance =
                                            o->tolerance > 0 ? o->tolerance : EXCHANGE_TOLERANCE,
                                        .closure = closures[o->closure],
                                        .threads = device->threads,
                                        .progress = watch,
-                                       .context = device};
+                                       .context = device,
+                                       .rows = o->rows,
+                                       .stream = o->stream};
     struct refiner *own = oracle ? NULL : default_oracle(options.tolerance);
     const struct refiner *refiner = oracle ? oracle->refiner : own;
     RadExchange x = refiner ? calloc(1, sizeof *x) : NULL;
@@ -110,7 +122,7 @@ void radReleaseExchange(RadExchange x)
 
 static int check_row(RadExchange x, uint32_t i)
 {
-    uint32_t count = x->exchange.areas.inputs;
+    uint32_t count = x->exchange.areas.rows;
     return i < count
                ? 0
                : api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
@@ -121,10 +133,14 @@ double radGetExchangeRow(RadExchange x, uint32_t i, double *row)
 {
     if (!x || check_row(x, i) < 0)
         return -1;
-    uint32_t count = x->exchange.areas.inputs;
+    if (!x->exchange.areas.values)
+        return api_fail(x->scene->device, RAD_ERROR_INVALID_OPERATION,
+                        "a stream keeps no rows: ask radMultiplyExchange, or set "
+                        "RadExchangeOptions.stream to 0");
     if (!row)
         return api_fail(x->scene->device, RAD_ERROR_INVALID_ARGUMENT,
-                        "row %u needs a place for %u values", (unsigned)i, (unsigned)count);
+                        "row %u needs a place for %u values", (unsigned)i,
+                        (unsigned)x->exchange.areas.inputs);
     return exchange_row(&x->exchange, i, row);
 }
 
@@ -134,6 +150,20 @@ int radGetExchangeLoss(RadExchange x, uint32_t i, struct RadExchangeLoss *loss)
         return -1;
     const struct exchange_loss *l = &x->exchange.losses[i];
     *loss = (struct RadExchangeLoss){l->sky, l->backs, l->covered};
+    return 0;
+}
+
+int radMultiplyExchange(RadExchange x, uint32_t columns, const double *in, double *out)
+{
+    if (!x)
+        return -1;
+    RadDevice device = x->scene->device;
+    if (columns && (!in || !out))
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a product needs columns and a place");
+    if (columns && exchange_multiply(&x->exchange, columns, in, out) < 0)
+        return api_fail(device, RAD_ERROR_OUT_OF_MEMORY,
+                        "out of memory for a product; fewer "
+                        "columns at a time need less");
     return 0;
 }
 

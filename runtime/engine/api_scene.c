@@ -40,6 +40,7 @@ void radReleaseScene(RadScene scene)
 {
     if (!scene || atomic_fetch_sub(&scene->holders, 1) != 1)
         return;
+    point_view_close(&scene->points);
     scene_free(&scene->scene);
     free(scene->materials);
     radReleaseDevice(scene->device);

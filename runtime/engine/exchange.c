@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange.h"
+#include "engine/exchange_product.h"
 #include "kernel/constants.h"
 #include "util/clock.h"
 #include "util/thread_pool.h"
@@ -95,7 +96,7 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
     const struct exchange_areas *m = &x->areas;
     double all = 0;
     r->low = INFINITY;
-    for (uint32_t i = 0; i < m->inputs; i++) {
+    for (uint32_t i = 0; i < m->rows; i++) {
         struct exchange_loss *way = &x->losses[i];
         double defect = fabs(1 - share[i]);
         int sky = way->sky > 0, backs = way->backs > 0;
@@ -124,17 +125,33 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
     r->backs_mean /= all > 0 ? all : 1;
 }
 
+/* sums[i]: the sum of A_i F_ij over j, each times scale[j] unless that is NULL. Returns 0 or -1. */
+static int find_sums(const struct exchange *x, const double *scale, double *sums)
+{
+    const struct exchange_areas *m = &x->areas;
+    if (m->values)
+        return exchange_areas_sums(m, scale, sums), 0;
+    double *ones = malloc((m->inputs + 1) * sizeof *ones);
+    for (uint32_t i = 0; i < m->inputs && ones; i++)
+        ones[i] = scale ? scale[i] : 1;
+    int status = ones ? exchange_product(m, x->threads, 1, ones, sums) : -1;
+    free(ones);
+    return status;
+}
+
 /* Closure changes what open rows sum to a little; their losses still make up for it. */
-static void follow_closure(struct exchange *x, double *sums)
+static int follow_closure(struct exchange *x, double *sums)
 {
     const struct exchange_areas *m = &x->areas;
     const struct exchange_closure *c = &x->closure;
     if (!c->scale)
-        return;
-    exchange_areas_sums(m, c->both ? c->scale : NULL, sums);
-    for (uint32_t i = 0; i < m->inputs; i++)
+        return 0;
+    if (find_sums(x, c->both ? c->scale : NULL, sums) < 0)
+        return -1;
+    for (uint32_t i = 0; i < m->rows; i++)
         if (m->area[i] > 0)
             share_out(&x->losses[i], 1 - c->scale[i] * sums[i] / m->area[i]);
+    return 0;
 }
 
 /* Rows that may have to be asked where their light goes. */
@@ -164,16 +181,19 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
     unsigned char *closed = malloc(m->inputs + 1);
     int status = -1;
     x->losses = calloc(m->inputs + 1, sizeof *x->losses);
-    if (share && sums && x->losses && closed) {
-        exchange_areas_sums(m, NULL, sums);
-        for (uint32_t i = 0; i < m->inputs; i++)
+    if (share && sums && x->losses && closed && find_sums(x, NULL, sums) == 0) {
+        for (uint32_t i = 0; i < m->inputs; i++) {
+            if (i >= m->rows) /* nobody asks for it */
+                sums[i] = m->area[i];
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
+            closed[i] = 0;
+        }
         const struct asking a = {x, o, share, x->losses};
-        thread_pool_run(o->threads, m->inputs, 16, ask_rows, &a);
+        thread_pool_run(o->threads, m->rows, 16, ask_rows, &a);
         account(x, share, closed);
         status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
         if (status == 0)
-            follow_closure(x, sums);
+            status = follow_closure(x, sums);
     }
     free(share);
     free(sums);
@@ -193,9 +213,12 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     double middle = seconds();
     x->report.seconds.refine = middle - start;
     if (tell(&watcher, "factors") != 0
-        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
+        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads,
+                               o->rows, !o->stream)
+               < 0)
         return -1;
-    refinement_close(&x->refinement);
+    if (!o->stream)
+        refinement_close(&x->refinement);
     if (close_rows(x, o) < 0)
         return -1;
     x->report.seconds.fill = seconds() - middle;
@@ -210,7 +233,7 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
 int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
                   const struct exchange_options *options, const char **cause)
 {
-    memset(x, 0, sizeof *x);
+    *x = (struct exchange){.threads = options->threads};
     if (exchange_tree_open(&x->tree, scene->faces, scene->face_count, options->threads, cause) < 0)
         return -1;
     if (compute(x, scene, refiner, options) == 0)
@@ -250,4 +273,23 @@ double exchange_row(const struct exchange *x, uint32_t i, double *restrict row)
         sum += row[j];
     }
     return sum;
+}
+
+int exchange_multiply(const struct exchange *x, uint32_t columns, const double *in, double *out)
+{
+    const struct exchange_closure *c = &x->closure;
+    const struct exchange_areas *m = &x->areas;
+    size_t size = (size_t)m->inputs * columns;
+    double *scaled = malloc((2 * size + 1) * sizeof *scaled);
+    if (!scaled)
+        return -1;
+    for (size_t k = 0; k < size; k++)
+        scaled[k] = in[k] * (c->both ? c->scale[k / columns] : 1);
+    int status = exchange_product(m, x->threads, columns, scaled, scaled + size);
+    for (size_t k = 0; k < (size_t)m->rows * columns && status == 0; k++) {
+        uint32_t i = (uint32_t)(k / columns);
+        out[k] = m->area[i] > 0 ? scaled[size + k] * (c->scale ? c->scale[i] : 1) / m->area[i] : 0;
+    }
+    free(scaled);
+    return status;
 }

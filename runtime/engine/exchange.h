@@ -17,6 +17,10 @@ struct exchange_options {
      * computed ("factors"); anything but 0 cancels. NULL: nobody is. */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
     void *context; /* of progress */
+    uint32_t rows; /* of the first so many inputs, which alone are accounted for; 0: all */
+    /* 1: values are not kept, but computed anew for each product (exchange_product.h): there are no
+     * rows, and closure is none or rows */
+    int stream;
 };
 
 struct exchange_report {
@@ -43,12 +47,12 @@ struct exchange_loss {
 
 struct exchange {
     struct exchange_tree tree;
-    struct refinement refinement; /* until the areas are computed */
+    struct refinement refinement; /* until the areas are computed; of a stream to the end */
     struct exchange_areas areas;
     struct exchange_closure closure;
     struct exchange_loss *losses; /* [areas.inputs], after closure */
     struct exchange_report report;
-    int cancelled;
+    int cancelled, threads;
 };
 
 /* Parameters of the oracle viewfactors whose defaults are made for EXCHANGE_TOLERANCE become what
@@ -65,5 +69,9 @@ void exchange_close(struct exchange *x);
 /* Row i of F_ij, after closure, none above 1: row[areas.inputs]. Returns its sum; 0 of a face that
  * was dropped. Safe from many threads at once. */
 double exchange_row(const struct exchange *x, uint32_t i, double *row);
+
+/* y[rows][columns] = F x, x[inputs][columns], after closure. Returns 0, or -1 when out of memory.
+ */
+int exchange_multiply(const struct exchange *x, uint32_t columns, const double *in, double *out);
 
 #endif

@@ -8,36 +8,8 @@
 #include <string.h>
 #include "engine/exchange_areas.h"
 #include "engine/exchange_blocks.h"
+#include "engine/exchange_tiles.h"
 #include "util/thread_pool.h"
-
-/* Blocks are no larger, so that a column's values are in the cache while its neighbours' rows
- * are written. */
-enum { TILE = 64 };
-
-/* One of the two links between the same two elements: the one whose receiver stands later in the
- * tree's order. */
-static int link_counts(const struct exchange_tree *t, const struct link *link)
-{
-    return hierarchy_range(&t->h, link->receiver).from > hierarchy_range(&t->h, link->emitter).from;
-}
-
-/* The blocks of a link, with the link that each is of; NULL: count them only. */
-static void add_tiles(struct exchange_areas *m, const struct link *link, const struct link **links)
-{
-    struct face_range r = hierarchy_range(&m->tree->h, link->receiver),
-                      s = hierarchy_range(&m->tree->h, link->emitter);
-    for (uint32_t i = r.from; i < r.to; i += TILE)
-        for (uint32_t j = s.from; j < s.to; j += TILE) {
-            struct exchange_block b = {i, r.to - i < TILE ? r.to - i : TILE, j,
-                                       s.to - j < TILE ? s.to - j : TILE, m->value_count};
-            if (links) {
-                m->blocks[m->block_count] = b;
-                links[m->block_count] = link;
-            }
-            m->block_count++;
-            m->value_count += (size_t)b.rows * b.columns;
-        }
-}
 
 /* What blocks are filled from. */
 struct filling {
@@ -45,32 +17,36 @@ struct filling {
     const struct link **links; /* [block] */
     const struct exchange_faces *faces;
     struct exchange_scratch *scratch; /* [thread] */
-    double near;
 };
+
+void exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
+                        const struct exchange_block *b, const struct link *link,
+                        struct exchange_scratch *scratch, double *values)
+{
+    const struct element *elements = m->tree->h.elements;
+    const struct exchange_pair pair = {m->tree,
+                                       &elements[link->receiver],
+                                       &elements[link->emitter],
+                                       {b->row, b->row + b->rows},
+                                       {b->column, b->column + b->columns},
+                                       m->near};
+    exchange_block_fill(faces, &pair, link, scratch, values);
+}
 
 static void fill_blocks(const void *filling, size_t from, size_t to)
 {
     const struct filling *f = filling;
     const struct exchange_areas *m = f->areas;
-    const struct element *elements = m->tree->h.elements;
-    for (size_t i = from; i < to; i++) {
-        const struct exchange_block *b = &m->blocks[i];
-        const struct exchange_pair pair = {m->tree,
-                                           &elements[f->links[i]->receiver],
-                                           &elements[f->links[i]->emitter],
-                                           {b->row, b->row + b->rows},
-                                           {b->column, b->column + b->columns},
-                                           f->near};
-        exchange_block_fill(f->faces, &pair, f->links[i], &f->scratch[thread_pool_number()],
-                            m->values + b->at);
-    }
+    for (size_t i = from; i < to; i++)
+        exchange_tile_fill(m, f->faces, &m->blocks[i], f->links[i],
+                           &f->scratch[thread_pool_number()], m->values + m->blocks[i].at);
 }
 
-static int fill(struct exchange_areas *m, const struct link **links, double near, int threads)
+static int fill(struct exchange_areas *m, const struct link **links, int threads)
 {
     struct exchange_faces faces = {.all = NULL};
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
-    const struct filling f = {m, links, &faces, scratch, near};
+    const struct filling f = {m, links, &faces, scratch};
     int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
     for (int t = 0; t < threads && !failed; t++)
         failed = exchange_scratch_open(&scratch[t], TILE) < 0;
@@ -131,35 +107,49 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
     return 0;
 }
 
-int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
-                        const struct scene *scene, const struct refinement *refinement, double near,
-                        int threads)
+/* All tiles, and what they stand for. */
+static int keep_values(struct exchange_areas *m, int threads)
 {
-    memset(m, 0, sizeof *m);
-    m->tree = tree;
-    m->faces = tree->h.face_count;
-    m->inputs = scene->input_count;
-    for (size_t i = 0; i < refinement->link_count; i++)
-        if (link_counts(tree, &refinement->links[i]))
-            add_tiles(m, &refinement->links[i], NULL);
+    struct exchange_tiles t = exchange_tiles(m, m->refinement);
+    while (exchange_tiles_next(&t))
+        m->block_count++;
     const struct link **links;
     links = malloc((m->block_count + 1) * sizeof *links);
     m->blocks = malloc((m->block_count + 1) * sizeof *m->blocks);
-    if (!links || !m->blocks || m->block_count > UINT32_MAX / 2 || find_inputs(m, scene) < 0)
-        goto fail;
-    m->block_count = m->value_count = 0;
-    for (size_t i = 0; i < refinement->link_count; i++)
-        if (link_counts(tree, &refinement->links[i])) {
-            m->link_count++;
-            add_tiles(m, &refinement->links[i], links);
+    m->values = malloc((t.values + 1) * sizeof *m->values);
+    int status = -1;
+    if (links && m->blocks && m->values && m->block_count <= UINT32_MAX / 2) {
+        t = exchange_tiles(m, m->refinement);
+        for (size_t i = 0; exchange_tiles_next(&t); i++) {
+            m->blocks[i] = t.is;
+            links[i] = t.link;
         }
-    m->values = malloc((m->value_count + 1) * sizeof *m->values);
-    if (!m->values || make_index(m) < 0 || fill(m, links, near, threads) < 0)
-        goto fail;
+        status = make_index(m) < 0 ? -1 : fill(m, links, threads);
+    }
     free(links);
-    return 0;
-fail:
-    free(links);
+    m->refinement = NULL;
+    return status;
+}
+
+int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
+                        const struct scene *scene, const struct refinement *refinement, double near,
+                        int threads, uint32_t rows, int keep)
+{
+    *m = (struct exchange_areas){.tree = tree,
+                                 .faces = tree->h.face_count,
+                                 .inputs = scene->input_count,
+                                 .rows = rows ? rows : scene->input_count,
+                                 .near = near,
+                                 .refinement = refinement};
+    if (find_inputs(m, scene) == 0) {
+        struct exchange_tiles t = exchange_tiles(m, refinement);
+        while (exchange_tiles_next(&t))
+            ;
+        m->link_count = t.links;
+        m->value_count = t.values;
+        if (!keep || keep_values(m, threads) == 0)
+            return 0;
+    }
     exchange_areas_close(m);
     return -1;
 }

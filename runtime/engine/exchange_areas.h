@@ -15,11 +15,15 @@ struct exchange_block {
 
 struct exchange_areas {
     const struct exchange_tree *tree; /* borrowed */
-    uint32_t faces, inputs;
+    uint32_t faces, inputs, rows;     /* rows: of the first so many inputs */
+    double near;                      /* of exchange_areas_open */
+    /* borrowed, NULL: values are kept */
+    const struct refinement *refinement;
     uint32_t *input;        /* [faces]: by place in the tree's order, the scene file's face */
     double *area;           /* [inputs]: all parts, both sides (m2) */
     uint32_t *first, *next; /* places of input i: first[i], next[that] ...; UINT32_MAX ends */
-    struct exchange_block *blocks; /* [block_count], of link_count links */
+    /* of link_count links: value_count values. The rest is there where values are kept */
+    struct exchange_block *blocks; /* [block_count] */
     size_t block_count, value_count, link_count;
     /* [value_count]: exchange areas A_i F_ij (m2), each pair of faces once per block that holds
      * it */
@@ -31,11 +35,21 @@ struct exchange_areas {
 
 /* Take the links of a refinement of the tree, sort out one of each two ways round, and compute what
  * they stand for. Pairs nearer than `near` times the sum of their radii have the contour integral.
- * Returns 0, or -1 when out of memory; then there is nothing to free. */
+ * Only the first `rows` rows are whole (0: all): what no such row takes part in is left out. keep
+ * 0: values are not kept, and computed when a product asks for them; then the refinement must
+ * outlive the areas, and there are no rows and sums. Returns 0, or -1 when out of memory; then
+ * there is nothing to free. */
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
                         const struct scene *scene, const struct refinement *refinement, double near,
-                        int threads);
+                        int threads, uint32_t rows, int keep);
 void exchange_areas_close(struct exchange_areas *m);
+
+/* What one tile of a link stands for: values[rows][columns] (exchange_blocks.h). */
+struct exchange_faces;
+struct exchange_scratch;
+void exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
+                        const struct exchange_block *b, const struct link *link,
+                        struct exchange_scratch *scratch, double *values);
 
 /* Row i of A_i F_ij (m2), times scale[i] scale[j] when there is a scale: adds into row[inputs],
  * which is zero but for what is there. Returns its sum. */

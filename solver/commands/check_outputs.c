@@ -205,6 +205,8 @@ static int add_inputs(struct named_files *f, const struct options *o)
         const char *path, *what;
     } others[] = {{o->reference, "the reference"},
                   {o->params, "the file of parameters"},
+                  {o->sensor, "the file of sensors"},
+                  {o->product, "the file of columns"},
                   {o->command == COMMAND_DRAW || o->command == COMMAND_PANEL ? o->statistics : NULL,
                    "the file of statistics"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)

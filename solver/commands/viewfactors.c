@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 #include "commands/commands.h"
+#include "commands/product_columns.h"
+#include "commands/sensor_rows.h"
 #include "output/factor_file.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
@@ -18,7 +20,8 @@
 static void print(const struct options *o, const struct open_scene *scene,
                   const struct RadExchangeReport *r, double write_seconds)
 {
-    printf("faces     %u\n", scene->report.polygons);
+    printf("faces     %u", scene->originals);
+    printf(o->copies.count ? ", %u with their copies\n" : "\n", scene->report.polygons);
     printf("links     %llu for %llu pairs of faces, %.3g rays; refine %.2f s, fill %.2f s, write "
            "%.2f s\n",
            (unsigned long long)r->links, (unsigned long long)r->pairs, (double)r->rays,
@@ -52,7 +55,7 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
     return json_pack(
         "{s:o, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, "
         "s:f, s:f, s:f, s:f, s:i, s:f, s:f}",
-        "scene", json_text(o->scene), "faces", (int)scene->report.polygons, "links",
+        "scene", json_text(o->scene), "faces", (int)scene->originals, "links",
         (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays,
         "row_sum_smallest", r->low, "row_sum_largest", r->high, "row_defect_largest",
         r->defect_most, "row_defect_mean", r->defect_mean, "rows_closed", (int)r->rows_closed,
@@ -67,13 +70,17 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
 
 /* Write what was asked for. Returns 0, or -1 after a message. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
-                         RadExchange exchange)
+                         RadExchange exchange, const struct columns *columns)
 {
-    const struct surfaces surfaces =
+    struct surfaces surfaces =
         surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
+    surfaces.polygon_count = scene->originals;
     double start = seconds();
-    if ((o->out
-         && factor_file_write(o->out, o->format, exchange, scene->report.polygons, o->threads) < 0)
+    if ((o->product && columns_write_product(columns, o->out, exchange, scene) < 0)
+        || (o->out && !o->product
+            && factor_file_write(o->out, o->format, exchange, scene->report.polygons,
+                                 scene->originals, o->threads)
+                   < 0)
         || (o->names && factor_file_names(o->names, &surfaces) < 0))
         return -1;
     double write_seconds = seconds() - start;
@@ -89,23 +96,40 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     return o->json ? json_file_write(o->json, report_json(o, scene, &r, write_seconds)) : 0;
 }
 
-int command_viewfactors(const struct options *o, const struct open_scene *scene)
+/* The matrix, or the columns' product with it. */
+static int compute(const struct options *o, const struct open_scene *scene,
+                   const struct columns *columns)
 {
-    const struct RadExchangeOptions how = {.tolerance = o->tolerance, .closure = o->closure};
+    const struct RadExchangeOptions how = {.tolerance = o->tolerance,
+                                           .closure = o->closure,
+                                           .rows = o->copies.count ? scene->originals : 0,
+                                           .stream = o->product != NULL};
     int status = -1;
     RadOracle oracle = radNewExchangeOracle(scene->device, o->tolerance);
     if (!oracle)
-        return report_device(scene->device, o->scene), 1;
+        return report_device(scene->device, o->scene);
     if (set_oracle(scene->device, oracle, o->settings, o->setting_count) == 0) {
         struct progress progress;
         progress_start(&progress, o->quiet);
         radSetDeviceProgressFunction(scene->device, progress_show, &progress);
         RadExchange exchange = radNewExchange(scene->scene, oracle, &how);
         progress_end(&progress);
-        status =
-            exchange ? write_outputs(o, scene, exchange) : report_device(scene->device, o->scene);
+        status = exchange ? write_outputs(o, scene, exchange, columns)
+                          : report_device(scene->device, o->scene);
         radReleaseExchange(exchange);
     }
     radReleaseOracle(oracle);
+    return status;
+}
+
+int command_viewfactors(const struct options *o, const struct open_scene *scene)
+{
+    struct columns columns = {0};
+    if (o->sensor)
+        return sensor_rows(o, scene);
+    int status = o->product ? columns_read(&columns, o->product, scene->originals) : 0;
+    if (status == 0)
+        status = compute(o, scene, &columns);
+    columns_free(&columns);
     return status < 0;
 }

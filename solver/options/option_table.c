@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -233,7 +234,41 @@ static int read_format(struct options *o, const struct option_row *row, const ch
 {
     int n = word_number(row, value);
     o->format = (enum factor_format)n;
+    o->format_given = 1;
     return n < 0 ? -1 : 0;
+}
+
+/* "AXIS=NUMBER" and what follows it, into the next step. Returns NULL when it is not that. */
+static const char *read_axis(struct options *o, const char *value, struct copy_step **step)
+{
+    char *end;
+    if (o->copies.count == COPY_STEPS || *value < 'x' || *value > 'z' || value[1] != '=')
+        return NULL;
+    *step = &o->copies.steps[o->copies.count++];
+    (*step)->axis = *value - 'x';
+    (*step)->at = strtod(value + 2, &end);
+    return end == value + 2 || !(fabs((*step)->at) <= 1e30) ? NULL : end;
+}
+
+static int read_mirror(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    struct copy_step *step;
+    const char *end = read_axis(o, value, &step);
+    return end && !*end ? 0 : -1;
+}
+
+static int read_repeat(struct options *o, const struct option_row *row, const char *value)
+{
+    (void)row;
+    struct copy_step *step;
+    const char *from = read_axis(o, value, &step);
+    if (!from || *from != ':' || !(step->at > 0))
+        return -1;
+    char *end;
+    long n = strtol(from + 1, &end, 10);
+    step->times = n >= 1 && n <= 1000 ? (int)n : 1;
+    return end == from + 1 || *end || n < 1 || n > 1000 ? -1 : 0;
 }
 
 static int read_cost(struct options *o, const struct option_row *row, const char *value)
@@ -629,6 +664,14 @@ const struct option_row option_rows[] = {
      TEXT(statistics)},
     {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
      WORD(read_format, formats)},
+    {"sensor", "FILE", FACTORS, NULL, "rows of points instead: lines x y z nx ny nz", TEXT(sensor)},
+    {"product", "FILE", FACTORS, NULL, "F x instead, for columns x: a line per face",
+     TEXT(product)},
+    {"mirror", "AXIS=X", FACTORS, NULL, "a plane of symmetry, x=0; repeatable",
+     "AXIS=X such as x=0; with --repeat, 8 at the most", .read = read_mirror},
+    {"repeat", "AXIS=X:N", FACTORS, NULL, "N copies on either side, X m apart; repeatable",
+     "AXIS=X:N such as y=2.5:3, X above 0, N 1 to 1000; with --mirror, 8 at the most",
+     .read = read_repeat},
     {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
      NAMED(image, pictures)},

@@ -382,6 +382,22 @@ static int check_together(struct options *o)
         return wrong(c->name, "--step and --json do not go together");
     if (o->statistics || o->trace)
         o->release = RAD_RELEASE_DAG;
+    if (o->sensor && (o->format_given || o->closure || o->setting_count))
+        return wrong(c->name, "--sensor writes a table of exact cuts: it does not go with %s",
+                     o->format_given ? "--format"
+                     : o->closure    ? "--closure"
+                                     : "--set");
+    if (o->product && (!o->out || o->sensor || o->format_given))
+        return wrong(c->name,
+                     o->out ? "--product writes columns: it does not go with %s"
+                            : "--product needs the name of what it writes: -o FILE%.0s",
+                     o->sensor ? "--sensor" : "--format");
+    if (o->product && o->closure == RAD_CLOSURE_RECIPROCAL)
+        return wrong(c->name, "--closure reciprocal needs the whole matrix: it does not go with "
+                              "--product");
+    if (o->copies.count && o->closure == RAD_CLOSURE_RECIPROCAL)
+        return wrong(c->name, "--closure reciprocal makes one matrix of all faces: it does not go "
+                              "with --mirror and --repeat");
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))
         return wrong(c->name, "--accuracy mends and measures: it does not go with %s",
                      o->no_errors ? "--no-errors" : "--no-correct");

@@ -6,6 +6,7 @@
 #include "radiosity.h"
 #include "output/factor_file.h"
 #include "output/view.h"
+#include "scene/copies.h"
 
 enum command {
     COMMAND_SOLVE,
@@ -89,8 +90,11 @@ struct options {
     /* What to write. */
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
-    int width, height, mesh; /* of the picture */
-    int gather;              /* rays per pixel; 0: none; -1, not given: at corners */
+    int format_given;
+    const char *sensor, *product; /* viewfactors: rows of points, and products, instead */
+    struct copies copies;         /* viewfactors: --mirror, --repeat */
+    int width, height, mesh;      /* of the picture */
+    int gather;                   /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
     int view_given;
 

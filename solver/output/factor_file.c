@@ -12,13 +12,14 @@
 
 #include "output/number_text.h"
 #include "util/atomic_file.h"
+#include "util/fold.h"
 #include "util/report.h"
 
 enum { ENTRY = 2 * (NUMBER_TEXT / 2) + NUMBER_TEXT, TEXT_MOST = 1 << 25 };
 
 struct writer {
     RadExchange exchange;
-    uint32_t count; /* rows and columns */
+    uint32_t polygons, count; /* of the matrix, copies and all; rows and columns written */
     enum factor_format format;
     struct label { /* "j," or "j " of each column */
         char text[15];
@@ -26,7 +27,7 @@ struct writer {
     } * labels;
     int threads;
     uint32_t batch;       /* rows at a time */
-    double *rows;         /* [threads][count] */
+    double *rows;         /* [threads][polygons] */
     char *text;           /* [batch][room] */
     size_t room, *length; /* [batch] */
 };
@@ -63,8 +64,9 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
 /* Row i of the matrix, in the thread's own place. */
 static const double *row_of(const struct writer *w, uint32_t i)
 {
-    double *row = &w->rows[(size_t)omp_get_thread_num() * w->count];
+    double *row = &w->rows[(size_t)omp_get_thread_num() * w->polygons];
     (void)radGetExchangeRow(w->exchange, i, row);
+    fold_row(row, w->polygons, w->count);
     return row;
 }
 
@@ -101,7 +103,7 @@ static int open_writer(struct writer *w)
     w->text = malloc(w->batch * w->room);
     w->length = malloc(w->batch * sizeof *w->length);
     w->labels = calloc((size_t)n + 1, sizeof *w->labels);
-    w->rows = malloc(((size_t)w->threads * n + 1) * sizeof *w->rows);
+    w->rows = malloc(((size_t)w->threads * w->polygons + 1) * sizeof *w->rows);
     if (!w->text || !w->length || !w->labels || !w->rows)
         return -1;
     for (uint32_t j = 0; j < n; j++) {
@@ -140,10 +142,13 @@ static void write_matrix(const struct writer *w, FILE *out)
 }
 
 int factor_file_write(const char *path, enum factor_format format, RadExchange exchange,
-                      uint32_t polygons, int threads)
+                      uint32_t polygons, uint32_t rows, int threads)
 {
-    struct writer w = {
-        .exchange = exchange, .count = polygons, .format = format, .threads = threads};
+    struct writer w = {.exchange = exchange,
+                       .polygons = polygons,
+                       .count = rows,
+                       .format = format,
+                       .threads = threads};
     struct atomic_file file = {0};
     int status = -1;
     if (open_writer(&w) < 0) {

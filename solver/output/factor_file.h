@@ -10,9 +10,10 @@
  * the scene file. */
 enum factor_format { FACTOR_CSV, FACTOR_COO, FACTOR_MTX };
 
-/* `polygons`: how many rows; `threads` write. Returns 0, or -1 after a message. */
+/* Of a matrix of so many `polygons` the rows of the first `rows` are written, columns of their
+ * copies summed onto theirs (util/fold.h); `threads` write. Returns 0, or -1 after a message. */
 int factor_file_write(const char *path, enum factor_format format, RadExchange exchange,
-                      uint32_t polygons, int threads);
+                      uint32_t polygons, uint32_t rows, int threads);
 
 /* A name per row: that of the polygon's material, and its number in the scene file from 0.
  * Returns 0, or -1 after a message. */

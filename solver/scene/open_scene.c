@@ -7,9 +7,18 @@
 int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
                int threads)
 {
+    return open_whole_scene(s, path, options, NULL, threads);
+}
+
+int open_whole_scene(struct open_scene *s, const char *path, const struct scene_options *options,
+                     const struct copies *copies, int threads)
+{
     *s = (struct open_scene){.path = path};
     if (scene_file_read(&s->file, path, options) < 0)
         return -1;
+    s->originals = s->file.polygon_count;
+    if (copies && copies_add(&s->file, path, copies) < 0)
+        return close_scene(s), -1;
     const struct RadPolygons polygons = scene_file_polygons(&s->file);
     s->device = open_device(options->quiet ? NULL : path, threads);
     if (s->device) {

@@ -3,7 +3,7 @@
 #ifndef OPEN_SCENE_H
 #define OPEN_SCENE_H
 
-#include "scene/scene_file.h"
+#include "scene/copies.h"
 
 struct open_scene {
     const char *path; /* borrowed */
@@ -11,11 +11,15 @@ struct open_scene {
     RadDevice device;
     RadScene scene;
     struct RadSceneReport report;
+    uint32_t originals; /* polygons of the file; with copies, fewer than the scene's */
 };
 
 /* Returns 0, or -1 after a message, with nothing to close. */
 int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
                int threads);
+/* The same with the copies that make it whole; NULL: none. */
+int open_whole_scene(struct open_scene *s, const char *path, const struct scene_options *options,
+                     const struct copies *copies, int threads);
 void close_scene(struct open_scene *s);
 
 #endif

@@ -1,6 +1,7 @@
 /* check_exchange.c - exchange areas where the graphs shipped do not lead: whatever an oracle links,
  * the matrix holds what the pairs of its faces exchange.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <string.h>
 #include "engine/exchange.h"
 #include "kernel/constants.h"
@@ -62,7 +63,7 @@ static double wall_to_wall(int cells, int deep)
     ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
     ck_assert_int_eq(refinement_start(&refinement), 0);
     struct exchange_areas matrix;
-    ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, 2.5, 2), 0);
+    ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, 2.5, 2, 0, 1), 0);
     uint32_t wall = (uint32_t)(cells * cells);
     double *row = calloc(scene.input_count, sizeof *row), sum = 0;
     for (uint32_t i = 0; i < wall; i++) {
@@ -113,8 +114,11 @@ START_TEST(test_cancel)
     made_room(&scene, m, 1, 1, 1);
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
     for (int i = 0; i < 3; i++) {
-        const struct exchange_options options = {3e-4, CLOSURE_RECIPROCAL, 2, stop_at,
-                                                 (void *)(uintptr_t)phases[i]};
+        const struct exchange_options options = {.tolerance = 3e-4,
+                                                 .closure = CLOSURE_RECIPROCAL,
+                                                 .threads = 2,
+                                                 .progress = stop_at,
+                                                 .context = (void *)(uintptr_t)phases[i]};
         struct exchange x;
         const char *cause = "not set";
         ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options, &cause), i < 2 ? -1 : 0);
@@ -129,6 +133,50 @@ START_TEST(test_cancel)
         ck_assert_uint_eq(x.report.rows_closed, 6);
         exchange_close(&x);
     }
+    refiner_close(refiner);
+    made_close(&scene);
+}
+END_TEST
+
+/* A product is the matrix times its columns, whether values are kept or computed anew, to the bit
+ * for any number of threads; of fewer rows, those rows. Walls of 256 faces are tiles of groups, in
+ * each other's half shadow. */
+START_TEST(test_product)
+{
+    enum { CELLS = 16, N = 2 * CELLS * CELLS + 12, COLUMNS = 11 };
+    static double in[N * COLUMNS], out[4][N * COLUMNS], row[N];
+    struct scene scene;
+    plates(&scene, CELLS);
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    const struct exchange_options options[4] = {
+        {.tolerance = 3e-4, .closure = CLOSURE_ROWS, .threads = 2},
+        {.tolerance = 3e-4, .closure = CLOSURE_ROWS, .threads = 2, .stream = 1},
+        {.tolerance = 3e-4, .closure = CLOSURE_ROWS, .threads = 1, .stream = 1},
+        {.tolerance = 3e-4, .closure = CLOSURE_ROWS, .threads = 2, .stream = 1, .rows = 40}};
+    for (int k = 0; k < N * COLUMNS; k++)
+        in[k] = sin(k);
+    for (int i = 0; i < 4; i++) {
+        struct exchange x;
+        const char *cause = "not set";
+        ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options[i], &cause), 0);
+        ck_assert_int_eq(exchange_multiply(&x, COLUMNS, in, out[i]), 0);
+        for (uint32_t r = 0; r < N && i == 0; r++) {
+            (void)exchange_row(&x, r, row);
+            for (int c = 0; c < COLUMNS; c++) {
+                double sum = 0;
+                for (int j = 0; j < N; j++)
+                    sum += row[j] * in[j * COLUMNS + c];
+                ck_assert_double_eq_tol(out[0][r * COLUMNS + (uint32_t)c], sum, 1e-12);
+            }
+        }
+        exchange_close(&x);
+    }
+    for (int k = 0; k < N * COLUMNS; k++)
+        ck_assert_double_eq_tol(out[1][k], out[0][k], 1e-13);
+    ck_assert_int_eq(memcmp(out[1], out[2], sizeof out[1]), 0);
+    for (int k = 0; k < 40 * COLUMNS; k++)
+        ck_assert_double_eq_tol(out[3][k], out[0][k], 1e-13);
+    ck_assert(fabs(out[0][0]) > 1e-6);
     refiner_close(refiner);
     made_close(&scene);
 }
@@ -167,6 +215,7 @@ int main(void)
     tcase_add_test(c, test_many_blockers);
     tcase_add_test(c, test_parts_and_groups);
     tcase_add_test(c, test_cancel);
+    tcase_add_test(c, test_product);
     tcase_add_test(c, test_tolerance);
     tcase_add_test(c, test_row_scale);
     suite_add_tcase(suite, c);

@@ -1,0 +1,117 @@
+/* product_columns.c - see product_columns.h.
+ * SPDX-License-Identifier: MIT */
+#include "commands/product_columns.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "output/number_text.h"
+#include "scene/read_numbers.h"
+#include "util/array.h"
+#include "util/atomic_file.h"
+#include "util/device.h"
+#include "util/text_file.h"
+
+enum { COLUMNS_MOST = 4096 };
+
+void columns_free(struct columns *c)
+{
+    free(c->text);
+    free(c->x);
+    *c = (struct columns){0};
+}
+
+static int read_row(struct columns *c, const char *path, struct text_lines *t)
+{
+    double value[COLUMNS_MOST];
+    int n = read_numbers(t, path, "a column", COLUMNS_MOST, value);
+    if (n < 0)
+        return -1;
+    if (n > COLUMNS_MOST)
+        return report_error(path, t->number, "%d columns; write at most %d", n, COLUMNS_MOST);
+    if (c->rows == 0)
+        c->count = (uint32_t)n;
+    if ((uint32_t)n != c->count)
+        return report_error(path, t->number,
+                            "%d numbers, but %u in the lines before; write one "
+                            "for each column",
+                            n, (unsigned)c->count);
+    if (array_reserve(&c->x, c->rows + 1, &c->capacity, c->count * sizeof *c->x) < 0)
+        return scene_file_no_memory(path);
+    memcpy(c->x + c->rows++ * c->count, value, c->count * sizeof *value);
+    return 0;
+}
+
+/* A line that does not begin with a number. */
+static int is_head(const struct text_lines *t)
+{
+    struct text_lines ahead = *t;
+    double x;
+    return next_word(&ahead) && !word_number(&ahead, &x);
+}
+
+int columns_read(struct columns *c, const char *path, uint32_t faces)
+{
+    size_t size;
+    int lines = 0;
+    *c = (struct columns){.text = text_file_read(path, &size)};
+    if (!c->text)
+        return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
+    struct text_lines t = text_lines(c->text, size);
+    while (next_line(&t)) {
+        struct text_lines ahead = t;
+        if (!next_word(&ahead))
+            continue;
+        if (lines++ == 0 && is_head(&t)) {
+            c->head = t.line;
+            *t.line_end = 0;
+            continue;
+        }
+        for (char *at = t.line; at < t.line_end; at++)
+            *at = *at == ',' ? ' ' : *at;
+        if (read_row(c, path, &t) < 0)
+            return -1;
+    }
+    if (c->rows == faces)
+        return 0;
+    return report_error(path, 0,
+                        "%zu lines of numbers, but the scene has %u faces; write one for "
+                        "each, in the scene file's order",
+                        c->rows, (unsigned)faces);
+}
+
+static int write_rows(const struct columns *c, const char *path, const double *y)
+{
+    struct atomic_file file = {0};
+    if (atomic_open(&file, path) < 0)
+        return -1;
+    if (c->head)
+        fprintf(file.stream, "%s\n", c->head);
+    for (size_t k = 0; k < c->rows * c->count; k++) {
+        char text[NUMBER_TEXT];
+        int length = number_text(text, y[k]);
+        fwrite(text, 1, (size_t)length, file.stream);
+        fputc((k + 1) % c->count ? ',' : '\n', file.stream);
+    }
+    return atomic_commit(&file);
+}
+
+int columns_write_product(const struct columns *c, const char *path, RadExchange exchange,
+                          const struct open_scene *scene)
+{
+    const size_t size = c->rows * c->count, all = (size_t)scene->report.polygons * c->count;
+    double *x = malloc((all + size + 1) * sizeof *x), *y = x + all;
+    if (!x)
+        return scene_file_no_memory(path);
+    for (size_t k = 0; k < all; k++) /* what is sent by a copy is what its original sends */
+        x[k] = c->x[k % size];
+    int status = radMultiplyExchange(exchange, c->count, x, y);
+    if (status < 0)
+        (void)report_device(scene->device, path);
+    else
+        status = write_rows(c, path, y);
+    free(x);
+    return status;
+}
