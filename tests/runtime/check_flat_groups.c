@@ -241,15 +241,15 @@ END_TEST
 
 /* Every pair of a convex room against the contour integral to 3 %, and how many
  * links it takes. */
-static void check_prism(const double (*plan)[2], int corners, uint64_t most)
+static void check_prism(const double (*plan)[2], int corners, int levels, uint64_t most)
 {
     struct scene s;
     struct exchange x;
-    prism(&s, plan, corners, 0.8, 3);
+    prism(&s, plan, corners, 0.8, levels);
     open_exchange(&x, &s);
     ck_assert_uint_le(x.report.links, most);
     double *row = malloc(s.input_count * sizeof *row);
-    for (uint32_t p = 0; p < s.face_count; p += 17) {
+    for (uint32_t p = 0; p<s.face_count; p += levels> 0 ? 17 : 1) {
         const struct element *e = exchange_tree_face(&x.tree, p);
         ck_assert_double_eq_tol(exchange_row(&x, s.faces[e->face].input, row), 1, 3e-4);
         for (uint32_t q = 0; q < s.face_count; q++) {
@@ -265,8 +265,15 @@ static void check_prism(const double (*plan)[2], int corners, uint64_t most)
 
 START_TEST(test_prisms)
 {
+    const double wedge[3][2] = {{0, 0}, {2, 0}, {0.3, 1.1}};
+    const double trapezoid[4][2] = {{0, 0}, {2, 0}, {1.4, 1}, {0.2, 1}};
     const double house[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0.5, 1.4}, {0, 1}};
-    check_prism(house, 5, 5000);
+    check_prism(wedge, 3, 3, 10);
+    check_prism(trapezoid, 4, 3, 15);
+    check_prism(house, 5, 3, 5000);
+    /* face by face: each pair of faces that see each other is one link, at acute edges too */
+    check_prism(wedge, 3, 0, 25);
+    check_prism(trapezoid, 4, 0, 60);
 }
 END_TEST
 
