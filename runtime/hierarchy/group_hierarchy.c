@@ -4,29 +4,26 @@
  * whether anything stands between, how near, who turns to whom. These have one answer for all pairs
  * of two walls' patches. Clusters by the surface-area heuristic mix a wall with the strip of floor
  * beside it, and nothing is true of such a group. So here faces are first gathered by plane
- * (coplanar_groups.h); each plane's faces make a tree of rectangles, each of which is a surface
- * that shafts, distances and planes can be asked about; above the planes stand clusters.
+ * (coplanar_groups.h); each plane's faces make a tree of groups with an outline each
+ * (group_outline.h), which is a surface that shafts, distances and planes can be asked about; above
+ * the planes stand clusters.
  *
- * What blocks light is as few as possible: the largest groups whose faces tile their rectangle
- * stand in shafts as one face each. They do when every edge that no neighbour cancels lies on the
- * rectangle's sides, so that all of it is covered equally often, and the areas say once.
+ * What blocks light is as few as possible: the largest groups whose faces tile their outline stand
+ * in shafts as one face each.
  *
- * Invariant: a group's faces lie in its plane, to h.flat, and within its rectangle, to rounding;
- * the tree depends on the faces alone.
- * [derived here; the cancelling of edges is that of winding numbers]
+ * Invariant: a group's faces lie in its plane, to h.flat, and within its outline, to rounding; the
+ * tree depends on the faces alone.
+ * [derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "hierarchy/coplanar_groups.h"
 #include "hierarchy/group_hierarchy.h"
+#include "hierarchy/group_outline.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 
 enum { FANOUT = 4 };
-
-struct directed { /* an edge, for cancelling */
-    double a[2], b[2];
-};
 
 struct builder {
     struct hierarchy *h;
@@ -35,14 +32,9 @@ struct builder {
     struct coplanar_groups planes;
     /* [face_count]: by face, the middle of its rectangle in its plane's frame */
     double (*at)[2];
-    double (*centre)[3];       /* [planes]: the middle of the plane's box */
-    struct directed *edges;    /* [8 * face_count] */
+    double (*centre)[3]; /* [planes]: the middle of the plane's box */
+    struct outliner outliner;
     struct face_share *shares; /* [face_count]: by place in the tree's order */
-};
-
-/* The frame of a plane. */
-struct frame {
-    double origin[3], u[3], v[3], n[3];
 };
 
 static const struct element *face_of(const struct builder *b, uint32_t face)
@@ -101,132 +93,18 @@ static void make_face(struct builder *b, uint32_t index, uint32_t at)
     b->h->solid[index] = 1;
 }
 
-/* The frame of a plane's faces: the first axis along the longest edge of the largest face. */
-static void make_frame(const struct builder *b, struct face_range range, struct frame *f)
-{
-    const struct element *e = face_of(b, b->h->order[range.from]);
-    double best = 0;
-    for (uint32_t i = range.from; i < range.to; i++)
-        if (face_of(b, b->h->order[i])->area > e->area * (1 + 1e-9))
-            e = face_of(b, b->h->order[i]);
-    memcpy(f->n, e->normal, sizeof f->n);
-    memcpy(f->origin, e->centre, sizeof f->origin);
-    for (int c = 0; c < e->vertices; c++) {
-        double edge[3];
-        sub3(edge, e->vertex[c + 1 < e->vertices ? c + 1 : 0], e->vertex[c]);
-        double size = length3(edge);
-        if (size <= best * (1 + 1e-9))
-            continue;
-        best = size;
-        for (int k = 0; k < 3; k++)
-            f->u[k] = edge[k] / size;
-    }
-    cross3(f->v, f->n, f->u);
-    best = length3(f->v);
-    for (int k = 0; k < 3; k++)
-        f->v[k] /= best;
-    cross3(f->u, f->v, f->n);
-}
-
-static void in_frame(const struct frame *f, const double p[3], double uv[2])
-{
-    double w[3];
-    sub3(w, p, f->origin);
-    uv[0] = dot3(w, f->u);
-    uv[1] = dot3(w, f->v);
-}
-
-static void bounds(const struct builder *b, const struct frame *f, struct face_range range,
-                   double low[2], double high[2])
-{
-    low[0] = low[1] = INFINITY;
-    high[0] = high[1] = -INFINITY;
-    for (uint32_t i = range.from; i < range.to; i++) {
-        const struct element *e = face_of(b, b->h->order[i]);
-        for (int c = 0; c < e->vertices; c++) {
-            double uv[2];
-            in_frame(f, e->vertex[c], uv);
-            for (int k = 0; k < 2; k++) {
-                low[k] = uv[k] < low[k] ? uv[k] : low[k];
-                high[k] = uv[k] > high[k] ? uv[k] : high[k];
-            }
-        }
-    }
-}
-
-static int compare_edges(const void *a, const void *b)
-{
-    return memcmp(a, b, sizeof(struct directed));
-}
-
-/* Do the faces tile the rectangle? Edges run both ways between neighbours: written from the smaller
- * end, with which way in the list's half. */
-static int tiles(const struct builder *b, const struct frame *f, struct face_range range,
-                 const double low[2], const double high[2])
-{
-    double area = 0, whole = (high[0] - low[0]) * (high[1] - low[1]), near = b->flat;
-    size_t count[2] = {0, 0};
-    struct directed *half[2];
-    half[0] = b->edges;
-    half[1] = b->edges + 4 * (size_t)b->h->face_count;
-    for (uint32_t r = range.from; r < range.to; r++) {
-        const struct element *e = face_of(b, b->h->order[r]);
-        area += e->area;
-        for (int c = 0; c < e->vertices; c++) {
-            double end[2][2];
-            int side = 0;
-            in_frame(f, e->vertex[c], end[0]);
-            in_frame(f, e->vertex[c + 1 < e->vertices ? c + 1 : 0], end[1]);
-            for (int k = 0; k < 2; k++)
-                side |= (end[0][k] < low[k] + near && end[1][k] < low[k] + near)
-                        || (end[0][k] > high[k] - near && end[1][k] > high[k] - near);
-            if (side)
-                continue;
-            for (int k = 0; k < 4; k++) { /* corners that are one in the file are one here */
-                end[k / 2][k % 2] = floor(end[k / 2][k % 2] / near * 0.125 + 0.5);
-                end[k / 2][k % 2] += 0.0; /* no negative zero */
-            }
-            int turned = end[0][0] > end[1][0] || (end[0][0] >= end[1][0] && end[0][1] > end[1][1]);
-            struct directed *g = &half[turned][count[turned]++];
-            memcpy(g->a, end[turned], sizeof g->a);
-            memcpy(g->b, end[!turned], sizeof g->b);
-        }
-    }
-    if (count[0] != count[1] || fabs(area - whole) > GROUP_GAPS * whole)
-        return 0;
-    for (size_t i = 0; i < 2; i++)
-        qsort(half[i], count[i], sizeof **half, compare_edges);
-    for (size_t j = 0; j < count[0]; j++)
-        if (compare_edges(&half[0][j], &half[1][j]) != 0)
-            return 0;
-    return 1;
-}
-
-static void make_rectangle(struct builder *b, uint32_t index, const struct frame *f,
-                           struct face_range range, int within_solid)
+/* Element `index` becomes the group's surface. */
+static void make_outline(struct builder *b, uint32_t index, const struct group_frame *f,
+                         struct face_range range, int within_solid)
 {
     struct element *e = &b->h->elements[index];
-    double low[2], high[2];
-    bounds(b, f, range, low, high);
-    for (int c = 0; c < 4; c++)
-        for (int k = 0; k < 3; k++)
-            e->vertex[c][k] = f->origin[k] + (c == 1 || c == 2 ? high[0] : low[0]) * f->u[k]
-                              + (c >= 2 ? high[1] : low[1]) * f->v[k];
-    for (int k = 0; k < 3; k++) {
-        e->centre[k] = 0.5 * (e->vertex[0][k] + e->vertex[2][k]);
-        e->normal[k] = f->n[k];
-    }
-    e->radius =
-        0.5
-        * sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]));
-    for (uint32_t i = range.from; i < range.to; i++)
-        e->area += face_of(b, b->h->order[i])->area;
+    const struct group_faces faces = {b->h->order + range.from, range.to - range.from};
+    group_outline(&b->outliner, f, faces, e);
     e->cone = 1;
-    e->vertices = 4;
-    e->face = b->h->order[range.from];
+    e->face = *faces.face;
     e->group = 1;
     b->h->range[index] = range;
-    b->h->solid[index] = (unsigned char)(!within_solid && tiles(b, f, range, low, high));
+    b->h->solid[index] = (unsigned char)(!within_solid && group_tiles(&b->outliner, f, faces, e));
 }
 
 /* ---- splitting */
@@ -320,14 +198,14 @@ static int divide_range(const struct builder *b, const struct places *p, uint32_
 
 /* Element `index` becomes the group of the faces in the range, or the one face. */
 static void make_group(struct builder *b, struct along *scratch, uint32_t index,
-                       const struct frame *f, struct face_range range, int within_solid)
+                       const struct group_frame *f, struct face_range range, int within_solid)
 {
     uint32_t n = range.to - range.from;
     if (n == 1) {
         make_face(b, index, range.from);
         return;
     }
-    make_rectangle(b, index, f, range, within_solid);
+    make_outline(b, index, f, range, within_solid);
     within_solid |= b->h->solid[index];
     uint32_t first;
     if (n <= LOWEST_GROUP) {
@@ -374,13 +252,14 @@ static void make_cluster(struct builder *b, struct along *scratch, uint32_t *lis
         const struct face_range *plane = &b->planes.groups[list[range.from]];
         struct face_range faces = {at, at + plane->to - plane->from};
         memcpy(b->h->order + at, order + plane->from, (plane->to - plane->from) * sizeof *order);
-        struct frame f;
+        struct group_frame f;
         if (faces.to - faces.from > 1) {
-            make_frame(b, faces, &f);
+            group_frame_of(&b->outliner,
+                           (struct group_faces){b->h->order + at, faces.to - faces.from}, &f);
             for (uint32_t i = faces.from; i < faces.to; i++) {
                 double low[2], high[2];
-                struct face_range one = {i, i + 1};
-                bounds(b, &f, one, low, high);
+                const struct group_faces one = {b->h->order + i, 1};
+                group_bounds(&b->outliner, &f, one, low, high);
                 for (int k = 0; k < 2; k++)
                     b->at[b->h->order[i]][k] = 0.5 * (low[k] + high[k]);
             }
@@ -416,7 +295,6 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
     h->flat = flat;
     b.at = calloc(n, sizeof *b.at);
     b.centre = malloc(n * sizeof *b.centre);
-    b.edges = malloc(8 * (size_t)n * sizeof *b.edges);
     b.shares = malloc(n * sizeof *b.shares);
     h->elements = malloc(most * sizeof *h->elements);
     h->capacity = most;
@@ -424,8 +302,8 @@ int hierarchy_build_groups(struct hierarchy *h, const struct hierarchy *plain, d
     h->order = malloc(n * sizeof *h->order);
     h->range = malloc(most * sizeof *h->range);
     h->solid = calloc(most, 1);
-    if (!list || !scratch || !b.at || !b.centre || !b.edges || !b.shares || !h->elements
-        || !h->face_element || !h->order || !h->range || !h->solid
+    if (!list || !scratch || !b.at || !b.centre || !b.shares || !h->elements || !h->face_element
+        || !h->order || !h->range || !h->solid || outliner_open(&b.outliner, plain, flat) < 0
         || coplanar_groups_find(&b.planes, plain, flat) < 0)
         goto done;
     for (int k = 0; k < 3; k++) {
@@ -450,7 +328,7 @@ done:
     free(scratch);
     free(b.at);
     free(b.centre);
-    free(b.edges);
+    outliner_close(&b.outliner);
     free(b.shares);
     coplanar_groups_free(&b.planes);
     if (result < 0)

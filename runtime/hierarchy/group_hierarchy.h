@@ -1,7 +1,7 @@
 /* group_hierarchy.h - a hierarchy with flat groups of faces between clusters and faces.
  *
- * Groups are surfaces: 4 vertices, the rectangle around their faces, marked as `group`. Those whose
- * faces tile their rectangle are solid: they stand in a shaft as one face.
+ * Groups are surfaces: 3 or 4 vertices, an outline around their faces, marked as `group`. Those
+ * whose faces tile their outline are solid: they stand in a shaft as one face.
  * SPDX-License-Identifier: MIT */
 #ifndef GROUP_HIERARCHY_H
 #define GROUP_HIERARCHY_H

@@ -1,0 +1,232 @@
+/* group_outline.c - the outline of a group of coplanar faces: a polygon of 3 or 4 corners.
+ *
+ * What a shaft says of a group it says of the group's outline, and an outline that sticks out of
+ * its faces crosses the walls beside them, behind which nothing is clear. So a plane's frame lies
+ * along the smallest rectangle around its faces, whatever their own edges are: two triangles of a
+ * square have the square. Where the faces do not fill that rectangle, as those of a gable, it is
+ * the outline only if the hull's sides, without those of which least is to be seen, leave no
+ * smaller one.
+ *
+ * The faces tile their outline when every edge that no neighbour cancels lies on its sides, so that
+ * all of it is covered equally often, and the areas say once.
+ *
+ * Invariant: a group's faces lie within its outline, to rounding.
+ * [derived here; the cancelling of edges is that of winding numbers]
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+#include "hierarchy/flat_hull.h"
+#include "hierarchy/group_outline.h"
+#include "kernel/constants.h"
+
+struct directed { /* an edge, for cancelling */
+    double a[2], b[2];
+};
+
+int outliner_open(struct outliner *o, const struct hierarchy *plain, double flat)
+{
+    size_t n = plain->face_count;
+    *o = (struct outliner){.plain = plain, .flat = flat};
+    o->points = malloc((4 * n + 1) * sizeof *o->points);
+    o->hull = malloc((4 * n + 1) * sizeof *o->hull);
+    o->edges = malloc((8 * n + 1) * sizeof *o->edges);
+    return o->points && o->hull && o->edges ? 0 : -1;
+}
+
+void outliner_close(struct outliner *o)
+{
+    free(o->points);
+    free(o->hull);
+    free(o->edges);
+}
+
+static const struct element *face_of(const struct outliner *o, uint32_t face)
+{
+    return &o->plain->elements[o->plain->face_element[face]];
+}
+
+static void in_frame(const struct group_frame *f, const double p[3], double uv[2])
+{
+    double w[3];
+    sub3(w, p, f->origin);
+    uv[0] = dot3(w, f->u);
+    uv[1] = dot3(w, f->v);
+}
+
+static size_t find_hull(struct outliner *o, const struct group_frame *f, struct group_faces faces)
+{
+    size_t n = 0;
+    for (uint32_t i = 0; i < faces.count; i++) {
+        const struct element *e = face_of(o, faces.face[i]);
+        for (int c = 0; c < e->vertices; c++)
+            in_frame(f, e->vertex[c], o->points[n++]);
+    }
+    return flat_hull(o->points, n, o->hull);
+}
+
+static double area_of(const struct outliner *o, struct group_faces faces)
+{
+    double area = 0;
+    for (uint32_t i = 0; i < faces.count; i++)
+        area += face_of(o, faces.face[i])->area;
+    return area;
+}
+
+/* The second axis, from the normal and the first, which is set upright. */
+static void finish_axes(struct group_frame *f)
+{
+    cross3(f->v, f->n, f->u);
+    double size = length3(f->v);
+    for (int k = 0; k < 3; k++)
+        f->v[k] /= size;
+    cross3(f->u, f->v, f->n);
+}
+
+void group_frame_of(struct outliner *o, struct group_faces faces, struct group_frame *f)
+{
+    const struct element *e = face_of(o, faces.face[0]);
+    double best = 0;
+    for (uint32_t i = 0; i < faces.count; i++)
+        if (face_of(o, faces.face[i])->area > e->area * (1 + 1e-9))
+            e = face_of(o, faces.face[i]);
+    memcpy(f->n, e->normal, sizeof f->n);
+    memcpy(f->origin, e->centre, sizeof f->origin);
+    for (int c = 0; c < e->vertices; c++) { /* along its longest edge for now */
+        double edge[3];
+        sub3(edge, e->vertex[c + 1 < e->vertices ? c + 1 : 0], e->vertex[c]);
+        double size = length3(edge);
+        if (size <= best * (1 + 1e-9))
+            continue;
+        best = size;
+        for (int k = 0; k < 3; k++)
+            f->u[k] = edge[k] / size;
+    }
+    finish_axes(f);
+    size_t corners = find_hull(o, f, faces);
+    if (corners >= 3) {
+        double along[2];
+        flat_hull_direction((const double(*)[2])o->hull, corners, along);
+        for (int k = 0; k < 3; k++)
+            f->u[k] = along[0] * f->u[k] + along[1] * f->v[k];
+        finish_axes(f);
+    }
+    double low[2], high[2];
+    group_bounds(o, f, faces, low, high);
+    f->full = area_of(o, faces) >= (1 - GROUP_GAPS) * (high[0] - low[0]) * (high[1] - low[1]);
+}
+
+void group_bounds(const struct outliner *o, const struct group_frame *f, struct group_faces faces,
+                  double low[2], double high[2])
+{
+    low[0] = low[1] = INFINITY;
+    high[0] = high[1] = -INFINITY;
+    for (uint32_t i = 0; i < faces.count; i++) {
+        const struct element *e = face_of(o, faces.face[i]);
+        for (int c = 0; c < e->vertices; c++) {
+            double uv[2];
+            in_frame(f, e->vertex[c], uv);
+            for (int k = 0; k < 2; k++) {
+                low[k] = uv[k] < low[k] ? uv[k] : low[k];
+                high[k] = uv[k] > high[k] ? uv[k] : high[k];
+            }
+        }
+    }
+}
+
+void group_outline(struct outliner *o, const struct group_frame *f, struct group_faces faces,
+                   struct element *e)
+{
+    double low[2], high[2];
+    group_bounds(o, f, faces, low, high);
+    const double rectangle[4][2] = {
+        {low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}};
+    const double(*corner)[2] = rectangle;
+    size_t n = 4;
+    if (!f->full) {
+        size_t sides = flat_hull_quad(o->hull, find_hull(o, f, faces));
+        if ((sides == 3 || sides == 4)
+            && flat_area((const double(*)[2])o->hull, sides)
+                   < (1 - GROUP_GAPS) * flat_area(rectangle, 4)) {
+            corner = (const double(*)[2])o->hull;
+            n = sides;
+        }
+    }
+    for (size_t c = 0; c < n; c++)
+        for (int k = 0; k < 3; k++)
+            e->vertex[c][k] = f->origin[k] + corner[c][0] * f->u[k] + corner[c][1] * f->v[k];
+    for (int k = 0; k < 3; k++) {
+        e->centre[k] = 0;
+        for (size_t c = 0; c < n; c++)
+            e->centre[k] += e->vertex[c][k] / (double)n;
+        e->normal[k] = f->n[k];
+    }
+    e->radius = 0;
+    for (size_t c = 0; c < n; c++) {
+        double away[3];
+        sub3(away, e->vertex[c], e->centre);
+        e->radius = fmax(e->radius, length3(away));
+    }
+    e->vertices = (uint8_t)n;
+    e->area = area_of(o, faces);
+}
+
+/* ---- tiling */
+
+static int compare_edges(const void *a, const void *b)
+{
+    return memcmp(a, b, sizeof(struct directed));
+}
+
+/* Do both ends lie on one side of the outline, to `near`? */
+static int on_side(double (*corner)[2], int n, double (*end)[2], double near)
+{
+    for (int c = 0; c < n; c++) {
+        const double *a = corner[c], *b = corner[c + 1 < n ? c + 1 : 0];
+        double u = b[0] - a[0], v = b[1] - a[1], least = near * sqrt(u * u + v * v);
+        if (fabs(u * (end[0][1] - a[1]) - v * (end[0][0] - a[0])) < least
+            && fabs(u * (end[1][1] - a[1]) - v * (end[1][0] - a[0])) < least)
+            return 1;
+    }
+    return 0;
+}
+
+/* Edges run both ways between neighbours: written from the smaller end, with which way in the
+ * list's half. */
+int group_tiles(struct outliner *o, const struct group_frame *f, struct group_faces faces,
+                const struct element *e)
+{
+    double corner[4][2], near = o->flat;
+    size_t count[2] = {0, 0};
+    struct directed *half[2] = {o->edges, o->edges + 4 * (size_t)faces.count};
+    for (int c = 0; c < e->vertices; c++)
+        in_frame(f, e->vertex[c], corner[c]);
+    double whole = flat_area((const double(*)[2])corner, e->vertices);
+    if (fabs(e->area - whole) > GROUP_GAPS * whole)
+        return 0;
+    for (uint32_t i = 0; i < faces.count; i++) {
+        const struct element *g = face_of(o, faces.face[i]);
+        for (int c = 0; c < g->vertices; c++) {
+            double end[2][2];
+            in_frame(f, g->vertex[c], end[0]);
+            in_frame(f, g->vertex[c + 1 < g->vertices ? c + 1 : 0], end[1]);
+            if (on_side(corner, e->vertices, end, near))
+                continue;
+            for (int k = 0; k < 4; k++) { /* corners that are one in the file are one here */
+                end[k / 2][k % 2] = floor(end[k / 2][k % 2] / near * 0.125 + 0.5);
+                end[k / 2][k % 2] += 0.0; /* no negative zero */
+            }
+            int turned = end[0][0] > end[1][0] || (end[0][0] >= end[1][0] && end[0][1] > end[1][1]);
+            struct directed *d = &half[turned][count[turned]++];
+            memcpy(d->a, end[turned], sizeof d->a);
+            memcpy(d->b, end[!turned], sizeof d->b);
+        }
+    }
+    if (count[0] != count[1])
+        return 0;
+    for (size_t i = 0; i < 2; i++)
+        qsort(half[i], count[i], sizeof **half, compare_edges);
+    for (size_t j = 0; j < count[0]; j++)
+        if (compare_edges(&half[0][j], &half[1][j]) != 0)
+            return 0;
+    return 1;
+}
