@@ -109,10 +109,11 @@ struct shape_format {
 static const struct shape_format *shape_format(const char *path)
 {
     static const struct shape_format formats[] = {
-        {".ply", read_ply, ALL_GREY},   {".stl", read_stl, ALL_GREY},
-        {".off", read_off, ALL_GREY},   {".msh", read_gmsh, NAMED},
-        {".bdf", read_nastran, NAMED},  {".nas", read_nastran, NAMED},
-        {".vs3", read_vs3, EMITTANCES},
+        {".ply", read_ply, ALL_GREY},     {".stl", read_stl, ALL_GREY},
+        {".off", read_off, ALL_GREY},     {".msh", read_gmsh, NAMED},
+        {".vtk", read_vtk, ALL_GREY},     {".vtu", read_vtk_xml, ALL_GREY},
+        {".vtp", read_vtk_xml, ALL_GREY}, {".bdf", read_nastran, NAMED},
+        {".nas", read_nastran, NAMED},    {".vs3", read_vs3, EMITTANCES},
     };
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
         if (has_extension(path, (const char *const[]){formats[i].ending, NULL}))

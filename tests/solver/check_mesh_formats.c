@@ -179,6 +179,167 @@ static void write_nastran_free(void)
     put("ENDDATA\n");
 }
 
+static void write_vtk_3(void)
+{
+    int numbers = 2;
+    for (int i = 0; i < FACES; i++)
+        numbers += 1 + corners(i);
+    put("# vtk DataFile Version 3.0\na # room\nASCII\nDATASET UNSTRUCTURED_GRID\nFIELD FieldData "
+        "1\nTIME 1 1 double\n0\nPOINTS %d double\n",
+        POINTS);
+    for (int i = 0; i < POINTS; i++)
+        put("%g %g %g%s", point[i][0], point[i][1], point[i][2], i % 3 ? " " : "\n");
+    put("\nCELLS %d %d\n1 3\n", FACES + 1, numbers);
+    for (int i = 0; i < FACES; i++) {
+        put("%d", corners(i));
+        put_corners(i, " %d", 0, 1);
+        put("\n");
+    }
+    put("CELL_TYPES %d\n1\n", FACES + 1);
+    for (int i = 0; i < FACES; i++)
+        put("%d\n", corners(i) == 3 ? 5 : i % 2 ? 9 : 7);
+    put("CELL_DATA %d\nSCALARS q float\n", FACES + 1);
+}
+
+/* Offsets from `first` of them on. */
+static void put_offsets(int first)
+{
+    int sum = 0;
+    if (!first)
+        put("0");
+    for (int i = 0; i < FACES; i++)
+        put(" %d", sum += corners(i));
+    put("\n");
+}
+
+static void put_connectivity(void)
+{
+    for (int i = 0; i < FACES; i++)
+        put_corners(i, " %d", 0, 1);
+    put("\n");
+}
+
+static void write_vtk_5(void)
+{
+    put("# vtk DataFile Version 5.1\n\nASCII\nDATASET POLYDATA\nPOINTS %d double\n", POINTS);
+    for (int i = 0; i < POINTS; i++)
+        put("%g %g %g\n", point[i][0], point[i][1], point[i][2]);
+    put("METADATA\nINFORMATION 0\n\nVERTICES 2 1\nOFFSETS vtktypeint64\n0 1\nCONNECTIVITY "
+        "vtktypeint64\n5\nPOLYGONS %d %d\nOFFSETS vtktypeint64\n",
+        FACES + 1, 4 * FACES - 2);
+    put_offsets(0);
+    put("CONNECTIVITY vtktypeint64\n");
+    put_connectivity();
+    put("POINT_DATA 16\n");
+}
+
+static void put_array(const char *type, const char *name)
+{
+    put("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type,
+        name, *type == 'F' ? 3 : 1);
+}
+
+static void write_xml_ascii(const char *kind, const char *section)
+{
+    put("<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n<%s>\n<Piece NumberOfPoints=\"%d\" NumberOf%s=\"%d\">\n"
+        "<CellData><DataArray type=\"Int32\" Name=\"types\" format=\"ascii\">x</DataArray>"
+        "</CellData>\n<Points>\n",
+        kind, kind, POINTS, section, FACES);
+    put_array("Float64", "Points");
+    for (int i = 0; i < POINTS; i++)
+        put("%g %g %g\n", point[i][0], point[i][1], point[i][2]);
+    put("<InformationKey name=\"L2_NORM_RANGE\"><Value index=\"0\">7</Value></InformationKey>"
+        "</DataArray></Points>\n<%s>",
+        section);
+    put_array("Int64", "connectivity");
+    put_connectivity();
+    put("</DataArray>");
+    put_array("Int64", "offsets");
+    put_offsets(1);
+    put("</DataArray>");
+    if (*section == 'C') {
+        put_array("UInt8", "types");
+        for (int i = 0; i < FACES; i++)
+            put("%d ", corners(i) == 3 ? 5 : 9);
+        put("</DataArray>");
+    }
+    put("</%s></Piece></%s></VTKFile>\n", section, kind);
+}
+
+static void write_vtu(void)
+{
+    write_xml_ascii("UnstructuredGrid", "Cells");
+}
+
+static void write_vtp(void)
+{
+    write_xml_ascii("PolyData", "Polys");
+}
+
+static struct {
+    unsigned char at[4096];
+    size_t size;
+} raw;
+
+/* Big-endian, whatever this machine is. */
+static void put_raw(uint64_t bits, int size)
+{
+    while (size-- > 0)
+        raw.at[raw.size++] = (unsigned char)(bits >> 8 * size);
+}
+
+static void put_base64(const char *type, const char *name)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const size_t body = raw.size - 8;
+    for (int k = 0; k < 8; k++)
+        raw.at[k] = (unsigned char)((uint64_t)body >> (56 - 8 * k));
+    put("<DataArray type=\"%s\" Name=\"%s\" format=\"binary\">\n  ", type, name);
+    for (size_t i = 0; i < raw.size; i += 3) {
+        uint32_t group = 0;
+        for (size_t k = 0; k < 3; k++)
+            group = group << 8 | (i + k < raw.size ? raw.at[i + k] : 0);
+        for (size_t k = 0; k < 4; k++)
+            put("%c", i + k <= raw.size ? digit[group >> (18 - 6 * k) & 63] : '=');
+    }
+    put("\n</DataArray>\n");
+    raw.size = 8;
+}
+
+/* Two pieces, of which the second has the block. */
+static void write_vtu_base64(void)
+{
+    put("<VTKFile type=\"UnstructuredGrid\" byte_order=\"BigEndian\" header_type=\"UInt64\">"
+        "<UnstructuredGrid>");
+    raw.size = 8;
+    for (int half = 0; half < 2; half++) {
+        put("<Piece NumberOfPoints=\"8\" NumberOfCells=\"%d\"><Points>", half ? FACES - 7 : 7);
+        for (int i = 8 * half; i < 8 * half + 8; i++)
+            for (int k = 0; k < 3; k++) {
+                uint64_t bits;
+                memcpy(&bits, &point[i][k], sizeof bits);
+                put_raw(bits, 8);
+            }
+        put_base64("Float64", "p");
+        put("</Points><Cells>");
+        const int from = half ? 7 : 0, to = half ? FACES : 7;
+        int sum = 0;
+        for (int i = from; i < to; i++)
+            for (int j = 0; j < corners(i); j++)
+                put_raw((uint64_t)(face[i][j] - 8 * half), 4);
+        put_base64("Int32", "connectivity");
+        for (int i = from; i < to; i++)
+            put_raw((uint64_t)(sum += corners(i)), 2);
+        put_base64("UInt16", "offsets");
+        for (int i = from; i < to; i++)
+            put_raw(corners(i) == 3 ? 5 : 9, 1);
+        put_base64("UInt8", "types");
+        put("</Cells></Piece>");
+    }
+    put("</UnstructuredGrid></VTKFile>");
+}
+
 /* ---- */
 
 static void write_text(const char *name)
@@ -207,6 +368,11 @@ static const struct {
     {"small.bdf", write_nastran_small, "PSHELL 7", "PSHELL 9"},
     {"large.nas", write_nastran_large, "PSHELL 7", "PSHELL 9"},
     {"free.BDF", write_nastran_free, "PSHELL 7", "PSHELL 9"},
+    {"three.vtk", write_vtk_3, "DefaultMaterial", "DefaultMaterial"},
+    {"five.vtk", write_vtk_5, "DefaultMaterial", "DefaultMaterial"},
+    {"room.vtu", write_vtu, "DefaultMaterial", "DefaultMaterial"},
+    {"bytes.vtu", write_vtu_base64, "DefaultMaterial", "DefaultMaterial"},
+    {"room.vtp", write_vtp, "DefaultMaterial", "DefaultMaterial"},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
@@ -283,6 +449,9 @@ static const char *refusal(const char *path)
     return said;
 }
 
+#define POLYDATA "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
+#define GRID "<VTKFile type='UnstructuredGrid'><Piece>\n"
+
 START_TEST(test_refusals)
 {
     static const struct {
@@ -318,6 +487,39 @@ START_TEST(test_refusals)
          ":1: error: '1.x' where x of GRID belongs"},
         {"a.bdf", "$\nCQUAD4,1,1,1,2,3\n", ":2: error: 0 where a corner of CQUAD4 belongs"},
         {"a.bdf", "INCLUDE 'b.bdf'\n", ":1: error: INCLUDE is not followed"},
+        {"a.vtk", "x\n", ":1: error: no legacy VTK file"},
+        {"a.vtk", "# vtk DataFile Version 3.0\n\nBINARY\n", ":3: error: a binary VTK file; write"},
+        {"a.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\n",
+         ":4: error: dataset STRUCTURED_POINTS has no faces"},
+        {"a.vtk", POLYDATA "POINTS 4000000000 float\n0 0 0\n", ":6: error: ends before a coord"},
+        {"a.vtk", POLYDATA "POINTS 1 float\n0 0 nan\n", ":6: error: 'nan' where a coordinate"},
+        {"a.vtk", POLYDATA "POINTS 1 float\n0 0 0\nPOLYGONS 1 4\n3 0 0 1\n",
+         ":8: error: a cell names point 1, but there are 1"},
+        {"a.vtk", POLYDATA "POLYGONS 1 4\n4 0 0 0 0\n", ":6: error: cell 0 goes beyond the 4"},
+        {"a.vtk", POLYDATA "POLYGONS 1 3\n2 0 0\n", ":6: error: a cell of type 7 has 2 points"},
+        {"a.vtk", POLYDATA "QUADS 1 5\n", ":5: error: 'QUADS' is no part"},
+        {"a.vtk",
+         "# vtk DataFile Version 5.1\n\nASCII\nDATASET POLYDATA\nPOLYGONS 3 4\nOFFSETS t\n0 3 2\n",
+         ":7: error: offset 2 is less"},
+        {"a.vtk",
+         "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n0 0 0\n"
+         "CELLS 1 5\n4 0 0 0 0\nCELL_TYPES 1\n10\n",
+         ":8: error: there are volumes in it and no face"},
+        {"a.vtu", "<x/>\n", ":1: error: <x> before <VTKFile>"},
+        {"a.vtu", "\n<VTKFile type='ImageData'/>\n", ":2: error: VTK data of type 'ImageData'"},
+        {"a.vtu", "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'/>",
+         ":1: error: the file is compressed; write it uncompressed"},
+        {"a.vtu", GRID "<Points>\n", ":3: error: not well-formed XML"},
+        {"a.vtu", GRID "<Points><DataArray format='appended'/>", ":2: error: an array of format"},
+        {"a.vtu", GRID "<Points><DataArray>1 2\n 3x</DataArray>", ":2: error: '3x' is not a num"},
+        {"a.vtu", GRID "<Points><DataArray>1 2</DataArray></Points></Piece>",
+         ":2: error: points have 2 numbers"},
+        {"a.vtu", GRID "<Points><DataArray type='Float32' format='binary'>AAAAA</DataArray>",
+         ":2: error: an array is no base64"},
+        {"a.vtu", GRID "<Points><DataArray type='Float32' format='binary'>////fwAA</DataArray>",
+         ":2: error: an array counts 2147483647 bytes of type Float32 and has 2"},
+        {"a.vtu", GRID "<Cells><DataArray Name='offsets'>3</DataArray></Cells></Piece>",
+         "0 types of 1 cells"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         text.size = 0;
@@ -355,6 +557,31 @@ START_TEST(test_view3d_surfaces)
 }
 END_TEST
 
+/* A hexagon and an L are one polygon each; each triangle of a strip is one, with one front. */
+START_TEST(test_polygons_of_vtk)
+{
+    struct scene_file f;
+    text.size = 0;
+    put(POLYDATA "POINTS 12 float\n0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0\n"
+                 "0 0 1 1 0 1 0 1 1 1 1 1 0 2 1 1 2 1\n"
+                 "POLYGONS 1 7\n6 0 1 2 3 4 5\nTRIANGLE_STRIPS 1 7\n6 6 7 8 9 10 11\n");
+    write_text("strip.vtk");
+    ck_assert_int_eq(scene_file_read(&f, in_folder("strip.vtk"), &quietly), 0);
+    static const uint32_t indices[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 8, 7, 9, 8, 9, 10, 10, 9, 11};
+    ck_assert_uint_eq(f.polygon_count, 5);
+    ck_assert_uint_eq(f.sizes[0], 6);
+    ck_assert_uint_eq(f.index_count, sizeof indices / sizeof *indices);
+    ck_assert_mem_eq(f.indices, indices, sizeof indices);
+    scene_file_free(&f);
+    static char rows[TEXT];
+    rows[matrix("strip.vtk", rows, TEXT - 1)] = '\0';
+    int lines = 0;
+    for (const char *c = rows; *c; c++)
+        lines += *c == '\n';
+    ck_assert_int_eq(lines, 5);
+}
+END_TEST
+
 int main(void)
 {
     if (folder_make("mesh_formats") < 0)
@@ -366,6 +593,7 @@ int main(void)
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_refusals);
     tcase_add_test(t, test_view3d_surfaces);
+    tcase_add_test(t, test_polygons_of_vtk);
     suite_add_tcase(suite, t);
     int failed = suite_failures(suite);
     folder_remove();
