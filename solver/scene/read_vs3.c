@@ -303,7 +303,7 @@ static int hand_over(struct vs3 *v)
     size_t at = 0;
     for (size_t i = 0; i < v->count && !result; i++)
         result = move_corners(v, &v->surface[from[i]], indices, &at);
-    if (!result)
+    if (!result && at)
         memcpy(f->indices, indices, at * sizeof *indices);
     free(depth);
     free(from);

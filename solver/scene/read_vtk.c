@@ -196,6 +196,13 @@ static int read_lists(struct vtk *v, size_t count, size_t size)
                 : 0;
 }
 
+static int end_cell(struct vtk *v, const struct cell *c, double type)
+{
+    const struct vtk_points points = {0, v->mesh.file->position_count};
+    return vtk_cell(&v->mesh, points, type, c->size ? &v->numbers[c->first] : NULL, c->size,
+                    c->line);
+}
+
 /* The cells that wait become faces; those of POLYDATA are of one type. */
 static int read_cells(struct vtk *v, double type)
 {
@@ -204,10 +211,8 @@ static int read_cells(struct vtk *v, double type)
         || take_count(v, "the numbers of all cells", &size)
         || (v->version >= 5 ? read_offsets(v, count, size) : read_lists(v, count, size)))
         return -1;
-    const struct vtk_points points = {0, v->mesh.file->position_count};
     for (size_t i = 0; i < v->cell_count && type > 0; i++)
-        if (vtk_cell(&v->mesh, points, type, &v->numbers[v->cell[i].first], v->cell[i].size,
-                     v->cell[i].line))
+        if (end_cell(v, &v->cell[i], type))
             return -1;
     if (type > 0)
         v->cell_count = v->number_count = 0;
@@ -224,11 +229,8 @@ static int read_types(struct vtk *v)
         return report_error(v->mesh.path, v->lines.number,
                             "%zu types of %zu cells; the file is damaged, export it again", count,
                             v->cell_count);
-    const struct vtk_points points = {0, v->mesh.file->position_count};
     for (size_t i = 0; i < count; i++)
-        if (take_number(v, "a cell's type", &type)
-            || vtk_cell(&v->mesh, points, type, &v->numbers[v->cell[i].first], v->cell[i].size,
-                        v->cell[i].line))
+        if (take_number(v, "a cell's type", &type) || end_cell(v, &v->cell[i], type))
             return -1;
     v->cell_count = v->number_count = 0;
     return 0;
