@@ -13,6 +13,7 @@
 
 #include "scene/gltf_materials.h"
 #include "scene/read_assimp.h"
+#include "scene/read_meshes.h"
 #include "scene/read_obj.h"
 #include "scene/read_shapes.h"
 #include "util/array.h"
@@ -98,31 +99,47 @@ static int has_extension(const char *path, const char *const *extensions)
 typedef int read_shape_fn(struct scene_file *file, const char *path, char *text, size_t size,
                           int quiet);
 
-static read_shape_fn *shape_reader(const char *path)
+/* Formats of shape alone, and those that name groups of faces or their emittances. */
+struct shape_format {
+    const char *ending;
+    read_shape_fn *read;
+    enum { ALL_GREY, NAMED, EMITTANCES } materials;
+};
+
+static const struct shape_format *shape_format(const char *path)
 {
-    static const char *const ply[] = {".ply", NULL}, *const stl[] = {".stl", NULL},
-                             *const off[] = {".off", NULL};
-    return has_extension(path, ply)   ? read_ply
-           : has_extension(path, stl) ? read_stl
-           : has_extension(path, off) ? read_off
-                                      : NULL;
+    static const struct shape_format formats[] = {
+        {".ply", read_ply, ALL_GREY},     {".stl", read_stl, ALL_GREY},
+        {".off", read_off, ALL_GREY},     {".msh", read_gmsh, NAMED},
+        {".vtk", read_vtk, ALL_GREY},     {".vtu", read_vtk_xml, ALL_GREY},
+        {".vtp", read_vtk_xml, ALL_GREY}, {".bdf", read_nastran, NAMED},
+        {".nas", read_nastran, NAMED},    {".vs3", read_vs3, EMITTANCES},
+    };
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (has_extension(path, (const char *const[]){formats[i].ending, NULL}))
+            return &formats[i];
+    return NULL;
 }
 
-/* Formats of shape alone: all faces are grey. */
-static int read_shape(struct scene_file *f, const char *path, read_shape_fn *read, int quiet)
+static int read_shape(struct scene_file *f, const char *path, const struct shape_format *format,
+                      int quiet)
 {
+    static const char *const told[] = {
+        "this format holds no materials: every face reflects 0.5 and none emits",
+        "this format names materials and no more: every face reflects 0.5 and none emits",
+        "faces reflect what they do not emit as grey bodies; none shines by itself"};
     const struct RadMaterial grey = {.reflectance = {0.5, 0.5, 0.5}};
     size_t size;
     char *text = text_file_read(path, &size);
     if (!text)
         return report_error(path, 0, "cannot read: %s; check the name", strerror(errno));
-    int result = scene_file_add_material(f, "DefaultMaterial", &grey)
-                     ? scene_file_no_memory(path)
-                     : read(f, path, text, size, quiet);
+    int result =
+        format->materials == ALL_GREY && scene_file_add_material(f, "DefaultMaterial", &grey)
+            ? scene_file_no_memory(path)
+            : format->read(f, path, text, size, quiet);
     free(text);
     if (!result && !quiet)
-        report_warning(path, 0,
-                       "this format holds no materials: every face reflects 0.5 and none emits");
+        report_warning(path, 0, "%s", told[format->materials]);
     return result;
 }
 
@@ -191,7 +208,7 @@ int scene_file_read(struct scene_file *f, const char *path, const struct scene_o
     if (!S_ISREG(status.st_mode))
         return report_error(path, 0,
                             "cannot read: this is a pipe or a device; write the scene to a file");
-    read_shape_fn *shape = shape_reader(path);
+    const struct shape_format *shape = shape_format(path);
     int result = shape                      ? read_shape(f, path, shape, options->quiet)
                  : has_extension(path, obj) ? read_obj(f, path, options->quiet)
                                             : read_assimp(f, path);

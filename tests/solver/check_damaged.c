@@ -45,6 +45,13 @@ static const struct {
     {"room.glb", NULL},       {"room.dae", NULL},
     {"room.3ds", NULL},       {"room.ac", NULL},
     {"room.dxf", NULL},       {"room.x", NULL},
+    {"room.vs3", NULL},       {"planes.vs3", NULL},
+    {"two.msh", NULL},        {"four.msh", NULL},
+    {"small.bdf", NULL},      {"large.nas", NULL},
+    {"free.bdf", NULL},       {"three.vtk", NULL},
+    {"five.vtk", NULL},       {"strip.vtk", NULL},
+    {"room.vtu", NULL},       {"bytes.vtu", NULL},
+    {"room.vtp", NULL},
 };
 enum { SEEDS = sizeof seeds / sizeof *seeds, ROOM = 1 << 15, FILES = 800 };
 static const long MEGABYTES = 1024;   /* beside what the program itself takes */

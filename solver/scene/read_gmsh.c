@@ -1,0 +1,399 @@
+/* read_gmsh.c - see read_meshes.h: Gmsh's meshes, versions 2 to 2.2 and 4.1, as text.
+ *
+ * Sections that are not needed are passed over up to their $End. In version 2 an element carries
+ * its physical group, in 4.1 the surface that it is on does. A triangle that two groups have is in
+ * the file twice in version 2, and once, in the first group, in 4.1.
+ * [Gmsh reference manual, MSH file format]
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/mesh_parts.h"
+#include "scene/read_meshes.h"
+#include "scene/read_numbers.h"
+#include "scene/text_lines.h"
+#include "util/array.h"
+#include "util/report.h"
+
+enum { SURFACE = 2 };
+
+struct gmsh {
+    struct mesh mesh;
+    struct text_lines lines;
+    int version;              /* 2 or 4 */
+    struct numbered names;    /* of physical surfaces, to materials */
+    struct numbered surfaces; /* to their physical groups, as indices of `groups` */
+    int64_t *groups;
+    size_t group_count, group_capacity;
+    int64_t *tags; /* of a block of nodes */
+    size_t tag_capacity;
+    int nodes, elements; /* sections seen */
+};
+
+/* The next line with words. Returns 0, or -1 after a message at the end. */
+static int need_line(struct gmsh *g, const char *what)
+{
+    while (next_line(&g->lines))
+        if (next_word(&g->lines)) {
+            g->lines.word_end = g->lines.word;
+            return 0;
+        }
+    return report_error(g->mesh.path, g->lines.number,
+                        "ends before %s; the file is cut, export it again", what);
+}
+
+static int take_number(struct gmsh *g, const char *what, double *x)
+{
+    struct text_lines *t = &g->lines;
+    if (!next_word(t))
+        return report_error(g->mesh.path, t->number,
+                            "the line ends before %s; the file is damaged, export it again", what);
+    if (!word_number(t, x) || !(fabs(*x) <= (double)FLT_MAX))
+        return report_error(g->mesh.path, t->number,
+                            "'%.*s' where %s belongs; the file is damaged, export it again",
+                            quoted_length(t->word, t->word_end), t->word, what);
+    return 0;
+}
+
+static int take_whole(struct gmsh *g, const char *what, int64_t *i)
+{
+    double x;
+    if (take_number(g, what, &x))
+        return -1;
+    if (!is_whole(fabs(x), 0x1p53))
+        return report_error(g->mesh.path, g->lines.number,
+                            "%g where %s belongs; the file is damaged, export it again", x, what);
+    *i = (int64_t)x;
+    return 0;
+}
+
+static int take_count(struct gmsh *g, const char *what, int64_t *i)
+{
+    if (take_whole(g, what, i))
+        return -1;
+    return *i < 0
+               ? report_error(g->mesh.path, g->lines.number,
+                              "%lld %s; the file is damaged, export it again", (long long)*i, what)
+               : 0;
+}
+
+/* The line must be $End and the section's name. */
+static int need_end(struct gmsh *g, const char *end)
+{
+    if (need_line(g, end))
+        return -1;
+    next_word(&g->lines);
+    return word_is(&g->lines, end)
+               ? 0
+               : report_error(g->mesh.path, g->lines.number,
+                              "'%.*s' where %s belongs: the counts do not fit what is there; the "
+                              "file is damaged, export it again",
+                              quoted_length(g->lines.word, g->lines.word_end), g->lines.word, end);
+}
+
+/* ---- sections */
+
+static int read_format(struct gmsh *g)
+{
+    double version, binary;
+    if (need_line(g, "the version") || take_number(g, "the version", &version)
+        || take_number(g, "0 for a text", &binary))
+        return -1;
+    if (binary > 0)
+        return report_error(g->mesh.path, g->lines.number,
+                            "a binary mesh; convert it to text: gmsh -0 -format msh22 -o NEW.msh "
+                            "OLD.msh");
+    g->version = version >= 2 && version < 3 ? 2 : version >= 4.1 && version < 5 ? 4 : 0;
+    if (!g->version)
+        return report_error(g->mesh.path, g->lines.number,
+                            "version %g is not read; convert it: gmsh -0 -format msh22 -o NEW.msh "
+                            "OLD.msh",
+                            version);
+    return need_end(g, "$EndMeshFormat");
+}
+
+/* The material of a physical surface: its name, or its number. */
+static int group_material(struct gmsh *g, int64_t group, uint32_t *material)
+{
+    char name[40] = "DefaultMaterial";
+    *material = numbered_find(&g->names, group);
+    if (*material != UINT32_MAX)
+        return 0;
+    if (group)
+        snprintf(name, sizeof name, "physical %lld", (long long)group);
+    if (mesh_material(&g->mesh, name, strlen(name), MESH_GREY, material))
+        return -1;
+    return numbered_add(&g->names, group, *material) ? scene_file_no_memory(g->mesh.path) : 0;
+}
+
+static int read_names(struct gmsh *g)
+{
+    int64_t count, dimension, number;
+    if (need_line(g, "physical names") || take_count(g, "physical names", &count))
+        return -1;
+    for (int64_t i = 0; i < count; i++) {
+        if (need_line(g, "a physical name") || take_whole(g, "a dimension", &dimension)
+            || take_whole(g, "a group's number", &number))
+            return -1;
+        const struct text_lines *t = &g->lines;
+        const char *from = memchr(t->word_end, '"', (size_t)(t->line_end - t->word_end));
+        const char *to = from ? memchr(from + 1, '"', (size_t)(t->line_end - from - 1)) : NULL;
+        if (!to)
+            return report_error(g->mesh.path, t->number,
+                                "a physical name that is not in quotes; the file is damaged, "
+                                "export it again");
+        uint32_t material;
+        if (dimension != SURFACE || to == from + 1
+            || numbered_find(&g->names, number) != UINT32_MAX)
+            continue;
+        if (mesh_material(&g->mesh, from + 1, (size_t)(to - from) - 1, MESH_GREY, &material))
+            return -1;
+        if (numbered_add(&g->names, number, material))
+            return scene_file_no_memory(g->mesh.path);
+    }
+    return need_end(g, "$EndPhysicalNames");
+}
+
+/* Of 4.1: which physical group each surface is in. */
+static int read_entities(struct gmsh *g)
+{
+    int64_t count[4], tag, groups, group;
+    double x;
+    if (need_line(g, "entities"))
+        return -1;
+    for (int d = 0; d < 4; d++)
+        if (take_count(g, "entities", &count[d]))
+            return -1;
+    for (int d = 0; d < 4; d++)
+        for (int64_t i = 0; i < count[d]; i++) {
+            if (need_line(g, "an entity"))
+                return -1;
+            if (d != SURFACE)
+                continue;
+            if (take_whole(g, "a surface's number", &tag))
+                return -1;
+            for (int k = 0; k < 6; k++)
+                if (take_number(g, "a surface's bounds", &x))
+                    return -1;
+            if (take_count(g, "physical groups", &groups))
+                return -1;
+            if (!groups)
+                continue;
+            if (take_whole(g, "a physical group", &group))
+                return -1;
+            if (numbered_find(&g->surfaces, tag) != UINT32_MAX)
+                return report_error(g->mesh.path, g->lines.number,
+                                    "surface %lld is defined twice; the file is damaged, export it "
+                                    "again",
+                                    (long long)tag);
+            if (array_reserve(&g->groups, g->group_count + 1, &g->group_capacity, sizeof *g->groups)
+                || numbered_add(&g->surfaces, tag, (uint32_t)g->group_count))
+                return scene_file_no_memory(g->mesh.path);
+            g->groups[g->group_count++] = group < 0 ? -group : group; /* negative: turned */
+        }
+    return need_end(g, "$EndEntities");
+}
+
+static int read_coordinates(struct gmsh *g, int64_t number)
+{
+    double p[3];
+    for (int k = 0; k < 3; k++)
+        if (take_number(g, "a coordinate", &p[k]))
+            return -1;
+    return mesh_define_node(&g->mesh, number, p, g->lines.number);
+}
+
+static int read_nodes_2(struct gmsh *g)
+{
+    int64_t count, number;
+    if (need_line(g, "nodes") || take_count(g, "nodes", &count))
+        return -1;
+    for (int64_t i = 0; i < count; i++)
+        if (need_line(g, "a node") || take_whole(g, "a node's number", &number)
+            || read_coordinates(g, number))
+            return -1;
+    return need_end(g, "$EndNodes");
+}
+
+static int read_nodes_4(struct gmsh *g)
+{
+    int64_t blocks, ignored, count;
+    if (need_line(g, "nodes") || take_count(g, "blocks of nodes", &blocks))
+        return -1;
+    for (int64_t b = 0; b < blocks; b++) {
+        if (need_line(g, "a block of nodes") || take_whole(g, "a dimension", &ignored)
+            || take_whole(g, "an entity", &ignored) || take_whole(g, "0 or 1", &ignored)
+            || take_count(g, "nodes", &count))
+            return -1;
+        for (int64_t i = 0; i < count; i++) {
+            if (need_line(g, "a node's number"))
+                return -1;
+            if (array_reserve(&g->tags, (size_t)i + 1, &g->tag_capacity, sizeof *g->tags))
+                return scene_file_no_memory(g->mesh.path);
+            if (take_whole(g, "a node's number", &g->tags[i]))
+                return -1;
+        }
+        for (int64_t i = 0; i < count; i++)
+            if (need_line(g, "a node") || read_coordinates(g, g->tags[i]))
+                return -1;
+    }
+    return need_end(g, "$EndNodes");
+}
+
+/* Corners of a face; 0: a point or a line; -1: something else. */
+static int corners_of(int64_t type)
+{
+    switch (type) {
+    case 2:
+    case 9:
+    case 20:
+    case 21:
+    case 22:
+    case 23:
+    case 24:
+    case 25:
+        return 3;
+    case 3:
+    case 10:
+    case 16:
+    case 36:
+    case 37:
+    case 38:
+    case 39:
+    case 40:
+    case 41:
+        return 4;
+    case 1:
+    case 8:
+    case 15:
+    case 26:
+    case 27:
+    case 28:
+        return 0;
+    default:
+        return -1;
+    }
+}
+
+/* What is left of an element's line behind its type and tags. */
+static int read_element(struct gmsh *g, int64_t type, int64_t group)
+{
+    const int corners = corners_of(type);
+    const uint32_t line = g->lines.number;
+    int64_t node;
+    uint32_t material;
+    if (corners < 0)
+        mesh_volume(&g->mesh, line);
+    g->mesh.file->other += corners == 0;
+    if (corners <= 0)
+        return 0;
+    if (group_material(g, group, &material))
+        return -1;
+    for (int i = 0; i < corners; i++)
+        if (take_whole(g, "a node's number", &node) || mesh_corner(&g->mesh, node))
+            return -1;
+    return mesh_polygon(&g->mesh, (uint32_t)corners, material, line);
+}
+
+static int read_elements_2(struct gmsh *g)
+{
+    int64_t count, type, tags, tag, group, ignored;
+    if (need_line(g, "elements") || take_count(g, "elements", &count))
+        return -1;
+    for (int64_t i = 0; i < count; i++) {
+        if (need_line(g, "an element") || take_whole(g, "an element's number", &ignored)
+            || take_whole(g, "an element's type", &type) || take_count(g, "tags", &tags))
+            return -1;
+        group = 0;
+        for (int64_t k = 0; k < tags; k++) {
+            if (take_whole(g, "a tag", &tag))
+                return -1;
+            group = k ? group : tag < 0 ? -tag : tag;
+        }
+        if (read_element(g, type, group))
+            return -1;
+    }
+    return need_end(g, "$EndElements");
+}
+
+static int read_elements_4(struct gmsh *g)
+{
+    int64_t blocks, dimension, entity, type, count, ignored;
+    if (need_line(g, "elements") || take_count(g, "blocks of elements", &blocks))
+        return -1;
+    for (int64_t b = 0; b < blocks; b++) {
+        if (need_line(g, "a block of elements") || take_whole(g, "a dimension", &dimension)
+            || take_whole(g, "an entity", &entity) || take_whole(g, "a type", &type)
+            || take_count(g, "elements", &count))
+            return -1;
+        const uint32_t known =
+            dimension == SURFACE ? numbered_find(&g->surfaces, entity) : UINT32_MAX;
+        const int64_t group = known == UINT32_MAX ? 0 : g->groups[known];
+        for (int64_t i = 0; i < count; i++)
+            if (need_line(g, "an element") || take_whole(g, "an element's number", &ignored)
+                || read_element(g, type, group))
+                return -1;
+    }
+    return need_end(g, "$EndElements");
+}
+
+/* ---- the file */
+
+static int pass_over(struct gmsh *g)
+{
+    while (next_line(&g->lines))
+        if (next_word(&g->lines) && g->lines.word_end - g->lines.word > 4
+            && memcmp(g->lines.word, "$End", 4) == 0)
+            return 0;
+    return report_error(g->mesh.path, g->lines.number,
+                        "ends within a section; the file is cut, export it again");
+}
+
+static int read_section(struct gmsh *g)
+{
+    const struct text_lines *t = &g->lines;
+    if (*t->word != '$')
+        return report_error(g->mesh.path, t->number,
+                            "'%.*s' where a section begins with $; no Gmsh mesh, or a damaged one: "
+                            "export it again",
+                            quoted_length(t->word, t->word_end), t->word);
+    if (word_is(t, "$MeshFormat"))
+        return read_format(g);
+    if (!g->version)
+        return report_error(g->mesh.path, t->number,
+                            "no $MeshFormat before this section; the file is older than version 2 "
+                            "or damaged: convert it with gmsh -0 -format msh22 -o NEW.msh OLD.msh");
+    if (word_is(t, "$PhysicalNames"))
+        return read_names(g);
+    if (word_is(t, "$Entities") && g->version == 4)
+        return read_entities(g);
+    if (word_is(t, "$Nodes")) {
+        g->nodes = 1;
+        return g->version == 4 ? read_nodes_4(g) : read_nodes_2(g);
+    }
+    if (word_is(t, "$Elements")) {
+        g->elements = 1;
+        return g->version == 4 ? read_elements_4(g) : read_elements_2(g);
+    }
+    return pass_over(g);
+}
+
+int read_gmsh(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
+{
+    struct gmsh g = {.mesh = {.file = f, .path = path}, .lines = text_lines(text, size)};
+    int result = 0;
+    while (!result && next_line(&g.lines))
+        if (next_word(&g.lines))
+            result = read_section(&g);
+    if (!result && !(g.nodes && g.elements))
+        result = report_error(path, g.lines.number,
+                              "no $Nodes or no $Elements; the file is cut, export it again");
+    if (!result)
+        result = mesh_finish(&g.mesh, quiet);
+    mesh_free(&g.mesh);
+    free(g.names.entry);
+    free(g.surfaces.entry);
+    free(g.groups);
+    free(g.tags);
+    return result;
+}

@@ -1,0 +1,264 @@
+/* read_nastran.c - see read_meshes.h: Nastran bulk data, GRID and shells in small, large and free
+ * field.
+ *
+ * A card is eight fields of 8 characters behind its name, with a `*` four of 16, with a comma
+ * fields of any width; further lines continue it. Only the first eight fields of a card are looked
+ * at, which have all that a face needs.
+ * [NX Nastran quick reference guide, bulk data entries]
+ * SPDX-License-Identifier: MIT */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "scene/mesh_parts.h"
+#include "scene/read_meshes.h"
+#include "scene/read_numbers.h"
+#include "scene/text_lines.h"
+#include "util/report.h"
+
+enum { FIELDS = 8, WIDEST = 32 };
+
+struct card {
+    char name[WIDEST], field[FIELDS][WIDEST]; /* without blanks; shortened to what fits */
+    int fields;                               /* so many have been given, empty ones too */
+    uint32_t line;
+};
+
+struct nastran {
+    struct mesh mesh;
+    struct card card; /* the one under way: line 0 when there is none */
+    int begun;        /* 1: behind BEGIN BULK, or there is none */
+};
+
+static void copy_field(char to[WIDEST], const char *from, const char *end)
+{
+    size_t n = 0;
+    for (; from < end; from++)
+        if (!isspace((unsigned char)*from) && *from && n < WIDEST - 1)
+            to[n++] = *from;
+    to[n] = '\0';
+}
+
+/* The fields of a line, its first one apart; a tab goes to the next eighth column. */
+static int line_fields(const char *line, const char *end, char first[WIDEST],
+                       char field[FIELDS][WIDEST])
+{
+    char flat[81], *comma = memchr(line, ',', (size_t)(end - line));
+    int count = 0;
+    if (comma) {
+        copy_field(first, line, comma);
+        const int most = strchr(first, '*') ? 4 : FIELDS;
+        while (comma && count < most) {
+            const char *from = comma + 1;
+            comma = memchr(from, ',', (size_t)(end - from));
+            copy_field(field[count++], from, comma ? comma : end);
+        }
+        return count;
+    }
+    size_t n = 0;
+    for (; line < end && n < 80; line++) {
+        do
+            flat[n++] = *line == '\t' ? ' ' : *line;
+        while (*line == '\t' && n % 8 && n < 80);
+    }
+    copy_field(first, flat, flat + (n < 8 ? n : 8));
+    const size_t width = strchr(first, '*') ? 16 : 8;
+    for (size_t at = 8; at < n && at < 72; at += width)
+        copy_field(field[count++], flat + at, flat + (at + width < n ? at + width : n));
+    return count;
+}
+
+/* 1.5, 1.5e-3, 1.5d-3 and 1.5-3 are numbers; an empty field is 0. */
+static int field_number(const struct nastran *a, int i, const char *what, double *x)
+{
+    const char *from = i < a->card.fields ? a->card.field[i] : "";
+    char plain[WIDEST + 1], *stop;
+    size_t n = 0;
+    int digits = 0, power = 0;
+    for (; *from; from++) {
+        const char c = (char)tolower((unsigned char)*from);
+        if ((c == '+' || c == '-') && digits && !power)
+            plain[n++] = 'e', power = 1;
+        plain[n++] = c == 'd' ? 'e' : c;
+        power |= c == 'd' || c == 'e';
+        digits |= isdigit((unsigned char)c) || c == '.';
+    }
+    plain[n] = '\0';
+    *x = strtod(plain, &stop);
+    if (*stop || !(fabs(*x) <= (double)FLT_MAX))
+        return report_error(a->mesh.path, a->card.line,
+                            "'%s' where %s of %s belongs; write a finite number", a->card.field[i],
+                            what, a->card.name);
+    return 0;
+}
+
+static int field_whole(const struct nastran *a, int i, const char *what, int64_t *number)
+{
+    double x;
+    if (field_number(a, i, what, &x))
+        return -1;
+    if (!is_whole(x, 1e15) || x <= 0)
+        return report_error(a->mesh.path, a->card.line,
+                            "%g where %s of %s belongs; write a whole number above 0", x, what,
+                            a->card.name);
+    *number = (int64_t)x;
+    return 0;
+}
+
+static int read_grid(struct nastran *a)
+{
+    int64_t number;
+    double system, p[3];
+    if (field_whole(a, 0, "the number", &number) || field_number(a, 1, "a system", &system)
+        || field_number(a, 2, "x", &p[0]) || field_number(a, 3, "y", &p[1])
+        || field_number(a, 4, "z", &p[2]))
+        return -1;
+    if (a->card.fields < 3)
+        return report_error(a->mesh.path, a->card.line,
+                            "GRID %lld has no coordinates; the file is cut or damaged, export it "
+                            "again",
+                            (long long)number);
+    if (system < 0 || system > 0)
+        return report_error(a->mesh.path, a->card.line,
+                            "GRID %lld is in coordinate system %g; export the mesh in the basic "
+                            "one, 0",
+                            (long long)number, system);
+    return mesh_define_node(&a->mesh, number, p, a->card.line);
+}
+
+static int read_shell(struct nastran *a, uint32_t corners)
+{
+    int64_t number, property;
+    uint32_t material;
+    char name[40];
+    double given;
+    if (field_whole(a, 0, "the number", &number))
+        return -1;
+    property = number; /* which an empty field stands for */
+    if (a->card.fields > 1 && *a->card.field[1] && field_whole(a, 1, "the property", &property))
+        return -1;
+    const int length = snprintf(name, sizeof name, "PSHELL %lld", (long long)property);
+    if (mesh_material(&a->mesh, name, (size_t)length, MESH_GREY, &material))
+        return -1;
+    for (uint32_t i = 0; i < corners; i++) {
+        if (field_number(a, 2 + (int)i, "a corner", &given)
+            || field_whole(a, 2 + (int)i, "a corner", &number) || mesh_corner(&a->mesh, number))
+            return -1;
+    }
+    return mesh_polygon(&a->mesh, corners, material, a->card.line);
+}
+
+static int is_one_of(const char *name, const char *const *names)
+{
+    for (; *names; names++)
+        if (strcasecmp(name, *names) == 0)
+            return 1;
+    return 0;
+}
+
+/* What has been gathered of a card is all of it. */
+static int finish_card(struct nastran *a)
+{
+    static const char *const triangles[] = {"CTRIA3", "CTRIA6", "CTRIAR", NULL},
+                             *const quads[] = {"CQUAD4", "CQUAD8", "CQUADR",
+                                               "CQUAD",  "CSHEAR", NULL},
+                             *const volumes[] = {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", NULL},
+                             *const lines[] = {"CBAR",  "CBEAM",  "CROD",   "CONROD", "CTUBE",
+                                               "CBUSH", "CELAS1", "CELAS2", "PLOTEL", NULL};
+    const struct card *c = &a->card;
+    int result = 0;
+    if (!c->line)
+        return 0;
+    if (strcasecmp(c->name, "GRID") == 0)
+        result = read_grid(a);
+    else if (is_one_of(c->name, triangles))
+        result = read_shell(a, 3);
+    else if (is_one_of(c->name, quads))
+        result = read_shell(a, 4);
+    else if (strcasecmp(c->name, "INCLUDE") == 0)
+        result =
+            report_error(a->mesh.path, c->line, "INCLUDE is not followed; put all into one file");
+    else if (is_one_of(c->name, volumes))
+        mesh_volume(&a->mesh, c->line);
+    else
+        a->mesh.file->other += (uint32_t)is_one_of(c->name, lines);
+    a->card.line = 0;
+    return result;
+}
+
+/* Returns 1 at the end of the data. */
+static int read_line(struct nastran *a, const char *line, const char *end, uint32_t number)
+{
+    const char *dollar = memchr(line, '$', (size_t)(end - line));
+    char first[WIDEST], field[FIELDS][WIDEST];
+    end = dollar ? dollar : end;
+    const char *word = line;
+    while (word < end && is_blank(*word))
+        word++;
+    if (word == end)
+        return 0;
+    const int count = line_fields(line, end, first, field);
+    struct card *c = &a->card;
+    if (!*first || *first == '+' || *first == '*') { /* the card goes on */
+        /* a line holds eight fields, or four; what the last one left out is empty */
+        for (; c->line && c->fields % 4; c->fields++)
+            if (c->fields < FIELDS)
+                *c->field[c->fields] = '\0';
+        for (int i = 0; i < count && c->line && c->fields < FIELDS; i++)
+            memcpy(c->field[c->fields++], field[i], WIDEST);
+        return 0;
+    }
+    if (finish_card(a))
+        return -1;
+    if (strncasecmp(first, "ENDDATA", 7) == 0)
+        return 1;
+    if (strncasecmp(word, "INCLUDE", 7) == 0)
+        snprintf(first, sizeof first, "INCLUDE");
+    char *star = strchr(first, '*');
+    if (star)
+        *star = '\0';
+    *c = (struct card){.fields = count, .line = number};
+    memcpy(c->name, first, WIDEST);
+    memcpy(c->field, field, (size_t)count * WIDEST);
+    return 0;
+}
+
+/* Where BEGIN BULK ends: what is before it says how to compute. */
+static size_t bulk_begins(const char *text, size_t size)
+{
+    for (size_t at = 0; at < size;) {
+        const char *end = memchr(text + at, '\n', size - at);
+        const size_t next = end ? (size_t)(end - text) + 1 : size;
+        size_t word = at;
+        while (word < next && is_blank(text[word]))
+            word++;
+        if (next - word >= 10 && strncasecmp(text + word, "BEGIN", 5) == 0
+            && is_blank(text[word + 5]))
+            return next;
+        at = next;
+    }
+    return 0;
+}
+
+int read_nastran(struct scene_file *f, const char *path, char *text, size_t size, int quiet)
+{
+    struct nastran a = {.mesh = {.file = f, .path = path}};
+    int result = 0;
+    if (memchr(text, 0, size))
+        return report_error(path, 0, "not a text; export it as Nastran bulk data (not OP2)");
+    const char *const end = text + size, *line = text + bulk_begins(text, size);
+    uint32_t number = 1;
+    for (const char *c = text; c < line; c++)
+        number += *c == '\n';
+    for (; line < end && !result; number++) {
+        size_t broken;
+        const char *last = line_break((char *)(uintptr_t)line, end, &broken);
+        result = read_line(&a, line, last, number);
+        line = last + (broken ? broken : 1);
+    }
+    if (result >= 0)
+        result = finish_card(&a) || mesh_finish(&a.mesh, quiet) ? -1 : 0;
+    mesh_free(&a.mesh);
+    return result;
+}

@@ -1,0 +1,601 @@
+/* check_mesh_formats.c - one room in every mesh format: the same polygons, corner by corner, and
+ * the same matrix of view factors as its OBJ file, byte by byte; and what is wrong with a file is
+ * said with its line.
+ *
+ * The writers here know the formats and nothing of the readers. Node numbers have gaps and come in
+ * an order of their own wherever the format lets them.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "folder.h"
+#include "scene/scene_file.h"
+#include "suite.h"
+
+enum { POINTS = 16, FACES = 12, TEXT = 1 << 16 };
+
+/* 4 x 5 x 3 m, one wall two triangles, and in it a block that stands free. */
+static const double point[POINTS][3] = {{0, 0, 0},     {4, 0, 0},       {4, 5, 0},     {0, 5, 0},
+                                        {0, 0, 3},     {4, 0, 3},       {4, 5, 3},     {0, 5, 3},
+                                        {1, 1.5, .25}, {2.5, 1.5, .25}, {2.5, 3, .25}, {1, 3, .25},
+                                        {1, 1.5, 1.5}, {2.5, 1.5, 1.5}, {2.5, 3, 1.5}, {1, 3, 1.5}};
+static const int face[FACES][4] = {{0, 1, 2, 3},   {4, 7, 6, 5},    {0, 4, 5, 1},
+                                   {1, 5, 6, -1},  {1, 6, 2, -1},   {2, 6, 7, 3},
+                                   {3, 7, 4, 0},   {8, 11, 10, 9},  {12, 13, 14, 15},
+                                   {8, 9, 13, 12}, {9, 10, 14, 13}, {11, 15, 14, 10}};
+
+static int corners(int i)
+{
+    return face[i][3] < 0 ? 3 : 4;
+}
+
+static const char *group(int i) /* walls, then the block, which has no fourth side */
+{
+    return i < 7 ? "walls" : "block";
+}
+
+static struct {
+    char at[TEXT];
+    size_t size;
+} text;
+
+__attribute__((__format__(__printf__, 1, 2))) static void put(const char *format, ...)
+{
+    va_list a;
+    va_start(a, format);
+    text.size += (size_t)vsnprintf(text.at + text.size, TEXT - text.size, format, a);
+    va_end(a);
+    ck_assert_uint_lt(text.size, TEXT);
+}
+
+static void put_corners(int i, const char *format, int first, int step)
+{
+    for (int j = 0; j < corners(i); j++)
+        put(format, first + step * face[i][j]);
+}
+
+/* ---- writers */
+
+static void write_obj(void)
+{
+    for (int i = 0; i < POINTS; i++)
+        put("v %g %g %g\n", point[i][0], point[i][1], point[i][2]);
+    for (int i = 0; i < FACES; i++) {
+        put("f");
+        put_corners(i, " %d", 1, 1);
+        put("\n");
+    }
+}
+
+static void write_vs3(void)
+{
+    put("T a room\n! a comment\nC eps=1e-4 list=0\nF 3\n");
+    for (int i = 0; i < POINTS; i++)
+        put("v %d %g %g %g ! point\n", i + 1, point[i][0], point[i][1], point[i][2]);
+    for (int i = 0; i < FACES; i++) {
+        put("S %d", i + 1);
+        put_corners(i, " %d", 1, 1);
+        put("%s 0 0 .75 %s / of it\n", corners(i) == 3 ? " 0" : "", group(i));
+    }
+    put("End of data\nS nothing\n");
+}
+
+static void write_gmsh_2(void)
+{
+    put("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 7 \"rim\"\n2 7 \"walls\"\n"
+        "2 9 \"block\"\n$EndPhysicalNames\n$Nodes\n%d\n",
+        POINTS);
+    for (int i = POINTS; i-- > 0;)
+        put("%d %g %g %g\n", 3 * i + 5, point[i][0], point[i][1], point[i][2]);
+    put("$EndNodes\n$Comments\n$ 1 2 3\n$EndComments\n$Elements\n%d\n1 15 2 0 1 5\n2 1 2 7 1 5 8\n",
+        FACES + 2);
+    for (int i = 0; i < FACES; i++) {
+        put("%d %d 2 %d 1", i + 3, corners(i) - 1, i < 7 ? 7 : 9);
+        put_corners(i, " %d", 5, 3);
+        put("\n");
+    }
+    put("$EndElements\n");
+}
+
+static void put_block_4(int from, int to, int entity)
+{
+    put("2 %d %d %d\n", entity, corners(from) - 1, to - from);
+    for (int i = from; i < to; i++) {
+        put("%d", i + 1);
+        put_corners(i, " %d", 5, 3);
+        put("\n");
+    }
+}
+
+static void write_gmsh_4(void)
+{
+    put("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"walls\"\n2 9 \"block\"\n"
+        "$EndPhysicalNames\n$Entities\n1 0 2 0\n1 0 0 0 0\n"
+        "31 0 0 0 4 5 3 1 7 0\n32 1 1 1 2 3 2 1 -9 0\n$EndEntities\n$Nodes\n2 %d 5 50\n",
+        POINTS);
+    for (int half = 0; half < 2; half++) {
+        const int from = half * 10, to = half ? POINTS : 10;
+        put("2 %d 0 %d\n", 31 + half, to - from);
+        for (int i = from; i < to; i++)
+            put("%d\n", 3 * i + 5);
+        for (int i = from; i < to; i++)
+            put("%g %g %g\n", point[i][0], point[i][1], point[i][2]);
+    }
+    put("$EndNodes\n$Elements\n4 %d 1 %d\n", FACES, FACES);
+    put_block_4(0, 3, 31);
+    put_block_4(3, 5, 31);
+    put_block_4(5, 7, 31);
+    put_block_4(7, FACES, 32);
+    put("$EndElements\n");
+}
+
+static void put_small(int i)
+{
+    put("%-8s%8d%8d", corners(i) == 3 ? "CTRIA3" : "CQUAD4", i + 1, i < 7 ? 7 : 9);
+    put_corners(i, "%8d", 5, 3);
+    put("\n");
+}
+
+static void write_nastran_small(void)
+{
+    put("SOL 101\nCEND\nTITLE = GRID\nBEGIN BULK\n$ shells first\nPSHELL  7       1       .1\n");
+    for (int i = 0; i < FACES; i++)
+        put_small(i);
+    for (int i = 0; i < POINTS; i++)
+        put("GRID    %8d%8s%8.3f%8.3f%5.0f.-%d\n", 3 * i + 5, "", point[i][0], point[i][1],
+            point[i][2] * 100, 2);
+    put("ENDDATA\nGRID nothing\n");
+}
+
+static void write_nastran_large(void)
+{
+    for (int i = 0; i < POINTS; i++)
+        put("GRID*   %16d%16s%16.9E%16.9f*G%d\n*G%-6d%16.8fD0\n", 3 * i + 5, "", point[i][0],
+            point[i][1], i, i, point[i][2]);
+    for (int i = 0; i < FACES; i++) {
+        put("%-8s%16d%16d", corners(i) == 3 ? "CTRIA3*" : "CQUAD4*", i + 1, i < 7 ? 7 : 9);
+        for (int j = 0; j < corners(i); j++)
+            put("%s%16d", j == 2 ? "\n*       " : "", 5 + 3 * face[i][j]);
+        put("\n");
+    }
+}
+
+static void write_nastran_free(void)
+{
+    put("BEGIN BULK\n");
+    for (int i = 0; i < POINTS; i++)
+        put(i % 2 ? "grid,%d,,%g,%g,%g\n" : "GRID , %d , 0, %g,%g, %g,,\n", 3 * i + 5, point[i][0],
+            point[i][1], point[i][2]);
+    for (int i = 0; i < FACES; i++) {
+        put("%s,%d,%d", corners(i) == 3 ? "CTRIA3" : "CQUAD4", i + 1, i < 7 ? 7 : 9);
+        put_corners(i, ",%d", 5, 3);
+        put("\n");
+    }
+    put("ENDDATA\n");
+}
+
+static void write_vtk_3(void)
+{
+    int numbers = 2;
+    for (int i = 0; i < FACES; i++)
+        numbers += 1 + corners(i);
+    put("# vtk DataFile Version 3.0\na # room\nASCII\nDATASET UNSTRUCTURED_GRID\nFIELD FieldData "
+        "1\nTIME 1 1 double\n0\nPOINTS %d double\n",
+        POINTS);
+    for (int i = 0; i < POINTS; i++)
+        put("%g %g %g%s", point[i][0], point[i][1], point[i][2], i % 3 ? " " : "\n");
+    put("\nCELLS %d %d\n1 3\n", FACES + 1, numbers);
+    for (int i = 0; i < FACES; i++) {
+        put("%d", corners(i));
+        put_corners(i, " %d", 0, 1);
+        put("\n");
+    }
+    put("CELL_TYPES %d\n1\n", FACES + 1);
+    for (int i = 0; i < FACES; i++)
+        put("%d\n", corners(i) == 3 ? 5 : i % 2 ? 9 : 7);
+    put("CELL_DATA %d\nSCALARS q float\n", FACES + 1);
+}
+
+/* Offsets from `first` of them on. */
+static void put_offsets(int first)
+{
+    int sum = 0;
+    if (!first)
+        put("0");
+    for (int i = 0; i < FACES; i++)
+        put(" %d", sum += corners(i));
+    put("\n");
+}
+
+static void put_connectivity(void)
+{
+    for (int i = 0; i < FACES; i++)
+        put_corners(i, " %d", 0, 1);
+    put("\n");
+}
+
+static void write_vtk_5(void)
+{
+    put("# vtk DataFile Version 5.1\n\nASCII\nDATASET POLYDATA\nPOINTS %d double\n", POINTS);
+    for (int i = 0; i < POINTS; i++)
+        put("%g %g %g\n", point[i][0], point[i][1], point[i][2]);
+    put("METADATA\nINFORMATION 0\n\nVERTICES 2 1\nOFFSETS vtktypeint64\n0 1\nCONNECTIVITY "
+        "vtktypeint64\n5\nPOLYGONS %d %d\nOFFSETS vtktypeint64\n",
+        FACES + 1, 4 * FACES - 2);
+    put_offsets(0);
+    put("CONNECTIVITY vtktypeint64\n");
+    put_connectivity();
+    put("POINT_DATA 16\n");
+}
+
+static void put_array(const char *type, const char *name)
+{
+    put("<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type,
+        name, *type == 'F' ? 3 : 1);
+}
+
+static void write_xml_ascii(const char *kind, const char *section)
+{
+    put("<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n<%s>\n<Piece NumberOfPoints=\"%d\" NumberOf%s=\"%d\">\n"
+        "<CellData><DataArray type=\"Int32\" Name=\"types\" format=\"ascii\">x</DataArray>"
+        "</CellData>\n<Points>\n",
+        kind, kind, POINTS, section, FACES);
+    put_array("Float64", "Points");
+    for (int i = 0; i < POINTS; i++)
+        put("%g %g %g\n", point[i][0], point[i][1], point[i][2]);
+    put("<InformationKey name=\"L2_NORM_RANGE\"><Value index=\"0\">7</Value></InformationKey>"
+        "</DataArray></Points>\n<%s>",
+        section);
+    put_array("Int64", "connectivity");
+    put_connectivity();
+    put("</DataArray>");
+    put_array("Int64", "offsets");
+    put_offsets(1);
+    put("</DataArray>");
+    if (*section == 'C') {
+        put_array("UInt8", "types");
+        for (int i = 0; i < FACES; i++)
+            put("%d ", corners(i) == 3 ? 5 : 9);
+        put("</DataArray>");
+    }
+    put("</%s></Piece></%s></VTKFile>\n", section, kind);
+}
+
+static void write_vtu(void)
+{
+    write_xml_ascii("UnstructuredGrid", "Cells");
+}
+
+static void write_vtp(void)
+{
+    write_xml_ascii("PolyData", "Polys");
+}
+
+static struct {
+    unsigned char at[4096];
+    size_t size;
+} raw;
+
+/* Big-endian, whatever this machine is. */
+static void put_raw(uint64_t bits, int size)
+{
+    while (size-- > 0)
+        raw.at[raw.size++] = (unsigned char)(bits >> 8 * size);
+}
+
+static void put_base64(const char *type, const char *name)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const size_t body = raw.size - 8;
+    for (int k = 0; k < 8; k++)
+        raw.at[k] = (unsigned char)((uint64_t)body >> (56 - 8 * k));
+    put("<DataArray type=\"%s\" Name=\"%s\" format=\"binary\">\n  ", type, name);
+    for (size_t i = 0; i < raw.size; i += 3) {
+        uint32_t group = 0;
+        for (size_t k = 0; k < 3; k++)
+            group = group << 8 | (i + k < raw.size ? raw.at[i + k] : 0);
+        for (size_t k = 0; k < 4; k++)
+            put("%c", i + k <= raw.size ? digit[group >> (18 - 6 * k) & 63] : '=');
+    }
+    put("\n</DataArray>\n");
+    raw.size = 8;
+}
+
+/* Two pieces, of which the second has the block. */
+static void write_vtu_base64(void)
+{
+    put("<VTKFile type=\"UnstructuredGrid\" byte_order=\"BigEndian\" header_type=\"UInt64\">"
+        "<UnstructuredGrid>");
+    raw.size = 8;
+    for (int half = 0; half < 2; half++) {
+        put("<Piece NumberOfPoints=\"8\" NumberOfCells=\"%d\"><Points>", half ? FACES - 7 : 7);
+        for (int i = 8 * half; i < 8 * half + 8; i++)
+            for (int k = 0; k < 3; k++) {
+                uint64_t bits;
+                memcpy(&bits, &point[i][k], sizeof bits);
+                put_raw(bits, 8);
+            }
+        put_base64("Float64", "p");
+        put("</Points><Cells>");
+        const int from = half ? 7 : 0, to = half ? FACES : 7;
+        int sum = 0;
+        for (int i = from; i < to; i++)
+            for (int j = 0; j < corners(i); j++)
+                put_raw((uint64_t)(face[i][j] - 8 * half), 4);
+        put_base64("Int32", "connectivity");
+        for (int i = from; i < to; i++)
+            put_raw((uint64_t)(sum += corners(i)), 2);
+        put_base64("UInt16", "offsets");
+        for (int i = from; i < to; i++)
+            put_raw(corners(i) == 3 ? 5 : 9, 1);
+        put_base64("UInt8", "types");
+        put("</Cells></Piece>");
+    }
+    put("</UnstructuredGrid></VTKFile>");
+}
+
+/* ---- */
+
+static void write_text(const char *name)
+{
+    FILE *f = fopen(in_folder(name), "wb");
+    ck_assert_ptr_nonnull(f);
+    ck_assert_uint_eq(fwrite(text.at, 1, text.size, f), text.size);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+static void make(const char *name, void (*write)(void))
+{
+    text.size = 0;
+    write();
+    write_text(name);
+}
+
+static const struct {
+    const char *name;
+    void (*write)(void);
+    const char *walls, *block; /* names of materials */
+} formats[] = {
+    {"room.vs3", write_vs3, "walls", "block"},
+    {"two.msh", write_gmsh_2, "walls", "block"},
+    {"four.msh", write_gmsh_4, "walls", "block"},
+    {"small.bdf", write_nastran_small, "PSHELL 7", "PSHELL 9"},
+    {"large.nas", write_nastran_large, "PSHELL 7", "PSHELL 9"},
+    {"free.BDF", write_nastran_free, "PSHELL 7", "PSHELL 9"},
+    {"three.vtk", write_vtk_3, "DefaultMaterial", "DefaultMaterial"},
+    {"five.vtk", write_vtk_5, "DefaultMaterial", "DefaultMaterial"},
+    {"room.vtu", write_vtu, "DefaultMaterial", "DefaultMaterial"},
+    {"bytes.vtu", write_vtu_base64, "DefaultMaterial", "DefaultMaterial"},
+    {"room.vtp", write_vtp, "DefaultMaterial", "DefaultMaterial"},
+};
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+static const struct scene_options quietly = {.quiet = 1};
+
+START_TEST(test_polygons)
+{
+    struct scene_file f;
+    make(formats[_i].name, formats[_i].write);
+    ck_assert_int_eq(scene_file_read(&f, in_folder(formats[_i].name), &quietly), 0);
+    ck_assert_uint_eq(f.polygon_count, FACES);
+    size_t at = 0;
+    for (int i = 0; i < FACES; i++) {
+        ck_assert_uint_eq(f.sizes[i], (unsigned)corners(i));
+        for (int j = 0; j < corners(i); j++, at++)
+            for (int k = 0; k < 3; k++)
+                ck_assert_double_eq(f.positions[3 * f.indices[at] + (unsigned)k],
+                                    point[face[i][j]][k]);
+        const uint32_t m = f.polygon_materials[i];
+        ck_assert_str_eq(f.names[m], i < 7 ? formats[_i].walls : formats[_i].block);
+        ck_assert_double_eq(f.materials[m].reflectance[1],
+                            strstr(formats[_i].name, "vs3") ? .25 : .5);
+    }
+    scene_file_free(&f);
+}
+END_TEST
+
+static size_t matrix(const char *name, char *to, size_t most)
+{
+    char command[1024], out[80];
+    const char *program = getenv("RADIOSITY");
+    snprintf(out, sizeof out, "%s.csv", name);
+    snprintf(command, sizeof command, "%s viewfactors %s -q -o %s",
+             program ? program : "build/bin/radiosity", in_folder(name), in_folder(out));
+    ck_assert_int_eq(system(command), 0);
+    FILE *f = fopen(in_folder(out), "r");
+    ck_assert_ptr_nonnull(f);
+    const size_t size = fread(to, 1, most, f);
+    fclose(f);
+    return size;
+}
+
+START_TEST(test_factors)
+{
+    static char wanted[TEXT], got[TEXT];
+    make("room.obj", write_obj);
+    const size_t size = matrix("room.obj", wanted, TEXT);
+    ck_assert_uint_gt(size, 10 * FACES * FACES);
+    for (int i = 0; i < FORMATS; i++) {
+        make(formats[i].name, formats[i].write);
+        ck_assert_msg(matrix(formats[i].name, got, TEXT) == size && memcmp(got, wanted, size) == 0,
+                      "%s", formats[i].name);
+    }
+}
+END_TEST
+
+/* What reading says on stderr, of a file that must be refused. */
+static const char *refusal(const char *path)
+{
+    static char said[1000];
+    struct scene_file f;
+    fflush(stderr);
+    const int was = dup(2), to = open(in_folder("said"), O_RDWR | O_CREAT | O_TRUNC, 0600);
+    dup2(to, 2);
+    const int result = scene_file_read(&f, path, &quietly);
+    fflush(stderr);
+    dup2(was, 2);
+    close(was);
+    lseek(to, 0, SEEK_SET);
+    const ssize_t size = read(to, said, sizeof said - 1);
+    close(to);
+    said[size > 0 ? size : 0] = '\0';
+    ck_assert_msg(result == -1, "%s is read", path);
+    return said;
+}
+
+#define POLYDATA "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
+#define GRID "<VTKFile type='UnstructuredGrid'><Piece>\n"
+
+START_TEST(test_refusals)
+{
+    static const struct {
+        const char *name, *content, *said;
+    } cases[] = {
+        {"a.vs3", "F 3\nV 1 0 0 0\nS 1 1 2 1 0 0 0 .5 a\n", ":3: error: surface 1 names vertex 2"},
+        {"a.vs3", "F 3\nV 1 0 0 nan\n", ":2: error: 'nan' where z belongs"},
+        {"a.vs3", "F 2\n", ":1: error: a geometry of another kind"},
+        {"a.vs3", "F 3\nV 1 0 0\n", ": error: ends before z"},
+        {"a.vs3", "F 3\nV 1 0 0 0\nV 1 0 0 1\n", ":3: error: node 1 is defined twice"},
+        {"a.vs3", "F 3\nS 2 1 1 1 0 0 0 1 a\n", ":2: error: surface 2 where 1 belongs"},
+        {"a.vs3", "F 3\nQ\n", ":2: error: 'Q' is no entry"},
+        {"a.vs3", "F 3\n", ": error: there is no face"},
+        {"a.msh", "$MeshFormat\n4.1 1 8\n", ":2: error: a binary mesh; convert it to text: gmsh"},
+        {"a.msh", "$MeshFormat\n4 0 8\n", ":2: error: version 4 is not read; convert it"},
+        {"a.msh", "$Nodes\n1\n", ":1: error: no $MeshFormat"},
+        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000\n1 0 0 0\n",
+         ":6: error: ends before a node"},
+        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n2 0 0 0\n",
+         ":7: error: '2' where $EndNodes belongs"},
+        {"a.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
+         "1 2 0 1 5 1\n$EndElements\n",
+         ":10: error: this face names node 5"},
+        {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n", "no $Elements"},
+        {"a.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n"
+         "1 4 0 1 2 3 4\n$EndElements\n",
+         ":9: error: there are volumes in it and no face"},
+        {"a.bdf", "GRID,1,,0,0,0\nCTRIA3,1,1,1,2,3\n", ":2: error: this face names node 2"},
+        {"a.bdf", "GRID,1,4,0,0,0\n", ":1: error: GRID 1 is in coordinate system 4"},
+        {"a.bdf", "GRID           1             1.x      0.      0.\n",
+         ":1: error: '1.x' where x of GRID belongs"},
+        {"a.bdf", "$\nCQUAD4,1,1,1,2,3\n", ":2: error: 0 where a corner of CQUAD4 belongs"},
+        {"a.bdf", "INCLUDE 'b.bdf'\n", ":1: error: INCLUDE is not followed"},
+        {"a.vtk", "x\n", ":1: error: no legacy VTK file"},
+        {"a.vtk", "# vtk DataFile Version 3.0\n\nBINARY\n", ":3: error: a binary VTK file; write"},
+        {"a.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\n",
+         ":4: error: dataset STRUCTURED_POINTS has no faces"},
+        {"a.vtk", POLYDATA "POINTS 4000000000 float\n0 0 0\n", ":6: error: ends before a coord"},
+        {"a.vtk", POLYDATA "POINTS 1 float\n0 0 nan\n", ":6: error: 'nan' where a coordinate"},
+        {"a.vtk", POLYDATA "POINTS 1 float\n0 0 0\nPOLYGONS 1 4\n3 0 0 1\n",
+         ":8: error: a cell names point 1, but there are 1"},
+        {"a.vtk", POLYDATA "POLYGONS 1 4\n4 0 0 0 0\n", ":6: error: cell 0 goes beyond the 4"},
+        {"a.vtk", POLYDATA "POLYGONS 1 3\n2 0 0\n", ":6: error: a cell of type 7 has 2 points"},
+        {"a.vtk", POLYDATA "QUADS 1 5\n", ":5: error: 'QUADS' is no part"},
+        {"a.vtk",
+         "# vtk DataFile Version 5.1\n\nASCII\nDATASET POLYDATA\nPOLYGONS 3 4\nOFFSETS t\n0 3 2\n",
+         ":7: error: offset 2 is less"},
+        {"a.vtk",
+         "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n0 0 0\n"
+         "CELLS 1 5\n4 0 0 0 0\nCELL_TYPES 1\n10\n",
+         ":8: error: there are volumes in it and no face"},
+        {"a.vtu", "<x/>\n", ":1: error: <x> before <VTKFile>"},
+        {"a.vtu", "\n<VTKFile type='ImageData'/>\n", ":2: error: VTK data of type 'ImageData'"},
+        {"a.vtu", "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'/>",
+         ":1: error: the file is compressed; write it uncompressed"},
+        {"a.vtu", GRID "<Points>\n", ":3: error: not well-formed XML"},
+        {"a.vtu", GRID "<Points><DataArray format='appended'/>", ":2: error: an array of format"},
+        {"a.vtu", GRID "<Points><DataArray>1 2\n 3x</DataArray>", ":2: error: '3x' is not a num"},
+        {"a.vtu", GRID "<Points><DataArray>1 2</DataArray></Points></Piece>",
+         ":2: error: points have 2 numbers"},
+        {"a.vtu", GRID "<Points><DataArray type='Float32' format='binary'>AAAAA</DataArray>",
+         ":2: error: an array is no base64"},
+        {"a.vtu", GRID "<Points><DataArray type='Float32' format='binary'>////fwAA</DataArray>",
+         ":2: error: an array counts 2147483647 bytes of type Float32 and has 2"},
+        {"a.vtu", GRID "<Cells><DataArray Name='offsets'>3</DataArray></Cells></Piece>",
+         "0 types of 1 cells"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        text.size = 0;
+        put("%s", cases[i].content);
+        write_text(cases[i].name);
+        const char *said = refusal(in_folder(cases[i].name));
+        ck_assert_msg(strstr(said, cases[i].said), "%zu: %s", i, said);
+        ck_assert_msg(strchr(said, '\n') == said + strlen(said) - 1, "more than one line: %s",
+                      said);
+    }
+}
+END_TEST
+
+/* Subsurfaces come before their bases; combined surfaces have one material. */
+START_TEST(test_view3d_surfaces)
+{
+    struct scene_file f;
+    text.size = 0;
+    put("T planes\nF 3a\nS 1 R 0 0 .9 wall\n 3 0 0 0 90 3 2\nS 2 Q 1 0 .8 window\n"
+        "3 0 0 0 90\n 1 .5 2 .5 2 1.5 1 1.5\nS 3 t 0 1 .9\n 0 0 0 180 0 0 0 1 0 0 1\n"
+        "O 4 R 0 4 0 180 0 1 1\n*\n");
+    write_text("planes.vs3");
+    ck_assert_int_eq(scene_file_read(&f, in_folder("planes.vs3"), &quietly), 0);
+    ck_assert_uint_eq(f.polygon_count, 4);
+    static const char *const names[] = {"window", "wall", "wall", "obstruction"};
+    static const double first[4][3] = {{2, 0, .5}, {3, 0, 2}, {0, 0, 0}, {0, 5, 0}};
+    size_t at = 0;
+    for (int i = 0; i < 4; at += f.sizes[i++]) {
+        ck_assert_str_eq(f.names[f.polygon_materials[i]], names[i]);
+        for (int k = 0; k < 3; k++)
+            ck_assert_double_eq_tol(f.positions[3 * f.indices[at] + (unsigned)k], first[i][k],
+                                    1e-14);
+    }
+    scene_file_free(&f);
+}
+END_TEST
+
+/* A hexagon and an L are one polygon each; each triangle of a strip is one, with one front. */
+START_TEST(test_polygons_of_vtk)
+{
+    struct scene_file f;
+    text.size = 0;
+    put(POLYDATA "POINTS 12 float\n0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0\n"
+                 "0 0 1 1 0 1 0 1 1 1 1 1 0 2 1 1 2 1\n"
+                 "POLYGONS 1 7\n6 0 1 2 3 4 5\nTRIANGLE_STRIPS 1 7\n6 6 7 8 9 10 11\n");
+    write_text("strip.vtk");
+    ck_assert_int_eq(scene_file_read(&f, in_folder("strip.vtk"), &quietly), 0);
+    static const uint32_t indices[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 8, 7, 9, 8, 9, 10, 10, 9, 11};
+    ck_assert_uint_eq(f.polygon_count, 5);
+    ck_assert_uint_eq(f.sizes[0], 6);
+    ck_assert_uint_eq(f.index_count, sizeof indices / sizeof *indices);
+    ck_assert_mem_eq(f.indices, indices, sizeof indices);
+    scene_file_free(&f);
+    static char rows[TEXT];
+    rows[matrix("strip.vtk", rows, TEXT - 1)] = '\0';
+    int lines = 0;
+    for (const char *c = rows; *c; c++)
+        lines += *c == '\n';
+    ck_assert_int_eq(lines, 5);
+}
+END_TEST
+
+int main(void)
+{
+    if (folder_make("mesh_formats") < 0)
+        return EXIT_FAILURE;
+    Suite *suite = suite_create("mesh_formats");
+    TCase *t = tcase_create("mesh_formats");
+    tcase_set_timeout(t, 60);
+    tcase_add_loop_test(t, test_polygons, 0, FORMATS);
+    tcase_add_test(t, test_factors);
+    tcase_add_test(t, test_refusals);
+    tcase_add_test(t, test_view3d_surfaces);
+    tcase_add_test(t, test_polygons_of_vtk);
+    suite_add_tcase(suite, t);
+    int failed = suite_failures(suite);
+    folder_remove();
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
