@@ -28,4 +28,11 @@ version=$(sed -n 's/^.define RADIOSITY_VERSION "\(.*\)"/\1/p' "$top/runtime/radi
 check "its version is the library's" "$python" -c "from importlib.metadata import version; assert version('radiosity') == '$version'"
 check "the package" timeout 120 "$python" -W error::ResourceWarning "$top/tests/python/test_package.py"
 grep '^package: ' out
+# The example's balance: what floor, window and fresh air bring is nothing in all; insulated surfaces bring nothing.
+check "the example runs" sh -c "'$python' '$top/examples/python/room_heat_balance.py' >table"
+check "its table balances" awk '/ brings$/ { on = 1; next }
+    on && $1 != "all" && $1 != "m2" && NF > 4 || /^fresh air/ { sum += $NF; rows++ }
+    $1 == "floor" { floor = $NF }  $1 == "walls" { walls = $NF }
+    END { print sum, rows, floor, walls
+          exit !(rows == 7 && sum < .03 && sum > -.03 && floor > 445 && floor < 465 && walls == 0) }' table
 finish python
