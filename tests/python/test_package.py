@@ -1,0 +1,283 @@
+"""test_package.py - the Python package against closed forms, and what it does with bad input, threads and signals.
+
+Closed forms: squares that face each other and that share an edge (Howell, C-11 and C-14); the white furnace; for a cube
+whose ceiling emits, the continuous solution (tests/check_install.sh). Run alone: each function that begins with
+test_ is one, in pytest, too.
+SPDX-License-Identifier: MIT
+"""
+import gc
+import os
+import signal
+import sys
+import threading
+import time
+import types
+import warnings
+import weakref
+
+import numpy as np
+
+import radiosity
+
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+# Ceiling, floor, walls, counter-clockwise as seen from inside.
+CUBE = np.array([[4, 7, 6, 5], [0, 1, 2, 3], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]])
+FACING = (np.log(4 / 3) / 2 + 2 * np.sqrt(2) * np.arctan(np.sqrt(.5)) - np.pi / 2) * 2 / np.pi
+BESIDE = (1 - FACING) / 4
+EXACT = np.full((6, 6), BESIDE)
+for a, b in ((0, 1), (2, 4), (3, 5)):
+    EXACT[a, b] = EXACT[b, a] = FACING
+EXACT -= np.diag(np.diag(EXACT))
+
+
+def triangles(quads):
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
+
+
+def near(got, wanted, within):
+    off = np.abs(np.asarray(got) - wanted).max()
+    assert off <= within, f"{got} is off {wanted} by {off:.3g}"
+
+
+def raises(kind, text, function, *arguments, **named):
+    try:
+        function(*arguments, **named)
+    except kind as error:
+        assert text in str(error), f"{error!r} does not say {text!r}"
+        return error
+    raise AssertionError(f"no {kind.__name__} about {text!r}")
+
+
+def test_cube():
+    factors = radiosity.Scene.from_arrays(CORNERS, CUBE).view_factors()
+    near(factors.matrix.toarray(), EXACT, 1e-7)
+    near(factors.row_sums, 1, 1e-6)
+    near(factors.areas, 1, 1e-12)
+    assert factors.matrix.format == "csr" and factors.matrix.nnz == 30 and factors.matrix.has_sorted_indices
+    assert factors.report.rows_closed == 6 and factors.report.rows_open == 0 and len(factors) == 6
+
+
+def test_triangles():
+    labels = np.repeat(np.arange(6), 2)
+    factors = radiosity.Scene.from_arrays(CORNERS, triangles(CUBE), groups=labels).view_factors()
+    of_faces = factors.by()
+    near(of_faces.matrix.toarray(), EXACT, 1e-4)
+    near(of_faces.areas, 1, 1e-12)
+    near(of_faces.row_sums, 1, 3e-4)
+    both_ways = factors.areas[:, None] * factors.matrix.toarray()
+    near(both_ways, both_ways.T, 1e-12)
+    assert list(factors.by(np.array(list("abcdef"))[labels]).names) == list("abcdef")
+    raises(radiosity.InvalidInput, "each of the 12 faces", factors.by, [1, 2])
+    raises(radiosity.InvalidInput, "each of the 12 faces", radiosity.Scene.from_arrays(
+        CORNERS, triangles(CUBE)).view_factors().by)
+
+
+def test_many_rows():  # more than one thread fills
+    n = 13
+    at = np.linspace(0, 1, n + 1)
+    x, y = np.meshgrid(at, at, indexing="ij")
+    floor = np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3)
+    cell = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1)
+    up = np.stack([cell, cell + n + 1, cell + n + 2, cell + 1], axis=-1)
+    faces = np.concatenate([up, up[:, ::-1] + len(floor)])
+    scene = radiosity.Scene.from_arrays(np.concatenate([floor, floor + [0, 0, 1]]), faces,
+                                        groups=np.repeat(["floor", "roof"], n * n))
+    factors = scene.view_factors()
+    assert factors.matrix.shape == (2 * n * n, 2 * n * n)
+    near(factors.by().matrix.toarray(), [[0, FACING], [FACING, 0]], 1e-5)
+    near(np.asarray(factors.matrix.sum(axis=1)).ravel(), factors.row_sums, 1e-9)
+    assert (factors.row_sums < .5).all()
+
+
+def test_polygons_of_all_sizes():
+    faces = [list(face) for face in CUBE]
+    faces[1:2] = [[0, 1, 2], (0, 2, 3)]
+    factors = radiosity.Scene.from_arrays(CORNERS, faces).view_factors(closure="reciprocal")
+    merged = factors.by(["ceiling", "floor", "floor", "w1", "w2", "w3", "w4"])
+    near(merged.matrix.toarray()[0, 1], FACING, 1e-4)
+    near(factors.row_sums, 1, 1e-9)
+
+
+def test_float32_and_views():
+    backwards = CORNERS[::-1]  # not contiguous
+    factors = radiosity.Scene.from_arrays(backwards.astype(np.float32)[::1], (7 - CUBE).astype(np.int8)).view_factors()
+    near(factors.matrix.toarray(), EXACT, 1e-6)
+    given = CORNERS.copy()
+    scene = radiosity.Scene.from_arrays(given, CUBE)
+    given[:] = 0  # was copied
+    near(scene.view_factors().matrix.toarray(), EXACT, 1e-7)
+
+
+def test_mesh():
+    block = types.SimpleNamespace
+    mesh = block(points=CORNERS, cells=[block(type="line", data=np.array([[0, 1]])),
+                                        block(type="quad", data=CUBE[:2]),
+                                        block(type="triangle6", data=np.hstack([triangles(CUBE[2:])] * 2))],
+                 cell_data={"gmsh:physical": [np.array([9]), np.array([7, 8]), np.full(8, 5)]},
+                 field_data={"ceiling": np.array([7, 2]), "floor": np.array([8, 2]), "walls": np.array([5, 2])})
+    scene = radiosity.Scene.from_mesh(mesh, group="gmsh:physical", exitance={"ceiling": 1, "floor": 0, "walls": 0})
+    assert list(scene.groups[:3]) == ["ceiling", "floor", "walls"] and len(scene) == 10
+    factors = scene.view_factors().by()
+    near(factors.matrix.toarray(), [[0, FACING, 4 * BESIDE], [FACING, 0, 4 * BESIDE], [BESIDE, BESIDE, FACING + 2 * BESIDE]],
+         1e-4)
+    read = radiosity.Scene.from_mesh
+    raises(radiosity.InvalidInput, "it has gmsh:physical", read, mesh, group="tags")
+    raises(radiosity.InvalidInput, "no value for walls and one for wall,", read, mesh, group="gmsh:physical",
+           reflectance={"ceiling": 0, "floor": 0, "wall": 0})
+    mesh.cells = mesh.cells[:1] + [block(type="tetra", data=np.array([[0, 1, 2, 4]]))]
+    raises(radiosity.InvalidInput, "only line, tetra; extract its surface", read, mesh)
+
+
+def test_white_furnace():
+    solution = radiosity.Scene.from_arrays(CORNERS, CUBE, reflectance=.5, exitance=1).solve()
+    near(solution.radiosity, 2, 2e-3)
+    near(solution.irradiance, 2, 4e-3)
+    rho, emitted = np.array([[.2, .5, .8]]), np.array([[1., 2., 3.]])
+    colours = radiosity.Scene.from_arrays(CORNERS, CUBE, reflectance=rho, exitance=emitted).solve(closure="rows")
+    assert colours.radiosity.shape == (6, 3)
+    near(colours.radiosity / (emitted / (1 - rho)), 1, 4e-3)
+
+
+def test_lamp():
+    truth = np.array([1.1043616, .1712161] + [.1811056] * 4)
+    scene = radiosity.Scene.from_arrays(CORNERS, CUBE, [0, 1, 1, 1, 1, 1], reflectance=.5, exitance=[1, 0])
+    solution = scene.solve()
+    near(solution.radiosity, truth, .0064)
+    near(solution.irradiance, (truth - [1, 0, 0, 0, 0, 0]) / .5, .0128)
+    # The measured error is the error, but for its noise.
+    assert (np.abs(solution.error - (solution.radiosity - truth)) < 5 * solution.deviation + 1e-4).all()
+    assert (solution.deviation > 0).all() and (solution.deviation < .01).all()
+    assert 0 <= solution.measured.l1_faces.low <= solution.measured.l1_faces.high < .05
+    assert not hasattr(solution.measured, "l2") and solution.measure_error(stream=1, surfaces=True).l2.high > 0
+    # A coarse one is wrong, and the measurement says by how much.
+    coarse = scene.solve("bf", parameters={"relative": 2}, basis="constant", correct=False, measure=False)
+    assert coarse.error is None and coarse.measured is None and coarse.report.links < solution.report.links
+    coarse.measure_error(rays=400000)
+    off = coarse.radiosity - truth
+    assert np.abs(off).max() > .003
+    assert (np.abs(coarse.error - off) < 5 * coarse.deviation + 1e-4).all(), (coarse.error, off)
+
+
+def test_errors():
+    make, wrong = radiosity.Scene.from_arrays, radiosity.InvalidInput
+    assert issubclass(wrong, ValueError) and issubclass(wrong, radiosity.RadiosityError)
+    for text, arguments, named in (
+            ("(n, 3)", (CORNERS[:, :2], CUBE), {}),
+            ("vertex 1 is [nan, 0.0, 0.0]", (
+                                             np.where(np.arange(24).reshape(8, 3) == 3, np.nan, CORNERS), CUBE), {}),
+            ("face 1 has the corner 8; vertices count from 0 to 7", (CORNERS, [[0, 1, 2], [0, 1, 8]]), {}),
+            ("face 0 has the corner -1", (CORNERS, [[-1, 1, 2]]), {}),
+            ("whole numbers", (CORNERS, CUBE * 1.0), {}),
+            ("face 1 is [0.5", (CORNERS, [[0, 1, 2], [.5, 1, 2]]), {}),
+            ("no faces", (CORNERS, []), {}),
+            ("all of its 1 faces are degenerate", (CORNERS, [[0, 1, 1]]), {}),
+            ("face 3 has reflectance 1;", (CORNERS, CUBE), {"reflectance": [0, 0, 0, 1, 0, 0]}),
+            ("face 0 has exitance -1 W/m2", (CORNERS, CUBE), {"exitance": -1}),
+            ("material 1 has reflectance 2", (CORNERS, CUBE, [0, 1] * 3), {"reflectance": [0, 2]}),
+            ("reflectance has shape (2,)", (CORNERS, CUBE), {"reflectance": [0, 0]}),
+            ("materials must be", (CORNERS, CUBE, [0, 1]), {}),
+            ("threads is -1", (CORNERS, CUBE), {"threads": -1}),
+            ("one label for each of the 6 faces", (CORNERS, CUBE), {"groups": "a"})):
+        raises(wrong, text, make, *arguments, **named)
+    scene = make(CORNERS, CUBE)
+    raises(wrong, "'rows', 'reciprocal'", scene.view_factors, closure="all")
+    raises(wrong, "tolerance is -1", scene.view_factors, tolerance=-1)
+    raises(wrong, "no built-in oracle 'none'; give", scene.solve, "none")
+    raises(wrong, "cannot read none.dag", scene.solve, "none.dag")
+    raises(wrong, "no parameter 'x'; it has energy", scene.solve, parameters={"x": 1})
+    raises(TypeError, "from_arrays", radiosity.Scene)
+    near(scene.view_factors().matrix.toarray(), EXACT, 1e-7)  # as good as before
+    assert "power" in radiosity.oracles()
+
+
+def test_warnings():
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        scene = radiosity.Scene.from_arrays(CORNERS, [*CUBE.tolist(), [0, 1, 1, 0], [0, 1, 2, 3]])
+    assert [w.category for w in said] == [radiosity.RadiosityWarning] * 2 and said[0].filename == __file__, said
+    assert "1 of 8 faces have no area" in str(said[0].message) and "lie on others" in str(said[1].message)
+    factors = scene.view_factors()
+    near(factors.matrix.toarray()[:6, :6], EXACT, 1e-7)
+    near(factors.areas[6:], 0, 0)
+    assert factors.matrix[6:].nnz == 0
+
+
+def long_work():
+    """A scene whose factors take seconds: triangles in the air."""
+    some = np.random.default_rng(1)
+    where = some.uniform(0, 10, (1500, 1, 3)) + some.uniform(-1, 1, (1500, 3, 3))
+    return radiosity.Scene.from_arrays(where.reshape(-1, 3), np.arange(4500).reshape(-1, 3), two_sided=True)
+
+
+def test_progress_and_signals():
+    scene = long_work()
+    told = []
+    raises(radiosity.Cancelled, "progress", scene.view_factors, progress=lambda p: told.append(p) or len(told) > 2)
+    assert len(told) == 3 and told[0].phase in ("refine", "factors"), told
+    raises(ZeroDivisionError, "", scene.view_factors, progress=lambda p: 1 / 0)
+    raises(radiosity.RadiosityError, "cannot ask the scene", scene.view_factors,
+           progress=lambda p: scene.view_factors())
+    # Ctrl-C, and other threads run meanwhile.
+    beats = []
+    threading.Timer(.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    stop = threading.Event()
+    beat = threading.Thread(target=lambda: [beats.append(time.sleep(.01)) for _ in iter(stop.is_set, True)])
+    beat.start()
+    begun = time.monotonic()
+    raises(KeyboardInterrupt, "", scene.view_factors)
+    stop.set()
+    beat.join()
+    assert time.monotonic() - begun < 3 and len(beats) > 5, (time.monotonic() - begun, len(beats))
+
+
+def test_handles_are_released():
+    scene = radiosity.Scene.from_arrays(CORNERS, CUBE, exitance=1)
+    solution, factors = scene.solve(correct=False, measure=False), scene.view_factors()
+    gone = [weakref.ref(one) for one in (scene, solution, scene._device)]
+    del scene
+    solution.measure_error()  # keeps alive what it needs
+    near(factors.areas, 1, 1e-12)
+    del solution
+    gc.collect()
+    assert [one() for one in gone] == [None] * 3
+    resident = []
+    for _ in range(2):
+        for _ in range(60):
+            radiosity.Scene.from_arrays(CORNERS, CUBE, exitance=1).view_factors()
+        with open("/proc/self/statm") as file:
+            resident.append(int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE"))
+    assert resident[1] - resident[0] < 4e6, resident
+
+
+def test_threads():
+    """Scenes at the same time, and one scene asked by many."""
+    results = []
+    shared = radiosity.Scene.from_arrays(CORNERS, CUBE)
+
+    def work():
+        for scene in (shared, radiosity.Scene.from_arrays(CORNERS, CUBE)):
+            results.append(scene.view_factors().matrix.toarray())
+    workers = [threading.Thread(target=work) for _ in range(6)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert len(results) == 12 and all((one == results[0]).all() for one in results)
+    near(results[0], EXACT, 1e-7)
+
+
+if __name__ == "__main__":
+    failed, tests = 0, [(name, one) for name, one in list(globals().items()) if name.startswith("test_")]
+    for name, one in tests:
+        begun = time.monotonic()
+        try:
+            one()
+        except BaseException as error:  # a KeyboardInterrupt that nobody caught, too
+            failed += 1
+            print(f"failed: {name}: {type(error).__name__}: {error}")
+            import traceback
+            traceback.print_exc(limit=-2, file=sys.stdout)
+        if "-v" in sys.argv:
+            print(f"{time.monotonic() - begun:6.2f} s {name}")
+    print(f"package: {len(tests)} checks, {failed} failed")
+    sys.exit(failed > 0)
