@@ -144,5 +144,6 @@ void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report
                                          .environment_mean = r->environment_mean,
                                          .closure_change = r->closure_change,
                                          .closure_left = r->closure_left,
+                                         .entry_error = r->entry_error,
                                          .seconds = {r->seconds.refine, r->seconds.fill}};
 }

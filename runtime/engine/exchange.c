@@ -165,10 +165,13 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     double middle = seconds();
     x->report.seconds.refine = middle - start;
     if (tell(&watcher, "factors") != 0
-        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
+        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->tolerance,
+                               o->threads)
+               < 0)
         return -1;
     refinement_close(&x->refinement);
-    if (close_rows(x, o) < 0)
+    x->report.entry_error = exchange_areas_error(&x->areas);
+    if (x->report.entry_error < 0 || close_rows(x, o) < 0)
         return -1;
     x->report.seconds.fill = seconds() - middle;
     x->report.links = x->areas.link_count;

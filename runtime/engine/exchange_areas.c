@@ -29,7 +29,7 @@ static void add_tiles(struct exchange_areas *m, const struct link *link, const s
     for (uint32_t i = r.from; i < r.to; i += TILE)
         for (uint32_t j = s.from; j < s.to; j += TILE) {
             struct exchange_block b = {i, r.to - i < TILE ? r.to - i : TILE, j,
-                                       s.to - j < TILE ? s.to - j : TILE, m->value_count};
+                                       s.to - j < TILE ? s.to - j : TILE, m->value_count, 0};
             if (links) {
                 m->blocks[m->block_count] = b;
                 links[m->block_count] = link;
@@ -54,26 +54,28 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
     const struct exchange_areas *m = f->areas;
     const struct element *elements = m->tree->h.elements;
     for (size_t i = from; i < to; i++) {
-        const struct exchange_block *b = &m->blocks[i];
+        struct exchange_block *b = &m->blocks[i]; /* no other thread's */
         const struct exchange_pair pair = {m->tree,
                                            &elements[f->links[i]->receiver],
                                            &elements[f->links[i]->emitter],
                                            {b->row, b->row + b->rows},
                                            {b->column, b->column + b->columns},
                                            f->near};
-        exchange_block_fill(f->faces, &pair, f->links[i], &f->scratch[thread_pool_number()],
-                            m->values + b->at);
+        b->error = exchange_block_fill(f->faces, &pair, f->links[i],
+                                       &f->scratch[thread_pool_number()], m->values + b->at);
     }
 }
 
-static int fill(struct exchange_areas *m, const struct link **links, double near, int threads)
+static int fill(struct exchange_areas *m, const struct link **links, double near, double tolerance,
+                int threads)
 {
+    const struct sight_limits limits = sight_limits_for(tolerance, m->faces);
     struct exchange_faces faces = {.all = NULL};
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
     const struct filling f = {m, links, &faces, scratch, near};
     int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
     for (int t = 0; t < threads && !failed; t++)
-        failed = exchange_scratch_open(&scratch[t], TILE) < 0;
+        failed = exchange_scratch_open(&scratch[t], TILE, &limits) < 0;
     if (!failed)
         thread_pool_run(threads, m->block_count, 32, fill_blocks, &f);
     for (int t = 0; t < threads && scratch; t++)
@@ -133,7 +135,7 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
 
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
                         const struct scene *scene, const struct refinement *refinement, double near,
-                        int threads)
+                        double tolerance, int threads)
 {
     memset(m, 0, sizeof *m);
     m->tree = tree;
@@ -154,7 +156,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
             add_tiles(m, &refinement->links[i], links);
         }
     m->values = malloc((m->value_count + 1) * sizeof *m->values);
-    if (!m->values || make_index(m) < 0 || fill(m, links, near, threads) < 0)
+    if (!m->values || make_index(m) < 0 || fill(m, links, near, tolerance, threads) < 0)
         goto fail;
     free(links);
     return 0;
@@ -223,4 +225,32 @@ void exchange_areas_sums(const struct exchange_areas *m, const double *scale, do
         for (uint32_t j = 0; j < block->columns; j++)
             sums[m->input[block->column + j]] += column[j];
     }
+}
+
+double exchange_areas_error(const struct exchange_areas *m)
+{
+    double *sum = calloc(m->inputs + 1, sizeof *sum), most = 0;
+    uint32_t *met = malloc((m->inputs + 1) * sizeof *met), count;
+    for (uint32_t i = 0; i < m->inputs && sum && met; i++) {
+        count = 0;
+        for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
+            for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {
+                const struct exchange_block *b = &m->blocks[m->index[at] / 2];
+                int column = m->index[at] & 1;
+                const uint32_t *input = m->input + (column ? b->row : b->column);
+                for (uint32_t k = 0; b->error > 0 && k < (column ? b->rows : b->columns); k++) {
+                    if (!(sum[input[k]] > 0))
+                        met[count++] = input[k];
+                    sum[input[k]] += b->error;
+                }
+            }
+        while (count-- > 0) {
+            most = fmax(most, sum[met[count]] / m->area[i]);
+            sum[met[count]] = 0;
+        }
+    }
+    most = sum && met ? most : -1;
+    free(sum);
+    free(met);
+    return most;
 }

@@ -10,7 +10,8 @@
 /* Faces stand in the tree's order; rows and columns are ranges of it. */
 struct exchange_block {
     uint32_t row, rows, column, columns;
-    size_t at; /* of its first value, row by row */
+    size_t at;    /* of its first value, row by row */
+    double error; /* the largest that is estimated of its values (m2) */
 };
 
 struct exchange_areas {
@@ -30,17 +31,21 @@ struct exchange_areas {
 };
 
 /* Take the links of a refinement of the tree, sort out one of each two ways round, and compute what
- * they stand for. Pairs nearer than `near` times the sum of their radii have the contour integral.
+ * they stand for. Pairs nearer than `near` times the sum of their radii have the contour integral;
+ * those of single faces in half shadow are as good as `tolerance` (engine/exchange_sight.h).
  * Returns 0, or -1 when out of memory; then there is nothing to free. */
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
                         const struct scene *scene, const struct refinement *refinement, double near,
-                        int threads);
+                        double tolerance, int threads);
 void exchange_areas_close(struct exchange_areas *m);
 
 /* Row i of A_i F_ij (m2), times scale[i] scale[j] when there is a scale: adds into row[inputs],
  * which is zero but for what is there. Returns its sum. */
 double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const double *scale,
                           double *row);
+
+/* The largest error of any F_ij that is estimated. -1 when out of memory. */
+double exchange_areas_error(const struct exchange_areas *m);
 
 /* All rows' sums of A_i F_ij scale[j] (m2; scale may be NULL). */
 void exchange_areas_sums(const struct exchange_areas *m, const double *scale, double *sums);

@@ -29,6 +29,8 @@ static void print(const struct options *o, const struct open_scene *scene,
                "sky%s\n",
                r->defect_most, r->defect_mean, r->rows_closed,
                o->closure ? ", before closure" : "");
+    if (r->entry_error > 0)
+        printf("entries   in half shadow are off by %.1e at the most, as estimated\n", r->entry_error);
     if (r->rows_open)
         printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not "
                "normalised away\n",
@@ -48,7 +50,7 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
 {
     return json_pack(
         "{s:o, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, "
-        "s:f, s:f, s:f, s:f}",
+        "s:f, s:f, s:f, s:f, s:f}",
         "scene", json_text(o->scene), "faces", (int)scene->report.polygons, "links",
         (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays,
         "row_sum_smallest", r->low, "row_sum_largest", r->high, "row_defect_largest",
@@ -58,7 +60,8 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
         closure_words[o->closure], "closure_largest_change", r->closure_change,
         "closure_defect_left", r->closure_left, "seconds",
         r->seconds.refine + r->seconds.fill + write_seconds, "seconds_refine", r->seconds.refine,
-        "seconds_fill", r->seconds.fill, "seconds_write", write_seconds);
+        "seconds_fill", r->seconds.fill, "seconds_write", write_seconds, "entry_error_largest",
+        r->entry_error);
 }
 
 /* Write what was asked for. Returns 0, or -1 after a message. */
