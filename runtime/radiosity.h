@@ -917,7 +917,10 @@ RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t 
 /* ---- exchange areas */
 
 struct RadExchangeOptions {
-    double tolerance; /* error of a row's sum to work for; 0: 3e-4 */
+    /* error to work for; 0: 3e-4. Of a row's sum; and of entries of single faces in half shadow, as a
+     * share of the entry, or of 1e-4 (in scenes of more than 24 polygons, of one over their number)
+     * where the entry is smaller */
+    double tolerance;
     enum RadClosure closure;
     /* only the first so many rows are asked for, as of a scene whose other polygons are copies; the
      * report is of them. 0: all */
@@ -967,6 +970,7 @@ struct RadExchangeReport {
     struct {
         double refine, fill;
     } seconds;
+    double entry_error; /* the largest estimated of any F_ij in half shadow, before closure */
 };
 RAD_API void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report);
 

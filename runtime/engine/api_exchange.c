@@ -192,5 +192,6 @@ void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report
                                          .backs_mean = r->backs_mean,
                                          .closure_change = r->closure_change,
                                          .closure_left = r->closure_left,
+                                         .entry_error = r->entry_error,
                                          .seconds = {r->seconds.refine, r->seconds.fill}};
 }

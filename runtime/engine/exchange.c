@@ -205,21 +205,25 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
                    const struct exchange_options *o)
 {
     struct watcher watcher = {x, o};
-    double near = fmax(EXCHANGE_NEAR * pow(EXCHANGE_TOLERANCE / o->tolerance, EXCHANGE_NEAR_FALL),
-                       EXCHANGE_NEAR_LEAST);
+    const struct exchange_aim how = {
+        .near = fmax(EXCHANGE_NEAR * pow(EXCHANGE_TOLERANCE / o->tolerance, EXCHANGE_NEAR_FALL),
+                     EXCHANGE_NEAR_LEAST),
+        .tolerance = o->tolerance,
+        .rows = o->rows,
+        .keep = !o->stream,
+        .threads = o->threads};
     double start = seconds();
     if (refine(x, refiner, &watcher) < 0)
         return -1;
     double middle = seconds();
     x->report.seconds.refine = middle - start;
     if (tell(&watcher, "factors") != 0
-        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads,
-                               o->rows, !o->stream)
-               < 0)
+        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, &how) < 0)
         return -1;
-    if (!o->stream)
+    if (how.keep)
         refinement_close(&x->refinement);
-    if (close_rows(x, o) < 0)
+    x->report.entry_error = exchange_areas_error(&x->areas);
+    if (x->report.entry_error < 0 || close_rows(x, o) < 0)
         return -1;
     x->report.seconds.fill = seconds() - middle;
     x->report.links = x->areas.link_count;

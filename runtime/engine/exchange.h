@@ -10,7 +10,9 @@
 struct exchange;
 
 struct exchange_options {
-    double tolerance; /* error of a row's sum to work for, > 0 (EXCHANGE_TOLERANCE) */
+    /* error to work for, > 0 (EXCHANGE_TOLERANCE): of a row's sum, and of entries in half shadow, as
+     * shares of themselves */
+    double tolerance;
     enum closure closure;
     int threads;
     /* Told from the calling thread after each round of refinement ("refine") and before values are
@@ -34,6 +36,7 @@ struct exchange_report {
     double environment_most, environment_mean, backs_most, backs_mean;
     /* largest |factor - 1| that a view factor took; largest |1 - sum| left */
     double closure_change, closure_left;
+    double entry_error; /* the largest estimated of any F_ij, before closure */
     struct {
         double refine, fill;
     } seconds;

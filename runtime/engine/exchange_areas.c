@@ -19,9 +19,9 @@ struct filling {
     struct exchange_scratch *scratch; /* [thread] */
 };
 
-void exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
-                        const struct exchange_block *b, const struct link *link,
-                        struct exchange_scratch *scratch, double *values)
+double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
+                          const struct exchange_block *b, const struct link *link,
+                          struct exchange_scratch *scratch, double *values)
 {
     const struct element *elements = m->tree->h.elements;
     const struct exchange_pair pair = {m->tree,
@@ -29,17 +29,19 @@ void exchange_tile_fill(const struct exchange_areas *m, const struct exchange_fa
                                        &elements[link->emitter],
                                        {b->row, b->row + b->rows},
                                        {b->column, b->column + b->columns},
-                                       m->near};
-    exchange_block_fill(faces, &pair, link, scratch, values);
+                                       m->how.near};
+    return exchange_block_fill(faces, &pair, link, scratch, values);
 }
 
 static void fill_blocks(const void *filling, size_t from, size_t to)
 {
     const struct filling *f = filling;
     const struct exchange_areas *m = f->areas;
-    for (size_t i = from; i < to; i++)
-        exchange_tile_fill(m, f->faces, &m->blocks[i], f->links[i],
-                           &f->scratch[thread_pool_number()], m->values + m->blocks[i].at);
+    for (size_t i = from; i < to; i++) {
+        struct exchange_block *b = &m->blocks[i]; /* no other thread's */
+        b->error = exchange_tile_fill(m, f->faces, b, f->links[i],
+                                      &f->scratch[thread_pool_number()], m->values + b->at);
+    }
 }
 
 static int fill(struct exchange_areas *m, const struct link **links, int threads)
@@ -49,7 +51,7 @@ static int fill(struct exchange_areas *m, const struct link **links, int threads
     const struct filling f = {m, links, &faces, scratch};
     int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
     for (int t = 0; t < threads && !failed; t++)
-        failed = exchange_scratch_open(&scratch[t], TILE) < 0;
+        failed = exchange_scratch_open(&scratch[t], TILE, &m->limits) < 0;
     if (!failed)
         thread_pool_run(threads, m->block_count, 32, fill_blocks, &f);
     for (int t = 0; t < threads && scratch; t++)
@@ -108,7 +110,7 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
 }
 
 /* All tiles, and what they stand for. */
-static int keep_values(struct exchange_areas *m, int threads)
+static int keep_values(struct exchange_areas *m)
 {
     struct exchange_tiles t = exchange_tiles(m, m->refinement);
     while (exchange_tiles_next(&t))
@@ -124,7 +126,7 @@ static int keep_values(struct exchange_areas *m, int threads)
             m->blocks[i] = t.is;
             links[i] = t.link;
         }
-        status = make_index(m) < 0 ? -1 : fill(m, links, threads);
+        status = make_index(m) < 0 ? -1 : fill(m, links, m->how.threads);
     }
     free(links);
     m->refinement = NULL;
@@ -132,14 +134,15 @@ static int keep_values(struct exchange_areas *m, int threads)
 }
 
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
-                        const struct scene *scene, const struct refinement *refinement, double near,
-                        int threads, uint32_t rows, int keep)
+                        const struct scene *scene, const struct refinement *refinement,
+                        const struct exchange_aim *how)
 {
     *m = (struct exchange_areas){.tree = tree,
                                  .faces = tree->h.face_count,
                                  .inputs = scene->input_count,
-                                 .rows = rows ? rows : scene->input_count,
-                                 .near = near,
+                                 .rows = how->rows ? how->rows : scene->input_count,
+                                 .how = *how,
+                                 .limits = sight_limits_for(how->tolerance, tree->h.face_count),
                                  .refinement = refinement};
     if (find_inputs(m, scene) == 0) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
@@ -147,7 +150,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
             ;
         m->link_count = t.links;
         m->value_count = t.values;
-        if (!keep || keep_values(m, threads) == 0)
+        if (!how->keep || keep_values(m) == 0)
             return 0;
     }
     exchange_areas_close(m);
@@ -213,4 +216,32 @@ void exchange_areas_sums(const struct exchange_areas *m, const double *scale, do
         for (uint32_t j = 0; j < block->columns; j++)
             sums[m->input[block->column + j]] += column[j];
     }
+}
+
+double exchange_areas_error(const struct exchange_areas *m)
+{
+    double *sum = calloc(m->inputs + 1, sizeof *sum), most = 0;
+    uint32_t *met = malloc((m->inputs + 1) * sizeof *met), count;
+    for (uint32_t i = 0; i < m->rows && m->values && sum && met; i++) {
+        count = 0;
+        for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
+            for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {
+                const struct exchange_block *b = &m->blocks[m->index[at] / 2];
+                int column = m->index[at] & 1;
+                const uint32_t *input = m->input + (column ? b->row : b->column);
+                for (uint32_t k = 0; b->error > 0 && k < (column ? b->rows : b->columns); k++) {
+                    if (!(sum[input[k]] > 0))
+                        met[count++] = input[k];
+                    sum[input[k]] += b->error;
+                }
+            }
+        while (count-- > 0) {
+            most = fmax(most, sum[met[count]] / m->area[i]);
+            sum[met[count]] = 0;
+        }
+    }
+    most = sum && met ? most : -1;
+    free(sum);
+    free(met);
+    return most;
 }

@@ -3,6 +3,7 @@
 #ifndef EXCHANGE_AREAS_H
 #define EXCHANGE_AREAS_H
 
+#include "engine/exchange_sight.h"
 #include "engine/exchange_tree.h"
 #include "engine/refine.h"
 #include "hierarchy/scene.h"
@@ -10,13 +11,23 @@
 /* Faces stand in the tree's order; rows and columns are ranges of it. */
 struct exchange_block {
     uint32_t row, rows, column, columns;
-    size_t at; /* of its first value, row by row */
+    size_t at;    /* of its first value, row by row */
+    double error; /* the largest that is estimated of its values (m2) */
+};
+
+struct exchange_aim {
+    double near;      /* pairs nearer than so many sums of their radii: the contour integral */
+    double tolerance; /* of single faces in half shadow (engine/exchange_sight.h) */
+    uint32_t rows;    /* only the first so many are whole: 0, all */
+    int keep;         /* 0: values are computed when a product asks for them */
+    int threads;
 };
 
 struct exchange_areas {
     const struct exchange_tree *tree; /* borrowed */
     uint32_t faces, inputs, rows;     /* rows: of the first so many inputs */
-    double near;                      /* of exchange_areas_open */
+    struct exchange_aim how;
+    struct sight_limits limits; /* by how.tolerance */
     /* borrowed, NULL: values are kept */
     const struct refinement *refinement;
     uint32_t *input;        /* [faces]: by place in the tree's order, the scene file's face */
@@ -34,27 +45,29 @@ struct exchange_areas {
 };
 
 /* Take the links of a refinement of the tree, sort out one of each two ways round, and compute what
- * they stand for. Pairs nearer than `near` times the sum of their radii have the contour integral.
- * Only the first `rows` rows are whole (0: all): what no such row takes part in is left out. keep
- * 0: values are not kept, and computed when a product asks for them; then the refinement must
- * outlive the areas, and there are no rows and sums. Returns 0, or -1 when out of memory; then
- * there is nothing to free. */
+ * they stand for. Unless values are kept, the refinement must outlive the areas, and there are no
+ * rows and sums. Returns 0, or -1 when out of memory; then there is nothing to free. */
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
-                        const struct scene *scene, const struct refinement *refinement, double near,
-                        int threads, uint32_t rows, int keep);
+                        const struct scene *scene, const struct refinement *refinement,
+                        const struct exchange_aim *how);
 void exchange_areas_close(struct exchange_areas *m);
 
-/* What one tile of a link stands for: values[rows][columns] (exchange_blocks.h). */
+/* What one tile of a link stands for: values[rows][columns] (exchange_blocks.h). Returns
+ * the largest error estimated (m2). */
 struct exchange_faces;
 struct exchange_scratch;
-void exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
-                        const struct exchange_block *b, const struct link *link,
-                        struct exchange_scratch *scratch, double *values);
+double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
+                          const struct exchange_block *b, const struct link *link,
+                          struct exchange_scratch *scratch, double *values);
 
 /* Row i of A_i F_ij (m2), times scale[i] scale[j] when there is a scale: adds into row[inputs],
  * which is zero but for what is there. Returns its sum. */
 double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const double *scale,
                           double *row);
+
+/* The largest error of any F_ij that is estimated, 0 where values are not kept. -1 when out of
+ * memory. */
+double exchange_areas_error(const struct exchange_areas *m);
 
 /* All rows' sums of A_i F_ij scale[j] (m2; scale may be NULL). */
 void exchange_areas_sums(const struct exchange_areas *m, const double *scale, double *sums);

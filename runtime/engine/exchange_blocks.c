@@ -3,17 +3,15 @@
  * Each pair has its own, by Lambert's kernel and its second derivatives at the centroids
  * (kernel/lambert.h). What that leaves out is of fourth order in size over distance; pairs nearer
  * than so many radii, by the tolerance, have the contour integral (kernel/polygon_factor.h). In
- * half shadow each value is multiplied by what its pair sees (exchange_shadow.h). Where more stands
- * between than a list holds, and where a part of a face is linked to a group, each pair is looked
- * into by itself.
+ * half shadow of groups each value is multiplied by what its pair sees (exchange_shadow.h). Single
+ * faces that are not proved to see each other, groups with more between than a list holds, and parts
+ * of faces linked to groups are looked into pair by pair (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_blocks.h"
 #include "kernel/lambert.h"
-#include "kernel/outline_visibility.h"
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
-#include "terms/visibility.h"
 
 int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
 {
@@ -68,19 +66,23 @@ void exchange_faces_close(struct exchange_faces *p)
     free(p->all);
 }
 
-int exchange_scratch_open(struct exchange_scratch *s, uint32_t most)
+int exchange_scratch_open(struct exchange_scratch *s, uint32_t most,
+                          const struct sight_limits *limits)
 {
     s->shift[0] = malloc(3 * (size_t)most * sizeof **s->shift);
     if (!s->shift[0])
         return -1;
     s->shift[1] = s->shift[0] + most;
     s->shift[2] = s->shift[1] + most;
+    if (sight_scratch_open(&s->sight, limits) < 0)
+        return -1;
     return shadow_scratch_open(&s->shadow, most);
 }
 
 void exchange_scratch_close(struct exchange_scratch *s)
 {
     free(s->shift[0]);
+    sight_scratch_close(&s->sight);
     shadow_scratch_close(&s->shadow);
 }
 
@@ -173,58 +175,43 @@ static void clear_block(const struct exchange_faces *p, const struct exchange_pa
     }
 }
 
-/* The exchange area of two faces or parts, looked into by itself. Rays where too many stand
- * between, as the graphs do. */
-static double one_pair(const struct element *r, const struct element *s, const struct host *host)
-{
-    double e = r->area * polygon_factor(r, s, 1), least = r->area < s->area ? r->area : s->area;
-    struct blockers list = {.known = BLOCKERS_UNKNOWN};
-    if (!(e > 0))
-        return 0;
-    blockers_find(r, s, host, &list);
-    if (list.covered)
-        return 0;
-    if (list.count > BLOCKERS_MAX)
-        e *= visibility_rays(r, s, host, visibility_rays_of(VISIBILITY_RAYS_64));
-    else if (list.count > 0)
-        e *= outline_visibility(r, s, host, &list);
-    return e < least ? e : least;
-}
-
 /* A block of which no more is known than what it links. */
-static void block_by_pairs(const struct exchange_pair *pair, double *out)
+static double block_by_pairs(const struct exchange_pair *pair, struct exchange_scratch *scratch,
+                             double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
+    double error, most = 0;
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
-        for (uint32_t j = pair->columns.from; j < pair->columns.to; j++)
-            *out++ = one_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                              s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host);
+        for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
+            *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
+                                s->group ? exchange_tree_face(pair->tree, j) : s,
+                                &pair->tree->host, &scratch->sight, &error);
+            most = fmax(most, error);
+        }
+    return most;
 }
 
-void exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
-                         const struct link *link, struct exchange_scratch *scratch, double *out)
+double exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
+                           const struct link *link, struct exchange_scratch *scratch, double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
-    if (!r->group && !s->group) {
-        double e = r->area * (double)link->form_factor * (link->visibility * (1.0 / LINK_VISIBLE)),
-               least = r->area < s->area ? r->area : s->area;
+    int proved = link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE;
+    if (proved && !r->group && !s->group) {
+        double e = r->area * (double)link->form_factor, least = fmin(r->area, s->area);
         *out = e < least ? e : least;
-        return;
+        return 0;
     }
-    if (r->depth || s->depth) { /* a part of a face against a group */
-        block_by_pairs(pair, out);
-        return;
-    }
-    if (link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE) {
+    if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */
+        return block_by_pairs(pair, scratch, out);
+    if (proved) {
         clear_block(p, pair, scratch, out);
-        return;
+        return 0;
     }
     blockers_find(r, s, &pair->tree->host, &list);
-    if (list.count > BLOCKERS_MAX) {
-        block_by_pairs(pair, out);
-        return;
-    }
+    if (list.count > BLOCKERS_MAX)
+        return block_by_pairs(pair, scratch, out);
     clear_block(p, pair, scratch, out);
     shadow_block(pair, &list, &scratch->shadow, out);
+    return 0;
 }

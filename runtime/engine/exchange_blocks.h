@@ -5,6 +5,7 @@
 #define EXCHANGE_BLOCKS_H
 
 #include "engine/exchange_shadow.h"
+#include "engine/exchange_sight.h"
 #include "engine/refine.h"
 
 enum { MOMENTS = 6 }; /* xx yy zz xy xz yz */
@@ -20,16 +21,19 @@ struct exchange_faces {
 struct exchange_scratch {
     double *shift[3]; /* M_j n for the faces j of a row */
     struct shadow_scratch shadow;
+    struct sight_scratch sight;
 };
 
 /* Returns 0, or -1 when out of memory; close is fine then too. */
 int exchange_faces_open(struct exchange_faces *faces, const struct exchange_tree *tree);
 void exchange_faces_close(struct exchange_faces *faces);
-int exchange_scratch_open(struct exchange_scratch *scratch, uint32_t most);
+int exchange_scratch_open(struct exchange_scratch *scratch, uint32_t most,
+                          const struct sight_limits *limits);
 void exchange_scratch_close(struct exchange_scratch *scratch);
 
-/* out[rows][columns]: A_i F_ij (m2), none above the smaller area. */
-void exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair,
-                         const struct link *link, struct exchange_scratch *scratch, double *out);
+/* out[rows][columns]: A_i F_ij (m2), none above the smaller area. Returns the largest error
+ * estimated of any (m2); 0 where nobody estimates: of a clear view, and of groups. */
+double exchange_block_fill(const struct exchange_faces *faces, const struct exchange_pair *pair,
+                           const struct link *link, struct exchange_scratch *scratch, double *out);
 
 #endif

@@ -66,7 +66,7 @@ static void add_lane(const struct product *p, size_t lane)
     for (size_t i = 0; exchange_tiles_next(&t); i++) {
         if (i % LANES != lane)
             continue;
-        exchange_tile_fill(m, p->faces, &t.is, t.link, scratch, values);
+        (void)exchange_tile_fill(m, p->faces, &t.is, t.link, scratch, values);
         add_tile(p, &t.is, values, sums);
     }
 }
@@ -105,7 +105,7 @@ int exchange_product(const struct exchange_areas *m, int threads, uint32_t colum
     int failed = !p.scratch || !p.values || !p.sums
                  || (!m->values && exchange_faces_open(&faces, m->tree) < 0);
     for (size_t t = 0; t < workers && !failed && !m->values; t++)
-        failed = exchange_scratch_open(&p.scratch[t], TILE) < 0;
+        failed = exchange_scratch_open(&p.scratch[t], TILE, &m->limits) < 0;
     for (uint32_t c = 0; c < columns && !failed; c += COLUMNS) {
         p.columns = columns - c < COLUMNS ? columns - c : COLUMNS;
         p.x = x + c;

@@ -57,8 +57,9 @@ static inline int exchange_tiles_next(struct exchange_tiles *t)
             t->links += (size_t)counts;
         }
         struct exchange_block *b = &t->is;
-        *b = (struct exchange_block){t->i, t->r.to - t->i < TILE ? t->r.to - t->i : TILE, t->j,
-                                     t->s.to - t->j < TILE ? t->s.to - t->j : TILE, t->values};
+        *b = (struct exchange_block){t->i,      t->r.to - t->i < TILE ? t->r.to - t->i : TILE,
+                                     t->j,      t->s.to - t->j < TILE ? t->s.to - t->j : TILE,
+                                     t->values, 0};
         t->j += TILE;
         if (t->j >= t->s.to) {
             t->j = t->s.from;

@@ -437,6 +437,22 @@
 #define EXCHANGE_NEAR_LEAST 1.5
 /* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
 #define EXCHANGE_NEAR_FALL 0.25
+/* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
+#define SIGHT_FLOOR 1e-4
+/* faces. In larger scenes it is a share of one over the root of their number: errors of a
+ * row's entries add up like chance; chosen */
+#define SIGHT_FEW_FACES 24
+/* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
+#define SIGHT_PIECES 8192
+#define SIGHT_PIECES_MANY 1024
+/* of a side: how far within a piece points along its rim stand, so that none is in a corner that
+ * touches; chosen */
+#define SIGHT_RIM 1e-3
+/* of what the rule with points along the rim differs by: the error. A shade that no other point
+ * meets is in a strip of .056 of the side, over which it fades; the rule has it for a sixth */
+#define SIGHT_RIM_SHARE 0.1
+/* of a piece's exchange: its error when no pieces are left to hold it against; chosen */
+#define SIGHT_UNKNOWN 0.1
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
 #define CLOSURE_ENOUGH 1e-12
 

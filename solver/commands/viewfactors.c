@@ -32,6 +32,9 @@ static void print(const struct options *o, const struct open_scene *scene,
                "sky%s\n",
                r->defect_most, r->defect_mean, r->rows_closed,
                o->closure ? ", before closure" : "");
+    if (r->entry_error > 0)
+        printf("entries   in half shadow are off by %.1e at the most, as estimated\n",
+               r->entry_error);
     if (r->rows_open)
         printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not "
                "normalised away\n",
@@ -54,18 +57,18 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
 {
     return json_pack(
         "{s:o, s:i, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:f, s:f, s:s, s:f, s:f, "
-        "s:f, s:f, s:f, s:f, s:i, s:f, s:f}",
-        "scene", json_text(o->scene), "faces", (int)scene->originals, "links",
-        (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays,
-        "row_sum_smallest", r->low, "row_sum_largest", r->high, "row_defect_largest",
-        r->defect_most, "row_defect_mean", r->defect_mean, "rows_closed", (int)r->rows_closed,
-        "rows_to_sky", (int)r->rows_open, "rows_covered", (int)r->rows_covered, "to_sky_largest",
-        r->environment_most, "to_sky_mean", r->environment_mean, "closure",
-        closure_words[o->closure], "closure_largest_change", r->closure_change,
-        "closure_defect_left", r->closure_left, "seconds",
+        "s:f, s:f, s:f, s:f, s:i, s:f, s:f, s:f}",
+        "scene", json_text(o->scene), "faces", (int)scene->originals, "links", (json_int_t)r->links,
+        "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays, "row_sum_smallest", r->low,
+        "row_sum_largest", r->high, "row_defect_largest", r->defect_most, "row_defect_mean",
+        r->defect_mean, "rows_closed", (int)r->rows_closed, "rows_to_sky", (int)r->rows_open,
+        "rows_covered", (int)r->rows_covered, "to_sky_largest", r->environment_most, "to_sky_mean",
+        r->environment_mean, "closure", closure_words[o->closure], "closure_largest_change",
+        r->closure_change, "closure_defect_left", r->closure_left, "seconds",
         r->seconds.refine + r->seconds.fill + write_seconds, "seconds_refine", r->seconds.refine,
         "seconds_fill", r->seconds.fill, "seconds_write", write_seconds, "rows_to_backs",
-        (int)r->rows_backs, "to_backs_largest", r->backs_most, "to_backs_mean", r->backs_mean);
+        (int)r->rows_backs, "to_backs_largest", r->backs_most, "to_backs_mean", r->backs_mean,
+        "entry_error_largest", r->entry_error);
 }
 
 /* Write what was asked for. Returns 0, or -1 after a message. */

@@ -1,0 +1,366 @@
+/* exchange_sight.c - the exchange area of two faces past what stands between them.
+ *
+ * Of each face only what lies in front of the other's plane takes part. The one on which a blocker's
+ * shadow moves least from point to point is cut into pieces. From a piece nothing stands between
+ * (then it has the exact factor), or all is hidden, both proved by a shaft; else a rule of points,
+ * each of which sees the other face exactly (sight_pieces.c). A piece is held against its four
+ * quarters; they count, and what the two differ by is its error. The piece with the largest error
+ * is cut first, until the root of the sum of their squares is small enough or the pieces run out: quarters are
+ * nearer than what they are held against, and errors of pieces have either sign. Shades as
+ * of a sill are seen from a strip along the rim alone: so a rule with points there counts too, by
+ * what it may differ by. Pieces with more in their shaft than a list
+ * holds have 64 rays each, and are cut too.
+ * Invariant: pieces cover the part once; what is proved is not cut. Fails: shades that
+ * meet no point of a piece, nor of its rim.
+ * [globally adaptive cubature: van Dooren & de Ridder 1976; the rest derived here]
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include "engine/exchange_sight.h"
+#include "engine/sight_pieces.h"
+#include "kernel/constants.h"
+#include "kernel/polygon_factor.h"
+#include "kernel/shaft.h"
+#include "terms/visibility.h"
+
+enum { QUARTERS = 4, MANY = SIGHT_LIST + 1 };
+
+struct sight_node {
+    struct element piece;
+    double points, value, error; /* by its own points; by its quarters' (m2) */
+    int count, quarters;         /* how many blockers, 0 when proved, MANY; index of the first quarter */
+    uint32_t list[SIGHT_LIST];
+};
+
+/* A pair at work. */
+struct looking {
+    const struct host *host;
+    const struct element *from, *to;
+    struct sight sight;
+    struct sight_scratch *scratch;
+    int nodes, heap;
+    double value, square; /* of the sum, and of its error (m2, m4) */
+};
+
+struct sight_limits sight_limits_for(double tolerance, uint32_t faces)
+{
+    int few = faces <= SIGHT_FEW_FACES;
+    return (struct sight_limits){tolerance, few ? SIGHT_FLOOR : 1 / sqrt(faces),
+                                 few ? SIGHT_PIECES : SIGHT_PIECES_MANY};
+}
+
+int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits)
+{
+    size_t most = (size_t)limits->pieces;
+    scratch->limits = *limits;
+    scratch->nodes = malloc(most * sizeof *scratch->nodes);
+    scratch->heap = malloc(most * sizeof *scratch->heap);
+    return scratch->nodes && scratch->heap ? 0 : -1;
+}
+
+void sight_scratch_close(struct sight_scratch *scratch)
+{
+    free(scratch->nodes);
+    free(scratch->heap);
+}
+
+/* A piece of e with these corners. */
+static void make_piece(struct element *piece, const struct element *e, const double (*v)[3], int n)
+{
+    double sum[3] = {0, 0, 0}, square = 0;
+    *piece = *e;
+    piece->vertices = (uint8_t)n;
+    piece->area = 0;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
+            piece->vertex[i][k] = v[i][k];
+    for (int i = 2; i < n; i++) {
+        double a[3], b[3], c[3];
+        sub3(a, v[i - 1], v[0]);
+        sub3(b, v[i], v[0]);
+        cross3(c, a, b);
+        double area = 0.5 * dot3(c, e->normal);
+        piece->area += area;
+        for (int k = 0; k < 3; k++)
+            sum[k] += area * (v[0][k] + v[i - 1][k] + v[i][k]) * (1 / 3.0);
+    }
+    for (int k = 0; k < 3; k++)
+        piece->centre[k] = piece->area > 0 ? sum[k] / piece->area : v[0][k];
+    for (int i = 0; i < n; i++) {
+        double d[3];
+        sub3(d, v[i], piece->centre);
+        square = fmax(square, dot3(d, d));
+    }
+    piece->radius = sqrt(square);
+}
+
+static void middle(double out[3], const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = 0.5 * (a[k] + b[k]);
+}
+
+/* Quarter q of a piece, by the middles of its sides. */
+static void make_quarter(struct element *out, const struct element *e, int q)
+{
+    int n = e->vertices;
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    double m[4][3], p[4][3], centre[3];
+    for (int i = 0; i < n; i++)
+        middle(m[i], v[i], v[i + 1 < n ? i + 1 : 0]);
+    middle(centre, m[0], m[n == 4 ? 2 : 1]);
+    for (int k = 0; k < 3; k++) {
+        if (n == 3) { /* the last one is the middle */
+            p[0][k] = q < 3 ? v[q][k] : m[0][k];
+            p[1][k] = q < 3 ? m[q][k] : m[1][k];
+            p[2][k] = q < 3 ? m[(q + 2) % 3][k] : m[2][k];
+        } else {
+            p[0][k] = v[q][k];
+            p[1][k] = m[q][k];
+            p[2][k] = centre[k];
+            p[3][k] = m[(q + 3) % 4][k];
+        }
+    }
+    make_piece(out, e, (const double(*)[3])p, n);
+    out->id = hash64(e->id + (uint64_t)q + 1);
+}
+
+/* Points of a rule, and what they weigh: of a side of a quad, for its Gauss rule and Simpson's; of a
+ * triangle, by the barycentric coordinate that stands alone. */
+static const double side_node[2][3] = {{0.11270166537925831148, 0.5, 0.88729833462074168852},
+                                       {SIGHT_RIM, 0.5, 1 - SIGHT_RIM}};
+static const double side_weight[2][3] = {{5 / 18.0, 8 / 18.0, 5 / 18.0}, {1 / 6.0, 4 / 6.0, 1 / 6.0}};
+static const double corner_node[2][3] = {{0.81684757298045851308, 0.10810301816807022736, 1 / 3.0},
+                                         {1 - SIGHT_RIM, SIGHT_RIM, 1 / 3.0}};
+static const double corner_weight[2][3] = {{0.10995174365532186764, 0.22338158967801146570, 0},
+                                           {3 / 60.0, 8 / 60.0, 27 / 60.0}};
+
+/* The exchange area of a piece by points: within it, exact to degree 4 and 5 [Dunavant 1985; Gauss];
+ * `rim`: by its corners, the middles of its sides and its own, exact to degree 3. */
+static double by_points(const struct looking *l, const struct element *e,
+                        const struct polygon *blockers, int count, int rim)
+{
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    double sum = 0, up = l->host->ray_offset, x[3];
+    if (e->vertices == 3) {
+        for (int i = 0; i < 6 + rim; i++) {
+            double w = corner_node[rim][i / 3], u = 0.5 * (1 - w);
+            for (int k = 0; k < 3; k++)
+                x[k] = w * v[i % 3][k] + u * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
+            sum += corner_weight[rim][i / 3]
+                   * sight_factor(&l->sight, x, e->normal, up, blockers, count);
+        }
+        return sum * e->area;
+    }
+    for (int i = 0; i < 9; i++) {
+        double s = side_node[rim][i / 3], t = side_node[rim][i % 3], ds[3], dt[3], jacobian[3];
+        for (int k = 0; k < 3; k++) {
+            double low = v[0][k] + s * (v[1][k] - v[0][k]),
+                   high = v[3][k] + s * (v[2][k] - v[3][k]);
+            dt[k] = high - low;
+            ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+            x[k] = low + t * dt[k];
+        }
+        cross3(jacobian, ds, dt);
+        sum += side_weight[rim][i / 3] * side_weight[rim][i % 3] * dot3(jacobian, e->normal)
+               * sight_factor(&l->sight, x, e->normal, up, blockers, count);
+    }
+    return sum;
+}
+
+/* A piece with more between than a list holds. */
+static void by_rays(const struct looking *l, struct sight_node *node)
+{
+    int rays = visibility_rays_of(VISIBILITY_RAYS_64);
+    double clear = node->piece.area * polygon_factor(&node->piece, l->to, 1),
+           v = visibility_rays(&node->piece, l->to, l->host, rays);
+    node->count = MANY;
+    node->points = node->value = clear * v;
+    node->error = clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
+}
+
+/* What a piece sees, by its own points, past those of the list that stand in its shaft. */
+static void measure(const struct looking *l, struct sight_node *node, const uint32_t *list,
+                    int count)
+{
+    struct shaft shaft;
+    struct polygon blockers[SIGHT_LIST];
+    if (count == MANY)
+        list = node->list;
+    node->count = node->quarters = 0;
+    node->points = node->value = node->error = 0;
+    if (!(node->piece.area > 0) || !shaft_open(&shaft, &node->piece, l->to, l->host))
+        return;
+    if (count == MANY)
+        count = l->host->candidates(l->host, &shaft, SIGHT_LIST, node->list);
+    if (count > SIGHT_LIST) {
+        by_rays(l, node);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        struct polygon *p = &blockers[node->count];
+        l->host->corners(l->host, list[i], p);
+        if (!shaft_meets(&shaft, (const double(*)[3])p->v, p->n, NULL))
+            continue;
+        if (shaft_covered(&shaft, (const double(*)[3])p->v, p->n)) {
+            node->count = 0;
+            return;
+        }
+        node->list[node->count++] = list[i];
+    }
+    node->points = node->value =
+        node->count ? by_points(l, &node->piece, blockers, node->count, 0)
+                    : node->piece.area * polygon_factor(&node->piece, l->to, 1);
+}
+
+/* Hold a piece against its quarters. */
+static void compare(struct looking *l, int at)
+{
+    struct sight_node *nodes = l->scratch->nodes, *node = &nodes[at];
+    if (node->count == 0)
+        return;
+    if (l->nodes + QUARTERS > l->scratch->limits.pieces) {
+        if (node->count < MANY) /* the pieces have run out: as far as is known */
+            node->error = SIGHT_UNKNOWN * node->points;
+        return;
+    }
+    double noise = 0;
+    node->quarters = l->nodes;
+    node->value = 0;
+    for (int q = 0; q < QUARTERS; q++) {
+        struct sight_node *quarter = &nodes[l->nodes++];
+        make_quarter(&quarter->piece, &node->piece, q);
+        measure(l, quarter, node->list, node->count);
+        node->value += quarter->value;
+        double of = quarter->count == MANY ? quarter->error : node->error;
+        noise += of * of;
+    }
+    if (node->count == MANY) {
+        node->error = sqrt(noise); /* few rays agree by chance, and quarters may be new */
+        return;
+    }
+    struct polygon blockers[SIGHT_LIST];
+    for (int i = 0; i < node->count; i++)
+        l->host->corners(l->host, node->list[i], &blockers[i]);
+    double rim = by_points(l, &node->piece, blockers, node->count, 1);
+    node->error =
+        fmax(fabs(node->value - node->points), SIGHT_RIM_SHARE * fabs(node->value - rim));
+}
+
+/* The heap: the node with the largest error first. */
+static void heap_in(struct looking *l, int at)
+{
+    const struct sight_node *nodes = l->scratch->nodes;
+    int *heap = l->scratch->heap, i = l->heap++;
+    for (; i > 0 && nodes[heap[(i - 1) / 2]].error < nodes[at].error; i = (i - 1) / 2)
+        heap[i] = heap[(i - 1) / 2];
+    heap[i] = at;
+}
+
+static int heap_out(struct looking *l)
+{
+    const struct sight_node *nodes = l->scratch->nodes;
+    int *heap = l->scratch->heap, first = heap[0], last = heap[--l->heap], i = 0;
+    for (int next; (next = 2 * i + 1) < l->heap; i = next) {
+        if (next + 1 < l->heap && nodes[heap[next + 1]].error > nodes[heap[next]].error)
+            next++;
+        if (!(nodes[heap[next]].error > nodes[last].error))
+            break;
+        heap[i] = heap[next];
+    }
+    heap[i] = last;
+    return first;
+}
+
+static void count_in(struct looking *l, int at)
+{
+    const struct sight_node *node = &l->scratch->nodes[at];
+    l->value += node->value;
+    l->square += node->error * node->error;
+    if (node->quarters)
+        heap_in(l, at);
+}
+
+static void start(struct looking *l, const double (*v)[3], int n, const uint32_t *list, int count)
+{
+    struct sight_node *node = &l->scratch->nodes[l->nodes];
+    make_piece(&node->piece, l->from, v, n);
+    measure(l, node, list, count);
+    l->nodes++;
+}
+
+static double integrate(struct looking *l, const struct polygon *part, const uint32_t *list,
+                        int count, double least, double *error)
+{
+    const struct sight_limits *limits = &l->scratch->limits;
+    struct sight_node *nodes = l->scratch->nodes;
+    const double(*v)[3] = (const double(*)[3])part->v;
+    start(l, v, part->n < 4 ? part->n : 4, list, count);
+    if (part->n == 5) {
+        const double rest[3][3] = {{v[0][0], v[0][1], v[0][2]},
+                                   {v[3][0], v[3][1], v[3][2]},
+                                   {v[4][0], v[4][1], v[4][2]}};
+        start(l, rest, 3, list, count);
+    }
+    for (int i = 0, roots = l->nodes; i < roots; i++) {
+        compare(l, i);
+        count_in(l, i);
+    }
+    while (l->heap > 0 && l->nodes + QUARTERS * QUARTERS <= limits->pieces
+           && sqrt(fmax(l->square, 0)) > limits->tolerance * fmax(l->value, limits->floor * least)) {
+        int at = heap_out(l), quarters = nodes[at].quarters;
+        l->value -= nodes[at].value;
+        l->square -= nodes[at].error * nodes[at].error;
+        for (int q = 0; q < QUARTERS; q++) {
+            compare(l, quarters + q);
+            count_in(l, quarters + q);
+        }
+    }
+    *error = sqrt(fmax(l->square, 0));
+    return fmax(l->value, 0);
+}
+
+/* How large e looks from the nearest of the faces: seen from another point of e, their shadows move
+ * by so much. */
+static double sway(const struct element *e, const struct host *host, const uint32_t *list,
+                   int count)
+{
+    double least = INFINITY, normal[3];
+    for (int i = 0; i < count; i++) {
+        struct polygon face;
+        host->corners(host, list[i], &face);
+        if (shaft_normal((const double(*)[3])face.v, face.n, normal))
+            least = fmin(least, polygon_distance(e->centre, (const double(*)[3])face.v, face.n,
+                                                 normal));
+    }
+    return e->radius / (least + e->radius);
+}
+
+double sight_pair(const struct element *r, const struct element *s, const struct host *host,
+                  struct sight_scratch *scratch, double *error)
+{
+    double clear = r->area * polygon_factor(r, s, 1), least = fmin(r->area, s->area);
+    uint32_t list[SIGHT_LIST];
+    struct shaft shaft;
+    *error = 0;
+    clear = fmin(clear, least);
+    if (!(clear > 0) || !shaft_open(&shaft, r, s, host))
+        return 0;
+    int count = host->candidates(host, &shaft, SIGHT_LIST, list);
+    if (count == 0)
+        return clear;
+    int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
+    double sway_r = many ? -r->radius : sway(r, host, list, count),
+           sway_s = many ? -s->radius : sway(s, host, list, count);
+    int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
+    struct looking l = {
+        .host = host, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
+    struct polygon part, seen;
+    polygon_clip(&part, (const double(*)[3])l.from->vertex, l.from->vertices, l.to->centre,
+                 l.to->normal);
+    polygon_clip(&seen, (const double(*)[3])l.to->vertex, l.to->vertices, l.from->centre,
+                 l.from->normal);
+    if (part.n == 0 || seen.n == 0)
+        return 0;
+    sight_open(&l.sight, l.to, &seen, host->ray_offset);
+    return fmin(integrate(&l, &part, list, many ? MANY : count, least, error), clear);
+}

@@ -1,0 +1,33 @@
+/* exchange_sight.h - the exchange area of two faces, or parts of faces, past what stands between
+ * them, and how far it may be wrong.
+ * SPDX-License-Identifier: MIT */
+#ifndef EXCHANGE_SIGHT_H
+#define EXCHANGE_SIGHT_H
+
+#include "engine/exchange_tree.h"
+
+/* How near to come: the error of F, of itself, or of `floor` where F is smaller; with at most so
+ * many pieces. */
+struct sight_limits {
+    double tolerance, floor;
+    int pieces;
+};
+
+/* One thread's room, for the pieces of a pair. */
+struct sight_scratch {
+    struct sight_node *nodes;
+    int *heap;
+    struct sight_limits limits;
+};
+
+/* Limits for a scene of so many faces. */
+struct sight_limits sight_limits_for(double tolerance, uint32_t faces);
+/* Returns 0, or -1 when out of memory; close is fine then too. */
+int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits);
+void sight_scratch_close(struct sight_scratch *scratch);
+
+/* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). */
+double sight_pair(const struct element *r, const struct element *s, const struct host *host,
+                  struct sight_scratch *scratch, double *error);
+
+#endif
