@@ -45,9 +45,9 @@ struct scene_options {
     int quiet;     /* no warnings on stderr */
 };
 
-/* Read `path`: OBJ, PLY, STL and OFF by our readers, any other format by Assimp. On failure writes
- * one line "path[:line]: error: cause; how to mend it" to stderr and returns -1; then *file is
- * empty. */
+/* Read `path`: OBJ, PLY, STL, OFF and meshes (read_meshes.h) by our readers, any other format by
+ * Assimp. On failure writes one line "path[:line]: error: cause; how to mend it" to stderr and
+ * returns -1; then *file is empty. */
 int scene_file_read(struct scene_file *file, const char *path, const struct scene_options *options);
 void scene_file_free(struct scene_file *file);
 
