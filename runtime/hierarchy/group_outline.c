@@ -82,6 +82,27 @@ static void finish_axes(struct group_frame *f)
     cross3(f->u, f->v, f->n);
 }
 
+/* The plane of them all: of one small face, rounding of its corners would turn far ones out of the
+ * plane, behind the walls that they meet. In the sum, what neighbours share cancels. */
+static void find_plane(const struct outliner *o, struct group_faces faces, struct group_frame *f)
+{
+    double n[3] = {0, 0, 0}, at[3] = {0, 0, 0}, area = 0;
+    const double *first = face_of(o, faces.face[0])->centre;
+    for (uint32_t i = 0; i < faces.count; i++) {
+        const struct element *e = face_of(o, faces.face[i]);
+        area += e->area;
+        for (int k = 0; k < 3; k++) {
+            n[k] += e->area * e->normal[k];
+            at[k] += e->area * (e->centre[k] - first[k]);
+        }
+    }
+    double size = length3(n);
+    for (int k = 0; k < 3; k++) {
+        f->n[k] = n[k] / size;
+        f->origin[k] = first[k] + at[k] / area;
+    }
+}
+
 void group_frame_of(struct outliner *o, struct group_faces faces, struct group_frame *f)
 {
     const struct element *e = face_of(o, faces.face[0]);
@@ -89,8 +110,7 @@ void group_frame_of(struct outliner *o, struct group_faces faces, struct group_f
     for (uint32_t i = 0; i < faces.count; i++)
         if (face_of(o, faces.face[i])->area > e->area * (1 + 1e-9))
             e = face_of(o, faces.face[i]);
-    memcpy(f->n, e->normal, sizeof f->n);
-    memcpy(f->origin, e->centre, sizeof f->origin);
+    find_plane(o, faces, f);
     for (int c = 0; c < e->vertices; c++) { /* along its longest edge for now */
         double edge[3];
         sub3(edge, e->vertex[c + 1 < e->vertices ? c + 1 : 0], e->vertex[c]);

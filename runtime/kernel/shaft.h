@@ -308,22 +308,62 @@ static inline void shaft_enlarge(struct cut *out, const double (*v)[3], int n,
 
 /* What is left of a polygon, moved by `up` along its normal, within the shaft. Returns 0 when
  * nothing is. */
-static inline int shaft_inside(const struct shaft *shaft, const struct cut *whole,
+static inline int shaft_inside(const struct shaft *shaft, uint64_t planes, const struct cut *whole,
                                const double normal[3], double up, struct cut *inside)
 {
     static const double origin[3] = {0, 0, 0};
     struct cut part[2];
     int now = 0;
-    part[0] = *whole;
+    part[0].n = whole->n;
     for (int i = 0; i < whole->n; i++)
         for (int k = 0; k < 3; k++)
-            part[0].v[i][k] += up * normal[k];
+            part[0].v[i][k] = whole->v[i][k] + up * normal[k];
     for (int i = 0; i < shaft->planes && part[now].n > 0; i++)
-        now ^= !cut_below(&part[now ^ 1], &part[now], origin, shaft->normal[i],
-                          shaft->offset[i] + shaft->slack);
+        if (planes >> i & 1)
+            now ^= !cut_below(&part[now ^ 1], &part[now], origin, shaft->normal[i],
+                              shaft->offset[i] + shaft->slack);
     if (inside)
         *inside = part[now];
     return part[now].n > 0;
+}
+
+/* Which planes may cut a polygon that is moved up or down by no more than `grow`? Returns 0 when
+ * one of them has all of it outside. */
+static inline int shaft_cutting(const struct shaft *shaft, const struct cut *whole,
+                                uint64_t *planes)
+{
+    const double reach = shaft->grow * 1.001; /* more than rounding */
+    _Static_assert(SHAFT_PLANES <= 64, "a bit for each");
+    *planes = 0;
+    for (int i = 0; i < shaft->planes; i++) {
+        const double *n = shaft->normal[i], limit = shaft->offset[i] + shaft->slack;
+        double low = INFINITY, high = -INFINITY;
+        for (int c = 0; c < whole->n; c++) {
+            double h = dot3(whole->v[c], n);
+            low = h < low ? h : low;
+            high = h > high ? h : high;
+        }
+        if (low > limit + reach)
+            return 0;
+        *planes |= (uint64_t)(high > limit - reach) << i;
+    }
+    return 1;
+}
+
+/* Does one of the planes have all of a polygon outside? Most polygons are, which saves the
+ * rest. Two offsets are more than an enlarged polygon or an end's margin
+ * reach. */
+static inline int shaft_far(const struct shaft *shaft, const double (*v)[3], int n)
+{
+    for (int i = 0; i < shaft->planes; i++) {
+        const double limit = shaft->offset[i] + 4 * shaft->reach;
+        int outside = 0;
+        while (outside < n && dot3(v[outside], shaft->normal[i]) > limit)
+            outside++;
+        if (outside == n)
+            return 1;
+    }
+    return 0;
 }
 
 /* May a face with 3 or 4 corners stop a ray? 0 is precise. What of it may is put in *inside,
@@ -333,7 +373,7 @@ static inline int shaft_meets(const struct shaft *shaft, const double (*v)[3], i
 {
     double part[2][4][3], normal[3];
     int parts = 1;
-    if (!shaft_normal(v, n, normal))
+    if (shaft_far(shaft, v, n) || !shaft_normal(v, n, normal))
         return 0;
     for (int i = 0; i < n; i++)
         for (int k = 0; k < 3; k++)
@@ -361,9 +401,11 @@ static inline int shaft_meets(const struct shaft *shaft, const double (*v)[3], i
                 *inside = large;
             return 1;
         }
-        if (shaft_inside(shaft, &large, normal, 0, inside)
-            || shaft_inside(shaft, &large, normal, shaft->grow, inside)
-            || shaft_inside(shaft, &large, normal, -shaft->grow, inside))
+        uint64_t planes;
+        if (shaft_cutting(shaft, &large, &planes)
+            && (shaft_inside(shaft, planes, &large, normal, 0, inside)
+                || shaft_inside(shaft, planes, &large, normal, shaft->grow, inside)
+                || shaft_inside(shaft, planes, &large, normal, -shaft->grow, inside)))
             return 1;
     }
     return 0;
