@@ -201,13 +201,29 @@ static void block_by_pairs(const struct exchange_pair *pair, double *out)
                               s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host);
 }
 
+/* The form factor of a link, in all its digits: the link itself keeps those of a float. Clear and
+ * near pairs have the contour integral. None is made anew that the oracle had by other means. */
+static double link_factor(const struct exchange_pair *pair, const struct link *link)
+{
+    const struct element *r = pair->receiver, *s = pair->emitter;
+    int level = link->levels & 15, exact = level == FORM_FACTOR_CONTOUR;
+    if (link->visibility == 0 || !(exact || level == FORM_FACTOR_POLYGON))
+        return (double)link->form_factor;
+    if (link->levels >> 4 == VISIBILITY_EXACT) {
+        double away[3], reach = pair->near * (r->radius + s->radius);
+        sub3(away, s->centre, r->centre);
+        exact |= dot3(away, away) < reach * reach;
+    }
+    return polygon_factor(r, s, exact);
+}
+
 void exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
                          const struct link *link, struct exchange_scratch *scratch, double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
     if (!r->group && !s->group) {
-        double e = r->area * (double)link->form_factor * (link->visibility * (1.0 / LINK_VISIBLE)),
+        double e = r->area * link_factor(pair, link) * (link->visibility * (1.0 / LINK_VISIBLE)),
                least = r->area < s->area ? r->area : s->area;
         *out = e < least ? e : least;
         return;
