@@ -121,7 +121,9 @@ static void place(double *p, int count, int turned, double scale)
 static void factors(const struct RadPolygons *polygons, double *f, double *areas)
 {
     static const struct RadMaterial grey = {{0.5, 0.5, 0.5}, {1, 1, 1}, 0};
-    RadDevice device = radNewDevice(NULL);
+    static RadDevice device; /* of one test: each has a process of its own */
+    if (!device)
+        device = radNewDevice(NULL);
     RadScene scene = radNewScene(device);
     ck_assert_int_eq(radSetSceneMaterials(scene, &grey, 1), 0);
     ck_assert_int_eq(radSetSceneSharedPolygons(scene, polygons), 0);
@@ -134,7 +136,6 @@ static void factors(const struct RadPolygons *polygons, double *f, double *areas
     }
     radReleaseExchange(x);
     radReleaseScene(scene);
-    radReleaseDevice(device);
 }
 
 /* The factor from the first of two quads, which share corners where `shared` says so; the largest
@@ -195,12 +196,38 @@ END_TEST
 START_TEST(test_strips)
 {
     static const uint32_t indices[8] = {0, 4, 5, 1, 0, 1, 2, 3};
-    for (double width = 1e-5; width < 2; width *= 10) {
+    for (double width = 1e-6; width < 2; width *= 10) {
         const double p[8][3] = {{0, 0, 0}, {1, 0, 0},     {1, 1, 0},
                                 {0, 1, 0}, {0, 0, width}, {1, 0, width}};
         double wanted = strip_factor(width), error = worst(p, indices, wanted);
         ck_assert_msg(error <= 1e-8, "width %g: %.12g is wrong by %.1e", width, wanted, error);
     }
+}
+END_TEST
+
+/* The strip in two parts, of which neither has the square's edge for its own: what they exchange
+ * with the square adds up. */
+START_TEST(test_parts_of_strips)
+{
+    static const uint32_t indices[12] = {0, 1, 2, 3, 0, 4, 5, 6, 6, 5, 7, 1},
+                          materials[3] = {0, 0, 0};
+    for (double width = 1e-6; width < 2; width *= 10)
+        for (int turned = 0; turned < 2; turned++) {
+            double p[8][3] = {{0, 0, 0},     {1, 0, 0},       {1, 1, 0},   {0, 1, 0},
+                              {0, 0, width}, {0.3, 0, width}, {0.3, 0, 0}, {1, 0, width}};
+            double f[9], areas[3];
+            place(p[0], 8, turned, 1);
+            const struct RadPolygons polygons = {.positions = p[0],
+                                                 .position_count = 8,
+                                                 .indices = indices,
+                                                 .size = 4,
+                                                 .materials = materials,
+                                                 .count = 3};
+            factors(&polygons, f, areas);
+            double mean = (areas[1] * f[3] + areas[2] * f[6]) / (areas[1] + areas[2]);
+            ck_assert_msg(fabs(mean - strip_factor(width)) <= 1e-8, "width %g: %.12g not %.12g",
+                          width, mean, strip_factor(width));
+        }
 }
 END_TEST
 
@@ -278,6 +305,7 @@ int main(void)
     tcase_add_test(t, test_plates);
     tcase_add_test(t, test_hinges);
     tcase_add_test(t, test_strips);
+    tcase_add_test(t, test_parts_of_strips);
     tcase_add_test(t, test_wedges);
     suite_add_tcase(s, t);
     return suite_failures(s) != 0;
