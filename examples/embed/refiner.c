@@ -68,6 +68,9 @@
 #define REFINER_POLYGON_FACTOR_EXACT 60.0
 /* F both ways. Less may be rounding's alone, and is 0 when nothing rises above the other's plane */
 #define REFINER_POLYGON_FACTOR_FAINT 1e-6
+/* square of a sine. A normal turned less to its longest edge is so by rounding: that of the
+ * narrowest polygon there is (SCENE_THIN) is turned by 1e-9 */
+#define REFINER_POLYGON_FACTOR_TILT 1e-16
 /* of the coordinates. What rounding leaves of a corner's height: 16 roundings */
 #define REFINER_POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 
@@ -1207,6 +1210,29 @@ static inline int refiner_polygon_factor_hidden(const struct refiner_element *r,
     return refiner_polygon_factor_height(r, s) <= flat || refiner_polygon_factor_height(s, r) <= flat;
 }
 
+/* The normal of an element to clip at. Of a narrow one it is known to few digits across the longest
+ * edge and along it, though the edge itself is known to all: it is put at a right angle to the
+ * edge, so that a neighbour is not cut at what they share. Not that of a bent element, whose edges
+ * are not in its plane. */
+static inline void refiner_polygon_factor_normal(double n[3], const struct refiner_element *e)
+{
+    double longest[3], square = 0;
+    for (int i = 0; i < e->vertices; i++) {
+        double side[3];
+        refiner_sub3(side, e->vertex[i + 1 < e->vertices ? i + 1 : 0], e->vertex[i]);
+        double length = refiner_dot3(side, side);
+        if (length > square) {
+            square = length;
+            for (int k = 0; k < 3; k++)
+                longest[k] = side[k];
+        }
+    }
+    double off = square > 0 ? refiner_dot3(e->normal, longest) : 0;
+    int bent = off * off > REFINER_POLYGON_FACTOR_TILT * square;
+    for (int k = 0; k < 3; k++)
+        n[k] = e->normal[k] - (off != 0 && !bent ? off / square * longest[k] : 0);
+}
+
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
 REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, const struct refiner_element *s, int exact)
 {
@@ -1222,10 +1248,16 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
         if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
             return cos_r * cos_s * s->area / (REFINER_LAMBERT_PI * square * square);
     }
-    refiner_polygon_clip(&p, (const double(*)[3])small->vertex, small->vertices, large->centre,
-                 large->normal);
-    refiner_polygon_clip(&q, (const double(*)[3])large->vertex, large->vertices, small->centre,
-                 small->normal);
+    const double *n = small->normal, *m = large->normal;
+    double upright[2][3];
+    if (exact) {
+        refiner_polygon_factor_normal(upright[0], small);
+        refiner_polygon_factor_normal(upright[1], large);
+        n = upright[0];
+        m = upright[1];
+    }
+    refiner_polygon_clip(&p, (const double(*)[3])small->vertex, small->vertices, large->centre, m);
+    refiner_polygon_clip(&q, (const double(*)[3])large->vertex, large->vertices, small->centre, n);
     if (p.n == 0 || q.n == 0)
         return 0;
     if (distance < REFINER_POLYGON_FACTOR_FAR * small->radius)

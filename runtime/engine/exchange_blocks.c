@@ -4,8 +4,8 @@
  * (kernel/lambert.h). What that leaves out is of fourth order in size over distance; pairs nearer
  * than so many radii, by the tolerance, have the contour integral (kernel/polygon_factor.h). In
  * half shadow of groups each value is multiplied by what its pair sees (exchange_shadow.h). Single
- * faces that are not proved to see each other, groups with more between than a list holds, and parts
- * of faces linked to groups are looked into pair by pair (exchange_sight.h).
+ * faces that are not proved to see each other, groups with more between than a list holds, and
+ * parts of faces linked to groups are looked into pair by pair (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_blocks.h"
@@ -184,11 +184,27 @@ static double block_by_pairs(const struct exchange_pair *pair, struct exchange_s
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
         for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
             *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                                s->group ? exchange_tree_face(pair->tree, j) : s,
-                                &pair->tree->host, &scratch->sight, &error);
+                                s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host,
+                                &scratch->sight, &error);
             most = fmax(most, error);
         }
     return most;
+}
+
+/* The form factor of a link, in all its digits: the link itself keeps those of a float. Clear and
+ * near pairs have the contour integral. None is made anew that the oracle had by other means. */
+static double link_factor(const struct exchange_pair *pair, const struct link *link)
+{
+    const struct element *r = pair->receiver, *s = pair->emitter;
+    int level = link->levels & 15, exact = level == FORM_FACTOR_CONTOUR;
+    if (link->visibility == 0 || !(exact || level == FORM_FACTOR_POLYGON))
+        return (double)link->form_factor;
+    if (link->levels >> 4 == VISIBILITY_EXACT) {
+        double away[3], reach = pair->near * (r->radius + s->radius);
+        sub3(away, s->centre, r->centre);
+        exact |= dot3(away, away) < reach * reach;
+    }
+    return polygon_factor(r, s, exact);
 }
 
 double exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
@@ -198,7 +214,7 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
     int proved = link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE;
     if (proved && !r->group && !s->group) {
-        double e = r->area * (double)link->form_factor, least = fmin(r->area, s->area);
+        double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
         *out = e < least ? e : least;
         return 0;
     }

@@ -20,7 +20,7 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
 static int candidates(const struct host *host, const struct shaft *shaft, int most,
                       uint32_t *elements)
 {
-    return candidates_find(&tree_of(host)->h, shaft, most, elements);
+    return candidates_find(&tree_of(host)->h, shaft, host->ray_offset, most, elements);
 }
 
 static void corners(const struct host *host, uint32_t element, struct polygon *polygon)

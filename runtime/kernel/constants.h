@@ -43,6 +43,9 @@
 #define POLYGON_FACTOR_EXACT 60.0
 /* F both ways. Less may be rounding's alone, and is 0 when nothing rises above the other's plane */
 #define POLYGON_FACTOR_FAINT 1e-6
+/* square of a sine. A normal turned less to its longest edge is so by rounding: that of the
+ * narrowest polygon there is (SCENE_THIN) is turned by 1e-9 */
+#define POLYGON_FACTOR_TILT 1e-16
 /* of the coordinates. What rounding leaves of a corner's height: 16 roundings */
 #define POLYGON_FACTOR_FLAT (1 / 562949953421312.0) /* 2^-49 */
 

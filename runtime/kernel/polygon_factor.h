@@ -146,6 +146,29 @@ static inline int polygon_factor_hidden(const struct element *r, const struct el
     return polygon_factor_height(r, s) <= flat || polygon_factor_height(s, r) <= flat;
 }
 
+/* The normal of an element to clip at. Of a narrow one it is known to few digits across the longest
+ * edge and along it, though the edge itself is known to all: it is put at a right angle to the
+ * edge, so that a neighbour is not cut at what they share. Not that of a bent element, whose edges
+ * are not in its plane. */
+static inline void polygon_factor_normal(double n[3], const struct element *e)
+{
+    double longest[3], square = 0;
+    for (int i = 0; i < e->vertices; i++) {
+        double side[3];
+        sub3(side, e->vertex[i + 1 < e->vertices ? i + 1 : 0], e->vertex[i]);
+        double length = dot3(side, side);
+        if (length > square) {
+            square = length;
+            for (int k = 0; k < 3; k++)
+                longest[k] = side[k];
+        }
+    }
+    double off = square > 0 ? dot3(e->normal, longest) : 0;
+    int bent = off * off > POLYGON_FACTOR_TILT * square;
+    for (int k = 0; k < 3; k++)
+        n[k] = e->normal[k] - (off != 0 && !bent ? off / square * longest[k] : 0);
+}
+
 /* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
 OUTLINE double polygon_factor(const struct element *r, const struct element *s, int exact)
 {
@@ -161,10 +184,16 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
         if (cos_r >= large->radius && cos_s >= small->radius) /* no part behind the other's plane */
             return cos_r * cos_s * s->area / (LAMBERT_PI * square * square);
     }
-    polygon_clip(&p, (const double(*)[3])small->vertex, small->vertices, large->centre,
-                 large->normal);
-    polygon_clip(&q, (const double(*)[3])large->vertex, large->vertices, small->centre,
-                 small->normal);
+    const double *n = small->normal, *m = large->normal;
+    double upright[2][3];
+    if (exact) {
+        polygon_factor_normal(upright[0], small);
+        polygon_factor_normal(upright[1], large);
+        n = upright[0];
+        m = upright[1];
+    }
+    polygon_clip(&p, (const double(*)[3])small->vertex, small->vertices, large->centre, m);
+    polygon_clip(&q, (const double(*)[3])large->vertex, large->vertices, small->centre, n);
     if (p.n == 0 || q.n == 0)
         return 0;
     if (distance < POLYGON_FACTOR_FAR * small->radius)

@@ -11,6 +11,7 @@
 struct walk {
     const struct hierarchy *h;
     const struct shaft *shaft;
+    double offset; /* how far the ends are off their surfaces (m) */
     int most, found;
     uint32_t *faces;
 };
@@ -29,6 +30,25 @@ static void box_of_group(const struct element *e, double flat, double low[3], do
     }
 }
 
+/* Does a face lie wholly behind the surface of one end? Segments between the ends run in front of
+ * both, so it stops none, though ends are moved off, and of surfaces that meet at an acute angle,
+ * or are nearer to each other than that, moved behind each other. Of a bent surface the lowest
+ * corner counts. What the deeper pair leaves out is no less: `touch` grows. */
+static int lies_behind(const struct shaft *shaft, double offset, const struct element *e)
+{
+    for (int end = 0; end < 2; end++) {
+        const double *n = shaft->facing[end];
+        double low = INFINITY, high = -INFINITY;
+        for (int i = 0; i < shaft->points[end]; i++)
+            low = fmin(low, height3(shaft->end[end][i], shaft->end[end][0], n));
+        for (int i = 0; i < e->vertices; i++)
+            high = fmax(high, height3(e->vertex[i], shaft->end[end][0], n));
+        if (high - low + offset <= shaft->touch)
+            return 1;
+    }
+    return 0;
+}
+
 /* Returns 0, or -1 when there is no room left. */
 static int walk_shaft(struct walk *w, uint32_t index)
 {
@@ -37,6 +57,7 @@ static int walk_shaft(struct walk *w, uint32_t index)
     double low[3], high[3];
     if (h->solid ? h->solid[index] : e->vertices) {
         if (h->faces[h->order[h->range[index].from]].back
+            || (h->solid && lies_behind(w->shaft, w->offset, e))
             || !shaft_meets(w->shaft, (const double(*)[3])e->vertex, e->vertices, NULL))
             return 0;
         if (w->found == w->most)
@@ -55,9 +76,10 @@ static int walk_shaft(struct walk *w, uint32_t index)
     return 0;
 }
 
-int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most, uint32_t *faces)
+int candidates_find(const struct hierarchy *h, const struct shaft *shaft, double offset, int most,
+                    uint32_t *faces)
 {
-    struct walk w = {h, shaft, most, 0, faces};
+    struct walk w = {h, shaft, offset, most, 0, faces};
     return walk_shaft(&w, 0) < 0 ? most + 1 : w.found;
 }
 

@@ -7,8 +7,9 @@
 
 /* The faces that meet the shaft, at most `most` of them. Returns how many there are, or most + 1
  * when there are more. Faces marked `back` are left out: their front stands at the same place. In a
- * hierarchy with groups what is listed are elements: faces, and groups that are as good as one. */
-int candidates_find(const struct hierarchy *h, const struct shaft *shaft, int most,
+ * hierarchy with groups what is listed are elements: faces, and groups that are as good as one;
+ * none that lies behind an end. `offset`: how far the ends are off their surfaces (m). */
+int candidates_find(const struct hierarchy *h, const struct shaft *shaft, double offset, int most,
                     uint32_t *faces);
 
 void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon *polygon);

@@ -106,7 +106,7 @@ static const struct hierarchy *hierarchy_of(const struct host *host)
 
 static int candidates(const struct host *host, const struct shaft *shaft, int most, uint32_t *faces)
 {
-    return candidates_find(hierarchy_of(host), shaft, most, faces);
+    return candidates_find(hierarchy_of(host), shaft, host->ray_offset, most, faces);
 }
 
 static void corners(const struct host *host, uint32_t face, struct polygon *polygon)
