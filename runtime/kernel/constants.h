@@ -81,6 +81,11 @@
 /* of host.ray_offset. Heights that differ by less, twice or three times, are rounding. Chosen:
  * far below `grow`, above the rounding of doubles */
 #define SHAFT_SLACK (1 / 65536.0)
+/* of host.ray_offset. Ends that reach no farther behind a face do so by rounding of the scene's
+ * corners, which files hold to 7 digits, and by less than rays start off; chosen */
+#define SHAFT_STRIP 0.25
+/* of that: the ends reach at least so far before the face; chosen */
+#define SHAFT_AWAY 64
 /* square of a sine. An end turned less to a face lies flat on it: 2^-10, 0.06 degrees; chosen */
 #define SHAFT_PARALLEL (1 / 1048576.0)
 /* square of a sine. A corner nearer to the line of an edge makes no plane with it; chosen: its
