@@ -206,10 +206,10 @@
 #define GROUP_COSINE 0.99999
 /* of a unit normal: neighbours in the order of one coordinate that are farther apart are not in
  * one plane; chosen, above the rounding of corners given as floats */
-#define GROUP_NORMAL_GAP 1e-5
+#define GROUP_NORMAL_GAP 5e-5
 /* of host.flat: the same of heights; half, since a corner may be off either way */
 #define GROUP_HEIGHT_GAP 0.5
-/* of a group's rectangle: so much may its faces' areas be off and still tile it; chosen, above
+/* of a group's outline: so much may its faces' areas be off and still tile it; chosen, above
  * what GROUP_COSINE and rounding of corners make of areas */
 #define GROUP_GAPS 1e-5
 /* of the scene's size: middles of faces no farther apart are in one row, which is not cut;
