@@ -2,9 +2,8 @@
  *
  * Faces are sorted by one coordinate of their normals after the other, then by the height of their
  * planes, and parted wherever neighbours in that order stand apart. What is left together is a
- * group when it lies in the plane of its largest face; when it does not, as where a slowly bent
- * wall has no gap anywhere, its faces stay alone.
- * [derived here]
+ * group when it lies in one plane, that of the sum of its faces; when it does not, as where a
+ * slowly bent wall has no gap anywhere, its faces stay alone. [derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -58,20 +57,31 @@ static int by_face(const void *a, const void *b)
     return x->face < y->face ? -1 : x->face > y->face;
 }
 
-/* Do the faces lie in the plane of the largest of them? */
+/* Do the faces lie in one plane? In that of them all: rounded corners turn a small face's. */
 static int one_plane(const struct finder *b, const struct placed_face *items, uint32_t count)
 {
-    const struct element *plane = face_of(b, items[0].face);
-    for (uint32_t i = 1; i < count; i++)
-        if (face_of(b, items[i].face)->area > plane->area)
-            plane = face_of(b, items[i].face);
+    double n[3] = {0, 0, 0}, at[3] = {0, 0, 0}, area = 0;
+    const struct element *first = face_of(b, items[0].face);
     for (uint32_t i = 0; i < count; i++) {
         const struct element *e = face_of(b, items[i].face);
-        if (!(dot3(e->normal, plane->normal) > GROUP_COSINE)
-            || b->plain->faces[e->face].back != b->plain->faces[plane->face].back)
+        area += e->area;
+        for (int k = 0; k < 3; k++) {
+            n[k] += e->area * e->normal[k];
+            at[k] += e->area * (e->centre[k] - first->centre[k]);
+        }
+    }
+    double size = length3(n);
+    for (int k = 0; k < 3; k++) {
+        n[k] /= size;
+        at[k] = first->centre[k] + at[k] / area;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const struct element *e = face_of(b, items[i].face);
+        if (!(dot3(e->normal, n) > GROUP_COSINE)
+            || b->plain->faces[e->face].back != b->plain->faces[first->face].back)
             return 0;
         for (int k = 0; k < e->vertices; k++)
-            if (!(fabs(height3(e->vertex[k], plane->centre, plane->normal)) <= b->flat))
+            if (!(fabs(height3(e->vertex[k], at, n)) <= b->flat))
                 return 0;
     }
     return 1;

@@ -84,6 +84,11 @@
 /* of host.ray_offset. Heights that differ by less, twice or three times, are rounding. Chosen:
  * far below `grow`, above the rounding of doubles */
 #define SHAFT_SLACK (1 / 65536.0)
+/* of host.ray_offset. Ends that reach no farther behind a face do so by rounding of the scene's
+ * corners, which files hold to 7 digits, and by less than rays start off; chosen */
+#define SHAFT_STRIP 0.25
+/* of that: the ends reach at least so far before the face; chosen */
+#define SHAFT_AWAY 64
 /* square of a sine. An end turned less to a face lies flat on it: 2^-10, 0.06 degrees; chosen */
 #define SHAFT_PARALLEL (1 / 1048576.0)
 /* square of a sine. A corner nearer to the line of an edge makes no plane with it; chosen: its
@@ -204,10 +209,10 @@
 #define GROUP_COSINE 0.99999
 /* of a unit normal: neighbours in the order of one coordinate that are farther apart are not in
  * one plane; chosen, above the rounding of corners given as floats */
-#define GROUP_NORMAL_GAP 1e-5
+#define GROUP_NORMAL_GAP 5e-5
 /* of host.flat: the same of heights; half, since a corner may be off either way */
 #define GROUP_HEIGHT_GAP 0.5
-/* of a group's rectangle: so much may its faces' areas be off and still tile it; chosen, above
+/* of a group's outline: so much may its faces' areas be off and still tile it; chosen, above
  * what GROUP_COSINE and rounding of corners make of areas */
 #define GROUP_GAPS 1e-5
 /* of the scene's size: middles of faces no farther apart are in one row, which is not cut;

@@ -270,8 +270,10 @@ static inline int shaft_side(const struct shaft *shaft, const double (*v)[3], in
             && shaft_overlaps(shaft, end, v, n))
             return -1;
     }
-    return low[0] >= -shaft->touch || high[0] <= shaft->touch || low[1] >= -shaft->touch
-           || high[1] <= shaft->touch;
+    const double strip = SHAFT_STRIP * 2 * shaft->reach + shaft->touch;
+    return low[1] >= -shaft->touch || high[1] <= shaft->touch
+           || (low[0] >= -strip && high[0] > SHAFT_AWAY * strip)
+           || (high[0] <= strip && low[0] < -SHAFT_AWAY * strip);
 }
 
 /* A polygon with its edges moved out by `grow`: mitred at right and blunt corners, cut off square
