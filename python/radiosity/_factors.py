@@ -75,9 +75,14 @@ def compute_factors(scene, tolerance, closure, progress):
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         parts = list(pool.map(fill, range(0, count, ROWS)))
-    columns, values, lengths, sums = zip(*parts)
+    columns, values, lengths, sums = map(list, zip(*parts))
+    del parts
+    data = np.concatenate(values)
+    del values  # of large matrices there are never two
+    indices = np.concatenate(columns)
+    del columns
     ends = np.concatenate([[0], np.cumsum(np.concatenate(lengths))])
-    matrix = scipy.sparse.csr_matrix((np.concatenate(values), np.concatenate(columns), ends), shape=(count, count))
+    matrix = scipy.sparse.csr_matrix((data, indices, ends), shape=(count, count))
     report = ffi.new("struct RadExchangeReport *")
     lib.radGetExchangeReport(exchange, report)
     return ViewFactors(matrix, np.concatenate(sums), scene.areas, as_namespace(report[0]), groups=scene.groups)
