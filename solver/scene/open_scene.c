@@ -4,13 +4,14 @@
 
 #include "util/device.h"
 
-int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
-               int threads)
+int open_scene_by(struct open_scene *s, const char *path, const struct scene_options *options,
+                  enum RadTurned turned, int threads)
 {
     *s = (struct open_scene){.path = path};
     if (scene_file_read(&s->file, path, options) < 0)
         return -1;
-    const struct RadPolygons polygons = scene_file_polygons(&s->file);
+    struct RadPolygons polygons = scene_file_polygons(&s->file);
+    polygons.turned = turned;
     s->device = open_device(options->quiet ? NULL : path, threads);
     if (s->device) {
         s->scene = radNewScene(s->device);
@@ -19,7 +20,7 @@ int open_scene(struct open_scene *s, const char *path, const struct scene_option
             && radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0
             && radGetSceneReport(s->scene, &s->report) == 0) {
             if (!options->quiet)
-                scene_file_warn(&s->file, path, &s->report);
+                scene_file_warn(&s->file, path, &s->report, turned);
             return 0;
         }
         report_device(s->device, path);

@@ -13,9 +13,15 @@ struct open_scene {
     struct RadSceneReport report;
 };
 
-/* Returns 0, or -1 after a message, with nothing to close. */
-int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
-               int threads);
+/* Returns 0, or -1 after a message, with nothing to close. `turned`: what to do of polygons that
+ * look turned. */
+int open_scene_by(struct open_scene *s, const char *path, const struct scene_options *options,
+                  enum RadTurned turned, int threads);
+static inline int open_scene(struct open_scene *s, const char *path,
+                             const struct scene_options *options, int threads)
+{
+    return open_scene_by(s, path, options, RAD_TURNED_IGNORE, threads);
+}
 void close_scene(struct open_scene *s);
 
 #endif
