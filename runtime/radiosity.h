@@ -131,6 +131,11 @@ enum { RAD_GREY = 1, RAD_COLOUR = 3 };
  * outline goes round, once, with its front where that of its larger part is. Polygons without area,
  * also those of fewer than three corners, are dropped and counted, and keep their place in all
  * lists of polygons. */
+/* What to do of polygons whose front is on another side than that of their neighbours over edges,
+ * or that are a closed room standing empty in another: nothing, find them (RadSceneReport), or
+ * besides turn those of closed shells. */
+enum RadTurned { RAD_TURNED_IGNORE, RAD_TURNED_FIND, RAD_TURNED_FLIP };
+
 struct RadPolygons {
     const double *positions; /* [position_count * 3], m */
     size_t position_count;
@@ -144,6 +149,7 @@ struct RadPolygons {
     int single_precision;
     int as_given; /* 1: quads are taken for flat and convex, and no face is cut where others stand
                      in it; for studies of what comes of it */
+    enum RadTurned turned;
 };
 
 RAD_API RadScene radNewScene(RadDevice device);
@@ -173,7 +179,7 @@ struct RadFace {
     uint8_t black;  /* 1: neither emits nor reflects */
 };
 
-enum { RAD_OVERLAPS_NAMED = 3 };
+enum { RAD_OVERLAPS_NAMED = 3, RAD_TURNED_NAMED = 5 };
 
 struct RadSceneReport {
     uint32_t polygons; /* as they were set */
@@ -186,6 +192,11 @@ struct RadSceneReport {
     struct RadOverlap {
         uint32_t polygon, on;      /* the polygon that stays */
     } overlap[RAD_OVERLAPS_NAMED]; /* the first of them */
+    /* polygons that look turned, if asked for: of closed shells, which RAD_TURNED_FLIP has turned;
+     * others; the first of each */
+    struct RadTurnedPolygons {
+        uint32_t count, polygon[RAD_TURNED_NAMED];
+    } turned_closed, turned_open;
     uint32_t faces, materials, bands;
     double area;            /* of all faces, both sides of two-sided ones (m2) */
     double low[3], high[3]; /* their box (m) */

@@ -41,8 +41,11 @@ static int run(const struct options *o)
     const struct scene_options how = {o->two_sided, o->quiet};
     if (!o->scene || o->scenes || o->command == COMMAND_ERROR)
         return commands[o->command](o, NULL);
+    const enum RadTurned turned = o->flip_closed                      ? RAD_TURNED_FLIP
+                                  : o->command == COMMAND_VIEWFACTORS ? RAD_TURNED_FIND
+                                                                      : RAD_TURNED_IGNORE;
     struct open_scene scene;
-    if (open_whole_scene(&scene, o->scene, &how, &o->copies, o->threads) < 0)
+    if (open_whole_scene(&scene, o->scene, &how, &o->copies, turned, o->threads) < 0)
         return 1;
     int status = commands[o->command](o, &scene);
     close_scene(&scene);

@@ -214,6 +214,13 @@
  * which is what a gain may be. Derived from that */
 #define REFINER_OVERLAP_LEAST 1e-4
 
+/* Six times its volume, of twice its area to the power 3/2: a shell that holds less holds nothing
+ * and has no inside (hierarchy/shells.c). Chosen: a cube has .068, a sheet of paper 1e-5 */
+#define REFINER_SHELL_THIN 1e-9
+/* of the area of a piece that is not closed. If no more is on the one side, that looks turned.
+ * Chosen: such pieces may well be folded */
+#define REFINER_SHELL_FEW 0.25
+
 /* faces. The default tree of fewer is of halves, of more by the surface-area heuristic: below
  * this no shipped graph links clusters, and the tree decides only in which order pairs are
  * found; chosen */

@@ -105,6 +105,8 @@ static void make_report(RadScene scene)
                                  .parts = s->parts,
                                  .overlaps = s->overlaps,
                                  .overlap_area = s->overlap_area,
+                                 .turned_closed = s->turned_closed,
+                                 .turned_open = s->turned_open,
                                  .faces = s->face_count,
                                  .materials = s->material_count,
                                  .bands = s->bands};

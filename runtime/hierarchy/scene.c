@@ -17,6 +17,7 @@
 #include "hierarchy/cut_faces.h"
 #include "hierarchy/overlaps.h"
 #include "hierarchy/polygon.h"
+#include "hierarchy/shells.h"
 #include "kernel/constants.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
@@ -30,6 +31,7 @@ struct builder {
     uint8_t *used;       /* [material_count]: NAMED by a polygon, SEEN on one with an area */
     double (*corner)[3]; /* of the polygon at hand */
     uint32_t (*triangle)[3], *scratch;
+    uint8_t *turned; /* [polygons->count], enum turned; NULL: nobody asked */
     struct round_parts round;
     size_t capacity;        /* faces that there is room for */
     double low[3], high[3]; /* box of all polygons (m) */
@@ -220,12 +222,25 @@ static int add_crossing(struct builder *b, uint32_t input, uint32_t count, const
     return 0;
 }
 
+/* Run round the other way. */
+static void flip_corners(double (*corner)[3], uint32_t n)
+{
+    for (uint32_t i = 0; i < n / 2; i++) {
+        double p[3];
+        memcpy(p, corner[i], sizeof p);
+        memcpy(corner[i], corner[n - 1 - i], sizeof p);
+        memcpy(corner[n - 1 - i], p, sizeof p);
+    }
+}
+
 /* A polygon becomes one face, several, or none. Returns 0, or -1 when out of memory. */
 static int add_polygon(struct builder *b, uint32_t input, const uint32_t *indices, uint32_t n)
 {
     struct scene *scene = b->scene;
     uint32_t count = gather_corners(b, indices, n), before = scene->face_count;
     double normal[3], part[3][3];
+    if (b->turned && b->turned[input] == TURNED_CLOSED && b->polygons->turned == RAD_TURNED_FLIP)
+        flip_corners(b->corner, count);
     int none = polygon_degenerate(b->corner, count, scene->precision), crosses = 0, result = 0;
     if (!none && is_whole(b, b->corner, count)) {
         result = add_face(b, b->corner, whole, count, input);
@@ -300,6 +315,26 @@ static double width_of_faces(const struct scene *scene)
     return width;
 }
 
+static void name_turned(struct RadTurnedPolygons *all, uint32_t polygon)
+{
+    if (all->count < RAD_TURNED_NAMED)
+        all->polygon[all->count] = polygon;
+    all->count++;
+}
+
+/* Which polygons look turned. Returns 0 or -1. */
+static int find_turned(struct builder *b)
+{
+    struct scene *s = b->scene;
+    b->turned = malloc((size_t)b->polygons->count + 1);
+    if (!b->turned || shells_find(b->polygons, s->materials, b->turned) < 0)
+        return -1;
+    for (uint32_t i = 0; i < b->polygons->count; i++)
+        if (b->turned[i] != TURNED_NOT)
+            name_turned(b->turned[i] == TURNED_CLOSED ? &s->turned_closed : &s->turned_open, i);
+    return 0;
+}
+
 static int build(struct builder *b, int threads)
 {
     struct scene *scene = b->scene;
@@ -311,6 +346,8 @@ static int build(struct builder *b, int threads)
     size_t most;
     if (check_polygons(b, &largest, &most) || check_materials(b))
         return -1;
+    if (b->polygons->turned != RAD_TURNED_IGNORE && find_turned(b) < 0)
+        return out_of_memory(b->error);
     scene->faces = most <= UINT32_MAX ? malloc((most + 1) * sizeof *scene->faces) : NULL;
     b->capacity = scene->faces ? most + 1 : 0;
     scene->areas = calloc(b->polygons->count, sizeof *scene->areas);
@@ -364,6 +401,7 @@ int scene_build(struct scene *scene, const struct RadPolygons *polygons,
         result = out_of_memory(error);
     }
     free(b.used);
+    free(b.turned);
     free(b.corner);
     free(b.triangle);
     free(b.scratch);

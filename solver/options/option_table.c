@@ -648,6 +648,8 @@ const struct option_row option_rows[] = {
      "a whole number from 64 to 4096", WHOLE(samples, 64, 4096)},
     {"two-sided", NULL, SCENES | REFERENCE | TUNE | EXPLAIN, NULL,
      "faces have two sides, not only those *_2s", FLAG(two_sided)},
+    {"flip-closed", NULL, FACTORS, NULL, "turn faces of closed shells that look turned",
+     FLAG(flip_closed)},
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},

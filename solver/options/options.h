@@ -77,6 +77,7 @@ struct options {
     enum RadSolver solver;
     enum RadProjection projection;
     int iterations, threads, two_sided, quiet;
+    int flip_closed; /* of closed shells what looks turned is turned */
 
     /* How far from the truth. */
     enum errors_wanted errors;

@@ -4,14 +4,8 @@
 
 #include "util/device.h"
 
-int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
-               int threads)
-{
-    return open_whole_scene(s, path, options, NULL, threads);
-}
-
 int open_whole_scene(struct open_scene *s, const char *path, const struct scene_options *options,
-                     const struct copies *copies, int threads)
+                     const struct copies *copies, enum RadTurned turned, int threads)
 {
     *s = (struct open_scene){.path = path};
     if (scene_file_read(&s->file, path, options) < 0)
@@ -19,7 +13,8 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
     s->originals = s->file.polygon_count;
     if (copies && copies_add(&s->file, path, copies) < 0)
         return close_scene(s), -1;
-    const struct RadPolygons polygons = scene_file_polygons(&s->file);
+    struct RadPolygons polygons = scene_file_polygons(&s->file);
+    polygons.turned = turned;
     s->device = open_device(options->quiet ? NULL : path, threads);
     if (s->device) {
         s->scene = radNewScene(s->device);
@@ -28,7 +23,7 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
             && radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0
             && radGetSceneReport(s->scene, &s->report) == 0) {
             if (!options->quiet)
-                scene_file_warn(&s->file, path, &s->report);
+                scene_file_warn(&s->file, path, &s->report, turned);
             return 0;
         }
         report_device(s->device, path);

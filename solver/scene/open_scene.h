@@ -14,12 +14,15 @@ struct open_scene {
     uint32_t originals; /* polygons of the file; with copies, fewer than the scene's */
 };
 
-/* Returns 0, or -1 after a message, with nothing to close. */
-int open_scene(struct open_scene *s, const char *path, const struct scene_options *options,
-               int threads);
-/* The same with the copies that make it whole; NULL: none. */
+/* With the copies that make it whole (NULL: none); `turned`: what to do of polygons that look
+ * turned. Returns 0, or -1 after a message, with nothing to close. */
 int open_whole_scene(struct open_scene *s, const char *path, const struct scene_options *options,
-                     const struct copies *copies, int threads);
+                     const struct copies *copies, enum RadTurned turned, int threads);
+static inline int open_scene(struct open_scene *s, const char *path,
+                             const struct scene_options *options, int threads)
+{
+    return open_whole_scene(s, path, options, NULL, RAD_TURNED_IGNORE, threads);
+}
 void close_scene(struct open_scene *s);
 
 #endif

@@ -283,7 +283,23 @@ static void warn_of_overlaps(const struct scene_file *f, const char *path,
                    face_name(f, r->overlap[0].on, name[1]), more, r->overlap_area);
 }
 
-void scene_file_warn(const struct scene_file *f, const char *path, const struct RadSceneReport *r)
+/* "what: the first of them by name (why)" */
+static void warn_of_turned(const struct scene_file *f, const char *path,
+                           const struct RadTurnedPolygons *t, const char *what, const char *why)
+{
+    char names[RAD_TURNED_NAMED * 50] = "", more[32] = "", name[48];
+    size_t n = 0;
+    for (uint32_t i = 0; i < t->count && i < RAD_TURNED_NAMED; i++)
+        n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", i ? ", " : "",
+                              face_name(f, t->polygon[i], name));
+    if (t->count > RAD_TURNED_NAMED)
+        snprintf(more, sizeof more, " and %lu more", (unsigned long)t->count - RAD_TURNED_NAMED);
+    if (t->count)
+        report_warning(path, f->lines[t->polygon[0]], "%s: %s%s (%s)", what, names, more, why);
+}
+
+void scene_file_warn(const struct scene_file *f, const char *path, const struct RadSceneReport *r,
+                     enum RadTurned turned)
 {
     char name[48], more[40] = "";
     if (r->overlaps)
@@ -295,6 +311,15 @@ void scene_file_warn(const struct scene_file *f, const char *path, const struct 
                        "the outline of %s crosses itself%s: it is taken for all that it goes "
                        "round, with one front; check the order of its corners",
                        face_name(f, r->crossing_first, name), more);
+    const char *looks = "looks turned, with its back to the light";
+    if (turned == RAD_TURNED_FLIP)
+        warn_of_turned(f, path, &r->turned_closed, "turned by --flip-closed",
+                       "of closed shells, whose other faces are right");
+    else
+        warn_of_turned(f, path, &r->turned_closed, looks,
+                       "of closed shells: --flip-closed turns these");
+    warn_of_turned(f, path, &r->turned_open, looks,
+                   "against the faces that it shares edges with: reverse the order of corners");
     if (r->dropped || f->other)
         report_warning(path, 0,
                        "%u degenerate faces dropped (no area, or fewer than three corners), %u "

@@ -54,10 +54,10 @@ void scene_file_free(struct scene_file *file);
 /* The polygons, for radSetSceneSharedPolygons; good until the file is freed. */
 struct RadPolygons scene_file_polygons(const struct scene_file *file);
 
-/* Say on stderr which faces lie on others or cross themselves, how many have been dropped, and how
- * many points and lines ignored; nothing when there are none. */
+/* Say on stderr which faces lie on others, cross themselves or look turned, how many have been
+ * dropped, and how many points and lines ignored; nothing when there are none. */
 void scene_file_warn(const struct scene_file *file, const char *path,
-                     const struct RadSceneReport *report);
+                     const struct RadSceneReport *report, enum RadTurned turned);
 
 /* For the readers of formats. Each returns 0, or -1 when out of memory. A polygon has the corners
  * added since the last one; a material's name is copied. */

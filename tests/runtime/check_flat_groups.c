@@ -202,7 +202,7 @@ static void prism(struct scene *s, const double (*plan)[2], int corners, double 
 static void open_exchange(struct exchange *x, const struct scene *s)
 {
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
-    const struct exchange_options options = {3e-4, CLOSURE_NONE, 2, NULL, NULL};
+    const struct exchange_options options = {.tolerance = 3e-4, .threads = 2};
     const char *cause;
     ck_assert_int_eq(exchange_open(x, s, refiner, &options, &cause), 0);
     refiner_close(refiner);

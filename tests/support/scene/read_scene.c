@@ -26,7 +26,7 @@ int scene_read(struct scene *scene, const char *path, const struct scene_options
                                         .overlap_area = scene->overlap_area};
         memcpy(report.overlap, scene->overlap, sizeof report.overlap);
         if (!options || !options->quiet)
-            scene_file_warn(&file, path, &report);
+            scene_file_warn(&file, path, &report, RAD_TURNED_IGNORE);
         scene->names = file.names;
         scene->input_materials = file.polygon_materials;
         for (uint32_t i = 0; i < file.material_count; i++)
