@@ -2,9 +2,9 @@
  * outlines in them (F 3a).
  *
  * Here a face of a plane that others share keeps what no earlier one has; there a subsurface takes
- * from its base, whichever comes first. So a subsurface is put before its base, and a null surface,
- * which only takes, is refused. A surface combined with another has the material of that one.
- * [Walton, View3D user manual 3.3]
+ * from its base, whichever comes first. So a subsurface is put before its base, and null and
+ * masking surfaces, which only take, are refused. A surface combined with another has the material
+ * of that one. [Walton, View3D user manual 3.3]
  * SPDX-License-Identifier: MIT */
 #include <ctype.h>
 #include <math.h>
@@ -194,10 +194,10 @@ static int read_surface(struct vs3 *v, int kind)
         return report_error(v->mesh.path, s.line,
                             "surface %lu where %zu belongs; number surfaces from 1",
                             (unsigned long)number, v->count + 1);
-    if (kind == 'N')
+    if (kind == 'N' || kind == 'M')
         return report_error(v->mesh.path, s.line,
-                            "surface %lu is a null surface, a hole in another; cut it out of that "
-                            "one",
+                            "surface %lu is a null or masking surface, which only covers another; "
+                            "cut it out of that one",
                             (unsigned long)number);
     if (v->planes) {
         shape = next_value(v) ? toupper((unsigned char)*v->lines.word) : 0;
@@ -218,7 +218,7 @@ static int read_surface(struct vs3 *v, int kind)
         return scene_file_no_memory(v->mesh.path);
     v->surface[v->count++] = s;
     v->lines.word_end = v->lines.line_end; /* what is left of the line is no entry */
-    return kind == 'M' ? 0 : 1;            /* 1: it may take from its base */
+    return 0;
 }
 
 static int read_entry(struct vs3 *v)
@@ -231,12 +231,8 @@ static int read_entry(struct vs3 *v)
     case 'S':
     case 'M':
     case 'N':
-    case 'O': {
-        const int read = read_surface(v, kind);
-        if (read == 0)
-            v->surface[v->count - 1].base = 0;
-        return read < 0 ? -1 : 0;
-    }
+    case 'O':
+        return read_surface(v, kind);
     case 'F':
         if (!next_word(t)
             || (!word_is(t, "3") && !word_is_any_case(t, "3d") && !word_is_any_case(t, "3a")))

@@ -463,6 +463,8 @@ START_TEST(test_refusals)
         {"a.vs3", "F 3\nV 1 0 0\n", ": error: ends before z"},
         {"a.vs3", "F 3\nV 1 0 0 0\nV 1 0 0 1\n", ":3: error: node 1 is defined twice"},
         {"a.vs3", "F 3\nS 2 1 1 1 0 0 0 1 a\n", ":2: error: surface 2 where 1 belongs"},
+        {"a.vs3", "F 3\nV 1 0 0 0\nM 1 1 1 1 0 1 0 .5 a\n",
+         ":3: error: surface 1 is a null or masking surface"},
         {"a.vs3", "F 3\nQ\n", ":2: error: 'Q' is no entry"},
         {"a.vs3", "F 3\n", ": error: there is no face"},
         {"a.msh", "$MeshFormat\n4.1 1 8\n", ":2: error: a binary mesh; convert it to text: gmsh"},
