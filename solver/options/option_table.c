@@ -233,6 +233,14 @@ static int read_format(struct options *o, const struct option_row *row, const ch
 {
     int n = word_number(row, value);
     o->format = (enum factor_format)n;
+    o->format_given = 1;
+    return n < 0 ? -1 : 0;
+}
+
+static int read_by(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->by = (enum factor_rows)n;
     return n < 0 ? -1 : 0;
 }
 
@@ -482,7 +490,9 @@ const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu",
 const char *const projection_words[] = {"galerkin", "collocation", NULL};
 static const char *const bases[] = {"constant", "linear", NULL};
 static const char *const costs[] = {"rays", "links", "time", NULL}; /* enum tune_cost */
-static const char *const formats[] = {"csv", "coo", "mtx", NULL};
+static const char *const formats[] = {"csv",    "coo",        "mtx",      "npz",
+                                      "view3d", "energyplus", "openfoam", NULL};
+const char *const by_words[] = {"face", "material", "group", "object", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
@@ -616,7 +626,7 @@ const struct option_row option_rows[] = {
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
-    {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
+    {"o", "FILE", FACTORS, NULL, "the matrix; .mtx, .npz and .idf say its format", OUTPUT(out)},
     {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
      NAMED(out, tables)},
     {"o", "FILE.csv", REFERENCE, NULL, "the table; must be given", NAMED(out, csv)},
@@ -627,9 +637,12 @@ const struct option_row option_rows[] = {
     {"o", "FILE.html", PANEL, NULL, "the page; must be given", NAMED(out, pages)},
     {"statistics", "FILE.json", DRAW | PANEL, NULL, "what solve --statistics wrote",
      TEXT(statistics)},
-    {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
-     WORD(read_format, formats)},
-    {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
+    {"format", "NAME", FACTORS, NULL, "csv, coo, mtx, npz, view3d, energyplus, openfoam",
+     .takes = "csv, coo, mtx, npz, view3d, energyplus or openfoam", .read = read_format,
+     .words = formats},
+    {"by", "WHAT", FACTORS, NULL, "rows: face, or sums by material, group, object",
+     .takes = "face, material, group or object", .read = read_by, .words = by_words},
+    {"names", "FILE", FACTORS, NULL, "a name for each row; .csv: its area, too", OUTPUT(names)},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
      NAMED(image, pictures)},
     {"size", "WxH", SOLVE, "1024x768", "its size in pixels", "WxH, each 1 to 16384",

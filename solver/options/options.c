@@ -380,6 +380,8 @@ static int check_together(struct options *o)
                              : "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z");
     if (o->step && o->json)
         return wrong(c->name, "--step and --json do not go together");
+    if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
+        o->format = factor_format_of(o->out);
     if (o->statistics || o->trace)
         o->release = RAD_RELEASE_DAG;
     if (o->accuracy > 0 && (o->no_errors || o->no_correct))

@@ -37,6 +37,10 @@ extern const char *const release_words[], *const closure_words[], *const solver_
 enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
 extern const char *const norm_words[];
 
+/* viewfactors: what a row is. */
+enum factor_rows { BY_FACE, BY_MATERIAL, BY_GROUP, BY_OBJECT };
+extern const char *const by_words[];
+
 /* What --errors asks for: what is measured; the account by cause, too. */
 enum errors_wanted { ERRORS_UNSAID, ERRORS_MEASURED, ERRORS_ALL };
 
@@ -89,6 +93,8 @@ struct options {
     /* What to write. */
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
+    int format_given;
+    enum factor_rows by;     /* viewfactors */
     int width, height, mesh; /* of the picture */
     int gather;              /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
