@@ -24,7 +24,7 @@ enum { LABEL = 12, TEXT_MOST = 1 << 25 };
 
 struct writer {
     const struct factor_table *table;
-    uint32_t count; /* rows and columns */
+    uint32_t count, columns;
     enum factor_format format;
     char **names, *zone; /* energyplus: of rows, and of all */
     struct label {       /* "j," or "j " of each column */
@@ -48,7 +48,7 @@ static size_t write_dense(const struct writer *w, uint32_t i, const double *row,
     const char between = w->format == FACTOR_CSV ? ',' : ' ';
     char *at = text;
     (void)i;
-    for (uint32_t j = 0; j < w->count; j++) {
+    for (uint32_t j = 0; j < w->columns; j++) {
         if (j)
             *at++ = between;
         at += number_text(at, row[j]);
@@ -61,7 +61,7 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
 {
     const struct label *own = &w->labels[i];
     char *at = text;
-    for (uint32_t j = 0; j < w->count; j++) {
+    for (uint32_t j = 0; j < w->columns; j++) {
         if (!(row[j] > 0))
             continue;
         memcpy(at, own->text, sizeof own->text);
@@ -79,7 +79,7 @@ static size_t write_energyplus(const struct writer *w, uint32_t i, const double 
 {
     const size_t length = strlen(w->names[i]);
     char *at = text;
-    for (uint32_t j = 0; j < w->count; j++) {
+    for (uint32_t j = 0; j < w->columns; j++) {
         const size_t other = strlen(w->names[j]);
         at = memset(at, ' ', 2);
         at = memcpy(at + 2, w->names[i], length);
@@ -88,7 +88,7 @@ static size_t write_energyplus(const struct writer *w, uint32_t i, const double 
         at[other] = ',';
         at += other + 1;
         at += number_text(at, row[j]);
-        *at++ = i + 1 == w->count && j + 1 == w->count ? ';' : ',';
+        *at++ = i + 1 == w->count && j + 1 == w->columns ? ';' : ',';
         *at++ = '\n';
     }
     return (size_t)(at - text);
@@ -97,7 +97,7 @@ static size_t write_energyplus(const struct writer *w, uint32_t i, const double 
 static uint32_t count_row(const struct writer *w, const double *row)
 {
     uint32_t count = 0;
-    for (uint32_t j = 0; j < w->count; j++)
+    for (uint32_t j = 0; j < w->columns; j++)
         count += row[j] > 0;
     return count;
 }
@@ -106,7 +106,7 @@ static uint32_t count_row(const struct writer *w, const double *row)
 static size_t write_foam(const struct writer *w, const double *row, char *text, int faces)
 {
     char *at = text + number_text_whole(text, count_row(w, row)), *first = at;
-    for (uint32_t j = 0; j < w->count; j++) {
+    for (uint32_t j = 0; j < w->columns; j++) {
         if (!(row[j] > 0))
             continue;
         *at++ = ' ';
@@ -138,7 +138,7 @@ static size_t row_room(const struct writer *w)
     size_t longest = 0, entry = NUMBER_TEXT + 2 * LABEL;
     for (uint32_t r = 0; w->names && r < w->count; r++)
         longest = strlen(w->names[r]) > longest ? strlen(w->names[r]) : longest;
-    return (size_t)w->count * (entry + 2 * longest) + 2 * NUMBER_TEXT;
+    return (size_t)w->columns * (entry + 2 * longest) + 2 * NUMBER_TEXT;
 }
 
 /* ---- all rows */
@@ -173,7 +173,7 @@ static void write_rows(const struct writer *w, row_text *write, FILE *out)
 
 static int open_writer(struct writer *w)
 {
-    uint32_t n = w->count, base = w->format == FACTOR_MTX;
+    uint32_t n = w->count, columns = w->columns, base = w->format == FACTOR_MTX;
     w->room = row_room(w);
     w->batch = (uint32_t)(TEXT_MOST / w->room);
     if (w->batch < 2 * (uint32_t)w->threads)
@@ -183,11 +183,11 @@ static int open_writer(struct writer *w)
     w->work = factor_table_room(w->table);
     w->text = malloc(w->batch * w->room);
     w->length = malloc(w->batch * sizeof *w->length);
-    w->labels = calloc((size_t)n + 1, sizeof *w->labels);
+    w->labels = calloc((size_t)columns + 1, sizeof *w->labels);
     w->rows = malloc((size_t)w->threads * w->work * sizeof *w->rows);
     if (!w->text || !w->length || !w->labels || !w->rows)
         return -1;
-    for (uint32_t j = 0; j < n; j++) {
+    for (uint32_t j = 0; j < columns; j++) {
         char text[NUMBER_TEXT];
         int length = number_text_whole(text, j + base);
         memcpy(w->labels[j].text, text, (size_t)length);
@@ -259,7 +259,7 @@ static void write_text(const struct writer *w, FILE *out)
         fprintf(out,
                 "%%%%MatrixMarket matrix coordinate real general\n"
                 "%% view factors F_ij, row i to column j\n%u %u %llu\n",
-                w->count, w->count, (unsigned long long)count_entries(w));
+                w->count, w->columns, (unsigned long long)count_entries(w));
         write_rows(w, write_sparse, out);
         break;
     default:
@@ -308,10 +308,19 @@ enum factor_format factor_format_of(const char *path)
                                      : FACTOR_CSV;
 }
 
+int factor_format_square(enum factor_format format)
+{
+    return format == FACTOR_VIEW3D || format == FACTOR_ENERGYPLUS || format == FACTOR_OPENFOAM;
+}
+
 int factor_file_write(const char *path, enum factor_format format, const struct factor_table *table,
                       int threads)
 {
-    struct writer w = {.table = table, .count = table->count, .format = format, .threads = threads};
+    struct writer w = {.table = table,
+                       .count = table->count,
+                       .columns = table->columns,
+                       .format = format,
+                       .threads = threads};
     int status = -1;
     if (format == FACTOR_NPZ)
         return factor_npz_write(path, table, threads);

@@ -27,6 +27,9 @@ enum factor_format {
 /* That of the file's ending, .mtx .npz .idf; csv for any other. */
 enum factor_format factor_format_of(const char *path);
 
+/* Has it no room for columns beside those of rows? */
+int factor_format_square(enum factor_format format);
+
 /* Files appear whole or not at all; `threads` write. Returns 0, or -1 after a message. */
 int factor_file_write(const char *path, enum factor_format format, const struct factor_table *table,
                       int threads);

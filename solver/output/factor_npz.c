@@ -24,7 +24,7 @@ struct npz {
     double *rows;    /* [threads][work] */
     uint64_t *first; /* [count + 1]: entries before each row */
     uint32_t batch;  /* rows at a time */
-    char *packed;    /* [batch][count] values or columns */
+    char *packed;    /* [batch][columns] values or columns */
 };
 
 /* An array begins: its header, of 128 bytes, in words of Python's. */
@@ -91,7 +91,7 @@ static void count_entries(struct npz *p)
     for (uint32_t r = 0; r < n; r++) {
         const double *row = row_of(p, r);
         uint64_t count = 0;
-        for (uint32_t j = 0; j < n; j++)
+        for (uint32_t j = 0; j < p->table->columns; j++)
             count += row[j] > 0;
         p->first[r + 1] = count;
     }
@@ -103,7 +103,7 @@ static void count_entries(struct npz *p)
 static void pack_row(const struct npz *p, uint32_t r, size_t size, int values, char *to)
 {
     const double *row = row_of(p, r);
-    for (uint32_t j = 0; j < p->table->count; j++) {
+    for (uint32_t j = 0; j < p->table->columns; j++) {
         if (!(row[j] > 0))
             continue;
         const int64_t wide = j;
@@ -147,7 +147,7 @@ static void write_pointers(struct npz *p, int size)
 static void write_arrays(struct npz *p)
 {
     const struct factor_table *t = p->table;
-    const int64_t shape[2] = {t->count, t->count};
+    const int64_t shape[2] = {t->count, t->columns};
     char type[8], count[32];
     count_entries(p);
     const uint64_t entries = p->first[t->count];
@@ -188,7 +188,7 @@ static int write_file(struct npz *p, const char *path)
 int factor_npz_write(const char *path, const struct factor_table *table, int threads)
 {
     const uint32_t n = table->count;
-    const size_t row = 8 * ((size_t)n + 1);
+    const size_t row = 8 * ((size_t)table->columns + 1);
     struct npz p = {.table = table, .threads = threads, .work = factor_table_room(table)};
     p.batch = (uint32_t)(MOST / row) > 2 * (uint32_t)threads ? (uint32_t)(MOST / row)
                                                              : 2 * (uint32_t)threads;

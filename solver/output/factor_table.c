@@ -108,13 +108,14 @@ static char *title_of(const char *path)
 }
 
 int factor_table_open(struct factor_table *t, RadExchange exchange, const char *path,
-                      const struct surfaces *s, const struct factor_parts *parts)
+                      const struct surfaces *s, const struct factor_parts *parts, int sky)
 {
     uint32_t *row = parts ? malloc(((size_t)parts->count + 1) * sizeof *row) : NULL;
     *t = (struct factor_table){.exchange = exchange, .polygons = s->polygon_count};
     if (parts && !row)
         return -1;
     t->count = parts ? number_parts(parts, t->polygons, row) : t->polygons;
+    t->columns = t->count + (sky ? 2 : 0);
     t->title = title_of(path);
     t->names = calloc((size_t)t->count + 1, sizeof *t->names);
     t->areas = calloc((size_t)t->count + 1, sizeof *t->areas);
@@ -143,26 +144,39 @@ void factor_table_close(struct factor_table *t)
 
 size_t factor_table_room(const struct factor_table *t)
 {
-    return (size_t)t->polygons + (t->of ? t->count : 0) + 1;
+    return (size_t)t->polygons + 2 + (t->of ? t->columns : 0);
+}
+
+/* Row i of the exchange, and what it loses behind it. */
+static void face_row(const struct factor_table *t, uint32_t i, double *row)
+{
+    struct RadExchangeLoss loss = {0};
+    (void)radGetExchangeRow(t->exchange, i, row);
+    if (t->columns > t->count)
+        (void)radGetExchangeLoss(t->exchange, i, &loss);
+    row[t->polygons] = loss.sky;
+    row[t->polygons + 1] = loss.backs;
 }
 
 const double *factor_table_row(const struct factor_table *t, uint32_t r, double *room)
 {
     if (!t->of) {
-        (void)radGetExchangeRow(t->exchange, r, room);
+        face_row(t, r, room);
         return room;
     }
-    double *sums = room + t->polygons;
-    memset(sums, 0, t->count * sizeof *sums);
+    double *sums = room + t->polygons + 2;
+    memset(sums, 0, t->columns * sizeof *sums);
     for (uint32_t k = t->first[r]; k < t->first[r + 1]; k++) {
         const uint32_t i = t->members[k];
         if (!(t->weights[i] > 0))
             continue;
-        (void)radGetExchangeRow(t->exchange, i, room);
+        face_row(t, i, room);
         for (uint32_t j = 0; j < t->polygons; j++)
             sums[t->of[j]] += t->weights[i] * room[j];
+        for (uint32_t e = t->count; e < t->columns; e++)
+            sums[e] += t->weights[i] * room[t->polygons + e - t->count];
     }
-    for (uint32_t h = 0; h < t->count; h++)
+    for (uint32_t h = 0; h < t->columns; h++)
         sums[h] = t->areas[r] > 0 ? sums[h] / t->areas[r] : 0;
     return sums;
 }

@@ -3,7 +3,8 @@
  *
  * F_GH = sum of A_i F_ij over i in G and j in H, divided by A_G: the share of what leaves G evenly
  * that meets H, G itself included. So A_G F_GH = A_H F_HG as far as that holds for faces. A face's
- * area is that of all its sides. What writes files knows of nothing but this.
+ * area is that of all its sides. Two columns may follow, the shares that go to the sky and to black
+ * backs. What writes files knows of nothing but this.
  * SPDX-License-Identifier: MIT */
 #ifndef FACTOR_TABLE_H
 #define FACTOR_TABLE_H
@@ -20,7 +21,8 @@ struct factor_parts {
 
 struct factor_table {
     RadExchange exchange;
-    uint32_t polygons, count; /* columns of the exchange; rows and columns of this */
+    uint32_t polygons, count; /* columns of the exchange; rows of this */
+    uint32_t columns;         /* count, or with sky and backs 2 more */
     char *title;              /* the scene's name, without folder and ending */
     char **names;             /* [count], without control characters */
     double *areas;            /* [count], m2, of all sides that emit */
@@ -31,16 +33,16 @@ struct factor_table {
     double *weights;           /* [polygons]: areas of faces */
 };
 
-/* `path`: of the scene's file. `parts` NULL: a row per face, called MATERIAL.NUMBER. Returns 0, or
- * -1 when out of memory; to be closed in either case. */
+/* `sky`: with these two columns. `path`: of the scene's file. `parts` NULL: a row per face, called
+ * MATERIAL.NUMBER. Returns 0, or -1 when out of memory; to be closed in either case. */
 int factor_table_open(struct factor_table *table, RadExchange exchange, const char *path,
-                      const struct surfaces *surfaces, const struct factor_parts *parts);
+                      const struct surfaces *surfaces, const struct factor_parts *parts, int sky);
 void factor_table_close(struct factor_table *table);
 
 /* How many numbers a thread needs to work in. */
 size_t factor_table_room(const struct factor_table *table);
 
-/* Row r, [count], somewhere in `room`. From many threads at once, each with a room of its own. */
+/* Row r, [columns], somewhere in `room`. From many threads at once, each with a room of its own. */
 const double *factor_table_row(const struct factor_table *table, uint32_t r, double *room);
 
 #endif

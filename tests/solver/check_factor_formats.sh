@@ -30,13 +30,17 @@ refuses() { # WORDS ARGUMENTS...: exit status 1, these words, nothing written
     "$radiosity" viewfactors "$@" -o never >out 2>err
     [ $? = 1 ] && grep -q -e "$words" err && [ ! -e never ] || failed "no '$words' of $*"
 }
+with_room() { # f.csv OPTIONS...: the formats that have room for more columns
+    factors "$@" --names f.names
+    shift
+    factors f.coo --format coo --names f.names.csv "$@"
+    factors f.mtx "$@"
+    factors f.npz "$@"
+}
 written() { # OPTIONS...: the scene's matrix in all formats
     mkdir -p foam
-    factors f.csv --names f.names "$@"
-    factors f.coo --format coo --names f.names.csv "$@"
-    for file in f.mtx f.npz f.idf; do
-        factors $file "$@"
-    done
+    with_room f.csv "$@"
+    factors f.idf "$@"
     factors f.view3d --format view3d "$@"
     factors foam/F --format openfoam "$@"
 }
@@ -112,6 +116,20 @@ for threads in 1 5; do
 done
 count=$((count + 1))
 cmp -s 1.npz 5.npz && cmp -s 1.idf 5.idf || failed "more threads, other bytes"
+
+# ---- without the ceiling and with a screen that has a black back: what goes to the sky, and what to that
+sed '/^f 5 8 7 6/d; s/_2s/_1s/; s/mtllib.*/mtllib open.mtl/' room.obj >open.obj
+sed 's/_2s/_1s/' room.mtl >open.mtl
+scene=open.obj
+for by in face object; do
+    with_room f.csv --sky --by $by
+    agrees "sky and backs by $by" sky
+done
+for format in view3d energyplus openfoam; do
+    count=$((count + 1))
+    "$radiosity" viewfactors $scene -q --sky --format $format -o never 2>err
+    [ $? = 2 ] && grep -q 'sky adds columns' err && [ ! -e never ] || failed "--sky of $format"
+done
 
 # ---- what other formats of scenes call parts
 cat >two.stl <<'END'

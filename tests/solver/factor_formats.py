@@ -2,6 +2,7 @@
 holds them against the csv.
 
     factor_formats.py equal      f.csv against f.coo f.mtx f.npz f.view3d f.idf foam/F, names of f.names
+    factor_formats.py sky        f.csv against f.coo f.mtx f.npz, with two more columns; all rows sum to 1
     factor_formats.py sums WHAT  rows of WHAT.csv are sums over the faces of f.csv by f.parts
 
 Prints what is wrong; nothing when all is well. NumPy and SciPy are asked, too, where they are.
@@ -39,8 +40,8 @@ def compare(what, found, right, most=0.0):
                 return wrong(f"{what}: {i},{j} is {a!r}, not {b!r}")
 
 
-def dense(count, entries):
-    rows = [[0.0] * count for _ in range(count)]
+def dense(like, entries):
+    rows = [[0.0] * len(row) for row in like]
     for i, j, value in entries:
         rows[i][j] += value
     return rows
@@ -77,7 +78,7 @@ def check_npz(right, areas, names):
             if head[6:9] != (info.CRC, info.file_size, info.file_size):
                 return wrong(f"npz: header of {info.filename}")
     count = len(right)
-    if parts["format"] != ["csr"] or parts["shape"] != [count, count]:
+    if parts["format"] != ["csr"] or parts["shape"] != [count, len(right[0])]:
         return wrong("npz: format or shape")
     entries = [
         (i, parts["indices"][k], parts["data"][k])
@@ -86,7 +87,7 @@ def check_npz(right, areas, names):
     ]
     if len(entries) != len(parts["data"]) or len(entries) != len(parts["indices"]):
         wrong("npz: not all entries are in a row")
-    compare("npz", dense(count, entries), right, 1e-11)
+    compare("npz", dense(right, entries), right, 1e-11)
     compare("npz: areas", [parts["areas"]], [areas], 1e-11)
     if parts["names"] != names:
         wrong(f"npz: names {parts['names']}")
@@ -124,7 +125,7 @@ def check_energyplus(right, names):
         return wrong(f"energyplus: {len(fields)} fields of {fields[0]}")
     number = {name: i for i, name in enumerate(names)}
     triples = [fields[k : k + 3] for k in range(2, len(fields), 3)]
-    compare("energyplus", dense(len(names), [(number[a], number[b], float(f)) for a, b, f in triples]), right)
+    compare("energyplus", dense(right, [(number[a], number[b], float(f)) for a, b, f in triples]), right)
 
 
 def foam(name, kind):
@@ -150,10 +151,10 @@ def check_foam(right):
     entries = [(i, int(j), f) for i, row in enumerate(factors) for j, f in zip(faces[i], row)]
     if [len(row) for row in factors] != [len(row) for row in faces]:
         wrong("openfoam: F and globalFaceFaces differ")
-    compare("openfoam", dense(len(right), entries), right)
+    compare("openfoam", dense(right, entries), right)
 
 
-def check_equal():
+def check_equal(sky):
     right, table = rows_of("f.csv"), table_of("f.names.csv")
     areas, names = [float(row["area_m2"]) for row in table], [row["name"] for row in table]
     count = len(right)
@@ -162,13 +163,17 @@ def check_equal():
             wrong("the two files of names differ")
     with open("f.coo") as file:
         entries = [(int(i), int(j), float(f)) for i, j, f in csv.reader(file)]
-    compare("coo", dense(count, entries), right)
+    compare("coo", dense(right, entries), right)
     with open("f.mtx") as file:
         lines = [line for line in file if not line.startswith("%")]
-    if lines[0].split() != [str(count), str(count), str(len(entries))]:
+    if lines[0].split() != [str(count), str(len(right[0])), str(len(entries))]:
         wrong(f"mtx: {lines[0]}")
-    compare("mtx", dense(count, [(int(i) - 1, int(j) - 1, float(f)) for i, j, f in map(str.split, lines[1:])]), right)
+    compare("mtx", dense(right, [(int(i) - 1, int(j) - 1, float(f)) for i, j, f in map(str.split, lines[1:])]), right)
     check_npz(right, areas, names)
+    if sky:
+        if len(right[0]) != count + 2 or not any(row[-2] > 0.01 for row in right) or not any(row[-1] > 0.01 for row in right):
+            wrong("nothing goes to the sky, or to backs")
+        return compare("sums", [[sum(row)] for row in right], [[1.0]] * count, 2e-3)
     check_view3d(right, areas)
     check_energyplus(right, names)
     check_foam(right)
@@ -192,4 +197,4 @@ def check_sums(what):
     compare(what, rows_of(what + ".csv"), right, 1e-11)
 
 
-check_equal() if sys.argv[1] == "equal" else check_sums(sys.argv[2])
+check_sums(sys.argv[2]) if sys.argv[1] == "sums" else check_equal(sys.argv[1] == "sky")
