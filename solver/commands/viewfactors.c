@@ -98,7 +98,7 @@ static int write_matrix(const struct options *o, const struct open_scene *scene,
     struct factor_table table;
     if (parts_of(o, &scene->file, &parts, &by) < 0)
         return -1;
-    int status = factor_table_open(&table, exchange, o->scene, &surfaces, by, o->sky);
+    int status = factor_table_open(&table, exchange, o->scene, &surfaces, by, o->losses);
     *rows = table.count;
     if (status < 0)
         report_error(o->scene, 0, "out of memory for the names of rows");

@@ -642,7 +642,7 @@ const struct option_row option_rows[] = {
      .words = formats},
     {"by", "WHAT", FACTORS, NULL, "rows sum faces: material, group, object (face)",
      .takes = "face, material, group or object", .read = read_by, .words = by_words},
-    {"sky", NULL, FACTORS, NULL, "two more columns: to the sky, to backs", FLAG(sky)},
+    {"sky", NULL, FACTORS, NULL, "two more columns: to the sky, to backs", FLAG(losses)},
     {"names", "FILE", FACTORS, NULL, "a name for each row; .csv: its area, too", OUTPUT(names)},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
      NAMED(image, pictures)},

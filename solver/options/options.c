@@ -382,7 +382,7 @@ static int check_together(struct options *o)
         return wrong(c->name, "--step and --json do not go together");
     if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
         o->format = factor_format_of(o->out);
-    if (o->sky && factor_format_square(o->format))
+    if (o->losses && factor_format_square(o->format))
         return wrong(c->name, "--sky adds columns, and this format takes a square matrix: csv, "
                               "coo, mtx and npz have room for them");
     if (o->statistics || o->trace)

@@ -95,7 +95,7 @@ struct options {
     enum factor_format format;
     int format_given;
     enum factor_rows by;     /* viewfactors */
-    int sky;                 /* viewfactors */
+    int losses;              /* viewfactors */
     int width, height, mesh; /* of the picture */
     int gather;              /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;

@@ -108,14 +108,14 @@ static char *title_of(const char *path)
 }
 
 int factor_table_open(struct factor_table *t, RadExchange exchange, const char *path,
-                      const struct surfaces *s, const struct factor_parts *parts, int sky)
+                      const struct surfaces *s, const struct factor_parts *parts, int losses)
 {
     uint32_t *row = parts ? malloc(((size_t)parts->count + 1) * sizeof *row) : NULL;
     *t = (struct factor_table){.exchange = exchange, .polygons = s->polygon_count};
     if (parts && !row)
         return -1;
     t->count = parts ? number_parts(parts, t->polygons, row) : t->polygons;
-    t->columns = t->count + (sky ? 2 : 0);
+    t->columns = t->count + (losses ? 2 : 0);
     t->title = title_of(path);
     t->names = calloc((size_t)t->count + 1, sizeof *t->names);
     t->areas = calloc((size_t)t->count + 1, sizeof *t->areas);

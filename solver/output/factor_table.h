@@ -33,10 +33,11 @@ struct factor_table {
     double *weights;           /* [polygons]: areas of faces */
 };
 
-/* `sky`: with these two columns. `path`: of the scene's file. `parts` NULL: a row per face, called
- * MATERIAL.NUMBER. Returns 0, or -1 when out of memory; to be closed in either case. */
+/* `losses`: with these two columns. `path`: of the scene's file. `parts` NULL: a row per face,
+ * called MATERIAL.NUMBER. Returns 0, or -1 when out of memory; to be closed in either case. */
 int factor_table_open(struct factor_table *table, RadExchange exchange, const char *path,
-                      const struct surfaces *surfaces, const struct factor_parts *parts, int sky);
+                      const struct surfaces *surfaces, const struct factor_parts *parts,
+                      int losses);
 void factor_table_close(struct factor_table *table);
 
 /* How many numbers a thread needs to work in. */
