@@ -36,7 +36,7 @@ DEPEND   = $(if $(findstring tcc,$(CC)),-MD,-MMD -MP)
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # What the library is linked with, and what the command needs besides.
 ENGINE_LIBS = $(EMBREE) -llapacke -lpthread -ldl -lm
-LIBS     = $(EMBREE) -llapacke -lassimp -lexpat -ljansson -lpng -ldl -lm
+LIBS     = $(EMBREE) -llapacke -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls

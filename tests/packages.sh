@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 set -eu
 command -v apt-get >/dev/null 2>&1 || exit 0 # not a Debian: the compiler will name what is missing
-packages="gcc make pkg-config libc6-dev libassimp-dev libexpat1-dev libjansson-dev libpng-dev liblapacke-dev check gnuplot-nox graphviz ${PACKAGES_MORE-}"
+packages="gcc make pkg-config libc6-dev libassimp-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev liblapacke-dev check gnuplot-nox graphviz ${PACKAGES_MORE-}"
 missing=
 for p in $packages; do
     dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $p"

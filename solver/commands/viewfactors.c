@@ -9,6 +9,7 @@
 #include "commands/product_columns.h"
 #include "commands/sensor_rows.h"
 #include "output/factor_file.h"
+#include "output/factor_names.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
 #include "util/progress.h"
@@ -17,11 +18,32 @@
 #include "util/open_oracle.h"
 #include "util/report.h"
 
-static void print(const struct options *o, const struct open_scene *scene,
+/* Which faces are one row. NULL: each its own. Returns 0, or -1 after a message. */
+static int parts_of(const struct options *o, const struct scene_file *f, struct factor_parts *parts,
+                    const struct factor_parts **by)
+{
+    const struct part_names *named = o->by == BY_GROUP    ? &f->groups
+                                     : o->by == BY_OBJECT ? &f->objects
+                                                          : NULL;
+    const char *other = o->by == BY_GROUP && f->objects.count   ? "object"
+                        : o->by == BY_OBJECT && f->groups.count ? "group"
+                                                                : "material";
+    *by = o->by == BY_FACE ? NULL : parts;
+    *parts = (struct factor_parts){f->polygon_materials, f->names, f->material_count};
+    if (named && !named->count)
+        return report_error(o->scene, 0, "names no %ss; give --by %s", by_words[o->by], other);
+    if (named)
+        *parts = (struct factor_parts){named->of, named->names, named->count};
+    return 0;
+}
+
+static void print(const struct options *o, const struct open_scene *scene, uint32_t rows,
                   const struct RadExchangeReport *r, double write_seconds)
 {
     printf("faces     %u", scene->originals);
     printf(o->copies.count ? ", %u with their copies\n" : "\n", scene->report.polygons);
+    if (o->by != BY_FACE)
+        printf("rows      %u, a sum over faces for each %s\n", rows, by_words[o->by]);
     printf("links     %llu for %llu pairs of faces, %.3g rays; refine %.2f s, fill %.2f s, write "
            "%.2f s\n",
            (unsigned long long)r->links, (unsigned long long)r->pairs, (double)r->rays,
@@ -71,32 +93,57 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
         "entry_error_largest", r->entry_error);
 }
 
+/* The matrix, or a product with it, and its names; of how many rows. Returns 0, or -1 after a
+ * message. */
+static int write_matrix(const struct options *o, const struct open_scene *scene,
+                        RadExchange exchange, const struct columns *columns, uint32_t *rows)
+{
+    struct surfaces surfaces =
+        surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
+    struct factor_parts parts;
+    const struct factor_parts *by;
+    struct factor_table table;
+    if (parts_of(o, &scene->file, &parts, &by) < 0)
+        return -1;
+    surfaces.polygon_count = scene->originals;
+    int status = factor_table_open(&table, exchange, scene->report.polygons, o->scene, &surfaces,
+                                   by, o->losses);
+    *rows = table.count;
+    if (status < 0)
+        report_error(o->scene, 0, "out of memory for the names of rows");
+    else if ((o->product && columns_write_product(columns, o->out, exchange, scene) < 0)
+             || (o->out && !o->product
+                 && factor_file_write(o->out, o->format, &table, o->threads) < 0)
+             || (o->names && factor_names_write(o->names, &table) < 0))
+        status = -1;
+    factor_table_close(&table);
+    return status;
+}
+
 /* Write what was asked for. Returns 0, or -1 after a message. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          RadExchange exchange, const struct columns *columns)
 {
-    struct surfaces surfaces =
-        surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
-    surfaces.polygon_count = scene->originals;
     double start = seconds();
-    if ((o->product && columns_write_product(columns, o->out, exchange, scene) < 0)
-        || (o->out && !o->product
-            && factor_file_write(o->out, o->format, exchange, scene->report.polygons,
-                                 scene->originals, o->threads)
-                   < 0)
-        || (o->names && factor_file_names(o->names, &surfaces) < 0))
+    uint32_t rows;
+    if (write_matrix(o, scene, exchange, columns, &rows) < 0)
         return -1;
     double write_seconds = seconds() - start;
     struct RadExchangeReport r;
     radGetExchangeReport(exchange, &r);
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
-        print(o, scene, &r, write_seconds);
+        print(o, scene, rows, &r, write_seconds);
     if (!o->quiet && r.defect_most > o->tolerance)
         report_warning(o->scene, 0,
                        "a row sum is off by %.1e, above the tolerance %.1e; a smaller --tolerance "
                        "takes longer",
                        r.defect_most, o->tolerance);
-    return o->json ? json_file_write(o->json, report_json(o, scene, &r, write_seconds)) : 0;
+    if (!o->json)
+        return 0;
+    json_t *report = report_json(o, scene, &r, write_seconds);
+    json_object_set_new(report, "by", json_string(by_words[o->by]));
+    json_object_set_new(report, "rows", json_integer(rows));
+    return json_file_write(o->json, report);
 }
 
 /* The matrix, or the columns' product with it. */
@@ -108,6 +155,10 @@ static int compute(const struct options *o, const struct open_scene *scene,
                                            .rows = o->copies.count ? scene->originals : 0,
                                            .stream = o->product != NULL};
     int status = -1;
+    struct factor_parts parts;
+    const struct factor_parts *by;
+    if (parts_of(o, &scene->file, &parts, &by) < 0)
+        return -1; /* before the work */
     RadOracle oracle = radNewExchangeOracle(scene->device, o->tolerance);
     if (!oracle)
         return report_device(scene->device, o->scene);

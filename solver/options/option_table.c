@@ -238,6 +238,13 @@ static int read_format(struct options *o, const struct option_row *row, const ch
     return n < 0 ? -1 : 0;
 }
 
+static int read_by(struct options *o, const struct option_row *row, const char *value)
+{
+    int n = word_number(row, value);
+    o->by = (enum factor_rows)n;
+    return n < 0 ? -1 : 0;
+}
+
 /* "AXIS=NUMBER" and what follows it, into the next step. Returns NULL when it is not that. */
 static const char *read_axis(struct options *o, const char *value, struct copy_step **step)
 {
@@ -517,7 +524,9 @@ const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu",
 const char *const projection_words[] = {"galerkin", "collocation", NULL};
 static const char *const bases[] = {"constant", "linear", NULL};
 static const char *const costs[] = {"rays", "links", "time", NULL}; /* enum tune_cost */
-static const char *const formats[] = {"csv", "coo", "mtx", NULL};
+static const char *const formats[] = {"csv",    "coo",        "mtx",      "npz",
+                                      "view3d", "energyplus", "openfoam", NULL};
+const char *const by_words[] = {"face", "material", "group", "object", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
@@ -653,7 +662,7 @@ const struct option_row option_rows[] = {
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
     {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
-    {"o", "FILE", FACTORS, NULL, "the matrix", OUTPUT(out)},
+    {"o", "FILE", FACTORS, NULL, "the matrix; .mtx .npz .idf: in that format", OUTPUT(out)},
     {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
      NAMED(out, tables)},
     {"o", "FILE.csv", REFERENCE, NULL, "the table; must be given", NAMED(out, csv)},
@@ -664,8 +673,12 @@ const struct option_row option_rows[] = {
     {"o", "FILE.html", PANEL, NULL, "the page; must be given", NAMED(out, pages)},
     {"statistics", "FILE.json", DRAW | PANEL, NULL, "what solve --statistics wrote",
      TEXT(statistics)},
-    {"format", "csv|coo|mtx", FACTORS, NULL, "rows, `i,j,F` from 0, Matrix Market (csv)",
-     WORD(read_format, formats)},
+    {"format", "NAME", FACTORS, NULL, "csv coo mtx npz view3d energyplus openfoam",
+     .takes = "csv, coo, mtx, npz, view3d, energyplus or openfoam", .read = read_format,
+     .words = formats},
+    {"by", "WHAT", FACTORS, NULL, "rows sum faces: material, group, object (face)",
+     .takes = "face, material, group or object", .read = read_by, .words = by_words},
+    {"sky", NULL, FACTORS, NULL, "two more columns: to the sky, to backs", FLAG(losses)},
     {"sensor", "FILE", FACTORS, NULL, "rows of points instead: lines x y z nx ny nz", TEXT(sensor)},
     {"product", "FILE", FACTORS, NULL, "F x instead, for columns x: a line per face",
      TEXT(product)},
@@ -674,7 +687,7 @@ const struct option_row option_rows[] = {
     {"repeat", "AXIS=X:N", FACTORS, NULL, "N copies on either side, X m apart; repeatable",
      "AXIS=X:N such as y=2.5:3, X above 0, N 1 to 1000; with --mirror, 8 at the most",
      .read = read_repeat},
-    {"names", "FILE", FACTORS, NULL, "a name for each row: material.face", OUTPUT(names)},
+    {"names", "FILE", FACTORS, NULL, "a name for each row; .csv: its area, too", OUTPUT(names)},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
      NAMED(image, pictures)},
     {"size", "WxH", SOLVE, "1024x768", "its size in pixels", "WxH, each 1 to 16384",

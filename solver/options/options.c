@@ -381,6 +381,11 @@ static int check_together(struct options *o)
                              : "which pair? --pair RECEIVER,EMITTER or --at X,Y,Z:X,Y,Z");
     if (o->step && o->json)
         return wrong(c->name, "--step and --json do not go together");
+    if (o->out && o->command == COMMAND_VIEWFACTORS && !o->format_given)
+        o->format = factor_format_of(o->out);
+    if (o->losses && factor_format_square(o->format))
+        return wrong(c->name, "--sky adds columns, and this format takes a square matrix: csv, "
+                              "coo, mtx and npz have room for them");
     if (o->statistics || o->trace)
         o->release = RAD_RELEASE_DAG;
     if (o->sensor && (o->format_given || o->closure || o->setting_count))

@@ -38,6 +38,10 @@ extern const char *const release_words[], *const closure_words[], *const solver_
 enum accuracy_norm { ACCURACY_L1, ACCURACY_L2, ACCURACY_POWER };
 extern const char *const norm_words[];
 
+/* viewfactors: what a row is. */
+enum factor_rows { BY_FACE, BY_MATERIAL, BY_GROUP, BY_OBJECT };
+extern const char *const by_words[];
+
 /* What --errors asks for: what is measured; the account by cause, too. */
 enum errors_wanted { ERRORS_UNSAID, ERRORS_MEASURED, ERRORS_ALL };
 
@@ -92,6 +96,8 @@ struct options {
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int format_given;
+    enum factor_rows by;          /* viewfactors */
+    int losses;                   /* viewfactors */
     const char *sensor, *product; /* viewfactors: rows of points, and products, instead */
     struct copies copies;         /* viewfactors: --mirror, --repeat */
     int width, height, mesh;      /* of the picture */

@@ -1,8 +1,9 @@
-/* factor_file.c - the matrix of view factors as text.
+/* factor_file.c - the matrix of view factors as text, and which format a file has.
  *
  * Rows are written many at a time, each by one thread into a text of its own; the texts go out in
  * order. So the bytes do not depend on the number of threads.
- * [Boisvert, Pozo & Remington 1996, The Matrix Market Exchange Formats]
+ * [Boisvert, Pozo & Remington 1996, The Matrix Market Exchange Formats; Walton 2002, NISTIR 6925,
+ * for View3D; EnergyPlus, Input Output Reference; OpenFOAM, what viewFactorsGen writes]
  * SPDX-License-Identifier: MIT */
 #include "output/factor_file.h"
 
@@ -10,34 +11,46 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "output/factor_names.h"
+#include "output/factor_npz.h"
 #include "output/number_text.h"
 #include "util/atomic_file.h"
-#include "util/fold.h"
+#include "util/beside.h"
+#include "util/ends_with.h"
 #include "util/report.h"
+#include "util/temporary.h"
 
-enum { ENTRY = 2 * (NUMBER_TEXT / 2) + NUMBER_TEXT, TEXT_MOST = 1 << 25 };
+enum { LABEL = 12, TEXT_MOST = 1 << 25 };
 
 struct writer {
-    RadExchange exchange;
-    uint32_t polygons, count; /* of the matrix, copies and all; rows and columns written */
+    const struct factor_table *table;
+    uint32_t count, columns;
     enum factor_format format;
-    struct label { /* "j," or "j " of each column */
+    char **names, *zone; /* energyplus: of rows, and of all */
+    struct label {       /* "j," or "j " of each column */
         char text[15];
         unsigned char length;
     } * labels;
     int threads;
     uint32_t batch;       /* rows at a time */
-    double *rows;         /* [threads][polygons] */
+    size_t work;          /* numbers that a thread works in */
+    double *rows;         /* [threads][work] */
     char *text;           /* [batch][room] */
     size_t room, *length; /* [batch] */
 };
 
-static size_t write_dense(const double *row, uint32_t n, char *text)
+/* ---- a row as text; each returns how many bytes */
+
+typedef size_t row_text(const struct writer *w, uint32_t i, const double *row, char *text);
+
+static size_t write_dense(const struct writer *w, uint32_t i, const double *row, char *text)
 {
+    const char between = w->format == FACTOR_CSV ? ',' : ' ';
     char *at = text;
-    for (uint32_t j = 0; j < n; j++) {
+    (void)i;
+    for (uint32_t j = 0; j < w->columns; j++) {
         if (j)
-            *at++ = ',';
+            *at++ = between;
         at += number_text(at, row[j]);
     }
     *at++ = '\n';
@@ -48,7 +61,7 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
 {
     const struct label *own = &w->labels[i];
     char *at = text;
-    for (uint32_t j = 0; j < w->count; j++) {
+    for (uint32_t j = 0; j < w->columns; j++) {
         if (!(row[j] > 0))
             continue;
         memcpy(at, own->text, sizeof own->text);
@@ -61,21 +74,79 @@ static size_t write_sparse(const struct writer *w, uint32_t i, const double *row
     return (size_t)(at - text);
 }
 
+/* FROM,TO,F, for every pair; the last ends the object. */
+static size_t write_energyplus(const struct writer *w, uint32_t i, const double *row, char *text)
+{
+    const size_t length = strlen(w->names[i]);
+    char *at = text;
+    for (uint32_t j = 0; j < w->columns; j++) {
+        const size_t other = strlen(w->names[j]);
+        at = memset(at, ' ', 2);
+        at = memcpy(at + 2, w->names[i], length);
+        at[length] = ',';
+        at = memcpy(at + length + 1, w->names[j], other);
+        at[other] = ',';
+        at += other + 1;
+        at += number_text(at, row[j]);
+        *at++ = i + 1 == w->count && j + 1 == w->columns ? ';' : ',';
+        *at++ = '\n';
+    }
+    return (size_t)(at - text);
+}
+
+static uint32_t count_row(const struct writer *w, const double *row)
+{
+    uint32_t count = 0;
+    for (uint32_t j = 0; j < w->columns; j++)
+        count += row[j] > 0;
+    return count;
+}
+
+/* "3(.2 .1 .7)", of what is not 0. */
+static size_t write_foam(const struct writer *w, const double *row, char *text, int faces)
+{
+    char *at = text + number_text_whole(text, count_row(w, row)), *first = at;
+    for (uint32_t j = 0; j < w->columns; j++) {
+        if (!(row[j] > 0))
+            continue;
+        *at++ = ' ';
+        at += faces ? number_text_whole(at, j) : number_text(at, row[j]);
+    }
+    if (at == first)
+        at++;
+    *first = '(';
+    *at++ = ')';
+    *at++ = '\n';
+    return (size_t)(at - text);
+}
+
+static size_t write_foam_factors(const struct writer *w, uint32_t i, const double *row, char *text)
+{
+    (void)i;
+    return write_foam(w, row, text, 0);
+}
+
+static size_t write_foam_faces(const struct writer *w, uint32_t i, const double *row, char *text)
+{
+    (void)i;
+    return write_foam(w, row, text, 1);
+}
+
+/* Bytes that a row may take: numbers and what stands beside them. */
+static size_t row_room(const struct writer *w)
+{
+    size_t longest = 0, entry = NUMBER_TEXT + 2 * LABEL;
+    for (uint32_t r = 0; w->names && r < w->count; r++)
+        longest = strlen(w->names[r]) > longest ? strlen(w->names[r]) : longest;
+    return (size_t)w->columns * (entry + 2 * longest) + 2 * NUMBER_TEXT;
+}
+
+/* ---- all rows */
+
 /* Row i of the matrix, in the thread's own place. */
 static const double *row_of(const struct writer *w, uint32_t i)
 {
-    double *row = &w->rows[(size_t)omp_get_thread_num() * w->polygons];
-    (void)radGetExchangeRow(w->exchange, i, row);
-    fold_row(row, w->polygons, w->count);
-    return row;
-}
-
-static void write_row(const struct writer *w, uint32_t i, uint32_t slot)
-{
-    const double *row = row_of(w, i);
-    char *text = w->text + slot * w->room;
-    w->length[slot] =
-        w->format == FACTOR_CSV ? write_dense(row, w->count, text) : write_sparse(w, i, row, text);
+    return factor_table_row(w->table, i, &w->rows[(size_t)omp_get_thread_num() * w->work]);
 }
 
 /* Entries that are not 0. */
@@ -83,30 +154,40 @@ static uint64_t count_entries(const struct writer *w)
 {
     uint64_t count = 0;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(w->threads) reduction(+ : count)
-    for (uint32_t i = 0; i < w->count; i++) {
-        const double *row = row_of(w, i);
-        for (uint32_t j = 0; j < w->count; j++)
-            count += row[j] > 0;
-    }
+    for (uint32_t i = 0; i < w->count; i++)
+        count += count_row(w, row_of(w, i));
     return count;
+}
+
+static void write_rows(const struct writer *w, row_text *write, FILE *out)
+{
+    for (uint32_t first = 0; first < w->count; first += w->batch) {
+        uint32_t count = w->count - first < w->batch ? w->count - first : w->batch;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(w->threads)
+        for (uint32_t k = 0; k < count; k++)
+            w->length[k] = write(w, first + k, row_of(w, first + k), w->text + k * w->room);
+        for (uint32_t k = 0; k < count; k++)
+            fwrite(w->text + k * w->room, 1, w->length[k], out);
+    }
 }
 
 static int open_writer(struct writer *w)
 {
-    uint32_t n = w->count, base = w->format == FACTOR_MTX;
-    w->room = (size_t)n * ENTRY + NUMBER_TEXT;
+    uint32_t n = w->count, columns = w->columns, base = w->format == FACTOR_MTX;
+    w->room = row_room(w);
     w->batch = (uint32_t)(TEXT_MOST / w->room);
     if (w->batch < 2 * (uint32_t)w->threads)
         w->batch = 2 * (uint32_t)w->threads;
     if (w->batch > n)
         w->batch = n ? n : 1;
+    w->work = factor_table_room(w->table);
     w->text = malloc(w->batch * w->room);
     w->length = malloc(w->batch * sizeof *w->length);
-    w->labels = calloc((size_t)n + 1, sizeof *w->labels);
-    w->rows = malloc(((size_t)w->threads * w->polygons + 1) * sizeof *w->rows);
+    w->labels = calloc((size_t)columns + 1, sizeof *w->labels);
+    w->rows = malloc((size_t)w->threads * w->work * sizeof *w->rows);
     if (!w->text || !w->length || !w->labels || !w->rows)
         return -1;
-    for (uint32_t j = 0; j < n; j++) {
+    for (uint32_t j = 0; j < columns; j++) {
         char text[NUMBER_TEXT];
         int length = number_text_whole(text, j + base);
         memcpy(w->labels[j].text, text, (size_t)length);
@@ -118,59 +199,141 @@ static int open_writer(struct writer *w)
 
 static void close_writer(struct writer *w)
 {
+    factor_names_free(w->names, w->count);
+    free(w->zone);
     free(w->rows);
     free(w->text);
     free(w->length);
     free(w->labels);
 }
 
-static void write_matrix(const struct writer *w, FILE *out)
+/* ---- the formats */
+
+static void write_line(const double *values, uint32_t count, FILE *out)
 {
-    if (w->format == FACTOR_MTX)
+    for (uint32_t r = 0; r < count; r++)
+        fprintf(out, r ? " %.12g" : "%.12g", values[r]);
+    fputc('\n', out);
+}
+
+/* The header has 30 characters and says: format 0; whether all is closed; emissivities are not in
+ * the factors. */
+static void write_view3d(const struct writer *w, FILE *out)
+{
+    struct RadExchangeReport report;
+    char header[64];
+    radGetExchangeReport(w->table->exchange, &report);
+    snprintf(header, sizeof header, "View3D 3.3 0 %d 0 %lu",
+             !report.rows_open && !report.rows_covered, (unsigned long)w->count);
+    fprintf(out, "%-30s\n", header);
+    write_line(w->table->areas, w->count, out);
+    write_rows(w, write_dense, out);
+    write_line(w->table->emissivities, w->count, out);
+}
+
+static void write_foam_file(const struct writer *w, const char *type, const char *name,
+                            row_text *write, FILE *out)
+{
+    fprintf(out,
+            "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       %s;\n"
+            "    location    \"constant\";\n    object      %s;\n}\n\n%lu\n(\n",
+            type, name, (unsigned long)w->count);
+    write_rows(w, write, out);
+    fputs(")\n", out);
+}
+
+static void write_text(const struct writer *w, FILE *out)
+{
+    switch (w->format) {
+    case FACTOR_VIEW3D:
+        write_view3d(w, out);
+        break;
+    case FACTOR_ENERGYPLUS:
+        fprintf(out, "ZoneProperty:UserViewFactors:BySurfaceName,\n  %s,\n", w->zone);
+        write_rows(w, write_energyplus, out);
+        break;
+    case FACTOR_OPENFOAM:
+        write_foam_file(w, "scalarListList", "F", write_foam_factors, out);
+        break;
+    case FACTOR_MTX:
         fprintf(out,
                 "%%%%MatrixMarket matrix coordinate real general\n"
                 "%% view factors F_ij, row i to column j\n%u %u %llu\n",
-                w->count, w->count, (unsigned long long)count_entries(w));
-    for (uint32_t first = 0; first < w->count; first += w->batch) {
-        uint32_t count = w->count - first < w->batch ? w->count - first : w->batch;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(w->threads)
-        for (uint32_t k = 0; k < count; k++)
-            write_row(w, first + k, k);
-        for (uint32_t k = 0; k < count; k++)
-            fwrite(w->text + k * w->room, 1, w->length[k], out);
+                w->count, w->columns, (unsigned long long)count_entries(w));
+        write_rows(w, write_sparse, out);
+        break;
+    default:
+        write_rows(w, w->format == FACTOR_COO ? write_sparse : write_dense, out);
     }
 }
 
-int factor_file_write(const char *path, enum factor_format format, RadExchange exchange,
-                      uint32_t polygons, uint32_t rows, int threads)
+/* Returns 0, or -1 after a message. */
+static int write_faces_beside(const struct writer *w, const char *path, struct atomic_file *file)
 {
-    struct writer w = {.exchange = exchange,
-                       .polygons = polygons,
-                       .count = rows,
-                       .format = format,
-                       .threads = threads};
-    struct atomic_file file = {0};
-    int status = -1;
-    if (open_writer(&w) < 0) {
-        report_error(path, 0, "out of memory for the matrix; fewer --threads need less");
-    } else if (atomic_open(&file, path) == 0) {
-        write_matrix(&w, file.stream);
-        status = atomic_commit(&file); /* which finds what fwrite could not write */
-    }
-    close_writer(&w);
+    char *name = path_beside(path, FACTOR_FACES, strlen(FACTOR_FACES));
+    int status = name ? atomic_open(file, name)
+                      : report_error(path, 0, "out of memory for the name of " FACTOR_FACES);
+    free(name);
+    if (!status)
+        write_foam_file(w, "labelListList", FACTOR_FACES, write_foam_faces, file->stream);
     return status;
 }
 
-int factor_file_names(const char *path, const struct surfaces *surfaces)
+static int write_files(const struct writer *w, const char *path)
 {
-    struct atomic_file file = {0};
+    struct atomic_file file = {0}, faces = {0};
     if (atomic_open(&file, path) < 0)
         return -1;
-    for (uint32_t i = 0; i < surfaces->polygon_count; i++) {
-        const char *name = surfaces->material_names[surfaces->polygon_materials[i]];
-        for (; *name; name++)
-            fputc((unsigned char)*name < ' ' ? ' ' : *name, file.stream);
-        fprintf(file.stream, ".%u\n", i);
+    write_text(w, file.stream);
+    int both = w->format == FACTOR_OPENFOAM, status = 0;
+    if (both && write_faces_beside(w, path, &faces) < 0) {
+        atomic_discard(&file);
+        return -1;
     }
-    return atomic_commit(&file);
+    temporary_lock();              /* a signal takes both or none */
+    status = atomic_commit(&file); /* which finds what fwrite could not write */
+    if (both && status)
+        atomic_discard(&faces);
+    else if (both)
+        status = atomic_commit(&faces);
+    temporary_unlock();
+    return status;
+}
+
+enum factor_format factor_format_of(const char *path)
+{
+    return ends_with(path, ".npz")   ? FACTOR_NPZ
+           : ends_with(path, ".mtx") ? FACTOR_MTX
+           : ends_with(path, ".idf") ? FACTOR_ENERGYPLUS
+                                     : FACTOR_CSV;
+}
+
+int factor_format_square(enum factor_format format)
+{
+    return format == FACTOR_VIEW3D || format == FACTOR_ENERGYPLUS || format == FACTOR_OPENFOAM;
+}
+
+int factor_file_write(const char *path, enum factor_format format, const struct factor_table *table,
+                      int threads)
+{
+    struct writer w = {.table = table,
+                       .count = table->count,
+                       .columns = table->columns,
+                       .format = format,
+                       .threads = threads};
+    int status = -1;
+    if (format == FACTOR_NPZ)
+        return factor_npz_write(path, table, threads);
+    if (format == FACTOR_ENERGYPLUS) {
+        w.names = factor_names_energyplus(path, table);
+        w.zone = factor_name_energyplus(table->title);
+        if (!w.names)
+            return free(w.zone), -1;
+    }
+    if (open_writer(&w) < 0 || (w.names && !w.zone))
+        report_error(path, 0, "out of memory for the matrix; fewer --threads need less");
+    else
+        status = write_files(&w, path);
+    close_writer(&w);
+    return status;
 }

@@ -1,22 +1,37 @@
-/* factor_file.h - the matrix of view factors as text.
+/* factor_file.h - the matrix of view factors as a file.
  * SPDX-License-Identifier: MIT */
 #ifndef FACTOR_FILE_H
 #define FACTOR_FILE_H
 
-#include "output/solution.h"
+#include "output/factor_table.h"
 
 /* csv: a line of numbers per row. coo: a line `i,j,F` per entry that is not 0, from 0. mtx: Matrix
- * Market, coordinate real general, from 1. All with the 12 digits of %.12g, rows in the order of
- * the scene file. */
-enum factor_format { FACTOR_CSV, FACTOR_COO, FACTOR_MTX };
+ * Market, coordinate real general, from 1. npz: what scipy.sparse.load_npz reads (factor_npz.h).
+ * view3d: what View3D writes: a header, areas, rows, emissivities. energyplus: the object
+ * ZoneProperty:UserViewFactors:BySurfaceName, every entry. openfoam: the lists F, entries that are
+ * not 0, and beside it globalFaceFaces, their columns. Texts with the 12 digits of %.12g, rows in
+ * the order of the scene file. */
+enum factor_format {
+    FACTOR_CSV,
+    FACTOR_COO,
+    FACTOR_MTX,
+    FACTOR_NPZ,
+    FACTOR_VIEW3D,
+    FACTOR_ENERGYPLUS,
+    FACTOR_OPENFOAM
+};
 
-/* Of a matrix of so many `polygons` the rows of the first `rows` are written, columns of their
- * copies summed onto theirs (util/fold.h); `threads` write. Returns 0, or -1 after a message. */
-int factor_file_write(const char *path, enum factor_format format, RadExchange exchange,
-                      uint32_t polygons, uint32_t rows, int threads);
+/* What openfoam writes beside F. */
+#define FACTOR_FACES "globalFaceFaces"
 
-/* A name per row: that of the polygon's material, and its number in the scene file from 0.
- * Returns 0, or -1 after a message. */
-int factor_file_names(const char *path, const struct surfaces *surfaces);
+/* That of the file's ending, .mtx .npz .idf; csv for any other. */
+enum factor_format factor_format_of(const char *path);
+
+/* Has it no room for columns beside those of rows? */
+int factor_format_square(enum factor_format format);
+
+/* Files appear whole or not at all; `threads` write. Returns 0, or -1 after a message. */
+int factor_file_write(const char *path, enum factor_format format, const struct factor_table *table,
+                      int threads);
 
 #endif

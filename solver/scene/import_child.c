@@ -65,10 +65,10 @@ struct child {
 };
 
 /* What comes first; then positions, indices, sizes, polygon_materials, materials, and of each name
- * its length and its bytes. */
+ * its length and its bytes; then groups and objects: their polygons' parts, and names so. */
 struct header {
     uint64_t position_count, index_count;
-    uint32_t polygon_count, material_count, other;
+    uint32_t polygon_count, material_count, group_count, object_count, other;
     int32_t single_precision;
 };
 
@@ -141,21 +141,35 @@ static void send(FILE *to, const void *array, size_t size, size_t count)
         fwrite(array, size, count, to);
 }
 
+static void send_names(FILE *to, char *const *names, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t length = (uint32_t)strlen(names[i]);
+        send(to, &length, sizeof length, 1);
+        send(to, names[i], 1, length);
+    }
+}
+
+static void send_parts(FILE *to, const struct part_names *p, uint32_t polygons)
+{
+    send(to, p->of, sizeof *p->of, p->count ? polygons : 0);
+    send_names(to, p->names, p->count);
+}
+
 static int send_file(FILE *to, const struct scene_file *f)
 {
-    const struct header h = {f->position_count, f->index_count, f->polygon_count,
-                             f->material_count, f->other,       f->single_precision};
+    const struct header h = {f->position_count, f->index_count,     f->polygon_count,
+                             f->material_count, f->groups.count,    f->objects.count,
+                             f->other,          f->single_precision};
     send(to, &h, sizeof h, 1);
     send(to, f->positions, 3 * sizeof *f->positions, f->position_count);
     send(to, f->indices, sizeof *f->indices, f->index_count);
     send(to, f->sizes, sizeof *f->sizes, f->polygon_count);
     send(to, f->polygon_materials, sizeof *f->polygon_materials, f->polygon_count);
     send(to, f->materials, sizeof *f->materials, f->material_count);
-    for (uint32_t i = 0; i < f->material_count; i++) {
-        const uint32_t length = (uint32_t)strlen(f->names[i]);
-        send(to, &length, sizeof length, 1);
-        send(to, f->names[i], 1, length);
-    }
+    send_names(to, f->names, f->material_count);
+    send_parts(to, &f->groups, f->polygon_count);
+    send_parts(to, &f->objects, f->polygon_count);
     return fclose(to) ? -1 : 0;
 }
 
@@ -217,15 +231,39 @@ static int receive_array(struct child *c, void *array, size_t n, size_t size)
     return !room ? IMPORT_MEMORY : receive(c, room, n * size);
 }
 
-static int receive_name(struct child *c, struct scene_file *f, uint32_t i)
+static int receive_name(struct child *c, char **name)
 {
     uint32_t length;
     if (receive(c, &length, sizeof length))
         return -1;
-    const int result = receive_array(c, &f->names[i], length, 1);
+    const int result = receive_array(c, name, length, 1);
     if (result == 0)
-        f->names[i][length] = 0;
+        (*name)[length] = 0;
     return result;
+}
+
+static int receive_parts(struct child *c, struct part_names *p, uint32_t count, uint32_t polygons)
+{
+    if (!count)
+        return 0;
+    p->names = calloc(count, sizeof *p->names);
+    if (!p->names)
+        return IMPORT_MEMORY;
+    p->count = count;
+    p->name_capacity = count;
+    p->of_capacity = polygons;
+    int result = receive_array(c, &p->of, polygons, sizeof *p->of);
+    for (uint32_t i = 0; i < count && !result; i++)
+        result = receive_name(c, &p->names[i]);
+    return result;
+}
+
+static int are_sound(const struct part_names *p, uint32_t polygons)
+{
+    for (uint32_t i = 0; i < polygons && p->count; i++)
+        if (p->of[i] >= p->count)
+            return 0;
+    return 1;
 }
 
 /* Is it a scene_file at all? */
@@ -240,7 +278,8 @@ static int is_sound(const struct scene_file *f)
     for (size_t i = 0; i < f->index_count; i++)
         if (f->indices[i] >= f->position_count)
             return 0;
-    return corners == f->index_count;
+    return corners == f->index_count && are_sound(&f->groups, f->polygon_count)
+           && are_sound(&f->objects, f->polygon_count);
 }
 
 /* Returns 0, -1, or IMPORT_MEMORY. */
@@ -275,7 +314,11 @@ static int receive_file(struct child *c, struct scene_file *f)
     f->material_count = h.material_count;
     f->material_capacity = h.material_count;
     for (uint32_t i = 0; i < f->material_count && !result; i++)
-        result = receive_name(c, f, i);
+        result = receive_name(c, &f->names[i]);
+    if (!result)
+        result = receive_parts(c, &f->groups, h.group_count, f->polygon_count);
+    if (!result)
+        result = receive_parts(c, &f->objects, h.object_count, f->polygon_count);
     return result ? result : is_sound(f) - 1;
 }
 

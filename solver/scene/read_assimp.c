@@ -77,6 +77,8 @@ static int read_mesh(struct reader *r, const struct aiMesh *mesh, const struct a
     struct scene_file *f = r->file;
     size_t first = f->position_count;
     uint32_t material = mesh->mMaterialIndex < f->material_count ? mesh->mMaterialIndex : 0;
+    if (scene_file_use_group(f, mesh->mName.data, mesh->mName.length))
+        return scene_file_no_memory(r->path);
     for (uint32_t i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D *v = &mesh->mVertices[i];
         double x = (double)v->x, y = (double)v->y, z = (double)v->z;
@@ -117,6 +119,8 @@ static int read_node(struct reader *r, const struct aiScene *from, const struct 
     aiMultiplyMatrix4(&m, &node->mTransformation);
     /* A mirror turns the sense of rotation, hence the front; turn it back. */
     int mirrored = aiMatrix4Determinant(&m) < 0;
+    if (node->mNumMeshes && scene_file_use_object(r->file, node->mName.data, node->mName.length))
+        return scene_file_no_memory(r->path);
     for (uint32_t i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < from->mNumMeshes
             && read_mesh(r, from->mMeshes[node->mMeshes[i]], &m, mirrored))

@@ -41,6 +41,18 @@ static int read_name(struct obj *o, const struct text_lines *t)
     return result;
 }
 
+/* g or o: the rest of the line is a name; of several groups on a line together. */
+static int read_part(struct obj *o, const struct text_lines *t)
+{
+    int group = *t->word == 'g';
+    char *name = rest_of_line(t);
+    int failed =
+        !name
+        || (group ? scene_file_use_group : scene_file_use_object)(o->file, name, strlen(name));
+    free(name);
+    return failed ? scene_file_no_memory(o->path) : 0;
+}
+
 /* ---- faces */
 
 /* v x y z, v x y z w, or v x y z and a colour. */
@@ -111,10 +123,10 @@ static int read_face(struct obj *o, struct text_lines *t)
 /* What changes neither faces nor materials, or the look of a picture alone. */
 static int is_passed_over(const struct text_lines *t)
 {
-    static const char *const words[] = {
-        "vn",     "vt",       "vp",       "o",     "g",     "s",          "mg",
-        "usemap", "maplib",   "bevel",    "lod",   "l",     "p",          "deg",
-        "cstype", "c_interp", "d_interp", "ctech", "stech", "shadow_obj", "trace_obj"};
+    static const char *const words[] = {"vn",     "vt",     "vp",         "s",        "mg",
+                                        "usemap", "maplib", "bevel",      "lod",      "l",
+                                        "p",      "deg",    "cstype",     "c_interp", "d_interp",
+                                        "ctech",  "stech",  "shadow_obj", "trace_obj"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (word_is(t, words[i]))
             return 1;
@@ -133,6 +145,8 @@ static int read_lines(struct obj *o, struct text_lines t)
             failed = read_face(o, &t);
         else if (word_is(&t, "usemtl") || word_is(&t, "mtllib"))
             failed = read_name(o, &t);
+        else if (word_is(&t, "g") || word_is(&t, "o"))
+            failed = read_part(o, &t);
         else if (!is_passed_over(&t))
             materials_assume(&o->materials, UNKNOWN_LINE, o->path, t.number, t.word, t.word_end);
         o->file->other += word_is(&t, "l") || word_is(&t, "p");

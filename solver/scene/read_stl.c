@@ -47,6 +47,16 @@ static int read_bytes(struct scene_file *f, const char *path, const char *text, 
     return 0;
 }
 
+/* Both a group and an object: what the rest of the line calls it. */
+static int name_solid(struct scene_file *f, const struct text_lines *t)
+{
+    char *name = rest_of_line(t);
+    int failed = !name || scene_file_use_group(f, name, strlen(name))
+                 || scene_file_use_object(f, name, strlen(name));
+    free(name);
+    return failed;
+}
+
 /* solid, then facets of a loop of three vertices, then endsolid; several of these. */
 static int read_text(struct scene_file *f, const char *path, struct text_lines t)
 {
@@ -59,6 +69,8 @@ static int read_text(struct scene_file *f, const char *path, struct text_lines t
             continue;
         if (step == 0 && word_is_any_case(&t, open ? "endsolid" : "solid")) {
             open = !open;
+            if (open && name_solid(f, &t))
+                return scene_file_no_memory(path);
             continue;
         }
         uint32_t line = t.number;

@@ -53,13 +53,24 @@ int scene_file_add_polygon(struct scene_file *f, uint32_t size, uint32_t materia
         || array_reserve_beside(&f->polygon_materials, (size_t)n + 1, f->polygon_capacity,
                                 sizeof *f->polygon_materials)
                < 0
-        || array_reserve(&f->lines, (size_t)n + 1, &f->polygon_capacity, sizeof *f->lines) < 0)
+        || array_reserve(&f->lines, (size_t)n + 1, &f->polygon_capacity, sizeof *f->lines) < 0
+        || part_names_add(&f->groups, n) || part_names_add(&f->objects, n))
         return -1;
     f->sizes[n] = size;
     f->polygon_materials[n] = material;
     f->lines[n] = line;
     f->polygon_count++;
     return 0;
+}
+
+int scene_file_use_group(struct scene_file *f, const char *name, size_t length)
+{
+    return part_names_use(&f->groups, name, length, f->polygon_count);
+}
+
+int scene_file_use_object(struct scene_file *f, const char *name, size_t length)
+{
+    return part_names_use(&f->objects, name, length, f->polygon_count);
 }
 
 int scene_file_add_material(struct scene_file *f, const char *name,
@@ -240,6 +251,8 @@ void scene_file_free(struct scene_file *f)
     free(f->materials);
     free(f->names);
     free(f->places);
+    part_names_free(&f->groups);
+    part_names_free(&f->objects);
     *f = (struct scene_file){0};
 }
 

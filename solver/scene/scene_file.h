@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include "radiosity.h"
+#include "scene/part_names.h"
 
 /* Where a material file speaks of a material; line 0: it does not, or the format has no lines. */
 struct material_place {
@@ -36,6 +37,8 @@ struct scene_file {
     struct material_place *places; /* [material_count] */
     uint32_t material_count;
     size_t material_capacity;
+    /* OBJ: g and o; STL: solids, as both; what Assimp reads: meshes and nodes */
+    struct part_names groups, objects;
     int single_precision; /* 1: positions have been floats, as Assimp keeps them */
     uint32_t other;       /* points and lines of the file, which are no faces */
 };
@@ -67,6 +70,10 @@ int scene_file_add_polygon(struct scene_file *file, uint32_t size, uint32_t mate
                            uint32_t line);
 int scene_file_add_material(struct scene_file *file, const char *name,
                             const struct RadMaterial *material);
+
+/* The polygons to come are of the group or object of that name, of so many bytes. */
+int scene_file_use_group(struct scene_file *file, const char *name, size_t length);
+int scene_file_use_object(struct scene_file *file, const char *name, size_t length);
 
 /* What they say of that. Returns -1. */
 int scene_file_no_memory(const char *path);
