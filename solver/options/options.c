@@ -398,6 +398,9 @@ static int check_together(struct options *o)
                      o->out ? "--product writes columns: it does not go with %s"
                             : "--product needs the name of what it writes: -o FILE%.0s",
                      o->sensor ? "--sensor" : "--format");
+    if ((o->sensor || o->product) && (o->by != BY_FACE || o->losses))
+        return wrong(c->name, "%s writes no matrix: it does not go with %s",
+                     o->sensor ? "--sensor" : "--product", o->losses ? "--sky" : "--by");
     if (o->product && o->closure == RAD_CLOSURE_RECIPROCAL)
         return wrong(c->name, "--closure reciprocal needs the whole matrix: it does not go with "
                               "--product");
