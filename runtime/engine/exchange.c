@@ -39,6 +39,13 @@ static int tell(struct watcher *w, const char *phase)
     return w->exchange->cancelled;
 }
 
+static int tell_share(void *context, double share)
+{
+    struct watcher *w = context;
+    w->exchange->share = share;
+    return tell(w, "factors");
+}
+
 static int watch_round(void *context, const struct refinement *refinement)
 {
     (void)refinement;
@@ -193,7 +200,9 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     double middle = seconds();
     x->report.seconds.refine = middle - start;
     if (tell(&watcher, "factors") != 0
-        || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, near, o->threads) < 0)
+        || exchange_areas_open_watched(&x->areas, &x->tree, scene, &x->refinement, near, o->threads,
+                                       &(struct exchange_watch){tell_share, &watcher})
+               < 0)
         return -1;
     refinement_close(&x->refinement);
     if (close_rows(x, o) < 0)

@@ -13,8 +13,9 @@ struct exchange_options {
     double tolerance; /* error of a row's sum to work for, > 0 (EXCHANGE_TOLERANCE) */
     enum closure closure;
     int threads;
-    /* Told from the calling thread after each round of refinement ("refine") and before values are
-     * computed ("factors"); anything but 0 cancels. NULL: nobody is. */
+    /* Told from the calling thread after each round of refinement ("refine"), and before values are
+     * computed and while they are ("factors", exchange.share of them done); anything but 0 cancels.
+     * NULL: nobody is. */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
     void *context; /* of progress */
 };
@@ -48,6 +49,7 @@ struct exchange {
     struct exchange_closure closure;
     struct exchange_loss *losses; /* [areas.inputs], after closure */
     struct exchange_report report;
+    double share; /* done of the phase; 0: not known */
     int cancelled;
 };
 

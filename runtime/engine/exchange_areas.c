@@ -14,6 +14,9 @@
  * are written. */
 enum { TILE = 64 };
 
+/* Blocks between two times that somebody is told: a hundredth of them, but no fewer than that. */
+enum { TELLINGS = 100, LEAST_TOLD = 1024 };
+
 /* One of the two links between the same two elements: the one whose receiver stands later in the
  * tree's order. */
 static int link_counts(const struct exchange_tree *t, const struct link *link)
@@ -46,6 +49,7 @@ struct filling {
     const struct exchange_faces *faces;
     struct exchange_scratch *scratch; /* [thread] */
     double near;
+    size_t from; /* the first block at hand */
 };
 
 static void fill_blocks(const void *filling, size_t from, size_t to)
@@ -53,7 +57,7 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
     const struct filling *f = filling;
     const struct exchange_areas *m = f->areas;
     const struct element *elements = m->tree->h.elements;
-    for (size_t i = from; i < to; i++) {
+    for (size_t i = f->from + from; i < f->from + to; i++) {
         const struct exchange_block *b = &m->blocks[i];
         const struct exchange_pair pair = {m->tree,
                                            &elements[f->links[i]->receiver],
@@ -66,16 +70,24 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
     }
 }
 
-static int fill(struct exchange_areas *m, const struct link **links, double near, int threads)
+static int fill(struct exchange_areas *m, const struct link **links, double near, int threads,
+                const struct exchange_watch *watch)
 {
     struct exchange_faces faces = {.all = NULL};
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
-    const struct filling f = {m, links, &faces, scratch, near};
+    struct filling f = {m, links, &faces, scratch, near, 0};
+    size_t step = m->block_count / TELLINGS > LEAST_TOLD ? m->block_count / TELLINGS : LEAST_TOLD;
     int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
     for (int t = 0; t < threads && !failed; t++)
         failed = exchange_scratch_open(&scratch[t], TILE) < 0;
-    if (!failed)
-        thread_pool_run(threads, m->block_count, 32, fill_blocks, &f);
+    for (; f.from < m->block_count && !failed; f.from += step) {
+        size_t left = m->block_count - f.from;
+        failed =
+            f.from && watch->tell
+            && watch->tell(watch->context, (double)m->blocks[f.from].at / (double)m->value_count);
+        if (!failed)
+            thread_pool_run(threads, left < step ? left : step, 32, fill_blocks, &f);
+    }
     for (int t = 0; t < threads && scratch; t++)
         exchange_scratch_close(&scratch[t]);
     free(scratch);
@@ -135,6 +147,14 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
                         const struct scene *scene, const struct refinement *refinement, double near,
                         int threads)
 {
+    const struct exchange_watch nobody = {NULL, NULL};
+    return exchange_areas_open_watched(m, tree, scene, refinement, near, threads, &nobody);
+}
+
+int exchange_areas_open_watched(struct exchange_areas *m, const struct exchange_tree *tree,
+                                const struct scene *scene, const struct refinement *refinement,
+                                double near, int threads, const struct exchange_watch *watch)
+{
     memset(m, 0, sizeof *m);
     m->tree = tree;
     m->faces = tree->h.face_count;
@@ -154,7 +174,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
             add_tiles(m, &refinement->links[i], links);
         }
     m->values = malloc((m->value_count + 1) * sizeof *m->values);
-    if (!m->values || make_index(m) < 0 || fill(m, links, near, threads) < 0)
+    if (!m->values || make_index(m) < 0 || fill(m, links, near, threads, watch) < 0)
         goto fail;
     free(links);
     return 0;

@@ -35,6 +35,15 @@ struct exchange_areas {
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
                         const struct scene *scene, const struct refinement *refinement, double near,
                         int threads);
+/* The same, and tell from time to time, from the calling thread, which share is done; anything but
+ * 0 ends it, which returns -1. */
+struct exchange_watch {
+    int (*tell)(void *context, double share); /* NULL: nobody is told */
+    void *context;
+};
+int exchange_areas_open_watched(struct exchange_areas *m, const struct exchange_tree *tree,
+                                const struct scene *scene, const struct refinement *refinement,
+                                double near, int threads, const struct exchange_watch *watch);
 void exchange_areas_close(struct exchange_areas *m);
 
 /* Row i of A_i F_ij (m2), times scale[i] scale[j] when there is a scale: adds into row[inputs],
