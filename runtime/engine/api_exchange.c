@@ -15,9 +15,15 @@ struct RadExchangeObject {
 static int watch(void *context, const struct exchange *x, const char *phase)
 {
     const struct refinement *r = &x->refinement;
-    const struct RadProgress progress = {
-        phase, 1, r->rounds, r->pairs, r->queue_count, r->link_count, rays_count(x->tree.rays).rays,
-        0,     0};
+    const struct RadProgress progress = {phase,
+                                         1,
+                                         r->rounds,
+                                         r->pairs,
+                                         r->queue_count,
+                                         r->link_count,
+                                         rays_count(x->tree.rays).rays,
+                                         0,
+                                         x->share};
     return api_progress(context, &progress);
 }
 

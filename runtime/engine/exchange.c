@@ -40,6 +40,13 @@ static int tell(struct watcher *w, const char *phase)
     return w->exchange->cancelled;
 }
 
+static int tell_share(void *context, double share)
+{
+    struct watcher *w = context;
+    w->exchange->share = share;
+    return tell(w, "factors");
+}
+
 static int watch_round(void *context, const struct refinement *refinement)
 {
     (void)refinement;
@@ -211,7 +218,9 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
         .tolerance = o->tolerance,
         .rows = o->rows,
         .keep = !o->stream,
-        .threads = o->threads};
+        .threads = o->threads,
+        .tell = tell_share,
+        .context = &watcher};
     double start = seconds();
     if (refine(x, refiner, &watcher) < 0)
         return -1;

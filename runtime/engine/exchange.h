@@ -10,13 +10,14 @@
 struct exchange;
 
 struct exchange_options {
-    /* error to work for, > 0 (EXCHANGE_TOLERANCE): of a row's sum, and of entries in half shadow, as
-     * shares of themselves */
+    /* error to work for, > 0 (EXCHANGE_TOLERANCE): of a row's sum, and of entries in half shadow,
+     * as shares of themselves */
     double tolerance;
     enum closure closure;
     int threads;
-    /* Told from the calling thread after each round of refinement ("refine") and before values are
-     * computed ("factors"); anything but 0 cancels. NULL: nobody is. */
+    /* Told from the calling thread after each round of refinement ("refine"), and before values are
+     * computed and while they are ("factors", exchange.share of them done); anything but 0 cancels.
+     * NULL: nobody is. */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
     void *context; /* of progress */
     uint32_t rows; /* of the first so many inputs, which alone are accounted for; 0: all */
@@ -55,6 +56,7 @@ struct exchange {
     struct exchange_closure closure;
     struct exchange_loss *losses; /* [areas.inputs], after closure */
     struct exchange_report report;
+    double share; /* done of the phase; 0: not known */
     int cancelled, threads;
 };
 

@@ -11,12 +11,16 @@
 #include "engine/exchange_tiles.h"
 #include "util/thread_pool.h"
 
+/* Blocks between two times that somebody is told: a hundredth of them, but no fewer than that. */
+enum { TELLINGS = 100, LEAST_TOLD = 1024 };
+
 /* What blocks are filled from. */
 struct filling {
     const struct exchange_areas *areas;
     const struct link **links; /* [block] */
     const struct exchange_faces *faces;
     struct exchange_scratch *scratch; /* [thread] */
+    size_t from;                      /* the first block at hand */
 };
 
 double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
@@ -29,7 +33,7 @@ double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_
                                        &elements[link->emitter],
                                        {b->row, b->row + b->rows},
                                        {b->column, b->column + b->columns},
-                                       m->how.near};
+                                       m->near};
     return exchange_block_fill(faces, &pair, link, scratch, values);
 }
 
@@ -37,23 +41,30 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
 {
     const struct filling *f = filling;
     const struct exchange_areas *m = f->areas;
-    for (size_t i = from; i < to; i++) {
+    for (size_t i = f->from + from; i < f->from + to; i++) {
         struct exchange_block *b = &m->blocks[i]; /* no other thread's */
         b->error = exchange_tile_fill(m, f->faces, b, f->links[i],
                                       &f->scratch[thread_pool_number()], m->values + b->at);
     }
 }
 
-static int fill(struct exchange_areas *m, const struct link **links, int threads)
+static int fill(struct exchange_areas *m, const struct link **links, const struct exchange_aim *how)
 {
+    const int threads = how->threads;
     struct exchange_faces faces = {.all = NULL};
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
-    const struct filling f = {m, links, &faces, scratch};
+    struct filling f = {m, links, &faces, scratch, 0};
+    size_t step = m->block_count / TELLINGS > LEAST_TOLD ? m->block_count / TELLINGS : LEAST_TOLD;
     int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
     for (int t = 0; t < threads && !failed; t++)
         failed = exchange_scratch_open(&scratch[t], TILE, &m->limits) < 0;
-    if (!failed)
-        thread_pool_run(threads, m->block_count, 32, fill_blocks, &f);
+    for (; f.from < m->block_count && !failed; f.from += step) {
+        size_t left = m->block_count - f.from;
+        failed = f.from && how->tell
+                 && how->tell(how->context, (double)m->blocks[f.from].at / (double)m->value_count);
+        if (!failed)
+            thread_pool_run(threads, left < step ? left : step, 32, fill_blocks, &f);
+    }
     for (int t = 0; t < threads && scratch; t++)
         exchange_scratch_close(&scratch[t]);
     free(scratch);
@@ -110,7 +121,7 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
 }
 
 /* All tiles, and what they stand for. */
-static int keep_values(struct exchange_areas *m)
+static int keep_values(struct exchange_areas *m, const struct exchange_aim *how)
 {
     struct exchange_tiles t = exchange_tiles(m, m->refinement);
     while (exchange_tiles_next(&t))
@@ -126,7 +137,7 @@ static int keep_values(struct exchange_areas *m)
             m->blocks[i] = t.is;
             links[i] = t.link;
         }
-        status = make_index(m) < 0 ? -1 : fill(m, links, m->how.threads);
+        status = make_index(m) < 0 ? -1 : fill(m, links, how);
     }
     free(links);
     m->refinement = NULL;
@@ -141,7 +152,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
                                  .faces = tree->h.face_count,
                                  .inputs = scene->input_count,
                                  .rows = how->rows ? how->rows : scene->input_count,
-                                 .how = *how,
+                                 .near = how->near,
                                  .limits = sight_limits_for(how->tolerance, tree->h.face_count),
                                  .refinement = refinement};
     if (find_inputs(m, scene) == 0) {
@@ -150,7 +161,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
             ;
         m->link_count = t.links;
         m->value_count = t.values;
-        if (!how->keep || keep_values(m) == 0)
+        if (!how->keep || keep_values(m, how) == 0)
             return 0;
     }
     exchange_areas_close(m);

@@ -21,13 +21,17 @@ struct exchange_aim {
     uint32_t rows;    /* only the first so many are whole: 0, all */
     int keep;         /* 0: values are computed when a product asks for them */
     int threads;
+    /* Told now and then, from the calling thread, which share of values is there; anything but 0
+     * ends it, which returns -1. NULL: nobody is. */
+    int (*tell)(void *context, double share);
+    void *context;
 };
 
 struct exchange_areas {
     const struct exchange_tree *tree; /* borrowed */
     uint32_t faces, inputs, rows;     /* rows: of the first so many inputs */
-    struct exchange_aim how;
-    struct sight_limits limits; /* by how.tolerance */
+    double near;                      /* of the aim */
+    struct sight_limits limits;       /* by its tolerance */
     /* borrowed, NULL: values are kept */
     const struct refinement *refinement;
     uint32_t *input;        /* [faces]: by place in the tree's order, the scene file's face */

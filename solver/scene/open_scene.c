@@ -22,6 +22,10 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
             && radSetSceneMaterials(s->scene, s->file.materials, s->file.material_count) == 0
             && radSetSceneSharedPolygons(s->scene, &polygons) == 0 && radCommitScene(s->scene) == 0
             && radGetSceneReport(s->scene, &s->report) == 0) {
+            if (scene_file_check_rounding(&s->file, path, &s->report) < 0) {
+                close_scene(s);
+                return -1;
+            }
             if (!options->quiet)
                 scene_file_warn(&s->file, path, &s->report, turned);
             return 0;

@@ -5,6 +5,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include "scene/text_lines.h"
 #include "util/report.h"
 
@@ -13,6 +14,22 @@ enum { QUOTED = 64 }; /* no message quotes more bytes of a word, so that it keep
 static inline int quoted_length(const char *from, const char *end)
 {
     return end - from < QUOTED ? (int)(end - from) : QUOTED;
+}
+
+/* Does a decimal number say more than a float? Then it is off the next float by more than half a
+ * unit in its last place; else a program that keeps floats may have written it. */
+static inline int is_finer_than_float(const char *word, const char *end, double x)
+{
+    double off = fabs(x - (double)(float)x);
+    int decimals = 0, point = 0;
+    if (!(off > 0))
+        return 0;
+    for (; word < end && *word != 'e' && *word != 'E'; word++) {
+        decimals += point;
+        point |= *word == '.';
+    }
+    long exponent = word < end ? strtol(word + 1, NULL, 10) : 0;
+    return off > 0.5001 * pow(10, (double)(exponent - decimals));
 }
 
 /* The finite numbers on the rest of the line, of which the first `most` go to `value`. Returns
@@ -31,8 +48,10 @@ static inline int read_numbers(struct text_lines *t, const char *path, const cha
         if (!(fabs(x) <= (double)FLT_MAX))
             return report_error(path, t->number, "%s is not finite ('%.*s'); write a finite number",
                                 what, length, t->word);
-        if (count < most)
+        if (count < most) {
             value[count] = x;
+            t->finer = t->finer || is_finer_than_float(t->word, t->word_end, x);
+        }
         count++;
     }
     return count;

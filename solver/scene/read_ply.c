@@ -273,6 +273,8 @@ static int read_one(struct ply *p, const struct ply_element *e, uint64_t i, uint
             return report_error(p->path, p->bytes ? 0 : p->lines.number,
                                 "vertex %llu is not finite; correct its coordinates",
                                 (unsigned long long)i);
+        if (!p->bytes && from->role >= X && from->role <= Z && !p->lines.finer)
+            p->lines.finer = is_finer_than_float(p->lines.word, p->lines.word_end, value);
         position[from->role - X] = value;
     }
     if (!p->bytes && next_word(&p->lines))
@@ -315,6 +317,7 @@ int read_ply(struct scene_file *file, const char *path, char *text, size_t size,
         for (uint64_t j = 0; j < p.element[i].count && p.element[i].properties; j++)
             if (read_one(&p, &p.element[i], j, vertices->count))
                 return -1;
+    file->single_precision &= !p.lines.finer;
     if (p.bytes && p.next < p.end && !quiet)
         report_warning(path, 0, "%zu bytes more than its header counts are passed over",
                        (size_t)(p.end - p.next));

@@ -94,6 +94,7 @@ static int read_text(struct scene_file *f, const char *path, struct text_lines t
                 return scene_file_no_memory(path);
         }
     }
+    f->single_precision = !t.finer;
     return open ? report_error(path, t.number,
                                "ends before endsolid; the file is cut, export it again")
                 : 0;

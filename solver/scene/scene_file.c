@@ -182,27 +182,48 @@ static int check_materials(const struct scene_file *f, const char *path)
     return result;
 }
 
-/* Floats far from the origin are rounded more than a scene can bear: nothing brings that back. */
-static void warn_of_rounding(const struct scene_file *f, const char *path)
+/* What coordinates are rounded to (m), if that is more than a scene can bear; then how far they
+ * are and how wide it is. */
+static double rounding_told(const struct scene_file *f, double *far, double *extent)
 {
     double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
-    double far = 0, extent = 0;
+    *far = *extent = 0;
     for (size_t i = 0; i < f->position_count; i++)
         for (int k = 0; k < 3; k++) {
             double x = f->positions[3 * i + (size_t)k];
             low[k] = fmin(low[k], x);
             high[k] = fmax(high[k], x);
-            far = fmax(far, fabs(x));
+            *far = fmax(*far, fabs(x));
         }
     for (int k = 0; k < 3 && f->position_count; k++)
-        extent = fmax(extent, high[k] - low[k]);
-    double rounding = far * FLT_EPSILON;
-    if (f->single_precision && rounding > ROUNDING_TOLD * extent)
+        *extent = fmax(*extent, high[k] - low[k]);
+    double rounding = *far * FLT_EPSILON;
+    return f->single_precision && rounding > ROUNDING_TOLD * *extent ? rounding : 0;
+}
+
+/* Nothing brings back what floats have lost. */
+static void warn_of_rounding(const struct scene_file *f, const char *path)
+{
+    double far, extent, rounding = rounding_told(f, &far, &extent);
+    if (rounding > 0)
         report_warning(path, 0,
                        "coordinates are floats up to %.3g m, rounded to %.2g m, of a scene of %.3g "
                        "m: move it to the origin before it is exported, or export double PLY or "
                        "OBJ",
                        far, rounding, extent);
+}
+
+int scene_file_check_rounding(const struct scene_file *f, const char *path,
+                              const struct RadSceneReport *r)
+{
+    double far, extent, rounding = rounding_told(f, &far, &extent);
+    if (!(rounding > 0) || r->dropped <= r->polygons / 2)
+        return 0;
+    return report_error(path, 0,
+                        "%lu of %lu faces have no area left: coordinates are floats up to %.3g m, "
+                        "rounded to %.2g m; move the scene to the origin before it is exported, "
+                        "or export double PLY or OBJ",
+                        (unsigned long)r->dropped, (unsigned long)r->polygons, far, rounding);
 }
 
 int scene_file_read(struct scene_file *f, const char *path, const struct scene_options *options)

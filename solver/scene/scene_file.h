@@ -39,8 +39,9 @@ struct scene_file {
     size_t material_capacity;
     /* OBJ: g and o; STL: solids, as both; what Assimp reads: meshes and nodes */
     struct part_names groups, objects;
-    int single_precision; /* 1: positions have been floats, as Assimp keeps them */
-    uint32_t other;       /* points and lines of the file, which are no faces */
+    /* 1: positions have been floats, as Assimp keeps them; numbers of a text may say more */
+    int single_precision;
+    uint32_t other; /* points and lines of the file, which are no faces */
 };
 
 struct scene_options {
@@ -61,6 +62,11 @@ struct RadPolygons scene_file_polygons(const struct scene_file *file);
  * dropped, and how many points and lines ignored; nothing when there are none. */
 void scene_file_warn(const struct scene_file *file, const char *path,
                      const struct RadSceneReport *report, enum RadTurned turned);
+
+/* Refuse a file of floats so far from the origin that rounding has left most of its faces without
+ * area. Returns 0, or -1 after a message. */
+int scene_file_check_rounding(const struct scene_file *file, const char *path,
+                              const struct RadSceneReport *report);
 
 /* For the readers of formats. Each returns 0, or -1 when out of memory. A polygon has the corners
  * added since the last one; a material's name is copied. */

@@ -19,6 +19,7 @@ struct text_lines {
     char *line, *line_end;  /* this line without its break */
     char *word, *word_end;  /* the last word taken */
     uint32_t number, after; /* this line's number, from 1, and the next one's */
+    int finer;              /* 1: a number so far has said more than a float can */
 };
 
 static inline struct text_lines text_lines(char *text, size_t size)

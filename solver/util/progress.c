@@ -1,4 +1,4 @@
-/* progress.c - see progress.h. Ten lines a second at the most, and none in a log file.
+/* progress.c - see progress.h. Ten lines a second at the most, one a minute in a file.
  * SPDX-License-Identifier: MIT */
 #include "util/progress.h"
 
@@ -9,9 +9,13 @@
 
 #include "util/clock.h"
 
+static const double MINUTE = 60;
+
 void progress_start(struct progress *p, int quiet)
 {
-    *p = (struct progress){.wanted = !quiet && isatty(STDERR_FILENO), .next = seconds() + 0.3};
+    int file = !isatty(STDERR_FILENO);
+    *p = (struct progress){
+        .wanted = !quiet, .file = file, .next = seconds() + (file ? MINUTE : 0.3)};
 }
 
 void progress_say(struct progress *p, const char *format, ...)
@@ -21,17 +25,33 @@ void progress_say(struct progress *p, const char *format, ...)
         return;
     va_list list;
     va_start(list, format);
-    fputc('\r', stderr);
+    if (!p->file)
+        fputc('\r', stderr);
     vfprintf(stderr, format, list);
-    fputs(" \033[K", stderr);
+    fputs(p->file ? "\n" : " \033[K", stderr);
     va_end(list);
-    p->shown = 1;
-    p->next = now + 0.1;
+    p->shown = !p->file;
+    p->next = now + (p->file ? MINUTE : 0.1);
+}
+
+/* Seconds that are left if the rest goes as what is done; -1 when too little is. */
+static double seconds_left(struct progress *p, double share)
+{
+    double now = seconds();
+    if (!(p->share > 0) || share < p->share) {
+        p->share = share;
+        p->since = now;
+    }
+    return share - p->share < 0.01 ? -1 : (now - p->since) * (1 - share) / (share - p->share);
 }
 
 int progress_show(void *user, const struct RadProgress *at)
 {
-    if (strcmp(at->phase, "particles") == 0 || at->share > 0)
+    double left = at->share > 0 ? seconds_left(user, at->share) : -1;
+    if (left >= 0)
+        progress_say(user, "%-7s %.0f %% done, about %.3g s left, %.3g rays", at->phase,
+                     100 * at->share, left, (double)at->rays);
+    else if (strcmp(at->phase, "particles") == 0 || at->share > 0)
         progress_say(user, "%-7s %.0f %% done, %.3g rays", at->phase, 100 * at->share,
                      (double)at->rays);
     else

@@ -1,4 +1,4 @@
-/* progress.h - a line on the terminal that says how far the work is.
+/* progress.h - a line on the terminal that says how far the work is; in a file a line a minute.
  * SPDX-License-Identifier: MIT */
 #ifndef PROGRESS_H
 #define PROGRESS_H
@@ -7,9 +7,11 @@
 #include "util/report.h"
 
 struct progress {
-    int wanted; /* standard error is a terminal and nobody asked for quiet */
-    int shown;
-    double next; /* when to write again, s */
+    int wanted;          /* nobody asked for quiet */
+    int file;            /* standard error is no terminal */
+    int shown;           /* a line that stands there */
+    double next;         /* when to write again, s */
+    double share, since; /* of the phase at hand, when it was first heard of; and when, s */
 };
 
 void progress_start(struct progress *p, int quiet);
