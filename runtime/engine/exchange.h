@@ -10,8 +10,8 @@
 struct exchange;
 
 struct exchange_options {
-    /* error to work for, > 0 (EXCHANGE_TOLERANCE): of a row's sum, and of entries in half shadow, as
-     * shares of themselves */
+    /* error to work for, > 0 (EXCHANGE_TOLERANCE): of a row's sum, and of entries in half shadow,
+     * as shares of themselves */
     double tolerance;
     enum closure closure;
     int threads;

@@ -28,8 +28,12 @@ static void add_tiles(struct exchange_areas *m, const struct link *link, const s
                       s = hierarchy_range(&m->tree->h, link->emitter);
     for (uint32_t i = r.from; i < r.to; i += TILE)
         for (uint32_t j = s.from; j < s.to; j += TILE) {
-            struct exchange_block b = {i, r.to - i < TILE ? r.to - i : TILE, j,
-                                       s.to - j < TILE ? s.to - j : TILE, m->value_count, 0};
+            struct exchange_block b = {i,
+                                       r.to - i < TILE ? r.to - i : TILE,
+                                       j,
+                                       s.to - j < TILE ? s.to - j : TILE,
+                                       m->value_count,
+                                       0};
             if (links) {
                 m->blocks[m->block_count] = b;
                 links[m->block_count] = link;

@@ -4,8 +4,8 @@
  * (kernel/lambert.h). What that leaves out is of fourth order in size over distance; pairs nearer
  * than so many radii, by the tolerance, have the contour integral (kernel/polygon_factor.h). In
  * half shadow of groups each value is multiplied by what its pair sees (exchange_shadow.h). Single
- * faces that are not proved to see each other, groups with more between than a list holds, and parts
- * of faces linked to groups are looked into pair by pair (exchange_sight.h).
+ * faces that are not proved to see each other, groups with more between than a list holds, and
+ * parts of faces linked to groups are looked into pair by pair (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_blocks.h"
@@ -184,8 +184,8 @@ static double block_by_pairs(const struct exchange_pair *pair, struct exchange_s
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
         for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
             *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                                s->group ? exchange_tree_face(pair->tree, j) : s,
-                                &pair->tree->host, &scratch->sight, &error);
+                                s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host,
+                                &scratch->sight, &error);
             most = fmax(most, error);
         }
     return most;

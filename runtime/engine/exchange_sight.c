@@ -1,18 +1,17 @@
 /* exchange_sight.c - the exchange area of two faces past what stands between them.
  *
- * Of each face only what lies in front of the other's plane takes part. The one on which a blocker's
- * shadow moves least from point to point is cut into pieces. From a piece nothing stands between
- * (then it has the exact factor), or all is hidden, both proved by a shaft; else a rule of points,
- * each of which sees the other face exactly (sight_pieces.c). A piece is held against its four
- * quarters; they count, and what the two differ by is its error. The piece with the largest error
- * is cut first, until the root of the sum of their squares is small enough or the pieces run out: quarters are
- * nearer than what they are held against, and errors of pieces have either sign. Shades as
- * of a sill are seen from a strip along the rim alone: so a rule with points there counts too, by
- * what it may differ by. Pieces with more in their shaft than a list
- * holds have 64 rays each, and are cut too.
- * Invariant: pieces cover the part once; what is proved is not cut. Fails: shades that
- * meet no point of a piece, nor of its rim.
- * [globally adaptive cubature: van Dooren & de Ridder 1976; the rest derived here]
+ * Of each face only what lies in front of the other's plane takes part. The one on which a
+ * blocker's shadow moves least from point to point is cut into pieces. From a piece nothing stands
+ * between (then it has the exact factor), or all is hidden, both proved by a shaft; else a rule of
+ * points, each of which sees the other face exactly (sight_pieces.c). A piece is held against its
+ * four quarters; they count, and what the two differ by is its error. The piece with the largest
+ * error is cut first, until the root of the sum of their squares is small enough or the pieces run
+ * out: quarters are nearer than what they are held against, and errors of pieces have either sign.
+ * Shades as of a sill are seen from a strip along the rim alone: so a rule with points there counts
+ * too, by what it may differ by. Pieces with more in their shaft than a list holds have 64 rays
+ * each, and are cut too. Invariant: pieces cover the part once; what is proved is not cut. Fails:
+ * shades that meet no point of a piece, nor of its rim. [globally adaptive cubature: van Dooren &
+ * de Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_sight.h"
@@ -27,7 +26,7 @@ enum { QUARTERS = 4, MANY = SIGHT_LIST + 1 };
 struct sight_node {
     struct element piece;
     double points, value, error; /* by its own points; by its quarters' (m2) */
-    int count, quarters;         /* how many blockers, 0 when proved, MANY; index of the first quarter */
+    int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
     uint32_t list[SIGHT_LIST];
 };
 
@@ -124,18 +123,19 @@ static void make_quarter(struct element *out, const struct element *e, int q)
     out->id = hash64(e->id + (uint64_t)q + 1);
 }
 
-/* Points of a rule, and what they weigh: of a side of a quad, for its Gauss rule and Simpson's; of a
- * triangle, by the barycentric coordinate that stands alone. */
+/* Points of a rule, and what they weigh: of a side of a quad, for its Gauss rule and Simpson's; of
+ * a triangle, by the barycentric coordinate that stands alone. */
 static const double side_node[2][3] = {{0.11270166537925831148, 0.5, 0.88729833462074168852},
                                        {SIGHT_RIM, 0.5, 1 - SIGHT_RIM}};
-static const double side_weight[2][3] = {{5 / 18.0, 8 / 18.0, 5 / 18.0}, {1 / 6.0, 4 / 6.0, 1 / 6.0}};
+static const double side_weight[2][3] = {{5 / 18.0, 8 / 18.0, 5 / 18.0},
+                                         {1 / 6.0, 4 / 6.0, 1 / 6.0}};
 static const double corner_node[2][3] = {{0.81684757298045851308, 0.10810301816807022736, 1 / 3.0},
                                          {1 - SIGHT_RIM, SIGHT_RIM, 1 / 3.0}};
 static const double corner_weight[2][3] = {{0.10995174365532186764, 0.22338158967801146570, 0},
                                            {3 / 60.0, 8 / 60.0, 27 / 60.0}};
 
-/* The exchange area of a piece by points: within it, exact to degree 4 and 5 [Dunavant 1985; Gauss];
- * `rim`: by its corners, the middles of its sides and its own, exact to degree 3. */
+/* The exchange area of a piece by points: within it, exact to degree 4 and 5 [Dunavant 1985;
+ * Gauss]; `rim`: by its corners, the middles of its sides and its own, exact to degree 3. */
 static double by_points(const struct looking *l, const struct element *e,
                         const struct polygon *blockers, int count, int rim)
 {
@@ -207,9 +207,9 @@ static void measure(const struct looking *l, struct sight_node *node, const uint
         }
         node->list[node->count++] = list[i];
     }
-    node->points = node->value =
-        node->count ? by_points(l, &node->piece, blockers, node->count, 0)
-                    : node->piece.area * polygon_factor(&node->piece, l->to, 1);
+    node->points = node->value = node->count
+                                     ? by_points(l, &node->piece, blockers, node->count, 0)
+                                     : node->piece.area * polygon_factor(&node->piece, l->to, 1);
 }
 
 /* Hold a piece against its quarters. */
@@ -242,8 +242,7 @@ static void compare(struct looking *l, int at)
     for (int i = 0; i < node->count; i++)
         l->host->corners(l->host, node->list[i], &blockers[i]);
     double rim = by_points(l, &node->piece, blockers, node->count, 1);
-    node->error =
-        fmax(fabs(node->value - node->points), SIGHT_RIM_SHARE * fabs(node->value - rim));
+    node->error = fmax(fabs(node->value - node->points), SIGHT_RIM_SHARE * fabs(node->value - rim));
 }
 
 /* The heap: the node with the largest error first. */
@@ -296,9 +295,8 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
     const double(*v)[3] = (const double(*)[3])part->v;
     start(l, v, part->n < 4 ? part->n : 4, list, count);
     if (part->n == 5) {
-        const double rest[3][3] = {{v[0][0], v[0][1], v[0][2]},
-                                   {v[3][0], v[3][1], v[3][2]},
-                                   {v[4][0], v[4][1], v[4][2]}};
+        const double rest[3][3] = {
+            {v[0][0], v[0][1], v[0][2]}, {v[3][0], v[3][1], v[3][2]}, {v[4][0], v[4][1], v[4][2]}};
         start(l, rest, 3, list, count);
     }
     for (int i = 0, roots = l->nodes; i < roots; i++) {
@@ -306,7 +304,8 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
         count_in(l, i);
     }
     while (l->heap > 0 && l->nodes + QUARTERS * QUARTERS <= limits->pieces
-           && sqrt(fmax(l->square, 0)) > limits->tolerance * fmax(l->value, limits->floor * least)) {
+           && sqrt(fmax(l->square, 0))
+                  > limits->tolerance * fmax(l->value, limits->floor * least)) {
         int at = heap_out(l), quarters = nodes[at].quarters;
         l->value -= nodes[at].value;
         l->square -= nodes[at].error * nodes[at].error;
@@ -329,8 +328,8 @@ static double sway(const struct element *e, const struct host *host, const uint3
         struct polygon face;
         host->corners(host, list[i], &face);
         if (shaft_normal((const double(*)[3])face.v, face.n, normal))
-            least = fmin(least, polygon_distance(e->centre, (const double(*)[3])face.v, face.n,
-                                                 normal));
+            least = fmin(least,
+                         polygon_distance(e->centre, (const double(*)[3])face.v, face.n, normal));
     }
     return e->radius / (least + e->radius);
 }

@@ -30,7 +30,8 @@ static void print(const struct options *o, const struct open_scene *scene,
                r->defect_most, r->defect_mean, r->rows_closed,
                o->closure ? ", before closure" : "");
     if (r->entry_error > 0)
-        printf("entries   in half shadow are off by %.1e at the most, as estimated\n", r->entry_error);
+        printf("entries   in half shadow are off by %.1e at the most, as estimated\n",
+               r->entry_error);
     if (r->rows_open)
         printf("to sky    %.2f %% of what all faces send; up to %.2f %% of one of %u rows; not "
                "normalised away\n",
