@@ -459,7 +459,7 @@
 #define SIGHT_FEW_FACES 24
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define SIGHT_PIECES 8192
-#define SIGHT_PIECES_MANY 1024
+#define SIGHT_PIECES_MANY 512
 /* of a side: how far within a piece points along its rim stand, so that none is in a corner that
  * touches; chosen */
 #define SIGHT_RIM 1e-3
