@@ -930,8 +930,8 @@ RAD_API void radRetainExchange(RadExchange exchange);
 RAD_API void radReleaseExchange(RadExchange exchange);
 
 /* Row i of F_ij: share of what leaves polygon i evenly that meets polygon j;
- * row[RadSceneReport.polygons], the caller's. Safe from many threads at once. Returns its sum, or
- * -1. */
+ * row[RadSceneReport.polygons], the caller's. Of faces that see all of each other it is good to
+ * 1e-8. Safe from many threads at once. Returns its sum, or -1. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 
 struct RadExchangeReport {
