@@ -950,8 +950,9 @@ RAD_API void radRetainExchange(RadExchange exchange);
 RAD_API void radReleaseExchange(RadExchange exchange);
 
 /* Row i of F_ij: share of what leaves polygon i evenly that meets polygon j;
- * row[RadSceneReport.polygons], the caller's. Safe from many threads at once. Returns its sum, or
- * -1. Of a stream, and beyond the rows asked for, there is none. */
+ * row[RadSceneReport.polygons], the caller's. Of faces that see all of each other it is good to
+ * 1e-8. Safe from many threads at once. Returns its sum, or -1. Of a stream, and beyond the rows
+ * asked for, there is none. */
 RAD_API double radGetExchangeRow(RadExchange exchange, uint32_t i, double *row);
 
 /* Shares of what polygon i sends that meet no front: what leaves the scene, what meets the black

@@ -191,20 +191,20 @@ static double block_by_pairs(const struct exchange_pair *pair, struct exchange_s
     return most;
 }
 
-/* The form factor of a link, in all its digits: the link itself keeps those of a float. Clear and
- * near pairs have the contour integral. None is made anew that the oracle had by other means. */
+/* The form factor of a link. Of whole faces that see all of each other in all its digits, since the
+ * link keeps those of a float; near ones have the contour integral. Else what the link holds is as
+ * good as what is known of half shadow. None is made anew that the oracle had by other means. */
 static double link_factor(const struct exchange_pair *pair, const struct link *link)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
-    int level = link->levels & 15, exact = level == FORM_FACTOR_CONTOUR;
-    if (link->visibility == 0 || !(exact || level == FORM_FACTOR_POLYGON))
+    int level = link->levels & 15;
+    if (r->depth || s->depth || link->levels >> 4 != VISIBILITY_EXACT
+        || link->visibility != LINK_VISIBLE
+        || (level != FORM_FACTOR_POLYGON && level != FORM_FACTOR_CONTOUR))
         return (double)link->form_factor;
-    if (link->levels >> 4 == VISIBILITY_EXACT) {
-        double away[3], reach = pair->near * (r->radius + s->radius);
-        sub3(away, s->centre, r->centre);
-        exact |= dot3(away, away) < reach * reach;
-    }
-    return polygon_factor(r, s, exact);
+    double away[3], reach = pair->near * (r->radius + s->radius);
+    sub3(away, s->centre, r->centre);
+    return polygon_factor(r, s, level == FORM_FACTOR_CONTOUR || dot3(away, away) < reach * reach);
 }
 
 double exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
