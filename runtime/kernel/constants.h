@@ -441,6 +441,8 @@
 /* sums of two faces' radii. Pairs nearer than that have the contour integral at
  * EXCHANGE_TOLERANCE; the error of the others falls with the fourth power of distance */
 #define EXCHANGE_NEAR 2.5
+/* times that where one of them is a triangle, whose third moments are not zero */
+#define EXCHANGE_LOPSIDED 1.3
 /* the same at any tolerance. chosen: nearer, the series in size over distance need not converge */
 #define EXCHANGE_NEAR_LEAST 1.5
 /* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
