@@ -1,14 +1,16 @@
 /* exchange_blocks.c - the exchange areas of a block of pairs.
  *
  * Each pair has its own, by Lambert's kernel and its second derivatives at the centroids
- * (kernel/lambert.h). What that leaves out is of fourth order in size over distance; pairs nearer
- * than so many radii, by the tolerance, have the contour integral (kernel/polygon_factor.h). In
- * half shadow of groups each value is multiplied by what its pair sees (exchange_shadow.h). Single
- * faces that are not proved to see each other, groups with more between than a list holds, and
- * parts of faces linked to groups are looked into pair by pair (exchange_sight.h).
+ * (kernel/lambert.h). What that leaves out is of fourth order in size over distance, for triangles,
+ * which are lopsided, of third; pairs nearer than so many radii, by the tolerance and their shape,
+ * have the contour integral (kernel/polygon_factor.h). In half shadow of groups each value is
+ * multiplied by what its pair sees (exchange_shadow.h). Single faces that are not proved to see
+ * each other, groups with more between than a list holds, and parts of faces linked to groups are
+ * looked into pair by pair (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_blocks.h"
+#include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
@@ -157,18 +159,20 @@ static void clear_block(const struct exchange_faces *p, const struct exchange_pa
     moments_times(p, pair->columns, r->normal, scratch);
     sub3(away, s->centre, r->centre);
     double gap = length3(away) - r->radius - s->radius; /* a group's radius is above its faces' */
-    int near = gap < pair->near * 2 * (r->radius > s->radius ? r->radius : s->radius);
+    int near =
+        gap < EXCHANGE_LOPSIDED * pair->near * 2 * (r->radius > s->radius ? r->radius : s->radius);
     for (uint32_t i = pair->rows.from; i < pair->rows.to;
          i++, out += pair->columns.to - pair->columns.from) {
         second_order_row(p, i, r->normal, pair->columns, m, scratch, out);
         for (uint32_t j = pair->columns.from; near && j < pair->columns.to; j++) {
             double v[3] = {p->c[0][j] - p->c[0][i], p->c[1][j] - p->c[1][i],
                            p->c[2][j] - p->c[2][i]};
-            double reach = pair->near * (p->radius[i] + p->radius[j]);
+            const struct element *a = exchange_tree_face(pair->tree, i),
+                                 *b = exchange_tree_face(pair->tree, j);
+            double reach = (p->radius[i] + p->radius[j]) * pair->near
+                           * (a->vertices == 3 || b->vertices == 3 ? EXCHANGE_LOPSIDED : 1);
             if (dot3(v, v) < reach * reach) {
-                double e = p->area[i]
-                           * polygon_factor(exchange_tree_face(pair->tree, i),
-                                            exchange_tree_face(pair->tree, j), 1);
+                double e = p->area[i] * polygon_factor(a, b, 1);
                 out[j - pair->columns.from] = e < p->area[j] ? e : p->area[j];
             }
         }

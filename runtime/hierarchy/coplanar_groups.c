@@ -88,14 +88,17 @@ static int one_plane(const struct finder *b, const struct placed_face *items, ui
 }
 
 /* Part a run of items where key k leaves a gap, each part by the next key, until they are planes; a
- * run that is none is left as single faces. Writes where each plane begins. */
+ * run that is none is left as single faces. Heights are parted by a wide gap, and what is no plane
+ * by a narrow one. Writes where each plane begins. */
 static void part_by_key(struct finder *b, uint32_t from, uint32_t to, int k, unsigned char *begins)
 {
-    static int (*const order[4])(const void *, const void *) = {by_x, by_y, by_z, by_height};
-    double gap = k < 3 ? GROUP_NORMAL_GAP : GROUP_HEIGHT_GAP * b->flat;
+    static int (*const order[])(const void *, const void *) = {by_x, by_y, by_z, by_height,
+                                                               by_height};
+    const double gap[] = {GROUP_NORMAL_GAP, GROUP_NORMAL_GAP, GROUP_NORMAL_GAP,
+                          GROUP_WIDE_GAP * b->flat, GROUP_HEIGHT_GAP * b->flat};
+    int flat = k >= 4 && one_plane(b, b->items + from, to - from);
     uint32_t i;
-    if (k == 4) {
-        int flat = one_plane(b, b->items + from, to - from);
+    if (flat || k == 5) {
         qsort(b->items + from, to - from, sizeof *b->items, by_face);
         begins[from] = 1;
         for (i = from + 1; i < to; i++)
@@ -105,7 +108,8 @@ static void part_by_key(struct finder *b, uint32_t from, uint32_t to, int k, uns
     qsort(b->items + from, to - from, sizeof *b->items, order[k]);
     uint32_t start;
     for (start = from, i = from + 1; i <= to; i++)
-        if (i == to || b->items[i].key[k] - b->items[i - 1].key[k] > gap) {
+        if (i == to
+            || b->items[i].key[k < 4 ? k : 3] - b->items[i - 1].key[k < 4 ? k : 3] > gap[k]) {
             part_by_key(b, start, i, k + 1, begins);
             start = i;
         }

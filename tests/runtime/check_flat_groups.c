@@ -109,6 +109,7 @@ static void turn(double p[3])
     p[2] = y * sin(0.4) + p[2] * cos(0.4) + 5;
 }
 
+/* turned: 2: and its corners rounded as a file of floats has them. */
 static void add_face(struct scene *s, int turned, int n, const double *const corner[4])
 {
     double p[4][3];
@@ -116,6 +117,8 @@ static void add_face(struct scene *s, int turned, int n, const double *const cor
         memcpy(p[c], corner[c], sizeof p[c]);
         if (turned)
             turn(p[c]);
+        for (int k = 0; k < 3 && turned == 2; k++)
+            p[c][k] = (double)(float)p[c][k];
     }
     made_face(s, 0, n, (const double(*)[3])p);
 }
@@ -222,7 +225,7 @@ START_TEST(test_cube)
         uint32_t per_wall = s.face_count / 6;
         double *row = malloc(s.input_count * sizeof *row), walls[36] = {0};
         for (uint32_t i = 0; i < s.face_count; i++) {
-            ck_assert_double_eq_tol(exchange_row(&x, i, row), 1, 3e-4);
+            ck_assert_double_eq_tol(exchange_row(&x, i, row), 1, 1e-4);
             for (uint32_t j = 0; j < s.face_count; j++)
                 walls[i / per_wall * 6 + j / per_wall] += row[j] / per_wall;
         }
@@ -239,7 +242,7 @@ START_TEST(test_cube)
 }
 END_TEST
 
-/* Every pair of a convex room against the contour integral to 3 %, and how many
+/* Every pair of a convex room against the contour integral to 2 %, and how many
  * links it takes. */
 static void check_prism(const double (*plan)[2], int corners, int levels, uint64_t most)
 {
@@ -255,7 +258,7 @@ static void check_prism(const double (*plan)[2], int corners, int levels, uint64
         for (uint32_t q = 0; q < s.face_count; q++) {
             const struct element *f = exchange_tree_face(&x.tree, q);
             double f_ij = dot3(e->normal, f->normal) > 1 - 1e-9 ? 0 : polygon_factor(e, f, 1);
-            ck_assert_double_eq_tol(row[s.faces[f->face].input], f_ij, 3e-2 * f_ij + 1e-9);
+            ck_assert_double_eq_tol(row[s.faces[f->face].input], f_ij, 2e-2 * f_ij + 1e-9);
         }
     }
     free(row);
@@ -284,7 +287,7 @@ int main(void)
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, test_clouds, 0, 20);
     tcase_add_test(c, test_shapes);
-    tcase_add_loop_test(c, test_cube, 0, 2);
+    tcase_add_loop_test(c, test_cube, 0, 3);
     tcase_add_test(c, test_prisms);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
