@@ -329,13 +329,12 @@ static inline int shaft_inside(const struct shaft *shaft, uint64_t planes, const
     return part[now].n > 0;
 }
 
-/* Which planes may cut a polygon that is moved up or down by no more than `grow`? Returns 0 when
- * one of them has all of it outside. */
+/* Which planes, a bit for each, may cut a polygon that is moved up or down by no more than `grow`?
+ * Returns 0 when one of them has all of it outside. */
 static inline int shaft_cutting(const struct shaft *shaft, const struct cut *whole,
                                 uint64_t *planes)
 {
     const double reach = shaft->grow * 1.001; /* more than rounding */
-    _Static_assert(SHAFT_PLANES <= 64, "a bit for each");
     *planes = 0;
     for (int i = 0; i < shaft->planes; i++) {
         const double *n = shaft->normal[i], limit = shaft->offset[i] + shaft->slack;
