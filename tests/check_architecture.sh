@@ -127,7 +127,7 @@ grep -nE '^static .*\b(take|go|look|show|settle|pass)\(' $(cat "$tmp/files") >>"
 # Identifiers of old, outside of comments and strings.
 for file in $(grep -e '^runtime' -e '^solver' "$tmp/files"); do
     ${CC:-cc} -fpreprocessed -dD -E -P "$file" 2>/dev/null | sed 's/"[^"]*"//g' |
-        grep -oE '\b(balance|gift|publish|beams?|allowance|buried|sky|hold|let_go|factor_matrix)(_[a-z_]+)?\b|\bSTALE\b|\bcluster_tree[a-z_]*\b|\b[a-z]+_(beams?|gift|sky|allowance)\b' |
+        grep -oE '\b(balance|gift|publish|beams?|allowance|buried|hold|let_go|factor_matrix)(_[a-z_]+)?\b|\bSTALE\b|\bcluster_tree[a-z_]*\b|\b[a-z]+_(beams?|gift|allowance)\b' |
         sort | uniq -c | awk -v file="$file" '{ print file ": name " $2 ", " $1 " times" }'
 done >>"$tmp/list"
 [ -d "$build" ] && cp "$tmp/list" "$build/architecture.txt"

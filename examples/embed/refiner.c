@@ -472,6 +472,22 @@
 #define REFINER_EXCHANGE_NEAR_LEAST 1.5
 /* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
 #define REFINER_EXCHANGE_NEAR_FALL 0.25
+/* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
+#define REFINER_SIGHT_FLOOR 1e-4
+/* faces. In larger scenes it is a share of one over the root of their number: errors of a
+ * row's entries add up like chance; chosen */
+#define REFINER_SIGHT_FEW_FACES 24
+/* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
+#define REFINER_SIGHT_PIECES 8192
+#define REFINER_SIGHT_PIECES_MANY 512
+/* of a side: how far within a piece points along its rim stand, so that none is in a corner that
+ * touches; chosen */
+#define REFINER_SIGHT_RIM 1e-3
+/* of what the rule with points along the rim differs by: the error. A shade that no other point
+ * meets is in a strip of .056 of the side, over which it fades; the rule has it for a sixth */
+#define REFINER_SIGHT_RIM_SHARE 0.1
+/* of a piece's exchange: its error when no pieces are left to hold it against; chosen */
+#define REFINER_SIGHT_UNKNOWN 0.1
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
 #define REFINER_CLOSURE_ENOUGH 1e-12
 

@@ -190,7 +190,7 @@ START_TEST(test_tolerance)
     exchange_set_tolerance(refiner, 0.1 * EXCHANGE_TOLERANCE);
     for (int i = 0; i < refiner->parameter_count; i++) {
         const struct oracle_parameter *p = &refiner->parameters[i];
-        int limit = strcmp(p->name, "shadow") == 0 || strcmp(p->name, "group_shadow") == 0;
+        int limit = strcmp(p->name, "group_shadow") == 0;
         ck_assert_double_eq_tol(refiner_get(refiner, i), p->value * (limit ? 0.1 : 1),
                                 1e-12 * p->value);
     }
