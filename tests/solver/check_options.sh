@@ -81,6 +81,7 @@ says 2 "--closure takes none, rows or reciprocal, not x" viewfactors "$scene" --
 says 2 "--clusters takes sah, embree, octree, kd or halves, not x" solve "$scene" --clusters x
 says 2 "--only takes sah, embree" study clustering "$scene" --only x
 says 2 "--format takes csv, coo, mtx, npz, view3d, energyplus or openfoam, not x" viewfactors "$scene" --format x
+says 2 "--by takes face, material, group or object, not x" viewfactors "$scene" --by x
 says 2 "-o takes a file named .csv or .md, not x" study stability -o x
 says 2 "--chart takes a file named .svg or .png, not x.svgz" study visibility "$scene" --chart x.svgz
 
