@@ -975,6 +975,8 @@ struct RadExchangeReport {
      * that are covered in part */
     uint32_t rows_closed, rows_open, rows_backs, rows_covered;
     double defect_most, defect_mean; /* |1 - sum| of the closed ones, before closure */
+    double worst;                    /* the same, and what others have above 1; of which row */
+    uint32_t worst_row;
     /* what goes to the environment and to backs: the most of a row, and the mean over all area */
     double environment_most, environment_mean, backs_most, backs_mean;
     /* largest |factor - 1| that a view factor took; largest |1 - sum| left */

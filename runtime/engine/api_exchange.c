@@ -192,6 +192,8 @@ void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report
                                          .rows_covered = r->rows_covered,
                                          .defect_most = r->defect_most,
                                          .defect_mean = r->defect_mean,
+                                         .worst = r->worst,
+                                         .worst_row = r->worst_row,
                                          .environment_most = r->environment_most,
                                          .environment_mean = r->environment_mean,
                                          .backs_most = r->backs_most,

@@ -121,6 +121,10 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
         r->environment_most = fmax(r->environment_most, way->sky);
         r->backs_mean += m->area[i] * way->backs;
         r->backs_most = fmax(r->backs_most, way->backs);
+        if ((closed[i] ? defect : share[i] - 1) > r->worst) {
+            r->worst = defect;
+            r->worst_row = i;
+        }
         if (closed[i]) {
             r->rows_closed++;
             r->defect_mean += defect;

@@ -133,11 +133,11 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     radGetExchangeReport(exchange, &r);
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
         print(o, scene, rows, &r, write_seconds);
-    if (!o->quiet && r.defect_most > o->tolerance)
-        report_warning(o->scene, 0,
-                       "a row sum is off by %.1e, above the tolerance %.1e; a smaller --tolerance "
-                       "takes longer",
-                       r.defect_most, o->tolerance);
+    if (!o->quiet && r.worst > o->tolerance)
+        report_warning(o->scene, scene->file.lines[r.worst_row],
+                       "a row sum is off by %.1e, that of face %u, above the tolerance %.1e; a "
+                       "smaller --tolerance takes longer",
+                       r.worst, (unsigned)r.worst_row, o->tolerance);
     if (!o->json)
         return 0;
     json_t *report = report_json(o, scene, &r, write_seconds);

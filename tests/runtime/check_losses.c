@@ -101,6 +101,7 @@ START_TEST(test_closed)
     for (uint32_t i = 0; i < 6; i++)
         expect_loss(&s, i, 0, 0, 0);
     ck_assert_uint_eq(s.report.rows_open + s.report.rows_backs + s.report.rows_covered, 0);
+    ck_assert_double_eq_tol(fabs(s.sum[s.report.worst_row] - 1), s.report.worst, 1e-15);
     struct RadExchangeLoss loss;
     ck_assert_int_eq(radGetExchangeLoss(s.exchange, 6, &loss), -1);
     ck_assert_int_eq(radGetDeviceError(s.device), RAD_ERROR_INVALID_ARGUMENT);
