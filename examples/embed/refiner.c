@@ -109,6 +109,11 @@
 /* of host.ray_offset. Heights that differ by less, twice or three times, are rounding. Chosen:
  * far below `grow`, above the rounding of doubles */
 #define REFINER_SHAFT_SLACK (1 / 65536.0)
+/* of host.ray_offset. Ends that reach no farther behind a face do so by rounding of the scene's
+ * corners, which files hold to 7 digits, and by less than rays start off; chosen */
+#define REFINER_SHAFT_STRIP 0.25
+/* of that: the ends reach at least so far before the face; chosen */
+#define REFINER_SHAFT_AWAY 64
 /* square of a sine. An end turned less to a face lies flat on it: 2^-10, 0.06 degrees; chosen */
 #define REFINER_SHAFT_PARALLEL (1 / 1048576.0)
 /* square of a sine. A corner nearer to the line of an edge makes no plane with it; chosen: its
@@ -236,10 +241,13 @@
 #define REFINER_GROUP_COSINE 0.99999
 /* of a unit normal: neighbours in the order of one coordinate that are farther apart are not in
  * one plane; chosen, above the rounding of corners given as floats */
-#define REFINER_GROUP_NORMAL_GAP 1e-5
+#define REFINER_GROUP_NORMAL_GAP 5e-5
 /* of host.flat: the same of heights; half, since a corner may be off either way */
 #define REFINER_GROUP_HEIGHT_GAP 0.5
-/* of a group's rectangle: so much may its faces' areas be off and still tile it; chosen, above
+/* the same at first: heights of small faces, whose rounded corners turn their normals, scatter so
+ * far. On a turned cube of 3,072 triangles with corners of 7 digits */
+#define REFINER_GROUP_WIDE_GAP 2.0
+/* of a group's outline: so much may its faces' areas be off and still tile it; chosen, above
  * what GROUP_COSINE and rounding of corners make of areas */
 #define REFINER_GROUP_GAPS 1e-5
 /* of the scene's size: middles of faces no farther apart are in one row, which is not cut;
@@ -468,6 +476,8 @@
 /* sums of two faces' radii. Pairs nearer than that have the contour integral at
  * EXCHANGE_TOLERANCE; the error of the others falls with the fourth power of distance */
 #define REFINER_EXCHANGE_NEAR 2.5
+/* times that where one of them is a triangle, whose third moments are not zero */
+#define REFINER_EXCHANGE_LOPSIDED 1.3
 /* the same at any tolerance. chosen: nearer, the series in size over distance need not converge */
 #define REFINER_EXCHANGE_NEAR_LEAST 1.5
 /* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */

@@ -17,7 +17,7 @@
  * a face, less than `margin` away, may be under it for a ray caster: such a face is said to meet.
  * Where two faces meet at an acute angle, moving an end off the one puts a strip of it, no wider
  * than the offset, behind the other's plane: so a face also stops nothing when the ends as they
- * were lie on one side of it.
+ * were lie on one side of it, but for SHAFT_STRIP, since files round corners.
  *
  * A face that covers the shaft stops all rays. Let the ends lie strictly on either side of its
  * plane. For a fixed point y of one end, c(x, y), where the ray from x meets the plane, is a
