@@ -155,7 +155,7 @@ int radGetExchangeLoss(RadExchange x, uint32_t i, struct RadExchangeLoss *loss)
     if (!x || !loss || check_row(x, i) < 0)
         return -1;
     const struct exchange_loss *l = &x->exchange.losses[i];
-    *loss = (struct RadExchangeLoss){l->sky, l->backs, l->covered};
+    *loss = (struct RadExchangeLoss){l->leaves, l->backs, l->covered};
     return 0;
 }
 

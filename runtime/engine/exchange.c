@@ -83,16 +83,16 @@ static struct exchange_loss ask_row(const struct exchange *x, uint32_t i)
 /* Rays say which ways there are, and how they share it; how much is lost, the row knows better. */
 static void share_out(struct exchange_loss *way, double lacks)
 {
-    double seen = way->sky + way->backs, left = fmax(lacks, 0);
+    double seen = way->leaves + way->backs, left = fmax(lacks, 0);
     way->covered = seen > 0 ? fmin(way->covered, left) : way->covered > 0 ? left : 0;
     left -= way->covered;
-    way->sky *= seen > 0 ? left / seen : 0;
+    way->leaves *= seen > 0 ? left / seen : 0;
     way->backs *= seen > 0 ? left / seen : 0;
 }
 
 static int is_closed(const struct exchange_loss *way)
 {
-    return !(way->sky > 0) && !(way->backs > 0) && !(way->covered > 0);
+    return !(way->leaves > 0) && !(way->backs > 0) && !(way->covered > 0);
 }
 
 /* The account of rows: what they sum to, and what becomes of the light that they lack.
@@ -106,7 +106,7 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
     for (uint32_t i = 0; i < m->rows; i++) {
         struct exchange_loss *way = &x->losses[i];
         double defect = fabs(1 - share[i]);
-        int sky = way->sky > 0, backs = way->backs > 0;
+        int open = way->leaves > 0, backs = way->backs > 0;
         closed[i] = (unsigned char)is_closed(way);
         if (!(m->area[i] > 0))
             continue;
@@ -114,11 +114,11 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
         r->low = fmin(r->low, share[i]);
         r->high = fmax(r->high, share[i]);
         share_out(way, 1 - share[i]);
-        r->rows_open += (unsigned)sky;
+        r->rows_open += (unsigned)open;
         r->rows_backs += (unsigned)backs;
-        r->rows_covered += !closed[i] && !sky && !backs;
-        r->environment_mean += m->area[i] * way->sky;
-        r->environment_most = fmax(r->environment_most, way->sky);
+        r->rows_covered += !closed[i] && !open && !backs;
+        r->environment_mean += m->area[i] * way->leaves;
+        r->environment_most = fmax(r->environment_most, way->leaves);
         r->backs_mean += m->area[i] * way->backs;
         r->backs_most = fmax(r->backs_most, way->backs);
         if ((closed[i] ? defect : share[i] - 1) > r->worst) {

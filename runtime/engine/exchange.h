@@ -48,7 +48,7 @@ struct exchange_report {
 /* What a row sends that meets no front, shares: out of the scene, to black backs, and from where
  * something stands on the face. 0 of rows that lack less than the tolerance and were not asked. */
 struct exchange_loss {
-    double sky, backs, covered;
+    double leaves, backs, covered;
 };
 
 struct exchange {
