@@ -484,9 +484,10 @@
 #define REFINER_EXCHANGE_NEAR_FALL 0.25
 /* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
 #define REFINER_SIGHT_FLOOR 1e-4
-/* faces. In larger scenes it is a share of one over the root of their number: errors of a
- * row's entries add up like chance; chosen */
+/* faces. In larger scenes it is a share of so much over the root of their number: errors of a row's
+ * entries add up like chance, and are a few times below what is estimated; chosen */
 #define REFINER_SIGHT_FEW_FACES 24
+#define REFINER_SIGHT_FLOOR_MANY 4.0
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define REFINER_SIGHT_PIECES 8192
 #define REFINER_SIGHT_PIECES_MANY 512

@@ -19,12 +19,14 @@
 #include "util/thread_pool.h"
 #include "visibility/environment.h"
 
-/* The error of half shadow falls with what is left to it. */
+/* The error of half shadow falls with what is left to it. Pairs of faces are not split for it: each
+ * is integrated (engine/exchange_sight.h). */
 void exchange_set_tolerance(struct refiner *refiner, double tolerance)
 {
     for (int i = -1; (i = refiner_find_role(refiner, ROLE_SHADOW_TOLERANCE, i)) >= 0;)
         (void)refiner_set(refiner, refiner->parameters[i].name,
                           refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
+    (void)refiner_set(refiner, "shadow", INFINITY, NULL);
 }
 
 struct watcher {

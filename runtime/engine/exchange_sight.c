@@ -43,8 +43,8 @@ struct looking {
 struct sight_limits sight_limits_for(double tolerance, uint32_t faces)
 {
     int few = faces <= SIGHT_FEW_FACES;
-    return (struct sight_limits){tolerance, few ? SIGHT_FLOOR : 1 / sqrt(faces),
-                                 few ? SIGHT_PIECES : SIGHT_PIECES_MANY};
+    return (struct sight_limits){tolerance, few ? SIGHT_FLOOR : SIGHT_FLOOR_MANY / sqrt(faces),
+                                 few ? SIGHT_PIECES : SIGHT_PIECES_MANY, !few};
 }
 
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits)
@@ -212,8 +212,9 @@ static void measure(const struct looking *l, struct sight_node *node, const uint
                                      : node->piece.area * polygon_factor(&node->piece, l->to, 1);
 }
 
-/* Hold a piece against its quarters. */
-static void compare(struct looking *l, int at)
+/* Hold a piece against its quarters; in scenes of many faces, whose entries are many, not where its
+ * two rules agree to its share of what is aimed at, `aim` per area. */
+static void compare(struct looking *l, int at, double aim)
 {
     struct sight_node *nodes = l->scratch->nodes, *node = &nodes[at];
     if (node->count == 0)
@@ -223,7 +224,16 @@ static void compare(struct looking *l, int at)
             node->error = SIGHT_UNKNOWN * node->points;
         return;
     }
-    double noise = 0;
+    double noise = 0, rim = 0;
+    if (node->count < MANY) {
+        struct polygon blockers[SIGHT_LIST];
+        for (int i = 0; i < node->count; i++)
+            l->host->corners(l->host, node->list[i], &blockers[i]);
+        rim = by_points(l, &node->piece, blockers, node->count, 1);
+        node->error = fabs(node->points - rim);
+        if (node->error <= aim * node->piece.area)
+            return;
+    }
     node->quarters = l->nodes;
     node->value = 0;
     for (int q = 0; q < QUARTERS; q++) {
@@ -238,10 +248,6 @@ static void compare(struct looking *l, int at)
         node->error = sqrt(noise); /* few rays agree by chance, and quarters may be new */
         return;
     }
-    struct polygon blockers[SIGHT_LIST];
-    for (int i = 0; i < node->count; i++)
-        l->host->corners(l->host, node->list[i], &blockers[i]);
-    double rim = by_points(l, &node->piece, blockers, node->count, 1);
     node->error = fmax(fabs(node->value - node->points), SIGHT_RIM_SHARE * fabs(node->value - rim));
 }
 
@@ -299,8 +305,13 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
             {v[0][0], v[0][1], v[0][2]}, {v[3][0], v[3][1], v[3][2]}, {v[4][0], v[4][1], v[4][2]}};
         start(l, rest, 3, list, count);
     }
+    double aim = limits->many ? limits->tolerance
+                                    * fmax(nodes[0].points + (l->nodes > 1 ? nodes[1].points : 0),
+                                           limits->floor * least)
+                                    / l->from->area
+                              : -1;
     for (int i = 0, roots = l->nodes; i < roots; i++) {
-        compare(l, i);
+        compare(l, i, aim);
         count_in(l, i);
     }
     while (l->heap > 0 && l->nodes + QUARTERS * QUARTERS <= limits->pieces
@@ -310,7 +321,7 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
         l->value -= nodes[at].value;
         l->square -= nodes[at].error * nodes[at].error;
         for (int q = 0; q < QUARTERS; q++) {
-            compare(l, quarters + q);
+            compare(l, quarters + q, aim);
             count_in(l, quarters + q);
         }
     }

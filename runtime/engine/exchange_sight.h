@@ -11,6 +11,7 @@
 struct sight_limits {
     double tolerance, floor;
     int pieces;
+    int many; /* 1: rules that agree are believed */
 };
 
 /* One thread's room, for the pieces of a pair. */

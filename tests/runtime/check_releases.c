@@ -60,11 +60,10 @@ static const struct run runs[] = {
       {"threshold_1=0", "threshold_8=1e9", "tested_8=1"}},
      0,
      0},
-    {"viewfactors", "cornell", {"from_faces=0"}, {{"exact=1"}}, 1, 1},
     {"viewfactors",
      "maze_8",
-     {"from_faces=0", "group_shadow=0.1"},
-     {{"from_faces=1000000"}, {"group_shadow=0.001"}},
+     {"from_faces=0", "shadow=1", "group_shadow=0.1"},
+     {{"min_share=1", "from_faces=1000000"}, {"group_shadow=0.001"}},
      0,
      1},
 };
@@ -246,13 +245,7 @@ static int list_missed(const char *oracle, const unsigned char *reached)
 /* Asks so much of a pair that its own runs are enough. */
 static int heavy(const char *oracle)
 {
-    return strcmp(oracle, "tester") == 0;
-}
-
-/* Links whole faces and has no min_share. */
-static int whole(const char *oracle)
-{
-    return strcmp(oracle, "viewfactors") == 0;
+    return strcmp(oracle, "tester") == 0 || strcmp(oracle, "viewfactors") == 0;
 }
 
 START_TEST(test_every_node)
@@ -262,7 +255,7 @@ START_TEST(test_every_node)
     for (int i = 0; i < RUNS; i++)
         if ((thorough() || runs[i].quick)
             && (runs[i].oracle ? strcmp(runs[i].oracle, oracle) == 0
-                               : !whole(oracle) && (runs[i].quick || !heavy(oracle))))
+                               : runs[i].quick || !heavy(oracle)))
             ask_run(oracle, &runs[i], reached);
     if (!thorough())
         return;
