@@ -15,9 +15,6 @@
  * emitter stands on, or run along it, and that set of rays has measure 0; so an element's own face,
  * faces in its plane and walls that bound both elements stop nothing. But an end that lies flat on
  * a face, less than `margin` away, may be under it for a ray caster: such a face is said to meet.
- * Where two faces meet at an acute angle, moving an end off the one puts a strip of it, no wider
- * than the offset, behind the other's plane: so a face also stops nothing when the ends as they
- * were lie on one side of it, but for SHAFT_STRIP, since files round corners.
  *
  * A face that covers the shaft stops all rays. Let the ends lie strictly on either side of its
  * plane. For a fixed point y of one end, c(x, y), where the ray from x meets the plane, is a
@@ -252,28 +249,21 @@ static inline int shaft_overlaps(const struct shaft *shaft, int end, const doubl
 static inline int shaft_side(const struct shaft *shaft, const double (*v)[3], int n,
                              const double normal[3])
 {
-    /* as the ends are, and moved off */
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    double low = INFINITY, high = -INFINITY;
     for (int end = 0; end < 2; end++) {
-        double nearest = INFINITY, across[3],
-               moved = 2 * shaft->reach * dot3(normal, shaft->facing[end]);
+        double nearest = INFINITY, across[3];
         for (int i = 0; i < shaft->points[end]; i++) {
             double h = height3(shaft->end[end][i], v[0], normal);
+            low = h < low ? h : low;
+            high = h > high ? h : high;
             nearest = fabs(h) < nearest ? fabs(h) : nearest;
-            for (int k = 0; k < 2; k++, h -= moved) {
-                low[1 - k] = h < low[1 - k] ? h : low[1 - k];
-                high[1 - k] = h > high[1 - k] ? h : high[1 - k];
-            }
         }
         cross3(across, normal, shaft->facing[end]);
         if (nearest < shaft->margin && dot3(across, across) < SHAFT_PARALLEL
             && shaft_overlaps(shaft, end, v, n))
             return -1;
     }
-    const double strip = SHAFT_STRIP * 2 * shaft->reach + shaft->touch;
-    return low[1] >= -shaft->touch || high[1] <= shaft->touch
-           || (low[0] >= -strip && high[0] > SHAFT_AWAY * strip)
-           || (high[0] <= strip && low[0] < -SHAFT_AWAY * strip);
+    return low >= -shaft->touch || high <= shaft->touch;
 }
 
 /* A polygon with its edges moved out by `grow`: mitred at right and blunt corners, cut off square

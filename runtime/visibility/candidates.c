@@ -49,6 +49,28 @@ static int lies_behind(const struct shaft *shaft, double offset, const struct el
     return 0;
 }
 
+/* Do the ends as they are, before they are moved off, lie on one side of a face, but for
+ * SHAFT_STRIP, since files round corners? Where surfaces meet at an acute angle, moving an end off
+ * the one puts a strip of it, no wider than the offset, behind the other. */
+static int on_one_side(const struct shaft *shaft, double offset, const struct element *e)
+{
+    const double(*v)[3] = (const double(*)[3])e->vertex,
+          strip = SHAFT_STRIP * offset + shaft->touch;
+    double low = INFINITY, high = -INFINITY;
+    if (shaft_side(shaft, v, e->vertices, e->normal) < 0)
+        return 0;
+    for (int end = 0; end < 2; end++) {
+        const double moved = offset * dot3(e->normal, shaft->facing[end]);
+        for (int i = 0; i < shaft->points[end]; i++) {
+            double h = height3(shaft->end[end][i], v[0], e->normal) - moved;
+            low = fmin(low, h);
+            high = fmax(high, h);
+        }
+    }
+    return (low >= -strip && high > SHAFT_AWAY * strip)
+           || (high <= strip && low < -SHAFT_AWAY * strip);
+}
+
 /* Returns 0, or -1 when there is no room left. */
 static int walk_shaft(struct walk *w, uint32_t index)
 {
@@ -58,7 +80,8 @@ static int walk_shaft(struct walk *w, uint32_t index)
     if (h->solid ? h->solid[index] : e->vertices) {
         if (h->faces[h->order[h->range[index].from]].back
             || (h->solid && lies_behind(w->shaft, w->offset, e))
-            || !shaft_meets(w->shaft, (const double(*)[3])e->vertex, e->vertices, NULL))
+            || !shaft_meets(w->shaft, (const double(*)[3])e->vertex, e->vertices, NULL)
+            || (h->solid && on_one_side(w->shaft, w->offset, e)))
             return 0;
         if (w->found == w->most)
             return -1;
