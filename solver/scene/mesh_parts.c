@@ -61,6 +61,20 @@ int numbered_add(struct numbered *n, int64_t number, uint32_t value)
     return 0;
 }
 
+/* ---- words */
+
+int mesh_unexpected(const struct mesh *m, const struct text_lines *t, const char *what)
+{
+    return report_error(m->path, t->number,
+                        "'%.*s' where %s belongs; the file is damaged, export it again",
+                        quoted_length(t->word, t->word_end), t->word, what);
+}
+
+int mesh_number(const struct mesh *m, const struct text_lines *t, const char *what, double *x)
+{
+    return word_number(t, x) && fabs(*x) <= (double)FLT_MAX ? 0 : mesh_unexpected(m, t, what);
+}
+
 /* ---- nodes */
 
 static int node_position(struct mesh *m, int64_t number, uint32_t *position)

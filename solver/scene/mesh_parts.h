@@ -9,6 +9,7 @@
 #define MESH_PARTS_H
 
 #include "scene/scene_file.h"
+#include "scene/text_lines.h"
 
 /* Whole numbers to indices, a table searched from the number's hash on. */
 struct numbered {
@@ -42,6 +43,10 @@ int mesh_polygon(struct mesh *m, uint32_t size, uint32_t material, uint32_t line
 int mesh_material(struct mesh *m, const char *name, size_t length, double reflectance,
                   uint32_t *material);
 void mesh_volume(struct mesh *m, uint32_t line);
+/* The word at hand, which must be a finite number: `what` belongs there. */
+int mesh_number(const struct mesh *m, const struct text_lines *t, const char *what, double *x);
+/* Says that the word at hand is none of what belongs there; -1. */
+int mesh_unexpected(const struct mesh *m, const struct text_lines *t, const char *what);
 
 /* At the file's end: are all nodes there, is there a face? Tells of volumes unless `quiet`. */
 int mesh_finish(struct mesh *m, int quiet);

@@ -48,11 +48,7 @@ static int take_number(struct gmsh *g, const char *what, double *x)
     if (!next_word(t))
         return report_error(g->mesh.path, t->number,
                             "the line ends before %s; the file is damaged, export it again", what);
-    if (!word_number(t, x) || !(fabs(*x) <= (double)FLT_MAX))
-        return report_error(g->mesh.path, t->number,
-                            "'%.*s' where %s belongs; the file is damaged, export it again",
-                            quoted_length(t->word, t->word_end), t->word, what);
-    return 0;
+    return mesh_number(&g->mesh, t, what, x);
 }
 
 static int take_whole(struct gmsh *g, const char *what, int64_t *i)

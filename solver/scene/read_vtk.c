@@ -45,14 +45,7 @@ static int next_value(struct vtk *v, const char *wanted)
 
 static int take_number(struct vtk *v, const char *what, double *x)
 {
-    const struct text_lines *t = &v->lines;
-    if (next_value(v, what))
-        return -1;
-    if (!word_number(t, x) || !(fabs(*x) <= (double)FLT_MAX))
-        return report_error(v->mesh.path, t->number,
-                            "'%.*s' where %s belongs; the file is damaged, export it again",
-                            quoted_length(t->word, t->word_end), t->word, what);
-    return 0;
+    return next_value(v, what) ? -1 : mesh_number(&v->mesh, &v->lines, what, x);
 }
 
 static int take_count(struct vtk *v, const char *what, size_t *count)
@@ -71,12 +64,7 @@ static int take_word(struct vtk *v, const char *wanted)
 {
     if (next_value(v, wanted))
         return -1;
-    return word_is_any_case(&v->lines, wanted)
-               ? 0
-               : report_error(v->mesh.path, v->lines.number,
-                              "'%.*s' where %s belongs; the file is damaged, export it again",
-                              quoted_length(v->lines.word, v->lines.word_end), v->lines.word,
-                              wanted);
+    return word_is_any_case(&v->lines, wanted) ? 0 : mesh_unexpected(&v->mesh, &v->lines, wanted);
 }
 
 /* "# vtk DataFile Version 3.0", a title, ASCII. */
