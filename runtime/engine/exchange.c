@@ -191,7 +191,7 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
     const struct exchange_areas *m = &x->areas;
     double *share = malloc((m->inputs + 1) * sizeof *share),
            *sums = malloc((m->inputs + 1) * sizeof *sums);
-    unsigned char *closed = malloc(m->inputs + 1);
+    unsigned char *closed = calloc(m->inputs + 1, 1);
     int status = -1;
     x->losses = calloc(m->inputs + 1, sizeof *x->losses);
     if (share && sums && x->losses && closed && find_sums(x, NULL, sums) == 0) {
@@ -199,7 +199,6 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
             if (i >= m->rows) /* nobody asks for it */
                 sums[i] = m->area[i];
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
-            closed[i] = 0;
         }
         const struct asking a = {x, o, share, x->losses};
         thread_pool_run(o->threads, m->rows, 16, ask_rows, &a);

@@ -61,6 +61,14 @@ static int two_sided(const struct shells *s, uint32_t polygon)
     return s->materials[s->polygons->materials ? s->polygons->materials[polygon] : 0].two_sided;
 }
 
+static int same_place(const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (a[k] < b[k] || a[k] > b[k])
+            return 0;
+    return 1;
+}
+
 /* Equal positions are one place, the first of them. Returns 0 or -1. */
 static int find_places(struct shells *s)
 {
@@ -83,15 +91,8 @@ static int find_places(struct shells *s)
         }
         size_t slot = hash & (slots - 1);
         while (table[slot] != UINT32_MAX
-               && memcmp(&s->polygons->positions[3 * (size_t)table[slot]],
-                         &s->polygons->positions[3 * i], sizeof p)
-                      != 0) {
-            const double *q = &s->polygons->positions[3 * (size_t)table[slot]];
-            if (!(q[0] < p[0]) && !(q[0] > p[0]) && !(q[1] < p[1]) && !(q[1] > p[1])
-                && !(q[2] < p[2]) && !(q[2] > p[2]))
-                break;
+               && !same_place(&s->polygons->positions[3 * (size_t)table[slot]], p))
             slot = (slot + 1) & (slots - 1);
-        }
         if (table[slot] == UINT32_MAX)
             table[slot] = (uint32_t)i;
         s->place[i] = table[slot];

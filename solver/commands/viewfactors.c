@@ -96,15 +96,12 @@ static json_t *report_json(const struct options *o, const struct open_scene *sce
 /* The matrix, or a product with it, and its names; of how many rows. Returns 0, or -1 after a
  * message. */
 static int write_matrix(const struct options *o, const struct open_scene *scene,
-                        RadExchange exchange, const struct columns *columns, uint32_t *rows)
+                        const struct factor_parts *by, RadExchange exchange,
+                        const struct columns *columns, uint32_t *rows)
 {
     struct surfaces surfaces =
         surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
-    struct factor_parts parts;
-    const struct factor_parts *by;
     struct factor_table table;
-    if (parts_of(o, &scene->file, &parts, &by) < 0)
-        return -1;
     surfaces.polygon_count = scene->originals;
     int status = factor_table_open(&table, exchange, scene->report.polygons, o->scene, &surfaces,
                                    by, o->losses);
@@ -122,11 +119,12 @@ static int write_matrix(const struct options *o, const struct open_scene *scene,
 
 /* Write what was asked for. Returns 0, or -1 after a message. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
-                         RadExchange exchange, const struct columns *columns)
+                         const struct factor_parts *by, RadExchange exchange,
+                         const struct columns *columns)
 {
     double start = seconds();
     uint32_t rows;
-    if (write_matrix(o, scene, exchange, columns, &rows) < 0)
+    if (write_matrix(o, scene, by, exchange, columns, &rows) < 0)
         return -1;
     double write_seconds = seconds() - start;
     struct RadExchangeReport r;
@@ -168,7 +166,7 @@ static int compute(const struct options *o, const struct open_scene *scene,
         radSetDeviceProgressFunction(scene->device, progress_show, &progress);
         RadExchange exchange = radNewExchange(scene->scene, oracle, &how);
         progress_end(&progress);
-        status = exchange ? write_outputs(o, scene, exchange, columns)
+        status = exchange ? write_outputs(o, scene, by, exchange, columns)
                           : report_device(scene->device, o->scene);
         radReleaseExchange(exchange);
     }
