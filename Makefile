@@ -14,7 +14,7 @@
 # make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
-# make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds: rows, charts and pages (STUDIES="NAME...": some)
+# make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors: rows, charts and pages (STUDIES="NAME...": some)
 # make bench-threads  what two threads bring, and what they cost beside 8 busy loops
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # make install-dagc  the part of it that is dagc's
@@ -178,7 +178,7 @@ $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
-CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
 check: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
@@ -227,8 +227,8 @@ demo: all
 	@sh examples/demo.sh $(BUILD)
 
 # A study is tests/studies/NAME.sh; what has been run stays in BUILD/studies. BUDGET: processor seconds for each scene.
-STUDIES   = releases accuracy need growth limit bounds
-bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance
+STUDIES   = releases accuracy need growth limit bounds viewfactors
+bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
 	@set -e; for study in $(STUDIES); do \
 	    [ -f tests/studies/$$study.sh ] || { echo "make bench: error: there is no study $$study; there are: $(filter-out lib accuracy_page check_studies,$(notdir $(basename $(wildcard tests/studies/*.sh))))" >&2; exit 1; }; \
 	    BUILD=$(BUILD) bash tests/studies/$$study.sh; \
@@ -279,6 +279,9 @@ $(BUILD)/bin/cell_error: $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/tables/*.c
 $(BUILD)/bin/by_chance: $(BUILD)/tests/studies/by_chance.o $(SOLVER) $(ARCHIVE)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
+$(BUILD)/bin/cost_of: $(BUILD)/tests/studies/cost_of.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^
 .PHONY: tables
 tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays
 	@sh tests/tables/make.sh $(BUILD) $(TABLES)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # check_studies.sh - studies: a run that was stopped goes on, and nothing runs twice; rows that are damaged are told; the
 # Pareto front, the sentences that follow from it and thresholds are right; what is missing is named. by_chance in the furnace.
+# cost_of ends what takes too long; closed forms of a cube sum to 1, and errors of matrices are those that were made.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../solver/lib.sh"
 export BUILD RESULTS=$tmp/results PAGES=$tmp/pages RADIOSITY=$radiosity
@@ -147,4 +148,42 @@ check "cells against themselves" sh -c '"$BUILD/bin/cell_error" compare "$1" cel
 awk -F , 'NR > 1 { $4 += NR % 2 ? .1 : -.1 } { OFS = ","; print }' cells.csv >off.csv
 check "cells off by a tenth" sh -c '"$BUILD/bin/cell_error" compare "$1" cells.csv faces.csv off.csv 1e-2 >errors' - "$furnace"
 check "L2 of cells" awk '$1 == "l2_cells" { found = $2 > .09 && $2 < .101 } END { exit !found }' errors
+
+# ---- cost_of: of the processor, not of the clock
+cost_of=$BUILD/bin/cost_of
+check "a command that waits is not ended" "$cost_of" took 1 sleep 1.2
+check "and takes nothing" awk '$1 == "seconds" && $2 < .5 { found++ } $1 == "memory_mb" && $2 > .1 { found++ } END { exit found != 2 }' took
+status_of() { "$@" >out 2>err; [ $? = "$expected" ]; }
+expected=124
+check "one that works on and on is ended" status_of "$cost_of" took 1 sh -c 'while :; do :; done'
+expected=7
+check "its exit status is kept" status_of "$cost_of" took 1 sh -c 'exit 7'
+expected=127
+check "a command that is not there" status_of "$cost_of" took 1 ./no_such_command
+expected=2
+check "a limit that is no number" status_of "$cost_of" took 1s true
+
+# ---- viewfactors: a cube by closed forms, what other programs read and write, errors
+view=$top/tests/studies
+awk -v N=2 -f "$view/cube_factors.awk" >cube.coo
+errors() { awk -v ROWS=24 "$@" -f "$view/factor_error.awk"; }
+check "entries of a cube sum to 1" sh -c 'awk -v ROWS=24 -f "$1" <cube.coo | awk "{ wrong += \$2 > 1e-11 } END { exit wrong || NR != 2 }"' - "$view/factor_error.awk"
+check "walls.awk and the closed forms are one cube" sh -c 'awk -v SCENE=cube_quads -v N=2 -f "$1/walls.awk" >cube.obj && "$2" viewfactors cube.obj -q --format coo -o ours.coo && awk -v ROWS=24 -v REFERENCE=cube.coo -f "$1/factor_error.awk" <ours.coo | awk "\$2 > 1e-8 { exit 1 }"' - "$view" "$radiosity"
+check "two triangles are a square" sh -c 'awk -v SCENE=cube_triangles -v N=2 -f "$1/walls.awk" >cube_3.obj && "$2" viewfactors cube_3.obj -q --format coo -o three.coo && awk -v ROWS=48 -v GROUP=2 -v REFERENCE=cube.coo -f "$1/factor_error.awk" <three.coo | awk "\$2 > 1e-8 { exit 1 }"' - "$view" "$radiosity"
+check "a sphere in a box is closed" sh -c 'awk -v SCENE=sphere_in_box -v N=2 -f "$1/walls.awk" >sphere.obj && "$2" viewfactors sphere.obj -q --format coo -o sphere.coo && awk -v ROWS=80 -f "$1/factor_error.awk" <sphere.coo | awk "\$2 > 1e-3 { exit 1 }"' - "$view" "$radiosity"
+awk -F , -v OFS=, '$1 == 3 && $2 == 20 { $3 += .01 } $1 == 4 && $2 == 9 { next } { print }' cube.coo >off.coo
+errors -v REFERENCE=cube.coo <off.coo >told
+gone=$(awk -F , '$1 == 4 && $2 == 9 { print $3 }' cube.coo)
+check "errors are what was done" awk -v gone="$gone" '
+    function near(x, y) { return x > .99 * y && x < 1.01 * y }
+    { v[$1] = $2 }
+    END { exit !(near(v["row_largest"], gone) && near(v["row_mean"], (.01 + gone) / 24) && near(v["entry_largest"], gone) && near(v["entry_mean"], (.01 + gone) / 24)) }' told
+check "rows that are not in order" sh -c '! tac cube.coo | awk -v ROWS=24 -f "$1" 2>/dev/null' - "$view/factor_error.awk"
+printf 'FoamFile\n{\n}\n\n4\n(\n2\n(\n.1\n.2\n)\n3{.5}\n0()\n1(7)\n)\n' | awk -f "$view/foam_lists.awk" >lists
+check "OpenFOAM's lists" [ "$(tr '\n' '|' <lists)" = ".1 .2|.5 .5 .5||7|" ]
+awk -v AS=view3d -f "$view/other_input.awk" cube.obj >cube.vs3
+check "View3D's input is the same cube" sh -c '"$1" viewfactors cube.vs3 -q --format coo -o vs3.coo && cmp vs3.coo ours.coo' - "$radiosity"
+mkdir -p case/0 case/system case/constant/polyMesh
+check "OpenFOAM's case is written" awk -v AS=openfoam -v CASE=case -f "$view/other_input.awk" cube.obj
+check "its faces look the other way" grep -qx '4(3 2 1 0)' case/constant/polyMesh/faces
 finish studies
