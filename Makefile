@@ -40,7 +40,7 @@ LIBS     = $(EMBREE) -llapacke -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
-PUBLIC    = catalog.dag discussion.h geometry.h oracle.h radiosity.h standalone.h
+PUBLIC    = catalog.dag discussion.h geometry.h oracle.h radiosity.h standalone.h wave.h
 TOOLKIT   = $(PUBLIC) kernel terms tools
 wall_util       = util
 wall_hierarchy  = $(TOOLKIT) util hierarchy
@@ -94,7 +94,7 @@ $(LIBDAGC): $(call objects,$(wildcard dagc/*/)) $(EMBEDDED)
 $(BUILD)/gen/catalog_text.c: runtime/catalog.dag dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	sh dagc/emit/embed.sh dagc_standard_catalog $< > $@
-HEADERS   = discussion.h geometry.h oracle.h standalone.h $(patsubst runtime/%,%,$(wildcard runtime/kernel/*.h runtime/terms/*.h runtime/tools/*.h))
+HEADERS   = discussion.h geometry.h oracle.h standalone.h wave.h $(patsubst runtime/%,%,$(wildcard runtime/kernel/*.h runtime/terms/*.h runtime/tools/*.h))
 $(BUILD)/gen/headers_text.c: $(HEADERS:%=runtime/%) dagc/emit/embed_headers.sh
 	@mkdir -p $(@D)
 	sh dagc/emit/embed_headers.sh dagc_headers runtime $(HEADERS) > $@

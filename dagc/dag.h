@@ -94,7 +94,7 @@ struct level {
     struct where where;
 };
 
-/* term NAME : TYPE [in [a, b]] [levels (a < b < c)] [header "H"] "doc"; a value in the data
+/* term NAME : TYPE [in [a, b]] [levels (a < b < c)] [header "H"] [wave] "doc"; a value in the data
  * manager. */
 struct term {
     const char *name;
@@ -105,6 +105,7 @@ struct term {
     struct span levels; /* in levels; empty: the term is absent or present */
     double low, high;   /* the values it can have */
     const char *header; /* C header with `term_NAME`, "terms/NAME.h" when not written */
+    const char *wave;   /* with `wave_term_NAME`: header's name with .wave.h; NULL: there is none */
     const char *doc;
 };
 
@@ -209,7 +210,7 @@ struct guard {
 };
 
 /* tool NAME(parameters) question|command answers (...) [reads] [writes]
- * [guards (...) [by (...)] [after TOOL(...)]] [counts|records] [header] "doc"; */
+ * [guards (...) [by (...)] [after TOOL(...)]] [counts|records] [header] [wave] "doc"; */
 struct tool {
     const char *name;
     struct where where;
@@ -228,6 +229,7 @@ struct tool {
     enum keeps keeps;
     struct where keeps_where; /* of the word that says so */
     const char *header;       /* C header with `tool_NAME`, "tools/NAME.h" when not written */
+    const char *wave;         /* with `wave_NAME`, likewise, its form over a block; NULL: none */
     const char *doc;
 };
 

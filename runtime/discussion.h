@@ -23,7 +23,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 10
+#define RUNTIME_ABI 11
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 

@@ -39,6 +39,10 @@ struct oracle {
     /* [read_count], enum catalog_fact: the facts that its arguments read, ascending */
     const int *reads;
     int read_count;
+    /* What refine does, of each of `count` discussions; which of them stand together changes no
+     * answer. All have one host. NULL: it was compiled without (dagc --release=wave). */
+    void (*wave)(const void *parameters, struct discussion *block, int count,
+                 enum decision *decisions);
 };
 
 #endif

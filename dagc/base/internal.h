@@ -194,6 +194,7 @@ void dag_fingerprint(struct dag *dag);
 struct emit_options {
     int counted;        /* --instrument: NAME_refine_counted */
     int traced;         /* --trace: NAME_refine_traced */
+    int wave;           /* --release=wave: NAME_refine_wave */
     int copies;         /* --copies: of a node for what paths know, at most; 0: one */
     int outline;        /* --outline: graphs used more than once are functions */
     int lines;          /* --lines: a comment at each node says where it stands in its source */

@@ -214,6 +214,11 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_TRACE:
         job->c.traced = 1;
         return -1;
+    case OPTION_RELEASE:
+        job->c.wave = strcmp(value, "wave") == 0;
+        return job->c.wave || strcmp(value, "flat") == 0
+                   ? -1
+                   : wrong("--release takes flat or wave, not", value);
     case OPTION_COPIES:
         job->c.copies = atoi(value);
         if (job->c.copies < 1 || job->c.copies > 64 || strspn(value, "0123456789") != strlen(value))
@@ -363,11 +368,10 @@ static const char *contradiction(const struct job *job)
     if (dag_job_is_catalog(job) && (header != NULL || job->catalog_path != NULL))
         return "--header and --catalog mean nothing with a catalog as the source";
     if ((job->c.counted || job->c.traced || job->c.lines || job->c.standalone || job->prove
-         || job->c.copies || job->c.directives || job->c.outline)
+         || job->c.copies || job->c.directives || job->c.outline || job->c.wave)
         && (job->emit != EMIT_C || job->stop != PASSES))
-        return "--instrument, --trace, --copies, --outline, --lines, --line-directives, "
-               "--standalone and "
-               "--prove belong to C text";
+        return "--instrument, --trace, --release=wave, --copies, --outline, --lines, "
+               "--line-directives, --standalone and --prove belong to C text";
     if (job->c.outline && job->c.copies > 1)
         return "--outline makes the text shorter, --copies longer: take one";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))

@@ -161,8 +161,9 @@ static void add_tags(struct dag *dag, struct c_names *names, const struct line *
             name = open = closing(line, name + 1) + 1;
         if (is_name(dag, line, name))
             open = name + 1;
-        for (int k = 0; is_enum && k < 4 && !is_mark(line, open, '{'); k++)
-            open += is_mark(line, open, ':') || k > 0; /* enum NAME : TYPE */
+        if (is_enum && is_mark(line, open, ':')) /* enum NAME : TYPE */
+            for (int k = 0; k < 4 && !is_mark(line, open, '{'); k++)
+                open++;
         if (!is_mark(line, open, '{'))
             continue;
         if (open > name)

@@ -37,6 +37,14 @@ int dag_emit_states_facts(struct dag *dag, const struct emit_options *options);
 void dag_emit_callers(struct dag *dag, struct text *out, const unsigned char *reached,
                       const struct emit_options *options);
 
+/* Over a block of pairs, all that are at a node at once (emit_wave.c): the function's declaration;
+ * what all oracles of the file call, headers included; the function itself. */
+void dag_emit_wave_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle);
+void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned char *reached);
+void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char *reached);
+void dag_emit_wave(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                   const struct emit_options *options);
+
 /* The declarations and tables that counted and traced functions need (emit_counters.c). */
 void dag_emit_counters_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                          const struct emit_options *options);

@@ -102,6 +102,8 @@ void dag_emit_oracle_h(const struct dag *dag, struct text *out, const struct ora
         dag_emit_prototype(dag, out, oracle, FLAVOUR_FIRST);
         dag_print(out, ";\n");
     }
+    if (options->wave)
+        dag_emit_wave_h(dag, out, oracle);
     dag_emit_counters_h(dag, out, oracle, options);
 }
 
@@ -266,7 +268,8 @@ static int print_reads(const struct dag *dag, struct text *out, const struct ora
 }
 
 /* const struct oracle NAME_oracle; the wrappers give the typed functions their general types. */
-static void print_oracle(const struct dag *dag, struct text *out, const struct oracle_graph *oracle)
+static void print_oracle(const struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                         const struct emit_options *options)
 {
     const char *name = oracle->name;
     char fingerprint[17];
@@ -282,6 +285,13 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
               "    struct discussion *discussion)\n{\n"
               "    return %s_%s((const struct %s_parameters *)parameters, discussion);\n}\n",
               name, dag->verb, name, dag->verb, name);
+    if (options->wave)
+        dag_print(out,
+                  "\nstatic void %s_%s_wave_any(const void *parameters, struct discussion *block,\n"
+                  "    int count, enum decision *decisions)\n{\n"
+                  "    %s_%s_wave((const struct %s_parameters *)parameters, block, count,\n"
+                  "        decisions);\n}\n",
+                  name, dag->verb, name, dag->verb, name);
     dag_print(out, "\nconst struct oracle %s_oracle = {\n    RUNTIME_ABI,\n    \"%s\",\n    ", name,
               name);
     dag_print_string(out, oracle->doc);
@@ -293,9 +303,13 @@ static void print_oracle(const struct dag *dag, struct text *out, const struct o
     dag_print(out, "    sizeof(struct %s_parameters),\n    %s_defaults_any,\n    %s_%s_any,\n",
               name, name, name, dag->verb);
     if (reads > 0)
-        dag_print(out, "    %s_reads,\n    %d\n};\n", name, reads);
+        dag_print(out, "    %s_reads,\n    %d,\n", name, reads);
     else
-        dag_print(out, "    NULL,\n    0\n};\n");
+        dag_print(out, "    NULL,\n    0,\n");
+    if (options->wave)
+        dag_print(out, "    %s_%s_wave_any\n};\n", name, dag->verb);
+    else
+        dag_print(out, "    NULL\n};\n");
 }
 
 /* What analyse_terms.c proved and a compiler may not see. */
@@ -318,6 +332,8 @@ void dag_emit_oracle_c(struct dag *dag, struct text *c, const struct oracle_grap
         dag_emit_flat(dag, c, oracle, FLAVOUR_COUNTED, options);
     if (options->traced)
         dag_emit_flat(dag, c, oracle, FLAVOUR_TRACED, options);
+    if (options->wave)
+        dag_emit_wave(dag, c, oracle, options);
 }
 
 void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char *header_name,
@@ -335,15 +351,20 @@ void dag_emit_c(struct dag *dag, struct text *c, struct text *header, const char
     else
         print_declarations(dag, c, options);
     print_checks(dag, c, reached);
-    dag_print(c, "\n#include <math.h>\n#include <stddef.h>\n");
+    dag_print(c, "\n#include <math.h>\n#include <stddef.h>\n%s",
+              options->wave ? "#include <stdint.h>\n" : "");
     print_tool_headers(dag, c, reached);
+    if (options->wave)
+        dag_emit_wave_headers(dag, c, reached);
     dag_emit_accessors(dag, c);
     dag_emit_callers(dag, c, reached, options);
+    if (options->wave)
+        dag_emit_wave_calls(dag, c, reached);
     dag_emit_known_macro(dag, c, options);
     if (options->before != NULL)
         dag_print(c, "%s", options->before);
     for (int i = 0; i < dag->oracle_count; i++) {
         dag_emit_oracle_c(dag, c, &dag->oracles[i], options);
-        print_oracle(dag, c, &dag->oracles[i]);
+        print_oracle(dag, c, &dag->oracles[i], options);
     }
 }

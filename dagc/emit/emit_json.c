@@ -176,6 +176,8 @@ static void print_term(const struct dag *dag, struct text *out, const struct ter
     print_number_field(out, "low", term->low);
     print_number_field(out, "high", term->high);
     print_field(out, ", ", "header", term->header);
+    if (term->wave != NULL)
+        print_field(out, ", ", "wave", term->wave);
     print_field(out, ", ", "doc", term->doc);
     dag_print(out, "}");
 }
@@ -235,6 +237,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     if (tool->keeps != KEEPS_NOTHING)
         print_field(out, ", ", "keeps", tool->keeps == KEEPS_COUNT ? "count" : "record");
     print_field(out, ",\n       ", "header", tool->header);
+    if (tool->wave != NULL)
+        print_field(out, ", ", "wave", tool->wave);
     print_field(out, ", ", "doc", tool->doc);
     dag_print(out, "}");
 }

@@ -49,6 +49,8 @@ static void add_generated(struct standalone *s)
     dag_amalgam_text(&s->files, declarations_name, text_kept(dag, &declarations));
     dag_emit_accessors(dag, &functions);
     dag_emit_callers(dag, &functions, s->reached, &s->options);
+    if (s->options.wave)
+        dag_emit_wave_calls(dag, &functions, s->reached);
     dag_emit_known_macro(dag, &functions, &s->options);
     for (int i = 0; i < dag->oracle_count; i++)
         dag_emit_oracle_c(dag, &functions, &dag->oracles[i], &s->options);
@@ -85,6 +87,12 @@ static void put_private(struct standalone *s, struct text *out)
     for (int i = 0; i < dag->term_count; i++)
         if (terms[i])
             put(s, out, dag->terms[i].header, dag->terms[i].where);
+    for (int i = 0; i < dag->tool_count && s->options.wave; i++)
+        if (s->reached[i] && dag->tools[i].wave != NULL)
+            put(s, out, dag->tools[i].wave, dag->tools[i].where);
+    for (int i = 0; i < dag->term_count && s->options.wave; i++)
+        if (terms[i] && dag->terms[i].wave != NULL)
+            put(s, out, dag->terms[i].wave, dag->terms[i].where);
     put(s, out, functions_name, dag_nowhere);
 }
 
@@ -189,11 +197,11 @@ void dag_emit_standalone(struct dag *dag, struct text *c, struct text *header,
 
     dag_emit_banner(dag, c);
     dag_print(c,
-              "#include \"%s\"\n\n#include <math.h>\n#include <stddef.h>\n\n"
+              "#include \"%s\"\n\n#include <math.h>\n#include <stddef.h>\n%s\n"
               "/* Whole files are in here; no graph uses all that is in them. */\n"
               "#if defined __GNUC__ || defined __clang__\n"
               "#pragma GCC diagnostic ignored \"-Wunused-function\"\n"
               "#pragma GCC diagnostic ignored \"-Wunused-macros\"\n#endif\n",
-              header_name);
+              header_name, options->wave ? "#include <stdint.h>\n" : "");
     put_private(&s, c);
 }

@@ -274,10 +274,14 @@ static const char *embedded(const char *name)
 static void redirect(struct dag *dag)
 {
     dag->runtime_header = "discussion.h";
-    for (int i = 0; i < dag->tool_count; i++)
+    for (int i = 0; i < dag->tool_count; i++) {
         dag->tools[i].header = "tools.h";
-    for (int i = 0; i < dag->term_count; i++)
+        dag->tools[i].wave = NULL;
+    }
+    for (int i = 0; i < dag->term_count; i++) {
         dag->terms[i].header = "tools.h";
+        dag->terms[i].wave = NULL;
+    }
     for (int i = 0; i < dag->fact_count; i++)
         dag->facts[i].c = dag_format(&dag->arena, "d->record->facts[%d]", i);
 }

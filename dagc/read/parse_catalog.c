@@ -155,8 +155,17 @@ static int parse_bounds(struct parser *parser, double *low, double *high)
     return taken >= 0;
 }
 
+/* Beside NAME.h stands NAME.wave.h. */
+static const char *wave_header(struct dag *dag, const char *header)
+{
+    size_t length = strlen(header);
+    if (length > 2 && strcmp(header + length - 2, ".h") == 0)
+        length -= 2;
+    return dag_format(&dag->arena, "%.*s.wave.h", (int)length, header);
+}
+
 /* term = "term" NAME ":" NAME [ range ] [ "levels" "(" NAME { "<" NAME } ")" ]
- *        [ "header" STRING ] [ STRING ] ";" */
+ *        [ "header" STRING ] [ "wave" ] [ STRING ] ";" */
 static int parse_term(struct parser *parser)
 {
     struct dag *dag = parser->dag;
@@ -195,6 +204,8 @@ static int parse_term(struct parser *parser)
     if (dag_take_word(parser, "header")
         && !dag_expect_string(parser, "the name of a C header, a string", &t->header))
         return 0;
+    if (dag_take_word(parser, "wave"))
+        t->wave = wave_header(dag, t->header);
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &t->doc))
         return 0;
     return dag_expect(parser, ';', "after a declaration");
@@ -318,7 +329,8 @@ int dag_parse_answers(struct parser *parser, struct span *span)
 
 /* tool = "tool" NAME "(" [ parameter { "," parameter } ] ")" ( "question" | "command" )
  *        "answers" answers
- *        { "reads" needs | "writes" needs | guards | "counts" | "records" | "header" STRING }
+ *        { "reads" needs | "writes" needs | guards | "counts" | "records" | "header" STRING
+ *        | "wave" }
  *        [ STRING ] ";" */
 static int parse_tool(struct parser *parser)
 {
@@ -334,6 +346,7 @@ static int parse_tool(struct parser *parser)
     *t = tool;
     t->header = dag_format(&dag->arena, "tools/%s.h", t->name);
     t->parameters.first = dag->parameter_count;
+    int wave = 0;
     if (!dag_expect(parser, '(', "after the tool's name"))
         return 0;
     while (!dag_at_mark(parser, ')')) {
@@ -373,9 +386,12 @@ static int parse_tool(struct parser *parser)
         } else if (dag_take_word(parser, "header")) {
             if (!dag_expect_string(parser, "the name of a C header, a string", &t->header))
                 return 0;
-        } else
+        } else if (dag_take_word(parser, "wave"))
+            wave = 1;
+        else
             break;
     }
+    t->wave = wave ? wave_header(dag, t->header) : NULL;
     if (parser->token.kind == TOKEN_STRING && !dag_expect_string(parser, "", &t->doc))
         return 0;
     return dag_expect(parser, ';', "after a declaration");

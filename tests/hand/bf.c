@@ -115,6 +115,15 @@ static const struct oracle_parameter table[] = {
     {"rays", "", "", 16, 4, 64, 1, offsetof(struct parameters, rays), ROLE_NONE, 0},
 };
 
-const struct oracle hand_bf = {
-    RUNTIME_ABI, "bf", "written by hand", "", table, 5, sizeof(struct parameters), defaults, refine,
-    NULL,        0};
+const struct oracle hand_bf = {RUNTIME_ABI,
+                               "bf",
+                               "written by hand",
+                               "",
+                               table,
+                               5,
+                               sizeof(struct parameters),
+                               defaults,
+                               refine,
+                               NULL,
+                               0,
+                               NULL};

@@ -157,4 +157,5 @@ const struct oracle hand_bf_guarded = {RUNTIME_ABI,
                                        defaults,
                                        refine,
                                        NULL,
-                                       0};
+                                       0,
+                                       NULL};

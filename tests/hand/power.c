@@ -436,4 +436,5 @@ const struct oracle hand_power = {RUNTIME_ABI,
                                   defaults,
                                   refine,
                                   NULL,
-                                  0};
+                                  0,
+                                  NULL};

@@ -1,0 +1,280 @@
+/* emit_wave.c - a decision graph as a C function over a block of pairs.
+ *
+ * A graph has no circle, so one sweep over its nodes in topological order treats a block: all pairs
+ * that have reached a node stand in its list, the tool answers for the whole list, and the answers
+ * part the list among the nodes that follow. So a tool sees many pairs at once, and may compute
+ * them in vectors, or send their rays together; and a processor sees one loop after the other in
+ * place of branches that no two pairs take alike.
+ *
+ * Per tool there is one function over a list: the tool's own wave form (tools/NAME.wave.h, `wave`
+ * in the catalog) or, here, its scalar form in a loop. Terms stay in each pair's discussion, so the
+ * forms of tools depend on no graph. A list is used again when its node is done: there are as many
+ * as nodes wait at a time.
+ *
+ * Invariant: what is done to a pair depends on no other pair; calls of one pair come in the order
+ * of the flat release. So decisions and terms are those of NAME_refine, to the bit.
+ * SPDX-License-Identifier: MIT */
+#include "analyse/analyse.h"
+#include "emit/emit.h"
+#include "emit/line_directives.h"
+
+/* PAIRS: as WAVE_PAIRS of runtime/wave.h. A graph in which more nodes wait than LISTS_MOST would
+ * need too much of a stack and goes pair by pair. */
+enum { PAIRS = 256, LISTS_MOST = 1000, NO_LIST = 0 };
+
+struct wave {
+    struct dag *dag;
+    struct text *out;
+    const struct oracle_graph *oracle;
+    const struct emit_options *options;
+    int *list; /* by place in the order; list NO_LIST takes those that are decided */
+    int lists;
+};
+
+static const struct node *node_at(const struct wave *wave, int place)
+{
+    return dag_node_at(wave->dag, wave->oracle, place);
+}
+
+static const struct arc *arc_of(const struct wave *wave, const struct node *node, int answer)
+{
+    return &wave->dag->arcs[node->arcs.first + answer];
+}
+
+/* A node's list is used from the first node that leads to it until its own end. */
+static void assign_lists(struct wave *wave)
+{
+    const int nodes = wave->oracle->order.count;
+    int *unused = dag_alloc(&wave->dag->arena, (size_t)nodes * sizeof *unused), count = 0;
+    wave->list = dag_alloc(&wave->dag->arena, (size_t)nodes * sizeof *wave->list);
+    wave->list[0] = 1;
+    wave->lists = 2;
+    for (int i = 0; i < nodes; i++) {
+        const struct node *node = node_at(wave, i);
+        for (int a = 0; a < node->arcs.count; a++) {
+            const struct target *target = &arc_of(wave, node, a)->target;
+            if (target->kind != TARGET_NODE)
+                continue;
+            int *list = &wave->list[wave->dag->nodes[target->index].order];
+            if (*list == NO_LIST)
+                *list = count > 0 ? unused[--count] : wave->lists++;
+        }
+        unused[count++] = wave->list[i];
+    }
+}
+
+static void print_prototype(const struct dag *dag, struct text *out,
+                            const struct oracle_graph *oracle)
+{
+    dag_print(out,
+              "void %s_%s_wave(const struct %s_parameters *parameters,\n"
+              "    struct discussion *block, int count, enum decision *decisions)",
+              oracle->name, dag->verb, oracle->name);
+}
+
+void dag_emit_wave_h(const struct dag *dag, struct text *out, const struct oracle_graph *oracle)
+{
+    dag_print(out,
+              "\n/* The same of `count` discussions, which have one host: decisions[i] is that of"
+              " block[i].\n * Which of them stand together makes no difference. */\n");
+    print_prototype(dag, out, oracle);
+    dag_print(out, ";\n");
+}
+
+static const char *c_type(const struct dag *dag, const struct parameter *parameter)
+{
+    return dag->types[parameter->type].base == BASE_INTEGER ? "int" : "double";
+}
+
+/* The tool over a list, by its scalar form. */
+static void print_loop(const struct dag *dag, struct text *out, const struct tool *tool)
+{
+    const struct parameter *parameters = &dag->parameters[tool->parameters.first];
+    dag_print(
+        out, "\nstatic void wave_%s(struct discussion *block, const uint16_t *at, int count,\n    ",
+        tool->name);
+    for (int i = 0; i < tool->parameters.count; i++)
+        dag_print(out, "const %s *%s_, ", c_type(dag, &parameters[i]), parameters[i].name);
+    dag_print(out,
+              "unsigned char *answers)\n{\n"
+              "    for (int k = 0; k < count; k++)\n"
+              "        answers[k] = (unsigned char)tool_%s(&block[at[k]]",
+              tool->name);
+    for (int i = 0; i < tool->parameters.count; i++)
+        dag_print(out, ", %s_[k]", parameters[i].name);
+    dag_print(out, ");\n}\n");
+}
+
+void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned char *reached)
+{
+    const unsigned char *terms = dag_emit_reached_terms(dag);
+    for (int i = 0; i < dag->tool_count; i++)
+        if (reached[i] && dag->tools[i].wave != NULL)
+            dag_print(out, "#include \"%s\"\n", dag->tools[i].wave);
+    for (int i = 0; i < dag->term_count; i++)
+        if (terms[i] && dag->terms[i].wave != NULL)
+            dag_print(out, "#include \"%s\"\n", dag->terms[i].wave);
+}
+
+void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char *reached)
+{
+    dag_print(
+        out,
+        "\n/* Where an answer leads: to the list of the next node, or (list %d) to a decision."
+        " */\nstruct lists_way {\n    int list;\n    enum decision decision;\n};\n"
+        "\nstatic void lists_part(const struct lists_way *ways, const unsigned char *answers,\n"
+        "    int list, uint16_t (*at)[%d], int *waiting, enum decision *decisions)\n{\n"
+        "    waiting[%d] = 0;\n"
+        "    for (int k = 0; k < waiting[list]; k++) {\n"
+        "        const struct lists_way way = ways[answers[k]];\n"
+        "        const uint16_t pair = at[list][k];\n"
+        "        at[way.list][waiting[way.list]++] = pair;\n"
+        "        decisions[pair] = way.decision;\n    }\n"
+        "    waiting[list] = 0;\n}\n",
+        NO_LIST, PAIRS, NO_LIST);
+    for (int i = 0; i < dag->tool_count; i++)
+        if (reached[i] && dag->tools[i].wave == NULL)
+            print_loop(dag, out, &dag->tools[i]);
+}
+
+/* static const struct lists_way ways[] = {{2, DECISION_...}, ...} */
+static void print_ways(const struct wave *wave, const struct node *node)
+{
+    const struct dag *dag = wave->dag;
+    dag_print(wave->out, "        static const struct lists_way ways[] = {");
+    for (int a = 0; a < node->arcs.count; a++) {
+        const struct target *target = &arc_of(wave, node, a)->target;
+        const int decides = target->kind == TARGET_DECISION;
+        dag_print(wave->out, "%s{%d, DECISION_", a > 0 ? ", " : "",
+                  decides ? NO_LIST : wave->list[dag->nodes[target->index].order]);
+        dag_print_upper(wave->out, dag->decisions[decides ? target->index : 0].name);
+        dag_print(wave->out, "}");
+    }
+    dag_print(wave->out, "};\n");
+}
+
+/* Does an argument look at the discussion? */
+static int looks_at_pair(const struct dag *dag, const struct node *node)
+{
+    for (int i = 0; i < node->arguments.count; i++) {
+        const struct argument *argument = &dag->arguments[node->arguments.first + i];
+        if (!dag_is_fixed(dag, argument->expression) || dag_is_doubtful(dag, argument))
+            return 1;
+    }
+    return 0;
+}
+
+/* The term that is read first, by its form over a list, if it has one. No other: a later one may
+ * depend on what is known when the pair comes to it. */
+static void print_first_read(const struct wave *wave, const struct node *node, int list)
+{
+    const struct dag *dag = wave->dag;
+    const struct need *need = &dag->needs[node->reads.first];
+    if (node->reads.count == 0 || dag->terms[need->term].wave == NULL)
+        return;
+    const struct term *term = &dag->terms[need->term];
+    dag_print(wave->out, "        wave_term_%s(block, at[%d], waiting[%d]", term->name, list, list);
+    if (term->levels.count > 0) {
+        dag_print(wave->out, ", ");
+        dag_print_upper(wave->out, term->name);
+        dag_print(wave->out, "_");
+        dag_print_upper(wave->out, dag->levels[term->levels.first + need->level - 1].name);
+    }
+    dag_print(wave->out, ");\n");
+}
+
+/* The arguments of all pairs of the list, given_1[k] and so on. */
+static void print_arguments(const struct wave *wave, const struct node *node, int list)
+{
+    const struct place place = {"d", "d", NULL};
+    const struct dag *dag = wave->dag;
+    struct text *out = wave->out;
+    int value = 0;
+    for (int i = 0; i < node->arguments.count; i++)
+        dag_print(
+            out, "        %s given_%d[%d];\n",
+            c_type(dag, &dag->parameters[dag->arguments[node->arguments.first + i].parameter]),
+            i + 1, PAIRS);
+    if (node->arguments.count == 0)
+        return;
+    print_first_read(wave, node, list);
+    dag_print(out, "        for (int k = 0; k < waiting[%d]; k++) {\n", list);
+    if (looks_at_pair(dag, node))
+        dag_print(out, "            struct discussion *d = &block[at[%d][k]];\n", list);
+    dag_emit_reads(wave->dag, out, node, &place);
+    for (int i = 0; i < node->arguments.count; i++) {
+        dag_print(out, "            given_%d[k] = ", i + 1);
+        dag_emit_expression(wave->dag, out, node, &dag->arguments[node->arguments.first + i],
+                            &place, &value);
+        dag_print(out, ";\n");
+    }
+    dag_print(out, "        }\n");
+}
+
+static void print_node(const struct wave *wave, int place)
+{
+    const struct node *node = node_at(wave, place);
+    const int list = wave->list[place];
+    struct text *out = wave->out;
+    dag_print(out, "\n        /* %s */\n", node->name);
+    if (wave->options->directives)
+        dag_line_at(wave->dag, out, node->where);
+    dag_print(out, "        if (waiting[%d] > 0) {\n", list);
+    print_ways(wave, node);
+    print_arguments(wave, node, list);
+    dag_print(out, "        wave_%s(block, at[%d], waiting[%d]", wave->dag->tools[node->tool].name,
+              list, list);
+    for (int i = 0; i < node->arguments.count; i++)
+        dag_print(out, ", given_%d", i + 1);
+    dag_print(out,
+              ", answers);\n"
+              "        lists_part(ways, answers, %d, at, waiting, decisions);\n        }\n",
+              list);
+}
+
+/* What no decision reads is unknown at first. */
+static void print_begin(const struct wave *wave)
+{
+    dag_print(wave->out,
+              "        const int pairs = count < %d ? count : %d;\n"
+              "        for (int k = 0; k < pairs; k++) {\n"
+              "            at[1][k] = (uint16_t)k;\n",
+              PAIRS, PAIRS);
+    for (int i = 0; i < wave->dag->term_count; i++) {
+        const char *name = wave->dag->terms[i].name;
+        if (dag_is_kept(wave->dag, i) || (wave->options->terms != NULL && !wave->options->terms[i]))
+            continue;
+        dag_print(wave->out, "            block[k].terms.%s_level = ", name);
+        dag_print_upper(wave->out, name);
+        dag_print(wave->out, "_ABSENT;\n");
+    }
+    dag_print(wave->out, "        }\n        waiting[1] = pairs;\n");
+}
+
+void dag_emit_wave(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
+                   const struct emit_options *options)
+{
+    struct wave wave = {.dag = dag, .out = out, .oracle = oracle, .options = options};
+    assign_lists(&wave);
+    dag_print(out, "\n");
+    print_prototype(dag, out, oracle);
+    dag_print(out, "\n{\n");
+    if (wave.lists > LISTS_MOST) {
+        dag_print(out,
+                  "    for (int i = 0; i < count; i++)\n"
+                  "        decisions[i] = %s_%s(parameters, &block[i]);\n}\n",
+                  oracle->name, dag->verb);
+        return;
+    }
+    dag_print(out,
+              "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n"
+              "    unsigned char answers[%d];\n    (void)parameters;\n"
+              "    for (; count > 0; count -= %d, block += %d, decisions += %d) {\n",
+              wave.lists, PAIRS, wave.lists, PAIRS, PAIRS, PAIRS, PAIRS);
+    print_begin(&wave);
+    for (int i = 0; i < oracle->order.count; i++)
+        print_node(&wave, i);
+    if (options->directives)
+        dag_line_here(out);
+    dag_print(out, "    }\n}\n");
+}
