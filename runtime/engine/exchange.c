@@ -217,15 +217,12 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
                    const struct exchange_options *o)
 {
     struct watcher watcher = {x, o};
-    const struct exchange_aim how = {
-        .near = fmax(EXCHANGE_NEAR * pow(EXCHANGE_TOLERANCE / o->tolerance, EXCHANGE_NEAR_FALL),
-                     EXCHANGE_NEAR_LEAST),
-        .tolerance = o->tolerance,
-        .rows = o->rows,
-        .keep = !o->stream,
-        .threads = o->threads,
-        .tell = tell_share,
-        .context = &watcher};
+    const struct exchange_aim how = {.tolerance = o->tolerance,
+                                     .rows = o->rows,
+                                     .keep = !o->stream,
+                                     .threads = o->threads,
+                                     .tell = tell_share,
+                                     .context = &watcher};
     double start = seconds();
     if (refine(x, refiner, &watcher) < 0)
         return -1;

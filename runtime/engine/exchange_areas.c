@@ -32,8 +32,7 @@ double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_
                                        &elements[link->receiver],
                                        &elements[link->emitter],
                                        {b->row, b->row + b->rows},
-                                       {b->column, b->column + b->columns},
-                                       m->near};
+                                       {b->column, b->column + b->columns}};
     return exchange_block_fill(faces, &pair, link, scratch, values);
 }
 
@@ -152,7 +151,6 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
                                  .faces = tree->h.face_count,
                                  .inputs = scene->input_count,
                                  .rows = how->rows ? how->rows : scene->input_count,
-                                 .near = how->near,
                                  .limits = sight_limits_for(how->tolerance, tree->h.face_count),
                                  .refinement = refinement};
     if (find_inputs(m, scene) == 0) {

@@ -16,8 +16,7 @@ struct exchange_block {
 };
 
 struct exchange_aim {
-    double near;      /* pairs nearer than so many sums of their radii: the contour integral */
-    double tolerance; /* of single faces in half shadow (engine/exchange_sight.h) */
+    double tolerance; /* of entries (engine/exchange_clear.h, engine/exchange_sight.h) */
     uint32_t rows;    /* only the first so many are whole: 0, all */
     int keep;         /* 0: values are computed when a product asks for them */
     int threads;
@@ -30,7 +29,6 @@ struct exchange_aim {
 struct exchange_areas {
     const struct exchange_tree *tree; /* borrowed */
     uint32_t faces, inputs, rows;     /* rows: of the first so many inputs */
-    double near;                      /* of the aim */
     struct sight_limits limits;       /* by its tolerance */
     /* borrowed, NULL: values are kept */
     const struct refinement *refinement;

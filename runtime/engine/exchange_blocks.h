@@ -4,29 +4,19 @@
 #ifndef EXCHANGE_BLOCKS_H
 #define EXCHANGE_BLOCKS_H
 
+#include "engine/exchange_clear.h"
 #include "engine/exchange_shadow.h"
 #include "engine/exchange_sight.h"
 #include "engine/refine.h"
 
-enum { MOMENTS = 6 }; /* xx yy zz xy xz yz */
-
-/* The faces, as the kernel wants them: [faces] each, in the tree's order. */
-struct exchange_faces {
-    double *c[3], *area, *radius; /* centroid, m2, m */
-    double *moment[MOMENTS];      /* mean of d d over the face, d from the centroid (m2) */
-    double *all;                  /* where they stand */
-};
-
-/* One thread's room: [most faces of a side]. */
+/* One thread's room. */
 struct exchange_scratch {
-    double *shift[3]; /* M_j n for the faces j of a row */
+    struct clear_scratch clear;
     struct shadow_scratch shadow;
     struct sight_scratch sight;
 };
 
-/* Returns 0, or -1 when out of memory; close is fine then too. */
-int exchange_faces_open(struct exchange_faces *faces, const struct exchange_tree *tree);
-void exchange_faces_close(struct exchange_faces *faces);
+/* `most` faces of a side. Returns 0, or -1 when out of memory; close is fine then too. */
 int exchange_scratch_open(struct exchange_scratch *scratch, uint32_t most,
                           const struct sight_limits *limits);
 void exchange_scratch_close(struct exchange_scratch *scratch);

@@ -3,16 +3,7 @@
 #ifndef EXCHANGE_SHADOW_H
 #define EXCHANGE_SHADOW_H
 
-#include "engine/exchange_tree.h"
-
-/* Two linked elements of the tree, and which of the receiver's faces (rows) and of the emitter's
- * (columns) a block holds, by place in the tree's order. */
-struct exchange_pair {
-    const struct exchange_tree *tree;
-    const struct element *receiver, *emitter;
-    struct face_range rows, columns;
-    double near; /* sums of two faces' radii: nearer pairs have the contour integral */
-};
+#include "engine/exchange_clear.h"
 
 /* One thread's room. */
 struct shadow_scratch {

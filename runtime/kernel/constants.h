@@ -448,15 +448,14 @@
 /* of a row's sum. The default, and the tolerance that the limits of
  * examples/oracles/viewfactors.dag are made for: chosen */
 #define EXCHANGE_TOLERANCE 3e-4
-/* sums of two faces' radii. Pairs nearer than that have the contour integral at
- * EXCHANGE_TOLERANCE; the error of the others falls with the fourth power of distance */
+/* sums of two faces' radii. Links of faces nearer than that have the contour integral; chosen */
 #define EXCHANGE_NEAR 2.5
-/* times that where one of them is a triangle, whose third moments are not zero */
-#define EXCHANGE_LOPSIDED 1.3
-/* the same at any tolerance. chosen: nearer, the series in size over distance need not converge */
-#define EXCHANGE_NEAR_LEAST 1.5
-/* power of the tolerance by which EXCHANGE_NEAR changes: one over that of the error's fall */
-#define EXCHANGE_NEAR_FALL 0.25
+/* of an entry. For tolerances below it all links of faces have the contour integral: ten times what
+ * polygon_factor leaves of the others */
+#define EXCHANGE_FINE 1e-4
+/* of distance squared: the variance of two faces' points together. Above it rules of points say
+ * nothing; chosen: nearer, the series in size over distance need not converge */
+#define CLEAR_RULES_NEAR 0.1
 /* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
 #define SIGHT_FLOOR 1e-4
 /* faces. In larger scenes it is a share of so much over the root of their number: errors of a row's

@@ -63,7 +63,7 @@ static double wall_to_wall(int cells, int deep)
     ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
     ck_assert_int_eq(refinement_start(&refinement), 0);
     struct exchange_areas matrix;
-    const struct exchange_aim how = {.near = 2.5, .tolerance = 3e-4, .keep = 1, .threads = 2};
+    const struct exchange_aim how = {.tolerance = 3e-4, .keep = 1, .threads = 2};
     ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, &how), 0);
     uint32_t wall = (uint32_t)(cells * cells);
     double *row = calloc(scene.input_count, sizeof *row), sum = 0;

@@ -1,0 +1,293 @@
+/* exchange_clear.c - the exchange areas of pairs of faces that see all of each other.
+ *
+ * Each pair has Lambert's kernel and its second derivatives at the centroids (kernel/lambert.h),
+ * and an estimate of what that leaves out. Where this may be more than is allowed, the kernel is
+ * taken at points of both faces, by rules exact to degree 4 and more; where these may not do
+ * either, the pair has the contour integral (kernel/polygon_factor.h). How near that is depends on
+ * how flat the two look from each other: near a plane, what is left out falls with the distance's
+ * second power alone. [Taylor's formula; rules: Dunavant 1985, Gauss; the rest derived here]
+ * Invariant: none above the smaller area.
+ * SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include "engine/exchange_clear.h"
+#include "kernel/constants.h"
+#include "kernel/lambert.h"
+#include "kernel/polygon_factor.h"
+
+enum { RULE = 9 }; /* the most points of a rule */
+
+/* How large a face's third moments are: 1 of a triangle, 0 of a parallelogram. */
+static double lopsided(const struct element *e)
+{
+    double w[3];
+    if (e->vertices != 4)
+        return 1;
+    for (int k = 0; k < 3; k++)
+        w[k] = e->vertex[0][k] - e->vertex[1][k] + e->vertex[2][k] - e->vertex[3][k];
+    return fmin(1.5 * length3(w) / e->radius, 1);
+}
+
+int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
+{
+    uint32_t n = t->h.face_count;
+    p->all = malloc((5 + MOMENTS) * (size_t)n * sizeof *p->all);
+    if (!p->all)
+        return -1;
+    for (int k = 0; k < 3; k++)
+        p->c[k] = p->all + (size_t)k * n;
+    p->area = p->all + 3 * (size_t)n;
+    p->lopsided = p->all + 4 * (size_t)n;
+    for (int k = 0; k < MOMENTS; k++)
+        p->moment[k] = p->all + (size_t)(5 + k) * n;
+    for (uint32_t i = 0; i < n; i++) {
+        const struct element *e = exchange_tree_face(t, i);
+        double moment[MOMENTS] = {0};
+        /* triangle by triangle: (1/12) sum d d over its corners, and its own centroid's */
+        for (int v = 2; v < e->vertices; v++) {
+            const double *corner[3] = {e->vertex[0], e->vertex[v - 1], e->vertex[v]};
+            double a[3], b[3], c[3], middle[3];
+            sub3(a, corner[1], corner[0]);
+            sub3(b, corner[2], corner[0]);
+            cross3(c, a, b);
+            double share = 0.5 * dot3(c, e->normal) / e->area;
+            for (int k = 0; k < 3; k++)
+                middle[k] = (corner[0][k] + corner[1][k] + corner[2][k]) * (1 / 3.0);
+            for (int j = 0; j < 4; j++) {
+                double d[3], w = share * (j < 3 ? 1 / 12.0 : 1);
+                if (j < 3)
+                    sub3(d, corner[j], middle);
+                else
+                    sub3(d, middle, e->centre);
+                for (int k = 0; k < 3; k++)
+                    moment[k] += w * d[k] * d[k];
+                moment[3] += w * d[0] * d[1];
+                moment[4] += w * d[0] * d[2];
+                moment[5] += w * d[1] * d[2];
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            p->c[k][i] = e->centre[k];
+        p->area[i] = e->area;
+        p->lopsided[i] = lopsided(e);
+        for (int k = 0; k < MOMENTS; k++)
+            p->moment[k][i] = moment[k];
+    }
+    return 0;
+}
+
+void exchange_faces_close(struct exchange_faces *p)
+{
+    free(p->all);
+}
+
+int clear_scratch_open(struct clear_scratch *s, uint32_t most)
+{
+    s->shift[0] = malloc(4 * (size_t)most * sizeof **s->shift);
+    if (!s->shift[0])
+        return -1;
+    s->shift[1] = s->shift[0] + most;
+    s->shift[2] = s->shift[1] + most;
+    s->doubt = s->shift[2] + most;
+    return 0;
+}
+
+void clear_scratch_close(struct clear_scratch *s)
+{
+    free(s->shift[0]);
+}
+
+/* M_i v. */
+static void moment_times(const struct exchange_faces *p, uint32_t i, const double v[3],
+                         double out[3])
+{
+    out[0] = p->moment[0][i] * v[0] + p->moment[3][i] * v[1] + p->moment[4][i] * v[2];
+    out[1] = p->moment[3][i] * v[0] + p->moment[1][i] * v[1] + p->moment[5][i] * v[2];
+    out[2] = p->moment[4][i] * v[0] + p->moment[5][i] * v[1] + p->moment[2][i] * v[2];
+}
+
+/* M_j n for every face of a range. */
+static void moments_times(const struct exchange_faces *p, struct face_range range,
+                          const double n[3], const struct clear_scratch *scratch)
+{
+    for (uint32_t j = range.from; j < range.to; j++) {
+        double shift[3];
+        moment_times(p, j, n, shift);
+        for (int k = 0; k < 3; k++)
+            scratch->shift[k][j - range.from] = shift[k];
+    }
+}
+
+/* An estimate of the square of what the second order leaves out (unit: pi k, kernel/lambert.h): the
+ * next terms of the series, as if their signs did not matter. With v = r.Qr / s^2, w = tr Q / s -
+ * v, the variances of what is seen along r and across it over s, the factor s^-2 of the kernel has
+ * the terms 35 d^4 along r and 3 d^4 across, 20 d^3 along and 12 d^2 across times d along. Fourth
+ * moments of a flat convex face are at most 2.5 squares of its variance, third ones of a triangle
+ * .57 powers 3/2. `skew`: |a m.M_i r| + |b n.M_j r|; `shifts`: |M_i m|^2 |M_j n|^2; `rises`:
+ * a^2 m.M_i m + b^2 n.M_j n. Of 30,000 random pairs, held against the contour integral, 150 are off
+ * by more than it says, none by more than 3 times as much from 1.5 sums of radii on. */
+static inline double rest_square(double a, double b, double t, double quad, double trace,
+                                 double skew, double shifts, double rises, double lopsided)
+{
+    double ab = a * b, v = t * t * quad, w = t * trace - v;
+    double even = ab * (87 * v * v + 7.5 * w * w), turned = t * skew * (60 * v + 12 * w),
+           both = 24 * t, odd = ab * (11.3 * v + 6.8 * w), rise = 5.7 * v + 1.1 * w;
+    return t * t * t * t
+           * (even * even + turned * turned + both * both * shifts
+              + lopsided * (v * odd * odd + rise * rise * rises));
+}
+
+/* The exchange areas of face i, normal n, with the faces of a range, normal -m; and how far they
+ * may be off, as a share of what is allowed, squared. */
+static void second_order_row(const struct exchange_faces *p, uint32_t i, const double n[3],
+                             struct face_range range, const double m[3], double tolerance,
+                             const struct clear_scratch *scratch, double *restrict out)
+{
+    const double *restrict x = p->c[0] + range.from, *restrict y = p->c[1] + range.from,
+                           *restrict z = p->c[2] + range.from;
+    const double *restrict area = p->area + range.from, *restrict xx = p->moment[0] + range.from,
+                           *restrict yy = p->moment[1] + range.from,
+                           *restrict zz = p->moment[2] + range.from,
+                           *restrict xy = p->moment[3] + range.from,
+                           *restrict xz = p->moment[4] + range.from,
+                           *restrict yz = p->moment[5] + range.from,
+                           *restrict lopsided = p->lopsided + range.from;
+    const double *restrict sx = scratch->shift[0], *restrict sy = scratch->shift[1],
+                           *restrict sz = scratch->shift[2];
+    double *restrict doubt = scratch->doubt;
+    const double cx = p->c[0][i], cy = p->c[1][i], cz = p->c[2][i], own_area = p->area[i],
+                 ai = p->area[i] * (1 / LAMBERT_PI), own_lopsided = p->lopsided[i];
+    const double ixx = p->moment[0][i], iyy = p->moment[1][i], izz = p->moment[2][i],
+                 ixy = p->moment[3][i], ixz = p->moment[4][i], iyz = p->moment[5][i], n0 = n[0],
+                 n1 = n[1], n2 = n[2], m0 = m[0], m1 = m[1], m2 = m[2];
+    double own[3];
+    int count = (int)(range.to - range.from);
+    moment_times(p, i, m, own);
+    const double own_square = dot3(own, own), own_rise = dot3(own, m);
+#pragma omp simd
+    for (int j = 0; j < count; j++) {
+        double r0 = x[j] - cx, r1 = y[j] - cy, r2 = z[j] - cz;
+        double qxx = xx[j] + ixx, qyy = yy[j] + iyy, qzz = zz[j] + izz, qxy = xy[j] + ixy,
+               qxz = xz[j] + ixz, qyz = yz[j] + iyz;
+        double a = n0 * r0 + n1 * r1 + n2 * r2, b = m0 * r0 + m1 * r1 + m2 * r2;
+        double t = 1 / (r0 * r0 + r1 * r1 + r2 * r2);
+        double quad = qxx * r0 * r0 + qyy * r1 * r1 + qzz * r2 * r2
+                      + 2 * (qxy * r0 * r1 + qxz * r0 * r2 + qyz * r1 * r2);
+        double trace = qxx + qyy + qzz, skew_i = a * (own[0] * r0 + own[1] * r1 + own[2] * r2),
+               skew_j = b * (sx[j] * r0 + sy[j] * r1 + sz[j] * r2);
+        double scale = ai * area[j], least = own_area < area[j] ? own_area : area[j],
+               e = scale * lambert_second_order(a, b, t, quad, trace, skew_i + skew_j);
+        double square = sx[j] * sx[j] + sy[j] * sy[j] + sz[j] * sz[j],
+               rise = n0 * sx[j] + n1 * sy[j] + n2 * sz[j];
+        double most = own_lopsided > lopsided[j] ? own_lopsided : lopsided[j];
+        double rest =
+            rest_square(a, b, t, quad, trace, fabs(skew_i) + fabs(skew_j), own_square * square,
+                        a * a * own_rise + b * b * rise, most * most);
+        e = e > 0 ? e < least ? e : least : 0;
+        double limit = tolerance * (e > SIGHT_FLOOR * least ? e : SIGHT_FLOOR * least);
+        out[j] = e;
+        doubt[j] = scale * scale * rest / (limit * limit);
+    }
+}
+
+/* ---- pairs that second order may not do for */
+
+/* The points of a face, and what each weighs. */
+struct rule {
+    int count;
+    double x[3][RULE], weight[RULE];
+};
+
+static void rule_of(struct rule *rule, const struct element *e)
+{
+    static const double corner[2] = {0.81684757298045851308, 0.10810301816807022736},
+                        share[2] = {0.10995174365532186764, 0.22338158967801146570},
+                        node[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852},
+                        weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    rule->count = e->vertices == 3 ? 6 : 9;
+    if (e->vertices == 3) {
+        for (int i = 0; i < 6; i++) {
+            double w = corner[i / 3], u = 0.5 * (1 - w);
+            rule->weight[i] = share[i / 3];
+            for (int k = 0; k < 3; k++)
+                rule->x[k][i] = w * v[i % 3][k] + u * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
+        }
+        return;
+    }
+    for (int i = 0; i < 9; i++) {
+        double s = node[i / 3], t = node[i % 3], ds[3], dt[3], jacobian[3];
+        for (int k = 0; k < 3; k++) {
+            double low = v[0][k] + s * (v[1][k] - v[0][k]),
+                   high = v[3][k] + s * (v[2][k] - v[3][k]);
+            dt[k] = high - low;
+            ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
+            rule->x[k][i] = low + t * dt[k];
+        }
+        cross3(jacobian, ds, dt);
+        rule->weight[i] = weight[i / 3] * weight[i % 3] * dot3(jacobian, e->normal) / e->area;
+    }
+}
+
+/* The mean kernel (1/m2) of the points of two faces with normals n and -m. */
+static double rule_kernel(const struct rule *p, const double n[3], const struct rule *q,
+                          const double m[3])
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++) {
+        double part = 0;
+#pragma omp simd reduction(+ : part)
+        for (int j = 0; j < q->count; j++) {
+            double r0 = q->x[0][j] - p->x[0][i], r1 = q->x[1][j] - p->x[1][i],
+                   r2 = q->x[2][j] - p->x[2][i];
+            double s = r0 * r0 + r1 * r1 + r2 * r2;
+            part += q->weight[j] * (n[0] * r0 + n[1] * r1 + n[2] * r2)
+                    * (m[0] * r0 + m[1] * r1 + m[2] * r2) / (s * s);
+        }
+        sum += p->weight[i] * part;
+    }
+    return sum * (1 / LAMBERT_PI);
+}
+
+/* What the rules leave out is of two orders more: as much less than the estimate as all that the
+ * faces are wide is less than their distance. [of 15,000 random pairs, 50 are off by more] */
+static int rules_do(const struct exchange_faces *p, uint32_t i, uint32_t j, double doubt)
+{
+    double square = 0, trace = 0;
+    for (int k = 0; k < 3; k++) {
+        double d = p->c[k][j] - p->c[k][i];
+        square += d * d;
+        trace += p->moment[k][i] + p->moment[k][j];
+    }
+    double less = trace / square;
+    return less < CLEAR_RULES_NEAR && doubt * less * less < 1;
+}
+
+void clear_block(const struct exchange_faces *p, const struct exchange_pair *pair, double tolerance,
+                 const struct clear_scratch *scratch, double *out)
+{
+    const struct element *r = pair->receiver, *s = pair->emitter;
+    const double m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
+    uint32_t across = pair->columns.to - pair->columns.from;
+    moments_times(p, pair->columns, r->normal, scratch);
+    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++, out += across) {
+        const struct element *a = exchange_tree_face(pair->tree, i);
+        struct rule own = {.count = 0}, other;
+        second_order_row(p, i, r->normal, pair->columns, m, tolerance, scratch, out);
+        for (uint32_t j = 0; j < across; j++) {
+            if (!(scratch->doubt[j] > 1))
+                continue;
+            uint32_t at = pair->columns.from + j;
+            const struct element *b = exchange_tree_face(pair->tree, at);
+            double e;
+            if (rules_do(p, i, at, scratch->doubt[j])) {
+                if (own.count == 0)
+                    rule_of(&own, a);
+                rule_of(&other, b);
+                e = a->area * b->area * rule_kernel(&own, r->normal, &other, m);
+            } else {
+                e = a->area * polygon_factor(a, b, 1);
+            }
+            out[j] = e > 0 ? fmin(e, fmin(a->area, b->area)) : 0;
+        }
+    }
+}

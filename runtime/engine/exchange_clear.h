@@ -1,0 +1,43 @@
+/* exchange_clear.h - the exchange areas of pairs of faces that see all of each other.
+ * SPDX-License-Identifier: MIT */
+#ifndef EXCHANGE_CLEAR_H
+#define EXCHANGE_CLEAR_H
+
+#include "engine/exchange_tree.h"
+
+enum { MOMENTS = 6 }; /* xx yy zz xy xz yz */
+
+/* The faces, as the kernel wants them: [faces] each, in the tree's order. */
+struct exchange_faces {
+    double *c[3], *area;     /* centroid, m2 */
+    double *lopsided;        /* how large third moments are: 0 to 1 */
+    double *moment[MOMENTS]; /* mean of d d over the face, d from the centroid (m2) */
+    double *all;             /* where they stand */
+};
+
+/* One thread's room: [most faces of a side]. */
+struct clear_scratch {
+    double *shift[3]; /* M_j n for the faces j of a row */
+    double *doubt;    /* of its pairs, how much of the tolerance the error may be, squared */
+};
+
+/* Returns 0, or -1 when out of memory; close is fine then too. */
+int exchange_faces_open(struct exchange_faces *faces, const struct exchange_tree *tree);
+void exchange_faces_close(struct exchange_faces *faces);
+int clear_scratch_open(struct clear_scratch *scratch, uint32_t most);
+void clear_scratch_close(struct clear_scratch *scratch);
+
+/* Two linked elements of the tree, and which of the receiver's faces (rows) and of the emitter's
+ * (columns) a block holds, by place in the tree's order. */
+struct exchange_pair {
+    const struct exchange_tree *tree;
+    const struct element *receiver, *emitter;
+    struct face_range rows, columns;
+};
+
+/* out[rows][columns]: A_i F_ij (m2) if nothing stands between the two groups, none above the
+ * smaller area; within `tolerance` of itself, or of SIGHT_FLOOR of the smaller area. */
+void clear_block(const struct exchange_faces *faces, const struct exchange_pair *pair,
+                 double tolerance, const struct clear_scratch *scratch, double *out);
+
+#endif

@@ -1,0 +1,124 @@
+/* check_group_entries.c - entries of view factors of meshed rooms, one by one, against quadrature
+ * that shares nothing with the library (room_judge.h).
+ * Rooms of all shapes, walls of few faces and of many, by quads, triangles or both; with boxes, and
+ * without. Where nothing stands between, every entry is within the tolerance, of itself or of 1e-4.
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include "engine/exchange.h"
+#include "runtime/make_meshes.h"
+#include "suite.h"
+#include "util/oracles.h"
+
+/* Rooms, and rows of each. */
+enum { ROOMS = 15, ROWS = 2, ROOMS_THOROUGH = 60, ROWS_THOROUGH = 6 };
+
+static void open_exchange(struct exchange *x, const struct scene *s, double tolerance)
+{
+    const char *cause;
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    exchange_set_tolerance(refiner, tolerance);
+    const struct exchange_options options = {.tolerance = tolerance, .threads = 1};
+    ck_assert_int_eq(exchange_open(x, s, refiner, &options, &cause), 0);
+    refiner_close(refiner);
+}
+
+static struct judge_polygon polygon_of(const struct face *f)
+{
+    struct judge_polygon p = {.n = (int)f->vertices};
+    memcpy(p.v, f->vertex, f->vertices * sizeof *f->vertex);
+    return p;
+}
+
+/* Entries of a room that are wrong by more than allowed, past nothing and in half shadow; the worst
+ * as a share of that. */
+struct verdict {
+    long all[2], over[2];
+    double worst[2];
+};
+
+static void judge_row(const struct mesh_room *room, const struct scene *s, const double *row,
+                      uint32_t i, double tolerance, struct verdict *v)
+{
+    struct judge_polygon a = polygon_of(&s->faces[i]);
+    double n[3];
+    judge_cross(a.v[0], a.v[1], a.v[2], n);
+    double area = 0.5 * sqrt(judge_dot(n, n));
+    if (a.n == 4) {
+        judge_cross(a.v[0], a.v[2], a.v[3], n);
+        area += 0.5 * sqrt(judge_dot(n, n));
+    }
+    for (uint32_t j = 0; j < s->face_count; j++) {
+        struct judge_polygon b = polygon_of(&s->faces[j]);
+        if (i == j) {
+            ck_assert(row[j] == 0);
+            continue;
+        }
+        double enough = 0.1 * tolerance * area * fmax(row[j], 1e-4);
+        double clear = judge_pair(&a, &b, NULL, 0, 1e-9, enough) / area,
+               right = judge_pair(&a, &b, room->patch, room->count, 1e-9, enough) / area;
+        double allowed = tolerance * fmax(right, 1e-4), share = fabs(row[j] - right) / allowed;
+        int dim = right < clear * (1 - 1e-9);
+        v->all[dim] += clear > 0;
+        v->over[dim] += share > 1;
+        v->worst[dim] = fmax(v->worst[dim], share);
+        if (share > 1 && !dim)
+            printf("F_%u,%u is %.9g, not %.9g: %.2f of the tolerance\n", i, j, row[j], right,
+                   share);
+        ck_assert_double_le(row[j], clear + tolerance * fmax(clear, 1e-4));
+    }
+}
+
+static struct verdict judge_room(int number, double tolerance)
+{
+    struct mesh_room room;
+    struct scene s;
+    struct exchange x;
+    struct verdict v = {{0}, {0}, {0}};
+    mesh_room_make(&room, &s, (uint64_t)number, (enum mesh_shape)(number % SHAPES),
+                   (enum mesh_cells)(number % CELLS), number % 4, 2 * pow(125, number % 7 / 6.0));
+    open_exchange(&x, &s, tolerance);
+    double *row = malloc(s.input_count * sizeof *row);
+    for (int r = 0; r < (thorough() ? ROWS_THOROUGH : ROWS); r++) {
+        double at = mesh_chance(&room);
+        /* in turn of all, and of the last, which are the boxes' */
+        uint32_t i = (uint32_t)((r % 2 ? at : 1 - 0.3 * at) * (s.input_count - 1));
+        (void)exchange_row(&x, i, row);
+        judge_row(&room, &s, row, i, tolerance, &v);
+    }
+    free(row);
+    exchange_close(&x);
+    made_close(&s);
+    if (getenv("TELL"))
+        printf(
+            "room %d, %u faces: clear %ld, %ld over, worst %.2f; dim %ld, %ld over, worst %.2f\n",
+            number, s.input_count, v.all[0], v.over[0], v.worst[0], v.all[1], v.over[1],
+            v.worst[1]);
+    return v;
+}
+
+START_TEST(test_clear_entries)
+{
+    struct verdict v = judge_room(_i, 3e-4);
+    ck_assert_int_gt(v.all[0], 0);
+    ck_assert_int_eq(v.over[0], 0);
+}
+END_TEST
+
+/* The same for other tolerances. */
+START_TEST(test_tolerances)
+{
+    const double tolerance[] = {3e-3, 3e-5};
+    ck_assert_int_eq(judge_room(4, tolerance[_i]).over[0], 0);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("group entries");
+    TCase *c = tcase_create("group entries");
+    tcase_set_timeout(c, 120);
+    tcase_add_loop_test(c, test_clear_entries, 0, thorough() ? ROOMS_THOROUGH : ROOMS);
+    tcase_add_loop_test(c, test_tolerances, 0, 2);
+    suite_add_tcase(suite, c);
+    return suite_failures(suite) != 0;
+}
