@@ -172,7 +172,7 @@ packages:
 
 # Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
 # compute much themselves.
-COMPUTING = paths surface_error shaft separable_links viewfactors accuracy oracles flat_groups group_entries
+COMPUTING = paths surface_error shaft separable_links viewfactors accuracy oracles flat_groups group_entries profiles
 $(TESTS:=.o): OPT = -O0
 $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
