@@ -110,7 +110,7 @@ $(BUILD)/gen/catalog.c: runtime/catalog.dag $(BUILD)/bin/dagc
 	$(BUILD)/bin/dagc --emit=catalog-c -o $@ $<
 $(BUILD)/gen/oracles/%.c: examples/oracles/%.dag examples/oracles/common.dag $(BUILD)/bin/dagc
 	@mkdir -p $(@D)
-	$(BUILD)/bin/dagc -o $@ --header $(@:.c=.h) $<
+	$(BUILD)/bin/dagc --release=wave -o $@ --header $(@:.c=.h) $<
 $(BUILD)/gen/builtin.c: runtime/oracle/builtin.sh $(wildcard examples/oracles/*.dag) dagc/emit/embed.sh
 	@mkdir -p $(@D)
 	sh runtime/oracle/builtin.sh $(ORACLES) > $@

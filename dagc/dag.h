@@ -539,6 +539,7 @@ void dag_free(struct dag *dag); /* NULL is fine */
 /* The system's C compiler and where its files may stand for a while; NULL: "cc", "/tmp". */
 struct dag_compiler {
     const char *command, *temporary;
+    int wave; /* with the function over blocks of pairs */
 };
 
 /* The oracles as machine code: emits C, compiles it against the runtime's headers (which the

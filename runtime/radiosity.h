@@ -215,7 +215,8 @@ RAD_API const struct RadMaterial *radGetSceneMaterials(RadScene scene);
 enum RadRelease {
     RAD_RELEASE_FLAT, /* compiled C */
     RAD_RELEASE_DAG,  /* the graph, interpreted node by node */
-    RAD_RELEASE_HAND  /* what a program has registered by hand */
+    RAD_RELEASE_HAND, /* what a program has registered by hand */
+    RAD_RELEASE_WAVE  /* compiled C over blocks of pairs, all that are at a node at once */
 };
 
 /* The built-in oracles' names, NULL-terminated; constant. The default is radGetDefaultOracle(),
@@ -239,7 +240,7 @@ RAD_API int radLoadPlugin(RadDevice device, const char *path);
 /* A built-in oracle, or one that was registered, by name. Returns NULL on error. */
 RAD_API RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease release);
 /* A .dag file ("-": standard input), or the text of one under the name `path`; `oracle`: which of
- * the file's, NULL: the only one. RAD_RELEASE_FLAT needs a C compiler and compiles it now. */
+ * the file's, NULL: the only one. FLAT and WAVE need a C compiler and compile it now. */
 RAD_API RadOracle radLoadOracle(RadDevice device, const char *path, const char *oracle,
                                 enum RadRelease release);
 RAD_API RadOracle radParseOracle(RadDevice device, const char *path, const char *text,
@@ -288,6 +289,10 @@ RAD_API int radSetOracleParameter(RadOracle oracle, const char *name, double val
 RAD_API double radGetOracleParameter(RadOracle oracle, const char *name);
 /* Ask it once; safe from many threads while no parameter is set. */
 RAD_API enum decision radAskOracle(RadOracle oracle, struct discussion *discussion);
+/* The same of `count` discussions, which have one host: decisions[i] is that of block[i]. By
+ * RAD_RELEASE_WAVE together, by others one after the other. */
+RAD_API void radAskOracles(RadOracle oracle, struct discussion *block, int count,
+                           enum decision *decisions);
 
 /* What was counted of an interpreted graph, on all threads. Counts are exact. Time is measured in
  * one discussion of RAD_TIMED_EVERY, chosen at random, and scaled by the calls: an estimate.

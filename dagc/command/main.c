@@ -114,7 +114,7 @@ static void passes(struct dag *dag, void *context)
     else if (job->stop != PASSES)
         dag_emit_text(dag, text, job->stop);
     else if (job->prove) {
-        struct dag_compiler compiler = {from_environment("CC"), from_environment("TMPDIR")};
+        struct dag_compiler compiler = {from_environment("CC"), from_environment("TMPDIR"), 0};
         job->proved = dag_prove(dag, &job->c, &compiler, stdout);
     } else
         emit(dag, job);

@@ -304,7 +304,8 @@ static void build(struct dag *dag, void *context)
         slash == NULL ? "-I." : /* headers of the user's own tools */
             dag_format(&dag->arena, "-I%.*s", (int)(slash - source->name) + 1, source->name);
     const char *const flags[] = {"-O2", beside, NULL};
-    dag_emit_c(dag, &r->c, NULL, NULL, NULL);
+    const struct emit_options options = {.wave = r->compiler->wave};
+    dag_emit_c(dag, &r->c, NULL, NULL, &options);
     int externs = dag_emit_extern_calls(dag, &r->externs);
     if (r->c.failed || r->externs.failed)
         dag_out_of_memory(&dag->arena);

@@ -23,6 +23,7 @@ enum prove_flavour {
     PROVE_FIRST, /* the entry for a first discussion (--copies) */
     PROVE_COUNTED,
     PROVE_TRACED,
+    PROVE_WAVE, /* the function over a block (--release=wave), in which the pair is not alone */
     PROVE_INTERPRETED,
     PROVE_FLAVOURS
 };

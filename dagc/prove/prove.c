@@ -1,7 +1,7 @@
 /* prove.c - does what runs do what the graph says?
  *
- * Both releases of each oracle are compiled (scripted.c): the emitted C, counted and traced too
- * where that is asked for, and the graph under the interpreter that programs have. What they say
+ * Both releases of each oracle are compiled (scripted.c): the emitted C, counted, traced and over
+ * blocks too where that is asked for, and the graph under the interpreter that programs have. What they say
  * of themselves must be the graph's (described.c), and on every path from every beginning they
  * must make its calls and its decision (walk.c); all paths are followed by their states
  * (states.c).
@@ -54,7 +54,8 @@ static int prove_oracle(struct proof *proof)
                                     dag_node_at, dag_is_doubtful, dag_doubt};
     int flavours = 1 << PROVE_PLAIN | (proof->options->copies > 1) << PROVE_FIRST
                    | proof->options->counted << PROVE_COUNTED
-                   | proof->options->traced << PROVE_TRACED | 1 << PROVE_INTERPRETED;
+                   | proof->options->traced << PROVE_TRACED | proof->options->wave << PROVE_WAVE
+                   | 1 << PROVE_INTERPRETED;
     struct prove_extent most = {0};
     const char *cause = proof->library->open(&host, proof->number);
     if (cause != NULL) {

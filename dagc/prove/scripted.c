@@ -193,8 +193,9 @@ static const char *watch_text(struct dag *dag)
         const char *name = dag->tools[i].name;
         text = dag_format(&dag->arena,
                           "%s#define tool_%s (prove_site = __LINE__, tool_%s)\n"
-                          "#define ask_%s (prove_site = __LINE__, ask_%s)\n",
-                          text, name, name, name, name);
+                          "#define ask_%s (prove_site = __LINE__, ask_%s)\n"
+                          "#define wave_%s (prove_site = __LINE__, wave_%s)\n",
+                          text, name, name, name, name, name, name);
     }
     return text;
 }

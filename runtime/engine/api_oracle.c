@@ -85,7 +85,7 @@ int radLoadPlugin(RadDevice device, const char *path)
         return -1;
     if (!path)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT, "a plugin's file needs a name");
-    const struct dag_compiler compiler = {device->sources.compiler, device->sources.temporary};
+    const struct dag_compiler compiler = {device->sources.compiler, device->sources.temporary, 0};
     struct plugin *plugin = plugin_load(path, &compiler, &messages);
     if (plugin) {
         pthread_mutex_lock(&device->lock);
@@ -106,13 +106,24 @@ const struct plugin *api_plugins(RadDevice device)
     return plugins;
 }
 
+static int is_of_graphs(enum RadRelease release)
+{
+    return release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG || release == RAD_RELEASE_WAVE;
+}
+
+static enum release release_of(enum RadRelease release)
+{
+    return release == RAD_RELEASE_DAG    ? RELEASE_DAG
+           : release == RAD_RELEASE_WAVE ? RELEASE_WAVE
+                                         : RELEASE_FLAT;
+}
+
 int radHasOracle(RadDevice device, const char *name, enum RadRelease release)
 {
     if (!device || !name)
         return 0;
-    return release == RAD_RELEASE_HAND
-               ? find_registered(device, name) != NULL
-               : (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG) && is_builtin(name);
+    return release == RAD_RELEASE_HAND ? find_registered(device, name) != NULL
+                                       : is_of_graphs(release) && is_builtin(name);
 }
 
 RadOracle api_oracle(RadDevice device, struct refiner *refiner)
@@ -130,13 +141,14 @@ RadOracle api_oracle(RadDevice device, struct refiner *refiner)
     return oracle;
 }
 
-/* Of two that files and texts have. */
+/* Of those that files and texts have. */
 static int check_release(RadDevice device, enum RadRelease release)
 {
-    if (release == RAD_RELEASE_FLAT || release == RAD_RELEASE_DAG)
+    if (is_of_graphs(release))
         return 0;
     return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
-                    "release %d: RAD_RELEASE_FLAT and RAD_RELEASE_DAG are there, and no other",
+                    "release %d: RAD_RELEASE_FLAT, RAD_RELEASE_DAG and RAD_RELEASE_WAVE are there, "
+                    "and no other",
                     (int)release);
 }
 
@@ -152,8 +164,7 @@ static RadOracle load(RadDevice device, const char *path, const char *text, cons
     if (check_release(device, release) < 0)
         return NULL;
     how.plugins = api_plugins(device);
-    struct refiner *refiner = oracle_load(
-        &how, path, text, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    struct refiner *refiner = oracle_load(&how, path, text, name, release_of(release), &messages);
     RadOracle oracle = refiner ? api_oracle(device, refiner) : NULL;
     if (!refiner)
         api_fail(device, code_of(&messages), "%s",
@@ -186,8 +197,7 @@ RadOracle radNewOracle(RadDevice device, const char *name, enum RadRelease relea
     }
     if (check_release(device, release) < 0)
         return NULL;
-    struct refiner *refiner =
-        oracle_open(NULL, name, release == RAD_RELEASE_DAG ? RELEASE_DAG : RELEASE_FLAT, &messages);
+    struct refiner *refiner = oracle_open(NULL, name, release_of(release), &messages);
     /* a built-in graph is right: there can have been no memory, and api_oracle says so */
     messages_free(&messages);
     RadOracle oracle = api_oracle(device, refiner);
@@ -308,6 +318,16 @@ enum decision radAskOracle(RadOracle oracle, struct discussion *discussion)
 {
     return oracle && discussion ? oracle->refiner->refine(oracle->refiner->state, discussion)
                                 : DECISION_STOP;
+}
+
+void radAskOracles(RadOracle oracle, struct discussion *block, int count, enum decision *decisions)
+{
+    if (oracle && oracle->refiner->wave && count > 0) {
+        oracle->refiner->wave(oracle->refiner->state, block, count, decisions);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        decisions[i] = radAskOracle(oracle, &block[i]);
 }
 
 int radCountOracle(RadOracle oracle)

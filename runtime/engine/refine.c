@@ -19,13 +19,13 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
-#include "engine/refine.h"
+#include "engine/discuss.h"
 #include "engine/trace.h"
 #include "oracle/statistics.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-enum { ROUND = REFINEMENT_ROUND, CHUNK = 64, SORT_SHARES = 8, LIMITS_EACH = 1024 };
+enum { ROUND = REFINEMENT_ROUND, SORT_SHARES = 8, LIMITS_EACH = 1024 };
 
 int decision_links(enum decision decision)
 {
@@ -123,89 +123,6 @@ static uint32_t hand_on(struct refinement *r, int i, uint32_t list)
         return 0;
     retain_list(r, list, 1);
     return list;
-}
-
-/* ---- discussions */
-
-static int divides(unsigned char decision)
-{
-    return !decision_links((enum decision)decision) && decision != DECISION_STOP;
-}
-
-/* One discussion, `turned` the second of pair i; the link's values go in and come out, of a pair
- * that is not linked the visibility alone, and so does the pair's list. */
-static unsigned char discuss(const struct refinement *r, size_t i, int turned, struct link *link,
-                             struct blockers *list)
-{
-    const struct element *elements = r->hierarchy->elements;
-    struct discussion d;
-    d.receiver = &elements[link->receiver];
-    d.emitter = &elements[link->emitter];
-    d.host = r->host;
-    d.blockers = list;
-    link_recall(link, &d.terms);
-    enum decision decision = r->trace ? trace_ask(&r->trace->pairs[i], turned, r->refiner, &d)
-                                      : r->refiner->refine(r->refiner->state, &d);
-    if (!divides((unsigned char)decision))
-        link_store(link, decision, &d.terms);
-    unsigned char *marks = r->outcomes[i].marks[turned];
-    marks[0] = d.terms.receiver_mark_level ? (unsigned char)d.terms.receiver_mark : 0;
-    marks[1] = d.terms.emitter_mark_level ? (unsigned char)d.terms.emitter_mark : 0;
-    if (d.terms.no_number && !r->outcomes[i].none)
-        r->outcomes[i].none = d.terms.no_number;
-    return (unsigned char)decision;
-}
-
-/* After the discussions of pair i: keep the list for the pairs below, if there will be any. */
-static void note_list(const struct refinement *r, size_t i, const struct blockers *list,
-                      int divided)
-{
-    r->outcomes[i].listed = list->known == BLOCKERS_OWN && divided;
-    if (r->outcomes[i].listed)
-        r->found[i] = *list;
-}
-
-/* What the discussion `there` says of the link back: visibility is the same both ways, also where
- * it hides the pair, whose rays nobody casts twice. And so is the exchange A_r F_rs = A_s F_sr,
- * which a link computes once for both: reciprocity holds to the rounding of a link's F. Of a pair
- * that is split nothing is said: most that the parts ask is their own.
- * Fails: rays to the emitter's light (tools/light_visibility.h) are taken for rays to its area. */
-static void reverse_link(struct link *back, const struct link *there,
-                         const struct element *elements)
-{
-    double areas = elements[there->receiver].area / elements[there->emitter].area;
-    back->form_factor = (float)((double)there->form_factor * areas);
-    back->visibility = there->visibility;
-    back->levels = there->levels;
-}
-
-/* Discuss pairs of the round, the second way round with what the first has found. */
-static void discuss_pairs(const void *refinement, size_t from, size_t to)
-{
-    const struct refinement *r = refinement;
-    for (size_t i = from; i < to; i++) {
-        const struct pair *p = &r->round[i];
-        struct outcome *o = &r->outcomes[i];
-        struct link there = {p->receiver, p->emitter, 0, 0, 0, 0},
-                    back = {p->emitter, p->receiver, 0, 0, 0, 0};
-        struct blockers list;
-        list.known = BLOCKERS_UNKNOWN;
-        if (p->list)
-            list = r->pool[p->list].list;
-        o->link[0] = there;
-        o->none = NULL;
-        memset(o->marks, 0, sizeof o->marks);
-        o->decision[0] = discuss(r, i, 0, &o->link[0], &list);
-        if (p->both) {
-            if (r->trace)
-                r->trace->pairs[i].between = list;
-            if (!divides(o->decision[0]))
-                reverse_link(&back, &o->link[0], r->hierarchy->elements);
-            o->link[1] = back;
-            o->decision[1] = discuss(r, i, 1, &o->link[1], &list);
-        }
-        note_list(r, i, &list, divides(o->decision[0]) || (p->both && divides(o->decision[1])));
-    }
 }
 
 /* An element keeps the first mark that it is given, of those given in one round the least: which
@@ -354,8 +271,8 @@ static int tell_round(const struct refinement *r, int count)
             return -1;
         if (!p->both)
             continue;
-        if (!divides(o->decision[0]))
-            reverse_link(&back, &o->link[0], r->hierarchy->elements);
+        if (!discuss_divides(o->decision[0]))
+            discuss_reverse(&back, &o->link[0], r->hierarchy->elements);
         if (trace_tell(r->trace, r, (size_t)i, 1, &back, &r->trace->pairs[i].between) < 0)
             return -1;
     }
@@ -399,7 +316,7 @@ static int drain(struct refinement *r)
         r->queue_count -= (size_t)count;
         r->round_count = count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
-        thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_pairs, r);
+        discuss_round(r);
         if (tell_round(r, count) < 0)
             return -1;
         mark_elements(r, count);
@@ -432,31 +349,6 @@ int refinement_start(struct refinement *r)
     return drain(r) < 0 ? -1 : statistics_end_pass(r->refiner);
 }
 
-/* Links to be discussed again, as far as an end has changed. */
-struct again {
-    const struct refinement *refinement;
-    const struct link *links;     /* [of the round] */
-    const unsigned char *changed; /* [element]; NULL: all have */
-};
-
-static void discuss_again(const void *again, size_t from, size_t to)
-{
-    const struct again *a = again;
-    for (size_t i = from; i < to; i++) {
-        const struct link *l = &a->links[i];
-        struct outcome *o = &a->refinement->outcomes[i];
-        struct blockers list;
-        list.known = BLOCKERS_UNKNOWN;
-        o->link[0] = *l;
-        o->none = NULL;
-        memset(o->marks, 0, sizeof o->marks);
-        o->decision[1] = !a->changed || a->changed[l->receiver] || a->changed[l->emitter];
-        o->decision[0] = o->decision[1] ? discuss(a->refinement, i, 0, &o->link[0], &list)
-                                        : (unsigned char)DECISION_LINK;
-        note_list(a->refinement, i, &list, divides(o->decision[0]));
-    }
-}
-
 int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 {
     size_t all = r->link_count;
@@ -466,9 +358,9 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
     for (size_t from = 0; from < all; from += ROUND) {
         int count = (int)(all - from < ROUND ? all - from : ROUND);
         r->round_count = count;
-        const struct again a = {r, r->links + from, changed};
-        thread_pool_run(r->threads, (size_t)count, CHUNK, discuss_again, &a);
-        if (tell_again(r, a.links, count) < 0)
+        const struct link *links = r->links + from;
+        discuss_again(r, links, changed);
+        if (tell_again(r, links, count) < 0)
             return -1;
         mark_elements(r, count);
         for (int i = 0; i < count; i++) {

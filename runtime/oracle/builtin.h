@@ -8,8 +8,8 @@
 
 struct builtin {
     const char *name;
-    const char *text; /* the graph, for the DAG release */
-    const struct oracle *flat;
+    const char *text;              /* the graph, for the DAG release */
+    const struct oracle *compiled; /* the flat release, and that in waves */
 };
 
 extern const struct builtin builtins[];   /* ends with a NULL name */

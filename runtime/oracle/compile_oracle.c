@@ -27,12 +27,13 @@ static int same_terms(const struct dag *dag)
     return dag->term_count == term_table_count;
 }
 
-static struct refiner *open_library(void *library, const char *name, struct messages *messages)
+static struct refiner *open_library(void *library, const char *name, int wave,
+                                    struct messages *messages)
 {
     char symbol[128];
     snprintf(symbol, sizeof symbol, "%s_oracle", name);
     const struct oracle *oracle = dlsym(library, symbol);
-    struct refiner *r = oracle ? refiner_compiled(oracle, "flat") : NULL;
+    struct refiner *r = oracle ? refiner_compiled(oracle, wave ? "wave" : "flat") : NULL;
     if (r) {
         r->own = library;
         r->release_state = close_library;
@@ -67,7 +68,7 @@ static void set_externs(void *library, const struct dag *dag, const struct plugi
     }
 }
 
-struct refiner *compile_oracle(const char *path, const char *text, const char *name,
+struct refiner *compile_oracle(const char *path, const char *text, const char *name, int wave,
                                const struct oracle_sources *how, struct messages *messages)
 {
     struct dag_options options = {.text = text,
@@ -84,14 +85,14 @@ struct refiner *compile_oracle(const char *path, const char *text, const char *n
                            "the graph's catalog declares terms that this program was built "
                            "without; leave them out, or build a program with that catalog");
     } else if (find_externs(dag, index, how->plugins, messages) == 0) {
-        const struct dag_compiler compiler = {how->compiler, how->temporary};
+        const struct dag_compiler compiler = {how->compiler, how->temporary, wave};
         char message[4096];
         void *library = dag_compile_oracles(dag, &compiler, message, sizeof message);
         if (!library)
             (void)messages_say(messages, MESSAGE_COMPILER, "%s", message);
         else {
             set_externs(library, dag, how->plugins);
-            r = open_library(library, dag->oracles[index].name, messages);
+            r = open_library(library, dag->oracles[index].name, wave, messages);
         }
     }
     dag_free(dag);

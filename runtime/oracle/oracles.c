@@ -1,4 +1,4 @@
-/* oracles.c - the three releases of an oracle, by name or from a file.
+/* oracles.c - the releases of an oracle, by name or from a file.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "oracle/oracles.h"
 #include "util/array.h"
 
-const char *const release_names[RELEASES] = {"flat", "dag", "hand"};
+const char *const release_names[RELEASES] = {"flat", "dag", "hand", "wave"};
 
 static const struct oracle_sources nothing;
 
@@ -68,6 +68,8 @@ static struct refiner *open_compiled(const struct oracle *oracle, enum release r
     struct refiner *r = refiner_compiled(oracle, release_names[release]);
     if (!r)
         (void)messages_say(messages, MESSAGE_MEMORY, "out of memory");
+    else if (release == RELEASE_FLAT) /* pair by pair, as its name says */
+        r->wave = NULL;
     return r;
 }
 
@@ -83,7 +85,7 @@ static struct refiner *open_hand(const struct oracle_sources *sources, const cha
         used += (size_t)snprintf(names + used, sizeof names - used, "%s--oracle %s",
                                  i ? " or " : ", or ", sources->hand[i]->name);
     (void)messages_say(messages, MESSAGE_ARGUMENT,
-                       "no hand-written release of this oracle; use --release flat or dag%s",
+                       "no hand-written release of this oracle; use --release flat, wave or dag%s",
                        names);
     return NULL;
 }
@@ -106,7 +108,7 @@ struct refiner *oracle_open(const struct oracle_sources *sources, const char *or
         return oracle_load(sources, oracle, NULL, NULL, release, messages);
     if (release == RELEASE_DAG)
         return refiner_interpreted(oracle, b->text, b->name, messages);
-    return open_compiled(b->flat, RELEASE_FLAT, messages);
+    return open_compiled(b->compiled, release, messages);
 }
 
 struct refiner *oracle_load(const struct oracle_sources *sources, const char *path,
@@ -125,9 +127,9 @@ struct refiner *oracle_load(const struct oracle_sources *sources, const char *pa
                                      .replacements = sources->replacements,
                                      .replacement_count = sources->replacement_count},
             messages);
-    if (release == RELEASE_FLAT)
-        return compile_oracle(path, text, name, sources, messages);
+    if (release != RELEASE_HAND)
+        return compile_oracle(path, text, name, release == RELEASE_WAVE, sources, messages);
     (void)messages_say(messages, MESSAGE_ARGUMENT,
-                       "a file has no hand-written release; use --release flat or dag");
+                       "a file has no hand-written release; use --release flat, wave or dag");
     return NULL;
 }

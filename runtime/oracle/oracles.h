@@ -9,9 +9,9 @@
 
 #define DEFAULT_ORACLE "power"
 
-enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASES };
+enum release { RELEASE_FLAT, RELEASE_DAG, RELEASE_HAND, RELEASE_WAVE, RELEASES };
 
-extern const char *const release_names[RELEASES]; /* "flat", "dag", "hand" */
+extern const char *const release_names[RELEASES]; /* "flat", "dag", "hand", "wave" */
 
 /* What a program adds to the built-in oracles; all zero: nothing. */
 struct oracle_sources {
@@ -40,8 +40,8 @@ int oracle_by_hand(const struct oracle_sources *sources, const char *oracle);
 struct refiner *oracle_open(const struct oracle_sources *sources, const char *oracle,
                             enum release release, struct messages *messages);
 
-/* An oracle of a file, or of a text under the name `path`; `name` NULL: the only one. FLAT or
- * DAG. */
+/* An oracle of a file, or of a text under the name `path`; `name` NULL: the only one. FLAT,
+ * DAG or WAVE. */
 struct refiner *oracle_load(const struct oracle_sources *sources, const char *path,
                             const char *text, const char *name, enum release release,
                             struct messages *messages);

@@ -45,6 +45,7 @@ struct refiner *refiner_compiled(const struct oracle *oracle, const char *releas
     }
     oracle->defaults(r->block);
     r->refine = oracle->refine;
+    r->wave = oracle->wave;
     r->state = r->block;
     r->oracle = oracle->name;
     r->doc = oracle->doc;

@@ -10,6 +10,8 @@
  * as no parameter is set meanwhile. */
 struct refiner {
     enum decision (*refine)(const void *state, struct discussion *d);
+    /* the same of `count` discussions with one host; NULL: only pair by pair */
+    void (*wave)(const void *state, struct discussion *block, int count, enum decision *decisions);
     const void *state; /* a parameter structure, or the interpreter's program */
     const char *oracle, *release, *doc;
     const char *fingerprint; /* of the graph it was compiled from; NULL when interpreted */

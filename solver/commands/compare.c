@@ -1,10 +1,11 @@
 /* compare.c - `radiosity compare`: the releases of an oracle on one scene, the hand-written one
  * where there is one.
  *
- * First one solve by an oracle made of all of them: each discusses every pair on a copy, and
- * decisions and what links would store are compared bit by bit. It ends with the first round in
- * which they differ: what follows would tell of other links. Else each release solves alone, in
- * turn, several times, and the medians of the refinement's seconds are compared.
+ * First one solve by an oracle made of all of them: each discusses every pair on a copy, blocks of
+ * them at once where it runs in waves, and decisions and what links would store are compared bit by
+ * bit. It ends with the first round in which they differ: what follows would tell of other links.
+ * Else each release solves alone, in turn, several times, and the medians of the refinement's
+ * seconds are compared.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -17,11 +18,11 @@
 #include "util/report.h"
 #include "util/solved.h"
 
-enum { RELEASES = 3 };
+enum { RELEASES = 4, BLOCK = 256 };
 
 /* The order of the report: the first that there is is the yardstick. */
-static const enum RadRelease order[RELEASES] = {RAD_RELEASE_HAND, RAD_RELEASE_DAG,
-                                                RAD_RELEASE_FLAT};
+static const enum RadRelease order[RELEASES] = {RAD_RELEASE_HAND, RAD_RELEASE_DAG, RAD_RELEASE_FLAT,
+                                                RAD_RELEASE_WAVE};
 
 /* What a link keeps of a discussion. */
 struct kept {
@@ -107,25 +108,75 @@ static void panel_defaults(void *parameters)
     memcpy(parameters, &at, sizeof at);
 }
 
-static enum decision ask_all(const void *parameters, struct discussion *d)
+/* A block's discussions as one release holds them. */
+struct held {
+    struct discussion d[BLOCK];
+    struct blockers lists[BLOCK];
+    enum decision decisions[BLOCK];
+};
+
+/* Each of them from the same beginning, lists included; those of the first release go on. */
+static void ask_release(const struct panel *p, int k, const struct discussion *block, int count,
+                        struct held *held)
+{
+    for (int i = 0; i < count; i++) {
+        held->d[i] = block[i];
+        if (!block[i].blockers)
+            continue;
+        held->lists[i] = *block[i].blockers;
+        held->d[i].blockers = &held->lists[i];
+    }
+    radAskOracles(p->releases[k], held->d, count, held->decisions);
+}
+
+static void judge(struct panel *p, const struct discussion *block, int count,
+                  const struct held *held)
+{
+    for (int i = 0; i < count; i++) {
+        enum decision decision[RELEASES] = {held[0].decisions[i]};
+        struct kept link[RELEASES] = {keep(decision[0], &held[0].d[i].terms)};
+        int different = 0;
+        for (int k = 1; k < p->count; k++) {
+            decision[k] = held[k].decisions[i];
+            link[k] = keep(decision[k], &held[k].d[i].terms);
+            different |= decision[0] != decision[k] || !same(&link[0], &link[k]);
+        }
+        if (different) {
+#pragma omp critical(difference)
+            record(p, &block[i], decision, link);
+        }
+    }
+}
+
+static void ask_block(struct panel *p, struct discussion *block, int count,
+                      enum decision *decisions)
+{
+    struct held held[RELEASES];
+    for (int k = 0; k < p->count; k++)
+        ask_release(p, k, block, count, &held[k]);
+    judge(p, block, count, held);
+    for (int i = 0; i < count; i++) {
+        if (block[i].blockers)
+            *block[i].blockers = held[0].lists[i];
+        block[i].terms = held[0].d[i].terms;
+        decisions[i] = held[0].decisions[i];
+    }
+}
+
+static void ask_all_in_blocks(const void *parameters, struct discussion *block, int count,
+                              enum decision *decisions)
 {
     struct panel *p;
-    struct discussion start = *d;
     memcpy(&p, parameters, sizeof p);
-    enum decision decision[RELEASES] = {radAskOracle(p->releases[0], d)};
-    struct kept link[RELEASES] = {keep(decision[0], &d->terms)};
-    int different = 0;
-    for (int k = 1; k < p->count; k++) {
-        struct discussion other = start;
-        decision[k] = radAskOracle(p->releases[k], &other);
-        link[k] = keep(decision[k], &other.terms);
-        different |= decision[0] != decision[k] || !same(&link[0], &link[k]);
-    }
-    if (different) {
-#pragma omp critical(difference)
-        record(p, &start, decision, link);
-    }
-    return decision[0];
+    for (int from = 0; from < count; from += BLOCK)
+        ask_block(p, block + from, count - from < BLOCK ? count - from : BLOCK, decisions + from);
+}
+
+static enum decision ask_all(const void *parameters, struct discussion *d)
+{
+    enum decision decision;
+    ask_all_in_blocks(parameters, d, 1, &decision);
+    return decision;
 }
 
 /* What release k of the panel is called. */
@@ -322,7 +373,8 @@ static RadOracle open_panel(RadDevice device, const struct options *o, struct or
                            .fingerprint = "",
                            .parameters_size = sizeof(struct panel *),
                            .defaults = panel_defaults,
-                           .refine = ask_all};
+                           .refine = ask_all,
+                           .wave = ask_all_in_blocks};
     RadOracle oracle = radNewOracleCompiled(device, all, "all");
     if (!oracle)
         report_device(device, o->scene);

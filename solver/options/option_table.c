@@ -516,7 +516,7 @@ enum {
     ALL = THREADED | ERROR
 };
 
-const char *const release_words[] = {"flat", "dag", "hand", NULL};
+const char *const release_words[] = {"flat", "dag", "hand", "wave", NULL};
 const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
@@ -554,8 +554,8 @@ const struct option_row option_rows[] = {
     /* Its release by hand shares no code with the other two; that of the default shares geometry.
      */
     {"oracle", "NAME|FILE.dag", COMPARE, "bf_guarded", "the refinement oracle", TEXT(oracle)},
-    {"release", "flat|dag|hand", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
-     "compiled, interpreted or written by hand (flat)", WORD(read_release, release_words),
+    {"release", "flat|dag|hand|wave", SOLVE | CLUSTERING | FORM_FACTORS, NULL,
+     "compiled, interpreted, written by hand, in blocks (flat)", WORD(read_release, release_words),
      .rare = 1},
     {"plugin", "FILE.c|FILE.so", SOLVE, NULL, "C functions for the oracle's externs; repeatable",
      NULL, .read = read_plugin, .rare = 1},

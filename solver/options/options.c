@@ -374,7 +374,7 @@ static int check_together(struct options *o)
     if (o->where && !o->trace)
         return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
     if (o->replacement_count && o->release == RAD_RELEASE_HAND)
-        return wrong(c->name, "--replace is of a graph: it takes --release flat or dag");
+        return wrong(c->name, "--replace is of a graph: it takes no --release hand");
     if (o->command == COMMAND_EXPLAIN && !o->pair == !o->at)
         return wrong(c->name, "%s",
                      o->pair ? "--pair and --at both name a pair: give one"

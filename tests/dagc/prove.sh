@@ -1,6 +1,6 @@
 #!/bin/sh
 # prove.sh DAGC COUNT - random graphs, compiled and walked beside their compiled function, on every path
-# or on paths that cover all pairs of arcs; plain, counted and traced. 100 graphs per call of the C compiler.
+# or on paths that cover all pairs of arcs; plain, counted, traced and over blocks. 100 graphs per call of the C compiler.
 # SPDX-License-Identifier: MIT
 set -u
 dagc=$1 count=$2
@@ -13,7 +13,7 @@ while [ $((seed * 100)) -lt "$count" ]; do
     batch=$((count - (seed - 1) * 100))
     [ $batch -le 100 ] || batch=100
     awk -v seed=$seed -v count=$batch -f "$here/random_graphs.awk" >"$tmp/g.dag"
-    if ! "$dagc" --catalog "$here/test_catalog.dag" -Wno-all --prove --instrument --trace "$tmp/g.dag" >"$tmp/report"; then
+    if ! "$dagc" --catalog "$here/test_catalog.dag" -Wno-all --prove --instrument --trace --release=wave "$tmp/g.dag" >"$tmp/report"; then
         bad=1
         echo "seed $seed:"
         grep -v ': proved on' "$tmp/report"

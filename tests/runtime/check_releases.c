@@ -2,7 +2,8 @@
  * decides alike and links the same, at every one of its nodes.
  *
  * While a scene is solved, each discussion is held by all: compiled, interpreted, interpreted and
- * counted, interpreted and followed, written by hand where there is such a release; and all of them
+ * counted, interpreted and followed, written by hand where there is such a release, in a block
+ * behind itself the other way round; and all of them
  * again with parameters that ask otherwise, which leads to nodes that no solve comes by. Pairs are
  * split, so that there are parts and links that are discussed again. A node that was never asked
  * proves nothing: the suite fails, and lists it.
@@ -26,9 +27,9 @@
 enum { SETTINGS = 8, WAYS = 9, NODES_MOST = 2000, PATH_MOST = 400 };
 
 /* Who is asked. */
-enum { FLAT, DAG, COUNTED, FOLLOWED, HAND, ASKED };
-static const char *const asked_names[ASKED] = {"flat", "interpreted", "counted", "followed",
-                                               "hand"};
+enum { FLAT, DAG, COUNTED, FOLLOWED, HAND, WAVE, ASKED };
+static const char *const asked_names[ASKED] = {"flat",     "interpreted", "counted",
+                                               "followed", "hand",        "wave"};
 
 /* A scene and the parameters it is solved with; then others to ask with, besides. */
 struct run {
@@ -104,10 +105,26 @@ static void note_way(struct all *all, const struct refiner *r, uint64_t way)
         atomic_store_explicit(&all->reached[answers[i].node_number], 1, memory_order_relaxed);
 }
 
+/* Behind the same pair the other way round. */
+static enum decision ask_in_block(const struct refiner *r, struct discussion *copy)
+{
+    struct discussion block[2] = {*copy, *copy};
+    enum decision decisions[2];
+    block[0].receiver = copy->emitter;
+    block[0].emitter = copy->receiver;
+    block[0].blockers = NULL;
+    memset(&block[0].terms, 0, sizeof block[0].terms);
+    r->wave(r->state, block, 2, decisions);
+    *copy = block[1];
+    return decisions[1];
+}
+
 /* One of them, on a copy that `copy` becomes. */
 static enum decision ask(struct all *all, int way, int who, struct discussion *copy)
 {
     const struct refiner *r = all->by[way][who];
+    if (who == WAVE)
+        return ask_in_block(r, copy);
     if (who != FOLLOWED)
         return r->refine(r->state, copy);
     uint64_t went;
@@ -159,6 +176,7 @@ static struct refiner *open_one(const char *oracle, int who, const struct run *r
         return NULL;
     struct refiner *r = oracles_open(oracle, who == FLAT   ? RELEASE_FLAT
                                              : who == HAND ? RELEASE_HAND
+                                             : who == WAVE ? RELEASE_WAVE
                                                            : RELEASE_DAG);
     ck_assert(r != NULL);
     for (int pass = 0; pass <= (way > 0); pass++) {

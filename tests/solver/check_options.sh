@@ -71,7 +71,7 @@ says 2 "--errors takes all, or no value, not an empty value" solve "$scene" --er
 says 2 "for the account of error: add --errors=all" solve "$scene" --reflectance-error 2%
 says 2 "for the account of error: add --errors=all" solve "$scene" --errors --exitance-error 0.1
 says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
-says 2 "--release takes flat, dag or hand, not x" solve "$scene" --release x
+says 2 "--release takes flat, dag, hand or wave, not x" solve "$scene" --release x
 says 2 "--solver takes gauss-seidel, jacobi, southwell or lu, not x" solve "$scene" --solver x
 says 2 "--projection takes galerkin or collocation, not x" compare "$scene" --projection x
 says 1 "LU solves for at most 5000 leaves, and there are" solve "$scenes/room.obj" --solver lu --set bend=1e-6
@@ -157,7 +157,7 @@ says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --oracle bf_guarde
 says 1 "rays takes whole numbers from 4 to 64" solve "$scene" --oracle bf_guarded --set rays=1e30
 says 1 "has no parameter 'no'; it has energy" solve "$scene" --set no=1
 says 1 "no such oracle" solve "$scene" --oracle nix
-says 1 "gap: error: no hand-written release of this oracle; use --release flat or dag, or --oracle bf or --oracle bf_guarded or --oracle power" \
+says 1 "gap: error: no hand-written release of this oracle; use --release flat, wave or dag, or --oracle bf or --oracle bf_guarded or --oracle power" \
     solve "$scene" --oracle gap --release hand
 
 # ---- outputs that cannot be written are told before the scene is read, which is not there

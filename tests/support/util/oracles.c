@@ -86,9 +86,9 @@ void oracles_print(FILE *out)
 {
     for (const struct builtin *b = builtins; b->name; b++) {
         fprintf(out, "%s%s: %s\n", b->name,
-                strcmp(b->name, DEFAULT_ORACLE) == 0 ? " (default)" : "", b->flat->doc);
-        for (int i = 0; i < b->flat->parameter_count; i++) {
-            const struct oracle_parameter *p = &b->flat->parameters[i];
+                strcmp(b->name, DEFAULT_ORACLE) == 0 ? " (default)" : "", b->compiled->doc);
+        for (int i = 0; i < b->compiled->parameter_count; i++) {
+            const struct oracle_parameter *p = &b->compiled->parameters[i];
             fprintf(out, "  %-10s %8g %-5s %s\n", p->name, p->value, p->unit, p->doc);
         }
     }
