@@ -1,9 +1,9 @@
 /* prove.c - does what runs do what the graph says?
  *
  * Both releases of each oracle are compiled (scripted.c): the emitted C, counted, traced and over
- * blocks too where that is asked for, and the graph under the interpreter that programs have. What they say
- * of themselves must be the graph's (described.c), and on every path from every beginning they
- * must make its calls and its decision (walk.c); all paths are followed by their states
+ * blocks too where that is asked for, and the graph under the interpreter that programs have. What
+ * they say of themselves must be the graph's (described.c), and on every path from every beginning
+ * they must make its calls and its decision (walk.c); all paths are followed by their states
  * (states.c).
  * SPDX-License-Identifier: MIT */
 #include <dlfcn.h>

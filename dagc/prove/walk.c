@@ -227,7 +227,7 @@ static const char *level_name(const struct dag *dag, int term, int level)
 const char *prove_flavour_name(struct dag *dag, enum prove_flavour flavour)
 {
     static const char *const suffixes[PROVE_FLAVOURS] = {"",        "_first", "_counted",
-                                                           "_traced", "_wave",  ""};
+                                                         "_traced", "_wave",  ""};
     return flavour == PROVE_INTERPRETED
                ? "the interpreter"
                : dag_format(&dag->arena, "%s%s", dag->verb, suffixes[flavour]);

@@ -34,7 +34,8 @@ static RadOracle refuse_oracle(RadDevice device, const char *oracle, enum RadRel
             snprintf(names + strlen(names), sizeof names - strlen(names), "%s--oracle %s",
                      *names ? " or " : "", *name);
     report_error(oracle, 0,
-                 "no hand-written release of this oracle; use --release flat, wave or dag, or %s", names);
+                 "no hand-written release of this oracle; use --release flat, wave or dag, or %s",
+                 names);
     return NULL;
 }
 
