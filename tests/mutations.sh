@@ -25,6 +25,8 @@ ambient light twice | runtime/engine/southwell.c | s/ambient\[k\] \/ (area - rho
 nothing is sent afar | runtime/engine/southwell.c | s/s->afar\[(size_t)e \* s->bands + k\] += unshot\[k\]/(void)0/ | runtime/check_solvers
 LU without shares | runtime/engine/dense.c | s/double sum = share \* d->shared\[j\]/double sum = 0 * share/ | runtime/check_solvers
 LU of one band | runtime/engine/dense.c | s/face \* x->bands + k\];/face * x->bands];/ | runtime/check_solvers
+angles turned too late | runtime/kernel/plain_math.h | s/least > 0.26 \* most/least > 0.5 * most/ | runtime/check_plain_math
+logarithms with a term less | runtime/kernel/plain_math.h | s/double r = 0.146178813838630361511;/double r = 0;/ | runtime/check_plain_math
 centres of one corner | runtime/engine/collocation.c | s/point_factor(r, s)/0.5 * (link->form_factor + point_factor(r, s))/ | runtime/check_projection
 faces take their mean | runtime/engine/separable_links.c | s/return c->centres ? separable_kernel_at_centre(faces, i, &b->s)/return c->centres \&\& 0 ? separable_kernel_at_centre(faces, i, \&b->s)/ | runtime/check_solvers
 backs 8 of 8 | runtime/kernel/constants.h | s/\(CONTACT_BACKS\) *6$/\1 8/ | runtime/check_runtime runtime/check_transport runtime/check_cut runtime/check_closure

@@ -34,10 +34,12 @@ static void add_emitter(struct residual_points *p, const struct light_operator *
     uint32_t bands = op->problem->bands;
     const struct element *e = &op->hierarchy->elements[emitter];
     double factor[RESIDUAL_POINTS], most = 0;
+    _Static_assert((int)RESIDUAL_POINTS <= (int)LAMBERT_POINTS, "as many as run at once");
     struct polygon q;
     point_factor_clip(&q, leaf, e);
+    point_factors_at(p->count, (const double(*)[3])p->at, leaf, e, &q, factor);
     for (int i = 0; i < p->count; i++) {
-        factor[i] = visible * point_factor_at(p->at[i], leaf, e, &q);
+        factor[i] *= visible;
         most = fmax(most, factor[i]);
     }
     if (p->spread && e->children && most * p->spread[emitter] > p->detail) {

@@ -13,6 +13,8 @@
 #define KERNEL_LAMBERT_H
 
 #include "discussion.h"
+#include "kernel/lanes.h"
+#include "kernel/plain_math.h"
 
 #define LAMBERT_PI 3.14159265358979323846
 
@@ -29,23 +31,105 @@ static inline double lambert_points(const double x[3], const double n[3], const 
     return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (LAMBERT_PI * square + spread)) : 0;
 }
 
-/* The form factor from the point x with normal n to a flat convex polygon v[count] in front of it,
- * in (0, 1]; negative seen from its back: -(1/2pi) sum theta_i Gamma_i.n over its edges, theta_i
- * the angle that edge i subtends at x, Gamma_i the unit normal of the plane through x and the edge.
- * [Lambert 1760] */
+/* theta Gamma.n of an edge from a to b, both as seen from the point. */
+TOOL double lambert_edge(double a0, double a1, double a2, double b0, double b1, double b2,
+                         double n0, double n1, double n2)
+{
+    double c0 = a1 * b2 - a2 * b1, c1 = a2 * b0 - a0 * b2, c2 = a0 * b1 - a1 * b0;
+    double size = sqrt(c0 * c0 + c1 * c1 + c2 * c2), some = size > 0 ? size : 1;
+    double part =
+        plain_angle(size, a0 * b0 + a1 * b1 + a2 * b2) / some * (c0 * n0 + c1 * n1 + c2 * n2);
+    return size > 0 ? part : 0;
+}
+
+/* Corners less points, the points of a corner one after the other: the last corner, then all. So an
+ * edge ends as many places after its beginning as there are points. */
+enum { LAMBERT_POINTS = 9, LAMBERT_CORNERS = (POLYGON_MAX + 1) * LAMBERT_POINTS + LANES_MOST };
+struct lambert_edges {
+    int points, count; /* edges in all */
+    double n[3], x[LAMBERT_CORNERS], y[LAMBERT_CORNERS], z[LAMBERT_CORNERS], value[LAMBERT_CORNERS];
+};
+
+TOOL void lambert_edges_body(struct lambert_edges *g)
+{
+    const double n0 = g->n[0], n1 = g->n[1], n2 = g->n[2];
+    const int on = g->points, count = g->count;
+    for (int i = 0; i < count; i += LANES) {
+        const double *x = g->x + i, *y = g->y + i, *z = g->z + i;
+        double value[LANES]; /* its own, for what ends an edge might stand where values do */
+        for (int k = 0; k < LANES; k++)
+            value[k] = lambert_edge(x[k], y[k], z[k], x[k + on], y[k + on], z[k + on], n0, n1, n2);
+        for (int k = 0; k < LANES; k++)
+            g->value[i + k] = value[k];
+    }
+}
+
+#if LANES_CHOSEN
+LANES_AVX512 void lambert_edges_8(struct lambert_edges *g)
+{
+    lambert_edges_body(g);
+}
+LANES_AVX2 void lambert_edges_4(struct lambert_edges *g)
+{
+    lambert_edges_body(g);
+}
+#endif
+
+OUTLINE void lambert_edges_at(int width, struct lambert_edges *g)
+{
+#if LANES_CHOSEN
+    if (width == 8)
+        lambert_edges_8(g);
+    else if (width == 4)
+        lambert_edges_4(g);
+    else
+#endif
+        lambert_edges_body(g);
+    (void)width;
+}
+
+/* The form factors from `points` points, normal n, to a flat convex polygon v[count] in front of
+ * them, each in (0, 1]; negative seen from its back: -(1/2pi) sum theta_i Gamma_i.n over its edges,
+ * theta_i the angle that edge i subtends at the point, Gamma_i the unit normal of the plane through
+ * both. [Lambert 1760] */
+static inline void lambert_sums(int points, const double (*at)[3], const double n[3],
+                                const double (*v)[3], int count, double *out)
+{
+    struct lambert_edges g;
+    g.points = points;
+    g.count = count < 3 ? 0 : points * count;
+    for (int k = 0; k < 3; k++)
+        g.n[k] = n[k];
+    for (int j = 0; j <= count && g.count; j++) {
+        const double *corner = v[j > 0 ? j - 1 : count - 1];
+        for (int i = 0; i < points; i++) {
+            g.x[j * points + i] = corner[0] - at[i][0];
+            g.y[j * points + i] = corner[1] - at[i][1];
+            g.z[j * points + i] = corner[2] - at[i][2];
+        }
+    }
+    for (int k = g.count; k % LANES; k++)
+        g.x[k + points] = g.y[k + points] = g.z[k + points] = 0;
+    lambert_edges_at(lanes_width(), &g);
+    for (int i = 0; i < points; i++) {
+        double sum = 0;
+        for (int k = i; k < g.count; k += points)
+            sum += g.value[k];
+        out[i] = sum * (-0.5 / LAMBERT_PI);
+    }
+}
+
+/* The same of one point. */
 static inline double lambert_sum(const double x[3], const double n[3], const double (*v)[3],
                                  int count)
 {
-    double sum = 0, a[3], b[3], c[3];
+    double sum = 0, a[3], b[3];
     if (count < 3)
         return 0;
     sub3(a, v[count - 1], x);
     for (int i = 0; i < count; i++) {
         sub3(b, v[i], x);
-        cross3(c, a, b);
-        double size = length3(c);
-        if (size > 0)
-            sum += atan2(size, dot3(a, b)) / size * dot3(c, n);
+        sum += lambert_edge(a[0], a[1], a[2], b[0], b[1], b[2], n[0], n[1], n[2]);
         for (int k = 0; k < 3; k++)
             a[k] = b[k];
     }

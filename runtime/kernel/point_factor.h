@@ -31,6 +31,19 @@ static inline double point_factor_at(const double x[3], const struct element *r,
     return f > 0 ? f < 1 ? f : 1 : 0;
 }
 
+/* The same from many points at once, LAMBERT_POINTS at the most. */
+static inline void point_factors_at(int points, const double (*x)[3], const struct element *r,
+                                    const struct element *s, const struct polygon *q, double *out)
+{
+    if (q->n > 0)
+        lambert_sums(points, x, r->normal, (const double(*)[3])q->v, q->n, out);
+    for (int i = 0; i < points; i++) {
+        if (q->n == 0 || !(height3(x[i], s->centre, s->normal) > 0))
+            out[i] = 0;
+        out[i] = out[i] > 0 ? out[i] < 1 ? out[i] : 1 : 0;
+    }
+}
+
 /* F from the receiver's centre. */
 OUTLINE double point_factor(const struct element *r, const struct element *s)
 {

@@ -38,7 +38,7 @@ static inline double point_factor_gradient(const double x[3], const double n[3],
         double s = length3(c);
         double t = dot3(a, b);
         if (s > 0) {
-            double angle = atan2(s, t);
+            double angle = plain_angle(s, t);
             double height = dot3(c, n) / s;
             sum += angle * height;
             double e[3];

@@ -31,13 +31,14 @@ static inline double polygon_factor_triangle(const double *a, const double *b, c
         {1 / 3.0, 0}, {2 / 3.0, 0}, {0.81684757298045851308, 0.10810301816807022736}};
     static const double weight[3][2] = {
         {1, 0}, {1 / 3.0, 0}, {0.10995174365532186764, 0.22338158967801146570}};
-    double x[3], y[3], z[3], sum = 0;
+    double x[3], y[3], z[3], at[6][3], f[6], sum = 0;
+    const int groups = order == 2 ? 2 : 1, each = order == 0 ? 1 : 3;
     sub3(x, b, a);
     sub3(y, c, a);
     cross3(z, x, y);
-    for (int group = 0; group < (order == 2 ? 2 : 1); group++) {
-        double w = corner[order][group], v = 0.5 * (1 - w), part = 0;
-        for (int i = 0; i < (order == 0 ? 1 : 3); i++) {
+    for (int group = 0; group < groups; group++) {
+        double w = corner[order][group], v = 0.5 * (1 - w);
+        for (int i = 0; i < each; i++) {
             const double *p0 = i == 0   ? a
                                : i == 1 ? b
                                         : c,
@@ -48,9 +49,14 @@ static inline double polygon_factor_triangle(const double *a, const double *b, c
                                : i == 1 ? a
                                         : b;
             for (int k = 0; k < 3; k++)
-                x[k] = w * p0[k] + v * p1[k] + v * p2[k];
-            part += lambert_sum(x, n, (const double(*)[3])q->v, q->n);
+                at[group * each + i][k] = w * p0[k] + v * p1[k] + v * p2[k];
         }
+    }
+    lambert_sums(groups * each, (const double(*)[3])at, n, (const double(*)[3])q->v, q->n, f);
+    for (int group = 0; group < groups; group++) {
+        double part = 0;
+        for (int i = 0; i < each; i++)
+            part += f[group * each + i];
         sum += weight[order][group] * part;
     }
     return sum * 0.5 * dot3(z, n);
@@ -64,26 +70,30 @@ static inline double polygon_factor_quad(const double (*v)[3], const double n[3]
                                       {0.21132486540518711775, 0.78867513459481288225, 0},
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
-    double sum = 0, near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
+    double sum = 0, at[9][3], share[9], f[9];
+    double near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
     sub3(near, v[1], v[0]);
     sub3(far, v[2], v[3]);
+    int points = 0;
     for (int i = 0; i <= order; i++) {
         double s = node[order][i], low[3], dt[3];
         for (int k = 0; k < 3; k++) {
             low[k] = v[0][k] + s * near[k];
             dt[k] = v[3][k] + s * far[k] - low[k];
         }
-        for (int j = 0; j <= order; j++) {
-            double t = node[order][j], p[3], ds[3], jacobian[3];
+        for (int j = 0; j <= order; j++, points++) {
+            double t = node[order][j], ds[3], jacobian[3];
             for (int k = 0; k < 3; k++) {
-                p[k] = low[k] + t * dt[k];
+                at[points][k] = low[k] + t * dt[k];
                 ds[k] = (1 - t) * near[k] + t * far[k];
             }
             cross3(jacobian, ds, dt);
-            sum += weight[order][i] * weight[order][j] * dot3(jacobian, n)
-                   * lambert_sum(p, n, (const double(*)[3])q->v, q->n);
+            share[points] = weight[order][i] * weight[order][j] * dot3(jacobian, n);
         }
     }
+    lambert_sums(points, (const double(*)[3])at, n, (const double(*)[3])q->v, q->n, f);
+    for (int i = 0; i < points; i++)
+        sum += share[i] * f[i];
     return sum;
 }
 

@@ -42,18 +42,21 @@ OUTLINE void form_factor_range_sample(const struct element *r, const struct elem
                                       double range[2])
 {
     struct polygon q;
+    double x[5][3], f[5]; /* the centre's, the corners' */
     point_factor_clip(&q, r, s);
-    range[0] = range[1] = point_factor_at(r->centre, r, s, &q);
+    for (int k = 0; k < 3; k++)
+        x[0][k] = r->centre[k];
+    for (int i = 0; i < r->vertices; i++)
+        surface_corner(x[1 + i], r, i);
+    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, &q, f);
+    range[0] = range[1] = f[0];
     if (q.n == 0 || polygon_factor_hidden(r, s, range[1] * r->area)) {
         range[0] = range[1] = 0;
         return;
     }
-    for (int i = 0; i < r->vertices; i++) {
-        double x[3];
-        surface_corner(x, r, i);
-        double f = point_factor_at(x, r, s, &q);
-        range[0] = f < range[0] ? f : range[0];
-        range[1] = f > range[1] ? f : range[1];
+    for (int i = 1; i <= r->vertices; i++) {
+        range[0] = f[i] < range[0] ? f[i] : range[0];
+        range[1] = f[i] > range[1] ? f[i] : range[1];
     }
 }
 

@@ -26,15 +26,16 @@
 OUTLINE double linear_gap_bend(const struct element *r, const struct element *s, double mean)
 {
     struct polygon q;
-    double f[4], middle, sum = 0, twist = 0;
+    double x[5][3], at[5], sum = 0, twist = 0;
     point_factor_clip(&q, r, s);
-    middle = point_factor_at(r->centre, r, s, &q);
-    for (int i = 0; i < r->vertices; i++) {
-        double x[3];
-        surface_corner(x, r, i);
-        f[i] = point_factor_at(x, r, s, &q);
+    for (int k = 0; k < 3; k++)
+        x[0][k] = r->centre[k];
+    for (int i = 0; i < r->vertices; i++)
+        surface_corner(x[1 + i], r, i);
+    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, &q, at);
+    const double middle = at[0], *f = at + 1;
+    for (int i = 0; i < r->vertices; i++)
         sum += f[i] / r->vertices;
-    }
     if (r->vertices == 4)
         twist = 0.25 * fabs(f[0] - f[1] + f[2] - f[3]);
     double bulge = (2 / 3.0) * fabs(middle - sum);

@@ -1,6 +1,7 @@
 /* factor.c - form factor and visibility for the hand-written releases.
  * SPDX-License-Identifier: MIT */
 #include "hand.h"
+#include "kernel/plain_math.h"
 
 typedef struct {
     double x, y, z;
@@ -64,7 +65,7 @@ static double at_point(vec p, vec n, const poly *q)
     vec a = minus(q->v[q->n - 1], p);
     for (int i = 0; i < q->n; i++) {
         vec b = minus(q->v[i], p), c = cross(a, b);
-        double size = norm(c), angle = atan2(size, dot(a, b));
+        double size = norm(c), angle = plain_angle(size, dot(a, b));
         if (size > 0)
             sum += angle / size * dot(c, n);
         a = b;
@@ -78,12 +79,9 @@ static double along(vec p, vec a, vec u, double length)
     vec w = minus(p, a);
     double x = dot(w, u), h = norm(cross(w, u)), y = length - x;
     double far = y * y + h * h, near = x * x + h * h, sum = -length;
-    if (far > 0)
-        sum += 0.5 * y * log(far);
-    if (near > 0)
-        sum += 0.5 * x * log(near);
-    if (h > 0)
-        sum += h * atan2(h * length, h * h - x * y);
+    sum += 0.5 * y * plain_log(far);
+    sum += 0.5 * x * plain_log(near);
+    sum += h * plain_angle(h * length, h * h - x * y);
     return sum;
 }
 
@@ -120,8 +118,8 @@ static double adapt(const edges *g, double from, double to, double whole, int de
 /* Twice integrated ln sqrt(u^2 + h^2). */
 static double twice_integrated(double u, double h)
 {
-    double z = u * u + h * h;
-    return (z > 0 ? 0.25 * (u * u - h * h) * log(z) : 0) + (h > 0 ? u * h * atan(u / h) : 0)
+    u = fabs(u);
+    return 0.25 * (u * u - h * h) * plain_log(u * u + h * h) + u * h * plain_angle(u, h)
            - 0.75 * u * u;
 }
 
