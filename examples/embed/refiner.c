@@ -863,6 +863,134 @@ static inline void refiner_hemisphere_direction(double out[3], const struct refi
 #ifndef REFINER_KERNEL_LAMBERT_H
 #define REFINER_KERNEL_LAMBERT_H
 
+/* lanes.h - loops over doubles that run several at a time.
+ *
+ * A loop over LANES numbers, its length a constant, without a branch, from arrays of a structure
+ * into others of it, is what compilers turn into vectors. Such a loop is compiled up to three
+ * times: for AVX-512, for AVX2 and for the processor that the rest is compiled for. Which one runs
+ * is asked of the processor (lanes_width); all give the same bits, as each lane does what a double
+ * alone would, and nothing is fused. How many numbers there are is rounded up to whole lanes; what
+ * is computed there is not read.
+ *
+ * LANES may be given as 1, 4 or 16 while compiling, LANES_WIDEST as the widest vector that may be
+ * chosen (1, 4 or 8 doubles): no result depends on either. */
+#ifndef REFINER_KERNEL_LANES_H
+#define REFINER_KERNEL_LANES_H
+
+
+#ifndef REFINER_LANES
+#define REFINER_LANES 8
+#endif
+#ifndef REFINER_LANES_WIDEST
+#define REFINER_LANES_WIDEST 8
+#endif
+enum { REFINER_LANES_MOST = 16 }; /* to what lengths of arrays are rounded up */
+
+#if defined __GNUC__ && defined __x86_64__ && !defined __TINYC__ && REFINER_LANES_WIDEST > 1
+#define REFINER_LANES_CHOSEN 1
+#define REFINER_LANES_AVX2 __attribute__((target("avx2"), noinline, unused)) static
+#define REFINER_LANES_AVX512 __attribute__((target("avx512f"), noinline, unused)) static
+#else
+#define REFINER_LANES_CHOSEN 0
+#endif
+
+/* How many doubles a vector of this processor holds: 8, 4, or 1 for whatever the compiler was told
+ * of it. */
+static inline int refiner_lanes_width(void)
+{
+#if REFINER_LANES_CHOSEN
+    if (REFINER_LANES_WIDEST >= 8 && __builtin_cpu_supports("avx512f"))
+        return 8;
+    if (__builtin_cpu_supports("avx2"))
+        return 4;
+#endif
+    return 1;
+}
+
+#endif
+/* plain_math.h - the logarithm and the angle that form factors are made of, the same bits on every
+ * machine: additions, multiplications and divisions of doubles alone, no branch, so that a loop
+ * over them runs several at a time, and none of them differs from one alone.
+ *
+ * Both are cut down to a short interval by steps without rounding, or nearly, and a polynomial does
+ * the rest: of least largest error (Remez's exchange, made for this file with 60 digits), of a
+ * degree that leaves less than a rounding. Measured against mpfr's results and long doubles
+ * (tests/runtime/check_plain_math.c): at most 1 unit in the last place, the angle 1.5.
+ *
+ * Needs multiplications and additions that are not fused: -ffp-contract=off. */
+#ifndef REFINER_KERNEL_PLAIN_MATH_H
+#define REFINER_KERNEL_PLAIN_MATH_H
+
+
+#include <string.h>
+
+/* ln 2, the first part so short that it times any exponent is exact. */
+#define REFINER_PLAIN_MATH_LN2 0.69314718036912382
+#define REFINER_PLAIN_MATH_LN2_REST 1.9082149292705877e-10
+#define REFINER_PLAIN_MATH_HALF 0.46364760900080609 /* atan(1/2); what it and pi/4 leave out */
+#define REFINER_PLAIN_MATH_HALF_REST 2.2698777452961687e-17
+#define REFINER_PLAIN_MATH_QUARTER_PI 0.78539816339744828
+#define REFINER_PLAIN_MATH_QUARTER_PI_REST 3.061616997868383e-17
+
+/* ln x of a finite x > 0 that has all its digits, x >= 2.3e-308; of less, 0 included, about -709:
+ * enough for a product that is 0 there, such as 0 ln 0. x = 2^k m, m in [sqrt 1/2, sqrt 2),
+ * f = m - 1, s = f / (2 + f):
+ *     ln m = 2 atanh s = f - s (f - R(s^2)),  R(z) = z (2/3 + 2/5 z + ...). */
+REFINER_TOOL double refiner_plain_log(double x)
+{
+    const uint64_t root = 0x3fe6a09e667f3bcd; /* sqrt 1/2 */
+    uint64_t bits, power;
+    double m, k;
+    memcpy(&bits, &x, sizeof bits);
+    bits += 0x3ff0000000000000 - root;
+    power = bits >> 52 | 0x4330000000000000; /* of a number in [2^52, 2^53): 2^52 + 1023 + k */
+    bits = (bits & 0xfffffffffffff) + root;
+    memcpy(&m, &bits, sizeof m);
+    memcpy(&k, &power, sizeof k);
+    k -= 4503599627370496.0 + 1023;
+    double f = m - 1, s = f / (2 + f), z = s * s;
+    double r = 0.146178813838630361511;
+    r = r * z + 0.153315962345972473467;
+    r = r * z + 0.181828932404853293441;
+    r = r * z + 0.222222110725671872163;
+    r = r * z + 0.285714286264003954123;
+    r = r * z + 0.399999999998984455821;
+    r = r * z + 0.666666666666666972881;
+    return k * REFINER_PLAIN_MATH_LN2 - ((s * (f - z * r) - k * REFINER_PLAIN_MATH_LN2_REST) - f);
+}
+
+/* The angle in [0, pi] between the axis and (c, s), s >= 0: atan2(s, c); 0 of (0, 0). The slope t
+ * in [0, 1] of the nearer axis is turned back by the nearest of 0, atan(1/2), pi/4: (t - tan a) /
+ * (1 + t tan a), at most sqrt 5 - 2 = .236. */
+REFINER_TOOL double refiner_plain_angle(double s, double c)
+{
+    double wide = c < 0 ? -c : c;
+    double least = s < wide ? s : wide, most = s < wide ? wide : s;
+    /* the tangents of the middles between the three */
+    int some = least > 0.26 * most, much = least > 0.72 * most;
+    double turn = much ? 1 : some ? 0.5 : 0;
+    double by = much ? REFINER_PLAIN_MATH_QUARTER_PI : some ? REFINER_PLAIN_MATH_HALF : 0;
+    double rest = much ? REFINER_PLAIN_MATH_QUARTER_PI_REST : some ? REFINER_PLAIN_MATH_HALF_REST : 0;
+    double under = most + turn * least;
+    double x = (least - turn * most) / (under > 0 ? under : 1), z = x * x;
+    double r = -0.0402450039166724400881;
+    r = r * z + 0.0573377175763519464422;
+    r = r * z - 0.0665679337740348540357;
+    r = r * z + 0.0769192117894681616573;
+    r = r * z - 0.0909090015583377919048;
+    r = r * z + 0.11111110994752937852;
+    r = r * z - 0.14285714284954026921;
+    r = r * z + 0.199999999999980860314;
+    r = r * z - 0.333333333333333325401;
+    double angle = by + (x + (x * (z * r) + rest));
+    /* from the axis that c lies along, and from its positive end */
+    double steep = 2 * REFINER_PLAIN_MATH_QUARTER_PI - (angle - 2 * REFINER_PLAIN_MATH_QUARTER_PI_REST);
+    angle = s > wide ? steep : angle;
+    double back = 4 * REFINER_PLAIN_MATH_QUARTER_PI - (angle - 4 * REFINER_PLAIN_MATH_QUARTER_PI_REST);
+    return c < 0 ? back : angle;
+}
+
+#endif
 
 #define REFINER_LAMBERT_PI 3.14159265358979323846
 
@@ -879,23 +1007,105 @@ static inline double refiner_lambert_points(const double x[3], const double n[3]
     return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread)) : 0;
 }
 
-/* The form factor from the point x with normal n to a flat convex polygon v[count] in front of it,
- * in (0, 1]; negative seen from its back: -(1/2pi) sum theta_i Gamma_i.n over its edges, theta_i
- * the angle that edge i subtends at x, Gamma_i the unit normal of the plane through x and the edge.
- * [Lambert 1760] */
+/* theta Gamma.n of an edge from a to b, both as seen from the point. */
+REFINER_TOOL double refiner_lambert_edge(double a0, double a1, double a2, double b0, double b1, double b2,
+                         double n0, double n1, double n2)
+{
+    double c0 = a1 * b2 - a2 * b1, c1 = a2 * b0 - a0 * b2, c2 = a0 * b1 - a1 * b0;
+    double size = sqrt(c0 * c0 + c1 * c1 + c2 * c2), some = size > 0 ? size : 1;
+    double part =
+        refiner_plain_angle(size, a0 * b0 + a1 * b1 + a2 * b2) / some * (c0 * n0 + c1 * n1 + c2 * n2);
+    return size > 0 ? part : 0;
+}
+
+/* Corners less points, the points of a corner one after the other: the last corner, then all. So an
+ * edge ends as many places after its beginning as there are points. */
+enum { REFINER_LAMBERT_POINTS = 9, REFINER_LAMBERT_CORNERS = (REFINER_POLYGON_MAX + 1) * REFINER_LAMBERT_POINTS + REFINER_LANES_MOST };
+struct refiner_lambert_edges {
+    int points, count; /* edges in all */
+    double n[3], x[REFINER_LAMBERT_CORNERS], y[REFINER_LAMBERT_CORNERS], z[REFINER_LAMBERT_CORNERS], value[REFINER_LAMBERT_CORNERS];
+};
+
+REFINER_TOOL void refiner_lambert_edges_body(struct refiner_lambert_edges *g)
+{
+    const double n0 = g->n[0], n1 = g->n[1], n2 = g->n[2];
+    const int on = g->points, count = g->count;
+    for (int i = 0; i < count; i += REFINER_LANES) {
+        const double *x = g->x + i, *y = g->y + i, *z = g->z + i;
+        double value[REFINER_LANES]; /* its own, for what ends an edge might stand where values do */
+        for (int k = 0; k < REFINER_LANES; k++)
+            value[k] = refiner_lambert_edge(x[k], y[k], z[k], x[k + on], y[k + on], z[k + on], n0, n1, n2);
+        for (int k = 0; k < REFINER_LANES; k++)
+            g->value[i + k] = value[k];
+    }
+}
+
+#if REFINER_LANES_CHOSEN
+REFINER_LANES_AVX512 void refiner_lambert_edges_8(struct refiner_lambert_edges *g)
+{
+    refiner_lambert_edges_body(g);
+}
+REFINER_LANES_AVX2 void refiner_lambert_edges_4(struct refiner_lambert_edges *g)
+{
+    refiner_lambert_edges_body(g);
+}
+#endif
+
+REFINER_OUTLINE void refiner_lambert_edges_at(int width, struct refiner_lambert_edges *g)
+{
+#if REFINER_LANES_CHOSEN
+    if (width == 8)
+        refiner_lambert_edges_8(g);
+    else if (width == 4)
+        refiner_lambert_edges_4(g);
+    else
+#endif
+        refiner_lambert_edges_body(g);
+    (void)width;
+}
+
+/* The form factors from `points` points, normal n, to a flat convex polygon v[count] in front of
+ * them, each in (0, 1]; negative seen from its back: -(1/2pi) sum theta_i Gamma_i.n over its edges,
+ * theta_i the angle that edge i subtends at the point, Gamma_i the unit normal of the plane through
+ * both. [Lambert 1760] */
+static inline void refiner_lambert_sums(int points, const double (*at)[3], const double n[3],
+                                const double (*v)[3], int count, double *out)
+{
+    struct refiner_lambert_edges g;
+    g.points = points;
+    g.count = count < 3 ? 0 : points * count;
+    for (int k = 0; k < 3; k++)
+        g.n[k] = n[k];
+    for (int j = 0; j <= count && g.count; j++) {
+        const double *corner = v[j > 0 ? j - 1 : count - 1];
+        for (int i = 0; i < points; i++) {
+            g.x[j * points + i] = corner[0] - at[i][0];
+            g.y[j * points + i] = corner[1] - at[i][1];
+            g.z[j * points + i] = corner[2] - at[i][2];
+        }
+    }
+    for (int k = g.count; k % REFINER_LANES; k++)
+        g.x[k + points] = g.y[k + points] = g.z[k + points] = 0;
+    refiner_lambert_edges_at(refiner_lanes_width(), &g);
+    for (int i = 0; i < points; i++) {
+        double sum = 0;
+        for (int k = i; k < g.count; k += points)
+            sum += g.value[k];
+        out[i] = sum * (-0.5 / REFINER_LAMBERT_PI);
+    }
+}
+
+/* The same of one point. */
 static inline double refiner_lambert_sum(const double x[3], const double n[3], const double (*v)[3],
                                  int count)
 {
-    double sum = 0, a[3], b[3], c[3];
+    double sum = 0, a[3], b[3];
     if (count < 3)
         return 0;
     refiner_sub3(a, v[count - 1], x);
     for (int i = 0; i < count; i++) {
         refiner_sub3(b, v[i], x);
-        refiner_cross3(c, a, b);
-        double size = refiner_length3(c);
-        if (size > 0)
-            sum += atan2(size, refiner_dot3(a, b)) / size * refiner_dot3(c, n);
+        sum += refiner_lambert_edge(a[0], a[1], a[2], b[0], b[1], b[2], n[0], n[1], n[2]);
         for (int k = 0; k < 3; k++)
             a[k] = b[k];
     }
@@ -954,100 +1164,193 @@ REFINER_TOOL double refiner_lambert_second_order(double a, double b, double t, d
 
 
 #define REFINER_CONTOUR_FACTOR_TWO_PI 6.28318530717958647693
-enum { REFINER_CONTOUR_FACTOR_DEPTH = 40 };
-
-/* Integral over t in [0, L] of ln |p - (a + t u)|, u a unit vector. */
-static inline double refiner_contour_factor_line(const double p[3], const double a[3], const double u[3],
-                                         double length)
-{
-    double w[3], c[3];
-    refiner_sub3(w, p, a);
-    refiner_cross3(c, w, u);
-    double x = refiner_dot3(w, u);
-    double h = refiner_length3(c);
-    double y = length - x;
-    double z = y * y + h * h;
-    double sum = -length;
-    if (z > 0)
-        sum += 0.5 * y * log(z);
-    z = x * x + h * h;
-    if (z > 0)
-        sum += 0.5 * x * log(z);
-    if (h > 0)
-        sum += h * atan2(h * length, h * h - x * y); /* the angle under which p sees the edge */
-    return sum;
-}
-
-/* An edge to integrate over (from p, along e) against another one (a, u, length). */
-struct refiner_contour_factor_edge {
-    const double *p, *a;
-    double e[3], u[3], length;
+enum {
+    REFINER_CONTOUR_FACTOR_DEPTH = 40,
+    REFINER_CONTOUR_FACTOR_PAIRS = REFINER_POLYGON_MAX * REFINER_POLYGON_MAX,
+    /* five Gauss points on a part and on either half of it, of four parts */
+    REFINER_CONTOUR_FACTOR_PARTS = 12,
+    REFINER_CONTOUR_FACTOR_LINES = 5 * REFINER_CONTOUR_FACTOR_PARTS + REFINER_LANES_MOST,
+    REFINER_CONTOUR_FACTOR_SECONDS = 4 * REFINER_CONTOUR_FACTOR_PAIRS + REFINER_LANES_MOST
 };
 
-static inline double refiner_contour_factor_gauss(const struct refiner_contour_factor_edge *g, double from,
-                                          double to)
+/* A polygon's edge. */
+struct refiner_contour_factor_side {
+    const double *from;
+    double along[3], unit[3], length;
+};
+
+/* Points of the outer edge, s from 0 to 1, and the integral of the logarithm of their distance over
+ * the inner one. */
+struct refiner_contour_factor_lines {
+    double s[REFINER_CONTOUR_FACTOR_LINES], value[REFINER_CONTOUR_FACTOR_LINES];
+};
+
+REFINER_TOOL void refiner_contour_factor_lines_body(const struct refiner_contour_factor_side *outer,
+                                    const struct refiner_contour_factor_side *inner, int count,
+                                    struct refiner_contour_factor_lines *lines)
+{
+    const double *p = outer->from, *a = inner->from, *e = outer->along, *u = inner->unit;
+    const double p0 = p[0], p1 = p[1], p2 = p[2], a0 = a[0], a1 = a[1], a2 = a[2], e0 = e[0],
+                 e1 = e[1], e2 = e[2], u0 = u[0], u1 = u[1], u2 = u[2], length = inner->length;
+    for (int i = 0; i < count; i += REFINER_LANES)
+        for (int k = i; k < i + REFINER_LANES; k++) {
+            double s = lines->s[k];
+            double w0 = p0 + s * e0 - a0, w1 = p1 + s * e1 - a1, w2 = p2 + s * e2 - a2;
+            double c0 = w1 * u2 - w2 * u1, c1 = w2 * u0 - w0 * u2, c2 = w0 * u1 - w1 * u0;
+            double x = w0 * u0 + w1 * u1 + w2 * u2, y = length - x;
+            double h = sqrt(c0 * c0 + c1 * c1 + c2 * c2);
+            double sum = -length;
+            sum += 0.5 * y * refiner_plain_log(y * y + h * h);
+            sum += 0.5 * x * refiner_plain_log(x * x + h * h);
+            sum += h * refiner_plain_angle(h * length, h * h - x * y); /* under which p sees the edge */
+            lines->value[k] = sum;
+        }
+}
+
+/* Of parallel edges: u, h and G(u). */
+struct refiner_contour_factor_seconds {
+    double u[REFINER_CONTOUR_FACTOR_SECONDS], h[REFINER_CONTOUR_FACTOR_SECONDS], value[REFINER_CONTOUR_FACTOR_SECONDS];
+};
+
+REFINER_TOOL void refiner_contour_factor_seconds_body(int count, struct refiner_contour_factor_seconds *g)
+{
+    for (int i = 0; i < count; i += REFINER_LANES)
+        for (int k = i; k < i + REFINER_LANES; k++) {
+            double u = fabs(g->u[k]), h = g->h[k];
+            g->value[k] = 0.25 * (u * u - h * h) * refiner_plain_log(u * u + h * h)
+                          + u * h * refiner_plain_angle(u, h) - 0.75 * u * u;
+        }
+}
+
+#if REFINER_LANES_CHOSEN
+REFINER_LANES_AVX512 void refiner_contour_factor_lines_8(const struct refiner_contour_factor_side *outer,
+                                         const struct refiner_contour_factor_side *inner, int count,
+                                         struct refiner_contour_factor_lines *lines)
+{
+    refiner_contour_factor_lines_body(outer, inner, count, lines);
+}
+REFINER_LANES_AVX2 void refiner_contour_factor_lines_4(const struct refiner_contour_factor_side *outer,
+                                       const struct refiner_contour_factor_side *inner, int count,
+                                       struct refiner_contour_factor_lines *lines)
+{
+    refiner_contour_factor_lines_body(outer, inner, count, lines);
+}
+REFINER_LANES_AVX512 void refiner_contour_factor_seconds_8(int count, struct refiner_contour_factor_seconds *g)
+{
+    refiner_contour_factor_seconds_body(count, g);
+}
+REFINER_LANES_AVX2 void refiner_contour_factor_seconds_4(int count, struct refiner_contour_factor_seconds *g)
+{
+    refiner_contour_factor_seconds_body(count, g);
+}
+#endif
+
+REFINER_OUTLINE void refiner_contour_factor_lines_at(int width, const struct refiner_contour_factor_side *outer,
+                                     const struct refiner_contour_factor_side *inner, int count,
+                                     struct refiner_contour_factor_lines *lines)
+{
+#if REFINER_LANES_CHOSEN
+    if (width == 8)
+        refiner_contour_factor_lines_8(outer, inner, count, lines);
+    else if (width == 4)
+        refiner_contour_factor_lines_4(outer, inner, count, lines);
+    else
+#endif
+        refiner_contour_factor_lines_body(outer, inner, count, lines);
+    (void)width;
+}
+
+REFINER_OUTLINE void refiner_contour_factor_seconds_at(int width, int count, struct refiner_contour_factor_seconds *g)
+{
+#if REFINER_LANES_CHOSEN
+    if (width == 8)
+        refiner_contour_factor_seconds_8(count, g);
+    else if (width == 4)
+        refiner_contour_factor_seconds_4(count, g);
+    else
+#endif
+        refiner_contour_factor_seconds_body(count, g);
+    (void)width;
+}
+
+/* The integral over parts from part[i][0] to part[i][1] of the outer edge, by five points each. */
+static inline void refiner_contour_factor_gauss(const struct refiner_contour_factor_side *outer,
+                                        const struct refiner_contour_factor_side *inner, int parts,
+                                        const double (*part)[2], double *out)
 {
     static const double node[5] = {-0.90617984593866399280, -0.53846931010568309104, 0,
                                    0.53846931010568309104, 0.90617984593866399280};
     static const double weight[5] = {0.23692688505618908751, 0.47862867049936646804,
                                      0.56888888888888888889, 0.47862867049936646804,
                                      0.23692688505618908751};
-    double middle = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0;
-    for (int i = 0; i < 5; i++) {
-        double s = middle + half * node[i], p[3];
-        p[0] = g->p[0] + s * g->e[0];
-        p[1] = g->p[1] + s * g->e[1];
-        p[2] = g->p[2] + s * g->e[2];
-        sum += weight[i] * refiner_contour_factor_line(p, g->a, g->u, g->length);
+    struct refiner_contour_factor_lines lines;
+    int count = 0;
+    for (int i = 0; i < parts; i++) {
+        double middle = 0.5 * (part[i][0] + part[i][1]), half = 0.5 * (part[i][1] - part[i][0]);
+        for (int k = 0; k < 5; k++)
+            lines.s[count++] = middle + half * node[k];
     }
-    return sum * half;
+    for (int k = count; k % REFINER_LANES; k++)
+        lines.s[k] = 0;
+    refiner_contour_factor_lines_at(refiner_lanes_width(), outer, inner, count, &lines);
+    for (int i = 0; i < parts; i++) {
+        double sum = 0;
+        for (int k = 0; k < 5; k++)
+            sum += weight[k] * lines.value[5 * i + k];
+        out[i] = sum * (0.5 * (part[i][1] - part[i][0]));
+    }
 }
 
-static inline double refiner_contour_factor_adapt(const struct refiner_contour_factor_edge *g, double from,
-                                          double to, double whole, double tolerance, int depth)
+/* A part of which the integral over the whole is known, and those over its halves: where they do
+ * not agree the halves of both are asked. */
+static inline double refiner_contour_factor_adapt(const struct refiner_contour_factor_side *outer,
+                                          const struct refiner_contour_factor_side *inner, double from,
+                                          double to, double whole, const double half[2],
+                                          double tolerance, int depth)
 {
-    double middle = 0.5 * (from + to);
-    double left = refiner_contour_factor_gauss(g, from, middle),
-           right = refiner_contour_factor_gauss(g, middle, to);
-    if (depth == 0 || fabs(left + right - whole) <= tolerance)
-        return left + right;
-    return refiner_contour_factor_adapt(g, from, middle, left, tolerance, depth - 1)
-           + refiner_contour_factor_adapt(g, middle, to, right, tolerance, depth - 1);
+    if (depth == 0 || fabs(half[0] + half[1] - whole) <= tolerance)
+        return half[0] + half[1];
+    double middle = 0.5 * (from + to), left = 0.5 * (from + middle), right = 0.5 * (middle + to),
+           quarter[4];
+    const double part[4][2] = {{from, left}, {left, middle}, {middle, right}, {right, to}};
+    refiner_contour_factor_gauss(outer, inner, 4, part, quarter);
+    return refiner_contour_factor_adapt(outer, inner, from, middle, half[0], quarter, tolerance, depth - 1)
+           + refiner_contour_factor_adapt(outer, inner, middle, to, half[1], quarter + 2, tolerance,
+                                  depth - 1);
 }
 
-static inline double refiner_contour_factor_second(double u, double h)
+/* int over the outer edge, 0 to 1, against the parallel inner one is
+ * (G(u[0]) - G(u[1]) - G(u[2]) + G(u[3])) / what this returns. */
+static inline double refiner_contour_factor_parallel(const struct refiner_contour_factor_side *outer,
+                                             const struct refiner_contour_factor_side *inner, double u[4],
+                                             double h[4])
 {
-    double z = u * u + h * h;
-    return (z > 0 ? 0.25 * (u * u - h * h) * log(z) : 0) + (h > 0 ? u * h * atan(u / h) : 0)
-           - 0.75 * u * u;
+    double w[3], c[3], length = inner->length;
+    double along = refiner_dot3(outer->along, inner->unit) > 0 ? outer->length : -outer->length;
+    refiner_sub3(w, outer->from, inner->from);
+    refiner_cross3(c, w, inner->unit);
+    double x = refiner_dot3(w, inner->unit);
+    u[0] = x + along;
+    u[1] = x;
+    u[2] = x + along - length;
+    u[3] = x - length;
+    h[0] = h[1] = h[2] = h[3] = refiner_length3(c);
+    return along;
 }
 
-/* int over the edge from p along e, 0 to 1, against the parallel edge (a, u, length). */
-static inline double refiner_contour_factor_parallel(const struct refiner_contour_factor_edge *g, double size)
+/* int over the outer edge, 0 to 1, against the skew inner one; `cross`: the square of the sine. */
+static inline double refiner_contour_factor_skew(const struct refiner_contour_factor_side *outer,
+                                         const struct refiner_contour_factor_side *inner, double cross,
+                                         double tolerance)
 {
-    double w[3], c[3], along = refiner_dot3(g->e, g->u) > 0 ? size : -size;
-    refiner_sub3(w, g->p, g->a);
-    refiner_cross3(c, w, g->u);
-    double h = refiner_length3(c);
-    double x = refiner_dot3(w, g->u);
-    return (refiner_contour_factor_second(x + along, h) - refiner_contour_factor_second(x, h)
-            - refiner_contour_factor_second(x + along - g->length, h)
-            + refiner_contour_factor_second(x - g->length, h))
-           / along;
-}
-
-/* int over the edge from p along e, 0 to 1, against the skew edge (a, u, length); `cross`: the
- * square of the sine. */
-static inline double refiner_contour_factor_skew(const struct refiner_contour_factor_edge *g, double size,
-                                         double cross, double tolerance)
-{
-    double at[5], w[3], sum = 0, eu = refiner_dot3(g->e, g->u);
-    refiner_sub3(w, g->a, g->p);
-    double ew = refiner_dot3(w, g->e);
+    const double *e = outer->along, *u = inner->unit;
+    double at[5], w[3], sum = 0, eu = refiner_dot3(e, u), square = outer->length * outer->length;
+    refiner_sub3(w, inner->from, outer->from);
+    double ew = refiner_dot3(w, e);
     at[0] = 0;
-    at[1] = ew / (size * size);
-    at[2] = (ew + g->length * eu) / (size * size);
-    at[3] = (ew - eu * refiner_dot3(w, g->u)) / (size * size * cross);
+    at[1] = ew / square;
+    at[2] = (ew + inner->length * eu) / square;
+    at[3] = (ew - eu * refiner_dot3(w, u)) / (square * cross);
     at[4] = 1;
     for (int i = 1; i < 4; i++) {
         at[i] = at[i] > 0 ? at[i] < 1 ? at[i] : 1 : 0;
@@ -1057,12 +1360,32 @@ static inline double refiner_contour_factor_skew(const struct refiner_contour_fa
             at[j - 1] = swap;
         }
     }
+    double part[REFINER_CONTOUR_FACTOR_PARTS][2], value[REFINER_CONTOUR_FACTOR_PARTS];
+    int parts = 0;
     for (int i = 0; i < 4; i++)
-        if (at[i + 1] > at[i])
-            sum +=
-                refiner_contour_factor_adapt(g, at[i], at[i + 1], refiner_contour_factor_gauss(g, at[i], at[i + 1]),
-                                     tolerance, REFINER_CONTOUR_FACTOR_DEPTH);
+        if (at[i + 1] > at[i]) {
+            double middle = 0.5 * (at[i] + at[i + 1]);
+            part[parts][0] = part[parts + 1][0] = at[i];
+            part[parts + 1][1] = part[parts + 2][0] = middle;
+            part[parts][1] = part[parts + 2][1] = at[i + 1];
+            parts += 3;
+        }
+    refiner_contour_factor_gauss(outer, inner, parts, (const double(*)[2])part, value);
+    for (int i = 0; i < parts; i += 3)
+        sum += refiner_contour_factor_adapt(outer, inner, part[i][0], part[i][1], value[i], value + i + 1,
+                                    tolerance, REFINER_CONTOUR_FACTOR_DEPTH);
     return sum;
+}
+
+static inline void refiner_contour_factor_sides(struct refiner_contour_factor_side *side, const struct refiner_polygon *p)
+{
+    for (int i = 0; i < p->n; i++) {
+        refiner_sub3(side[i].along, p->v[i + 1 < p->n ? i + 1 : 0], p->v[i]);
+        side[i].from = p->v[i];
+        side[i].length = refiner_length3(side[i].along);
+        for (int k = 0; k < 3; k++)
+            side[i].unit[k] = side[i].along[k] / side[i].length;
+    }
 }
 
 /* A_p F_pq of polygons of a size about one; `area`: of the smaller; `error`: of F, by one pair of
@@ -1071,39 +1394,45 @@ static inline double refiner_contour_factor_skew(const struct refiner_contour_fa
 REFINER_OUTLINE double refiner_contour_factor(const struct refiner_polygon *p, const struct refiner_polygon *q, double area,
                               double error)
 {
-    double sum = 0;
-    for (int i = 0; i < p->n; i++) {
-        const double *p0 = p->v[i], *p1 = p->v[i + 1 < p->n ? i + 1 : 0];
-        double e[3];
-        refiner_sub3(e, p1, p0);
-        double le = refiner_length3(e);
+    struct refiner_contour_factor_seconds seconds;
+    struct refiner_contour_factor_side side[2][REFINER_POLYGON_MAX];
+    double share[REFINER_CONTOUR_FACTOR_PAIRS], value[REFINER_CONTOUR_FACTOR_PAIRS], along[REFINER_CONTOUR_FACTOR_PAIRS];
+    int pairs = 0, parallel = 0, which[REFINER_CONTOUR_FACTOR_PAIRS];
+    refiner_contour_factor_sides(side[0], p);
+    refiner_contour_factor_sides(side[1], q);
+    for (int i = 0; i < p->n; i++)
         for (int j = 0; j < q->n; j++) {
-            const double *q0 = q->v[j], *q1 = q->v[j + 1 < q->n ? j + 1 : 0];
-            double f[3], c[3];
-            refiner_sub3(f, q1, q0);
-            double lf = refiner_length3(f);
-            double aligned = refiner_dot3(e, f);
-            if (!(fabs(aligned) > REFINER_CONTOUR_FACTOR_PERPENDICULAR * le * lf))
+            const struct refiner_contour_factor_side *e = &side[0][i], *f = &side[1][j];
+            double c[3], aligned = refiner_dot3(e->along, f->along);
+            if (!(fabs(aligned) > REFINER_CONTOUR_FACTOR_PERPENDICULAR * e->length * f->length))
                 continue;
-            struct refiner_contour_factor_edge g;
-            g.p = le <= lf ? p0 : q0;
-            g.a = le <= lf ? q0 : p0;
-            g.length = le <= lf ? lf : le;
-            double size = le <= lf ? le : lf;
-            for (int k = 0; k < 3; k++) {
-                g.e[k] = le <= lf ? e[k] : f[k];
-                g.u[k] = (le <= lf ? f[k] : e[k]) / g.length;
+            refiner_cross3(c, e->along, f->along);
+            double cross = refiner_dot3(c, c) / (e->length * e->length * f->length * f->length);
+            const struct refiner_contour_factor_side *outer = e->length <= f->length ? e : f,
+                                             *inner = e->length <= f->length ? f : e;
+            share[pairs] = aligned / inner->length;
+            if (cross > REFINER_CONTOUR_FACTOR_PARALLEL) {
+                double least = error * REFINER_CONTOUR_FACTOR_TWO_PI * area * inner->length / fabs(aligned);
+                if (least < REFINER_CONTOUR_FACTOR_ROUNDING * inner->length)
+                    least = REFINER_CONTOUR_FACTOR_ROUNDING * inner->length;
+                value[pairs] = refiner_contour_factor_skew(outer, inner, cross, least);
+            } else {
+                along[parallel] = refiner_contour_factor_parallel(outer, inner, seconds.u + 4 * parallel,
+                                                          seconds.h + 4 * parallel);
+                which[parallel++] = pairs;
             }
-            refiner_cross3(c, e, f);
-            double cross = refiner_dot3(c, c) / (le * le * lf * lf);
-            double least = error * REFINER_CONTOUR_FACTOR_TWO_PI * area * g.length / fabs(aligned);
-            if (least < REFINER_CONTOUR_FACTOR_ROUNDING * g.length)
-                least = REFINER_CONTOUR_FACTOR_ROUNDING * g.length;
-            sum += aligned / g.length
-                   * (cross > REFINER_CONTOUR_FACTOR_PARALLEL ? refiner_contour_factor_skew(&g, size, cross, least)
-                                                      : refiner_contour_factor_parallel(&g, size));
+            pairs++;
         }
+    for (int k = 4 * parallel; k % REFINER_LANES; k++)
+        seconds.u[k] = seconds.h[k] = 0;
+    refiner_contour_factor_seconds_at(refiner_lanes_width(), 4 * parallel, &seconds);
+    for (int k = 0; k < parallel; k++) {
+        const double *g = seconds.value + 4 * k;
+        value[which[k]] = (g[0] - g[1] - g[2] + g[3]) / along[k];
     }
+    double sum = 0;
+    for (int k = 0; k < pairs; k++)
+        sum += share[k] * value[k];
     return sum / REFINER_CONTOUR_FACTOR_TWO_PI;
 }
 
@@ -1128,13 +1457,14 @@ static inline double refiner_polygon_factor_triangle(const double *a, const doub
         {1 / 3.0, 0}, {2 / 3.0, 0}, {0.81684757298045851308, 0.10810301816807022736}};
     static const double weight[3][2] = {
         {1, 0}, {1 / 3.0, 0}, {0.10995174365532186764, 0.22338158967801146570}};
-    double x[3], y[3], z[3], sum = 0;
+    double x[3], y[3], z[3], at[6][3], f[6], sum = 0;
+    const int groups = order == 2 ? 2 : 1, each = order == 0 ? 1 : 3;
     refiner_sub3(x, b, a);
     refiner_sub3(y, c, a);
     refiner_cross3(z, x, y);
-    for (int group = 0; group < (order == 2 ? 2 : 1); group++) {
-        double w = corner[order][group], v = 0.5 * (1 - w), part = 0;
-        for (int i = 0; i < (order == 0 ? 1 : 3); i++) {
+    for (int group = 0; group < groups; group++) {
+        double w = corner[order][group], v = 0.5 * (1 - w);
+        for (int i = 0; i < each; i++) {
             const double *p0 = i == 0   ? a
                                : i == 1 ? b
                                         : c,
@@ -1145,9 +1475,14 @@ static inline double refiner_polygon_factor_triangle(const double *a, const doub
                                : i == 1 ? a
                                         : b;
             for (int k = 0; k < 3; k++)
-                x[k] = w * p0[k] + v * p1[k] + v * p2[k];
-            part += refiner_lambert_sum(x, n, (const double(*)[3])q->v, q->n);
+                at[group * each + i][k] = w * p0[k] + v * p1[k] + v * p2[k];
         }
+    }
+    refiner_lambert_sums(groups * each, (const double(*)[3])at, n, (const double(*)[3])q->v, q->n, f);
+    for (int group = 0; group < groups; group++) {
+        double part = 0;
+        for (int i = 0; i < each; i++)
+            part += f[group * each + i];
         sum += weight[order][group] * part;
     }
     return sum * 0.5 * refiner_dot3(z, n);
@@ -1161,26 +1496,30 @@ static inline double refiner_polygon_factor_quad(const double (*v)[3], const dou
                                       {0.21132486540518711775, 0.78867513459481288225, 0},
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[3][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
-    double sum = 0, near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
+    double sum = 0, at[9][3], share[9], f[9];
+    double near[3], far[3]; /* the sides along which s runs, at t = 0 and 1 */
     refiner_sub3(near, v[1], v[0]);
     refiner_sub3(far, v[2], v[3]);
+    int points = 0;
     for (int i = 0; i <= order; i++) {
         double s = node[order][i], low[3], dt[3];
         for (int k = 0; k < 3; k++) {
             low[k] = v[0][k] + s * near[k];
             dt[k] = v[3][k] + s * far[k] - low[k];
         }
-        for (int j = 0; j <= order; j++) {
-            double t = node[order][j], p[3], ds[3], jacobian[3];
+        for (int j = 0; j <= order; j++, points++) {
+            double t = node[order][j], ds[3], jacobian[3];
             for (int k = 0; k < 3; k++) {
-                p[k] = low[k] + t * dt[k];
+                at[points][k] = low[k] + t * dt[k];
                 ds[k] = (1 - t) * near[k] + t * far[k];
             }
             refiner_cross3(jacobian, ds, dt);
-            sum += weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n)
-                   * refiner_lambert_sum(p, n, (const double(*)[3])q->v, q->n);
+            share[points] = weight[order][i] * weight[order][j] * refiner_dot3(jacobian, n);
         }
     }
+    refiner_lambert_sums(points, (const double(*)[3])at, n, (const double(*)[3])q->v, q->n, f);
+    for (int i = 0; i < points; i++)
+        sum += share[i] * f[i];
     return sum;
 }
 
@@ -1330,6 +1669,19 @@ static inline double refiner_point_factor_at(const double x[3], const struct ref
         return 0;
     double f = refiner_lambert_sum(x, r->normal, (const double(*)[3])q->v, q->n);
     return f > 0 ? f < 1 ? f : 1 : 0;
+}
+
+/* The same from many points at once, LAMBERT_POINTS at the most. */
+static inline void refiner_point_factors_at(int points, const double (*x)[3], const struct refiner_element *r,
+                                    const struct refiner_element *s, const struct refiner_polygon *q, double *out)
+{
+    if (q->n > 0)
+        refiner_lambert_sums(points, x, r->normal, (const double(*)[3])q->v, q->n, out);
+    for (int i = 0; i < points; i++) {
+        if (q->n == 0 || !(refiner_height3(x[i], s->centre, s->normal) > 0))
+            out[i] = 0;
+        out[i] = out[i] > 0 ? out[i] < 1 ? out[i] : 1 : 0;
+    }
 }
 
 /* F from the receiver's centre. */

@@ -12,6 +12,7 @@
 #include "engine/exchange_clear.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
+#include "kernel/lanes.h"
 #include "kernel/polygon_factor.h"
 
 enum { RULE = 9 }; /* the most points of a rule */
@@ -138,9 +139,9 @@ static inline double rest_square(double a, double b, double t, double quad, doub
 
 /* The exchange areas of face i, normal n, with the faces of a range, normal -m; and how far they
  * may be off, as a share of what is allowed, squared. */
-static void second_order_row(const struct exchange_faces *p, uint32_t i, const double n[3],
-                             struct face_range range, const double m[3], double tolerance,
-                             const struct clear_scratch *scratch, double *restrict out)
+TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const double n[3],
+                            struct face_range range, const double m[3], double tolerance,
+                            const struct clear_scratch *scratch, double *restrict out)
 {
     const double *restrict x = p->c[0] + range.from, *restrict y = p->c[1] + range.from,
                            *restrict z = p->c[2] + range.from;
@@ -187,6 +188,37 @@ static void second_order_row(const struct exchange_faces *p, uint32_t i, const d
         out[j] = e;
         doubt[j] = scale * scale * rest / (limit * limit);
     }
+}
+
+#if LANES_CHOSEN
+LANES_AVX512 void second_order_8(const struct exchange_faces *p, uint32_t i, const double n[3],
+                                 struct face_range range, const double m[3], double tolerance,
+                                 const struct clear_scratch *scratch, double *out)
+{
+    second_order_body(p, i, n, range, m, tolerance, scratch, out);
+}
+LANES_AVX2 void second_order_4(const struct exchange_faces *p, uint32_t i, const double n[3],
+                               struct face_range range, const double m[3], double tolerance,
+                               const struct clear_scratch *scratch, double *out)
+{
+    second_order_body(p, i, n, range, m, tolerance, scratch, out);
+}
+#endif
+
+static void second_order_row(const struct exchange_faces *p, uint32_t i, const double n[3],
+                             struct face_range range, const double m[3], double tolerance,
+                             const struct clear_scratch *scratch, double *out)
+{
+    int width = lanes_width();
+#if LANES_CHOSEN
+    if (width == 8)
+        second_order_8(p, i, n, range, m, tolerance, scratch, out);
+    else if (width == 4)
+        second_order_4(p, i, n, range, m, tolerance, scratch, out);
+    else
+#endif
+        second_order_body(p, i, n, range, m, tolerance, scratch, out);
+    (void)width;
 }
 
 /* ---- pairs that second order may not do for */

@@ -1,18 +1,70 @@
 /* sight_pieces.c - what a point sees of a convex polygon past convex faces, exactly.
  *
  * Shadows are cast on the polygon's plane and what they leave of it is cut out (kernel/outline.h),
- * in convex pieces; each has Lambert's sum over its edges. So of a point nothing is approximate
+ * in convex pieces; Lambert's sum goes over their edges. So of a point nothing is approximate
  * but rounding, and an integral over points has no noise of the other side.
  * Invariant: with no blocker it is lambert_sum of the whole polygon.
  * [Lambert 1760; Weiler & Atherton 1977 for convex polygons]
  * SPDX-License-Identifier: MIT */
 #include "engine/sight_pieces.h"
 #include "kernel/lambert.h"
+#include "kernel/lanes.h"
 
-/* A point over the plane, in the plane's coordinates. */
+/* Edges of pieces, from a to b as the eye sees them: summed as many at a time as there is room. */
+enum { EDGES = 96 };
+_Static_assert((int)EDGES >= (int)OUTLINE_CELL && EDGES % LANES_MOST == 0, "room for any piece");
+struct edges {
+    int count;
+    double a[2][EDGES], b[2][EDGES], value[EDGES], sum;
+};
+
+/* A point over the plane, in the plane's coordinates, and what it has found. */
 struct eye {
     double at[2], height, normal[3];
+    struct edges edges;
 };
+
+TOOL void edges_body(struct eye *eye)
+{
+    struct edges *g = &eye->edges;
+    const double z = -eye->height, n0 = eye->normal[0], n1 = eye->normal[1], n2 = eye->normal[2];
+    const int count = g->count;
+    for (int i = 0; i < count; i += LANES)
+        for (int k = i; k < i + LANES; k++)
+            g->value[k] =
+                lambert_edge(g->a[0][k], g->a[1][k], z, g->b[0][k], g->b[1][k], z, n0, n1, n2);
+}
+
+#if LANES_CHOSEN
+LANES_AVX512 void edges_8(struct eye *eye)
+{
+    edges_body(eye);
+}
+LANES_AVX2 void edges_4(struct eye *eye)
+{
+    edges_body(eye);
+}
+#endif
+
+static void edges_sum(struct eye *eye)
+{
+    struct edges *g = &eye->edges;
+    int width = lanes_width();
+    for (int k = g->count; k % LANES; k++)
+        g->a[0][k] = g->a[1][k] = g->b[0][k] = g->b[1][k] = 0;
+#if LANES_CHOSEN
+    if (width == 8)
+        edges_8(eye);
+    else if (width == 4)
+        edges_4(eye);
+    else
+#endif
+        edges_body(eye);
+    (void)width;
+    for (int k = 0; k < g->count; k++)
+        g->sum += g->value[k];
+    g->count = 0;
+}
 
 void sight_open(struct sight *sight, const struct element *e, const struct polygon *part, double up)
 {
@@ -23,16 +75,18 @@ void sight_open(struct sight *sight, const struct element *e, const struct polyg
         outline_in(&sight->frame, part->v[i], sight->cell.p[i]);
 }
 
-static double cell_factor(const struct eye *eye, const struct outline_cell *cell)
+static void add_cell(struct eye *eye, const struct outline_cell *cell)
 {
-    double v[OUTLINE_CELL][3];
-    static const double origin[3] = {0, 0, 0};
-    for (int i = 0; i < cell->n; i++) {
-        v[i][0] = cell->p[i][0] - eye->at[0];
-        v[i][1] = cell->p[i][1] - eye->at[1];
-        v[i][2] = -eye->height;
+    struct edges *g = &eye->edges;
+    if (g->count + cell->n > EDGES)
+        edges_sum(eye);
+    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
+        for (int k = 0; k < 2; k++) {
+            g->a[k][g->count] = cell->p[j][k] - eye->at[k];
+            g->b[k][g->count] = cell->p[i][k] - eye->at[k];
+        }
+        g->count++;
     }
-    return lambert_sum(origin, eye->normal, (const double(*)[3])v, cell->n);
 }
 
 /* How a cell lies to a shadow: 1: wholly beside one of its edges. */
@@ -49,20 +103,21 @@ static int beside(const struct outline *s, const struct outline_cell *cell)
     return 0;
 }
 
-/* The factor of what is left of the cell when the shadows from k on are taken away. */
-static double left_factor(const struct eye *eye, const struct outline *shadows, int count, int k,
-                          const struct outline_cell *cell)
+/* Adds what is left of the cell when the shadows from k on are taken away. */
+static void add_left(struct eye *eye, const struct outline *shadows, int count, int k,
+                     const struct outline_cell *cell)
 {
     struct outline_cell inside[2], outside;
     const struct outline_cell *now = cell;
-    double sum = 0;
     int flip = 0;
     if (cell->n < 3)
-        return 0;
+        return;
     while (k < count && beside(&shadows[k], cell))
         k++;
-    if (k == count)
-        return cell_factor(eye, cell);
+    if (k == count) {
+        add_cell(eye, cell);
+        return;
+    }
     const struct outline *s = &shadows[k];
     for (int e = 0; e < s->n && now->n >= 3; e++) {
         double h[OUTLINE_CELL];
@@ -73,15 +128,16 @@ static double left_factor(const struct eye *eye, const struct outline *shadows, 
         }
         if (above == 0)
             continue;
-        if (above == now->n)
-            return sum + left_factor(eye, shadows, count, k + 1, now);
+        if (above == now->n) {
+            add_left(eye, shadows, count, k + 1, now);
+            return;
+        }
         outside.n = polygon_divide(&now->p[0][0], now->n, 2, h, OUTLINE_CELL, &outside.p[0][0],
                                    &inside[flip].p[0][0], &inside[flip].n);
-        sum += left_factor(eye, shadows, count, k + 1, &outside);
+        add_left(eye, shadows, count, k + 1, &outside);
         now = &inside[flip];
         flip = 1 - flip;
     }
-    return sum;
 }
 
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
@@ -89,10 +145,15 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
 {
     struct outline shadows[SIGHT_LIST];
     const struct outline_frame *f = &sight->frame;
-    struct eye eye = {.height = height3(x, f->origin, f->n),
-                      .normal = {dot3(n, f->u), dot3(n, f->v), dot3(n, f->n)}};
+    struct eye eye;
     double from[3];
     int cast = 0;
+    eye.height = height3(x, f->origin, f->n);
+    eye.normal[0] = dot3(n, f->u);
+    eye.normal[1] = dot3(n, f->v);
+    eye.normal[2] = dot3(n, f->n);
+    eye.edges.count = 0;
+    eye.edges.sum = 0;
     outline_in(f, x, eye.at);
     for (int k = 0; k < 3; k++)
         from[k] = x[k] + up * n[k];
@@ -102,6 +163,8 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
     for (int b = 0; b < count; b++)
         cast += outline_cast(&shadows[cast], &sight->raised, from, height,
                              (const double(*)[3])blockers[b].v, blockers[b].n);
-    double seen = left_factor(&eye, shadows, cast, 0, &sight->cell);
+    add_left(&eye, shadows, cast, 0, &sight->cell);
+    edges_sum(&eye);
+    double seen = eye.edges.sum * (-0.5 / LAMBERT_PI);
     return seen > 0 ? seen < 1 ? seen : 1 : 0;
 }
