@@ -1,5 +1,7 @@
-/* read_gmsh.c - see read_meshes.h: Gmsh's meshes, versions 2 to 2.2 and 4.1, as text.
+/* read_gmsh.c - see read_meshes.h: Gmsh's meshes, versions 2 to 2.2 and 4.1, as text or binary.
  *
+ * One reader has both: what is a line and what a word in a text is nothing and a number of known
+ * size in a binary section. There lines only count up to the section, which messages name.
  * Sections that are not needed are passed over up to their $End. In version 2 an element carries
  * its physical group, in 4.1 the surface that it is on does. A triangle that two groups have is in
  * the file twice in version 2, and once, in the first group, in 4.1.
@@ -8,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/gmsh_types.h"
 #include "scene/mesh_parts.h"
 #include "scene/read_meshes.h"
 #include "scene/read_numbers.h"
@@ -20,7 +23,9 @@ enum { SURFACE = 2 };
 struct gmsh {
     struct mesh mesh;
     struct text_lines lines;
-    int version;              /* 2 or 4 */
+    int version; /* 2 or 4 */
+    int binary, big_endian;
+    int bytes;                /* 1: what comes now is no text */
     struct numbered names;    /* of physical surfaces, to materials */
     struct numbered surfaces; /* to their physical groups, as indices of `groups` */
     int64_t *groups;
@@ -33,6 +38,8 @@ struct gmsh {
 /* The next line with words. Returns 0, or -1 after a message at the end. */
 static int need_line(struct gmsh *g, const char *what)
 {
+    if (g->bytes)
+        return 0;
     while (next_line(&g->lines))
         if (next_word(&g->lines)) {
             g->lines.word_end = g->lines.word;
@@ -42,18 +49,48 @@ static int need_line(struct gmsh *g, const char *what)
                         "ends before %s; the file is cut, export it again", what);
 }
 
+/* The next number of a binary section, of 4 or 8 bytes. */
+static int take_bytes(struct gmsh *g, const char *what, unsigned size, uint64_t *bits)
+{
+    struct text_lines *t = &g->lines;
+    if ((size_t)(t->end - t->next) < size)
+        return report_error(g->mesh.path, t->number,
+                            "ends before %s; the file is cut, export it again", what);
+    *bits = bytes_number(t->next, size, g->big_endian);
+    t->next += size;
+    return 0;
+}
+
 static int take_number(struct gmsh *g, const char *what, double *x)
 {
     struct text_lines *t = &g->lines;
-    if (!next_word(t))
-        return report_error(g->mesh.path, t->number,
-                            "the line ends before %s; the file is damaged, export it again", what);
-    return mesh_number(&g->mesh, t, what, x);
+    uint64_t bits;
+    if (!g->bytes) {
+        if (!next_word(t))
+            return report_error(g->mesh.path, t->number,
+                                "the line ends before %s; the file is damaged, export it again",
+                                what);
+        return mesh_number(&g->mesh, t, what, x);
+    }
+    if (take_bytes(g, what, 8, &bits))
+        return -1;
+    memcpy(x, &bits, sizeof *x);
+    return fabs(*x) <= (double)FLT_MAX
+               ? 0
+               : report_error(g->mesh.path, t->number, "%s is not finite; write finite numbers",
+                              what);
 }
 
-static int take_whole(struct gmsh *g, const char *what, int64_t *i)
+static int take_whole_of(struct gmsh *g, const char *what, unsigned size, int64_t *i)
 {
     double x;
+    uint64_t bits;
+    if (g->bytes) {
+        if (take_bytes(g, what, size, &bits))
+            return -1;
+        *i = size == 4 ? (int32_t)(uint32_t)bits : (int64_t)bits;
+        return 0;
+    }
     if (take_number(g, what, &x))
         return -1;
     if (!is_whole(fabs(x), 0x1p53))
@@ -63,9 +100,21 @@ static int take_whole(struct gmsh *g, const char *what, int64_t *i)
     return 0;
 }
 
+/* Numbers of entities, types and groups take 4 bytes; in 4.1 counts and numbers of nodes and
+ * elements take 8. */
+static int take_whole(struct gmsh *g, const char *what, int64_t *i)
+{
+    return take_whole_of(g, what, 4, i);
+}
+
+static int take_long(struct gmsh *g, const char *what, int64_t *i)
+{
+    return take_whole_of(g, what, g->version == 4 ? 8 : 4, i);
+}
+
 static int take_count(struct gmsh *g, const char *what, int64_t *i)
 {
-    if (take_whole(g, what, i))
+    if (take_long(g, what, i))
         return -1;
     return *i < 0
                ? report_error(g->mesh.path, g->lines.number,
@@ -76,6 +125,7 @@ static int take_count(struct gmsh *g, const char *what, int64_t *i)
 /* The line must be $End and the section's name. */
 static int need_end(struct gmsh *g, const char *end)
 {
+    g->bytes = 0;
     if (need_line(g, end))
         return -1;
     next_word(&g->lines);
@@ -91,20 +141,33 @@ static int need_end(struct gmsh *g, const char *end)
 
 static int read_format(struct gmsh *g)
 {
-    double version, binary;
+    double version, binary, size;
+    uint64_t one;
     if (need_line(g, "the version") || take_number(g, "the version", &version)
-        || take_number(g, "0 for a text", &binary))
+        || take_number(g, "0 for a text", &binary) || take_number(g, "8 bytes", &size))
         return -1;
-    if (binary > 0)
-        return report_error(g->mesh.path, g->lines.number,
-                            "a binary mesh; convert it to text: gmsh -0 -format msh22 -o NEW.msh "
-                            "OLD.msh");
     g->version = version >= 2 && version < 3 ? 2 : version >= 4.1 && version < 5 ? 4 : 0;
     if (!g->version)
         return report_error(g->mesh.path, g->lines.number,
                             "version %g is not read; convert it: gmsh -0 -format msh22 -o NEW.msh "
                             "OLD.msh",
                             version);
+    g->binary = binary > 0;
+    if (!g->binary)
+        return need_end(g, "$EndMeshFormat");
+    if (size < 8 || size > 8)
+        return report_error(g->mesh.path, g->lines.number,
+                            "a binary mesh with numbers of %g bytes, not 8; convert it: gmsh -0 "
+                            "-format msh22 -o NEW.msh OLD.msh",
+                            size);
+    if (take_bytes(g, "the number 1", 4, &one)) /* by which the order of bytes is told */
+        return -1;
+    g->big_endian = one != 1;
+    if (one != 1 && one != 0x1000000)
+        return report_error(
+            g->mesh.path, g->lines.number,
+            "no 1 behind this line of a binary mesh; the file is damaged, export it "
+            "again");
     return need_end(g, "$EndMeshFormat");
 }
 
@@ -150,43 +213,62 @@ static int read_names(struct gmsh *g)
     return need_end(g, "$EndPhysicalNames");
 }
 
+static int add_surface(struct gmsh *g, int64_t tag, int64_t group)
+{
+    if (numbered_find(&g->surfaces, tag) != UINT32_MAX)
+        return report_error(g->mesh.path, g->lines.number,
+                            "surface %lld is defined twice; the file is damaged, export it again",
+                            (long long)tag);
+    if (array_reserve(&g->groups, g->group_count + 1, &g->group_capacity, sizeof *g->groups)
+        || numbered_add(&g->surfaces, tag, (uint32_t)g->group_count))
+        return scene_file_no_memory(g->mesh.path);
+    g->groups[g->group_count++] = group < 0 ? -group : group; /* negative: turned */
+    return 0;
+}
+
+/* Of a surface its number and its first group; all of it must be taken where there are no lines. */
+static int read_entity(struct gmsh *g, int dimension)
+{
+    int64_t tag, groups, group, first = 0, bounds;
+    double x;
+    if (!g->bytes && dimension != SURFACE)
+        return 0;
+    if (take_whole(g, "an entity's number", &tag))
+        return -1;
+    for (int k = 0; k < (dimension ? 6 : 3); k++)
+        if (take_number(g, "an entity's bounds", &x))
+            return -1;
+    if (take_count(g, "physical groups", &groups))
+        return -1;
+    for (int64_t i = 0; i < groups; i++) {
+        if (take_whole(g, "a physical group", &group))
+            return -1;
+        first = i ? first : group;
+    }
+    if (g->bytes && dimension) {
+        if (take_count(g, "bounding entities", &bounds))
+            return -1;
+        for (int64_t i = 0; i < bounds; i++)
+            if (take_whole(g, "a bounding entity", &group))
+                return -1;
+    }
+    return dimension == SURFACE && groups ? add_surface(g, tag, first) : 0;
+}
+
 /* Of 4.1: which physical group each surface is in. */
 static int read_entities(struct gmsh *g)
 {
-    int64_t count[4], tag, groups, group;
-    double x;
+    int64_t count[4];
+    g->bytes = g->binary;
     if (need_line(g, "entities"))
         return -1;
     for (int d = 0; d < 4; d++)
         if (take_count(g, "entities", &count[d]))
             return -1;
     for (int d = 0; d < 4; d++)
-        for (int64_t i = 0; i < count[d]; i++) {
-            if (need_line(g, "an entity"))
+        for (int64_t i = 0; i < count[d]; i++)
+            if (need_line(g, "an entity") || read_entity(g, d))
                 return -1;
-            if (d != SURFACE)
-                continue;
-            if (take_whole(g, "a surface's number", &tag))
-                return -1;
-            for (int k = 0; k < 6; k++)
-                if (take_number(g, "a surface's bounds", &x))
-                    return -1;
-            if (take_count(g, "physical groups", &groups))
-                return -1;
-            if (!groups)
-                continue;
-            if (take_whole(g, "a physical group", &group))
-                return -1;
-            if (numbered_find(&g->surfaces, tag) != UINT32_MAX)
-                return report_error(g->mesh.path, g->lines.number,
-                                    "surface %lld is defined twice; the file is damaged, export it "
-                                    "again",
-                                    (long long)tag);
-            if (array_reserve(&g->groups, g->group_count + 1, &g->group_capacity, sizeof *g->groups)
-                || numbered_add(&g->surfaces, tag, (uint32_t)g->group_count))
-                return scene_file_no_memory(g->mesh.path);
-            g->groups[g->group_count++] = group < 0 ? -group : group; /* negative: turned */
-        }
     return need_end(g, "$EndEntities");
 }
 
@@ -204,6 +286,7 @@ static int read_nodes_2(struct gmsh *g)
     int64_t count, number;
     if (need_line(g, "nodes") || take_count(g, "nodes", &count))
         return -1;
+    g->bytes = g->binary;
     for (int64_t i = 0; i < count; i++)
         if (need_line(g, "a node") || take_whole(g, "a node's number", &number)
             || read_coordinates(g, number))
@@ -211,14 +294,28 @@ static int read_nodes_2(struct gmsh *g)
     return need_end(g, "$EndNodes");
 }
 
+/* What 4.1 says of all blocks: their number; how many are in them; the least and largest number. */
+static int read_blocks(struct gmsh *g, const char *what, int64_t *blocks)
+{
+    int64_t ignored;
+    g->bytes = g->binary;
+    if (need_line(g, what) || take_count(g, what, blocks))
+        return -1;
+    for (int i = 0; i < 3 && g->bytes; i++)
+        if (take_long(g, what, &ignored))
+            return -1;
+    return 0;
+}
+
 static int read_nodes_4(struct gmsh *g)
 {
-    int64_t blocks, ignored, count;
-    if (need_line(g, "nodes") || take_count(g, "blocks of nodes", &blocks))
+    int64_t blocks, dimension, ignored, parameters, count;
+    double x;
+    if (read_blocks(g, "blocks of nodes", &blocks))
         return -1;
     for (int64_t b = 0; b < blocks; b++) {
-        if (need_line(g, "a block of nodes") || take_whole(g, "a dimension", &ignored)
-            || take_whole(g, "an entity", &ignored) || take_whole(g, "0 or 1", &ignored)
+        if (need_line(g, "a block of nodes") || take_whole(g, "a dimension", &dimension)
+            || take_whole(g, "an entity", &ignored) || take_whole(g, "0 or 1", &parameters)
             || take_count(g, "nodes", &count))
             return -1;
         for (int64_t i = 0; i < count; i++) {
@@ -226,53 +323,23 @@ static int read_nodes_4(struct gmsh *g)
                 return -1;
             if (array_reserve(&g->tags, (size_t)i + 1, &g->tag_capacity, sizeof *g->tags))
                 return scene_file_no_memory(g->mesh.path);
-            if (take_whole(g, "a node's number", &g->tags[i]))
+            if (take_long(g, "a node's number", &g->tags[i]))
                 return -1;
         }
-        for (int64_t i = 0; i < count; i++)
+        for (int64_t i = 0; i < count; i++) {
             if (need_line(g, "a node") || read_coordinates(g, g->tags[i]))
                 return -1;
+            /* places on the entity, where there are any */
+            for (int64_t k = 0; g->bytes && parameters && k < dimension && k < 3; k++)
+                if (take_number(g, "a parameter", &x))
+                    return -1;
+        }
     }
     return need_end(g, "$EndNodes");
 }
 
-/* Corners of a face; 0: a point or a line; -1: something else. */
-static int corners_of(int64_t type)
-{
-    switch (type) {
-    case 2:
-    case 9:
-    case 20:
-    case 21:
-    case 22:
-    case 23:
-    case 24:
-    case 25:
-        return 3;
-    case 3:
-    case 10:
-    case 16:
-    case 36:
-    case 37:
-    case 38:
-    case 39:
-    case 40:
-    case 41:
-        return 4;
-    case 1:
-    case 8:
-    case 15:
-    case 26:
-    case 27:
-    case 28:
-        return 0;
-    default:
-        return -1;
-    }
-}
-
-/* What is left of an element's line behind its type and tags. */
-static int read_element(struct gmsh *g, int64_t type, int64_t group)
+/* The corners of an element; in a text the rest of its line is passed over. */
+static int read_corners(struct gmsh *g, int64_t type, int64_t group)
 {
     const int corners = corners_of(type);
     const uint32_t line = g->lines.number;
@@ -286,27 +353,63 @@ static int read_element(struct gmsh *g, int64_t type, int64_t group)
     if (group_material(g, group, &material))
         return -1;
     for (int i = 0; i < corners; i++)
-        if (take_whole(g, "a node's number", &node) || mesh_corner(&g->mesh, node))
+        if (take_long(g, "a node's number", &node) || mesh_corner(&g->mesh, node))
             return -1;
     return mesh_polygon(&g->mesh, (uint32_t)corners, material, line);
 }
 
+/* What is left of an element behind its number, its type and its tags. */
+static int read_element(struct gmsh *g, int64_t type, int64_t group)
+{
+    const int all = nodes_of(type), corners = corners_of(type);
+    int64_t ignored;
+    if (!g->bytes)
+        return read_corners(g, type, group);
+    if (!all)
+        return report_error(
+            g->mesh.path, g->lines.number,
+            "an element of type %lld, which is not known; convert the mesh: gmsh -0 "
+            "-format msh22 -o NEW.msh OLD.msh",
+            (long long)type);
+    if (read_corners(g, type, group))
+        return -1;
+    for (int i = corners > 0 ? corners : 0; i < all; i++)
+        if (take_long(g, "a node's number", &ignored))
+            return -1;
+    return 0;
+}
+
+/* Group: the first tag. */
+static int read_tags(struct gmsh *g, int64_t tags, int64_t *group)
+{
+    int64_t tag;
+    *group = 0;
+    for (int64_t k = 0; k < tags; k++) {
+        if (take_whole(g, "a tag", &tag))
+            return -1;
+        *group = k ? *group : tag < 0 ? -tag : tag;
+    }
+    return 0;
+}
+
+/* In a binary file elements of a kind stand together, behind what they share. */
 static int read_elements_2(struct gmsh *g)
 {
-    int64_t count, type, tags, tag, group, ignored;
+    int64_t count, type = 0, tags = 0, group, ignored, alike = 0;
     if (need_line(g, "elements") || take_count(g, "elements", &count))
         return -1;
-    for (int64_t i = 0; i < count; i++) {
-        if (need_line(g, "an element") || take_whole(g, "an element's number", &ignored)
-            || take_whole(g, "an element's type", &type) || take_count(g, "tags", &tags))
+    g->bytes = g->binary;
+    for (int64_t i = 0; i < count; i++, alike--) {
+        if (g->bytes && alike <= 0
+            && (take_whole(g, "an element's type", &type) || take_count(g, "elements", &alike)
+                || take_count(g, "tags", &tags)))
             return -1;
-        group = 0;
-        for (int64_t k = 0; k < tags; k++) {
-            if (take_whole(g, "a tag", &tag))
-                return -1;
-            group = k ? group : tag < 0 ? -tag : tag;
-        }
-        if (read_element(g, type, group))
+        if (need_line(g, "an element") || take_whole(g, "an element's number", &ignored))
+            return -1;
+        if (!g->bytes
+            && (take_whole(g, "an element's type", &type) || take_count(g, "tags", &tags)))
+            return -1;
+        if (read_tags(g, tags, &group) || read_element(g, type, group))
             return -1;
     }
     return need_end(g, "$EndElements");
@@ -315,7 +418,7 @@ static int read_elements_2(struct gmsh *g)
 static int read_elements_4(struct gmsh *g)
 {
     int64_t blocks, dimension, entity, type, count, ignored;
-    if (need_line(g, "elements") || take_count(g, "blocks of elements", &blocks))
+    if (read_blocks(g, "blocks of elements", &blocks))
         return -1;
     for (int64_t b = 0; b < blocks; b++) {
         if (need_line(g, "a block of elements") || take_whole(g, "a dimension", &dimension)
@@ -326,7 +429,7 @@ static int read_elements_4(struct gmsh *g)
             dimension == SURFACE ? numbered_find(&g->surfaces, entity) : UINT32_MAX;
         const int64_t group = known == UINT32_MAX ? 0 : g->groups[known];
         for (int64_t i = 0; i < count; i++)
-            if (need_line(g, "an element") || take_whole(g, "an element's number", &ignored)
+            if (need_line(g, "an element") || take_long(g, "an element's number", &ignored)
                 || read_element(g, type, group))
                 return -1;
     }

@@ -2,12 +2,14 @@
  * by expat.
  *
  * A piece's arrays are kept until the piece ends, as texts are read; then its cells become faces.
- * Arrays stand inline, as numbers or as base64, uncompressed.
+ * Arrays stand inline, as numbers or as base64, which zlib may have compressed in blocks: before
+ * them are their number, their size, the last one's (0: as the others) and what each takes.
  * [VTK file formats, XML File Formats]
  * SPDX-License-Identifier: MIT */
 #include <expat.h>
 #include <stdio.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "scene/base64.h"
 #include "scene/read_meshes.h"
@@ -28,7 +30,7 @@ enum { CONNECTIVITY, OFFSETS, TYPES, ARRAYS };
 struct xml {
     struct mesh mesh;
     XML_Parser parser;
-    int failed, known, big_endian, base64;
+    int failed, known, big_endian, base64, compressed;
     unsigned header;      /* bytes of the length before base64 data */
     int section;          /* SECTIONS: in none */
     unsigned nested;      /* elements begun in the array, which say more of it */
@@ -122,6 +124,57 @@ static double value_of(const struct xml *x, const char *from, unsigned size)
     return *x->type == 'I' && bits & sign ? -(double)(~bits & (sign - 1)) - 1 : (double)bits;
 }
 
+static int damaged_blocks(const struct xml *x)
+{
+    return report_error(x->mesh.path, x->array->line,
+                        "the blocks of a compressed array are not what is counted; the file is cut "
+                        "or damaged, export it again");
+}
+
+/* What is compressed in x->text becomes plain there, behind its length, as if it had never been.
+ * zlib makes at most 1032 bytes of one, so that no count asks for more memory than it may fill. */
+static int inflate_blocks(struct xml *x, size_t *bytes)
+{
+    enum { MOST_OF_ONE = 1032 };
+    const size_t word = x->header;
+    uint64_t count, size, last, taken;
+    if (*bytes < word)
+        return damaged_blocks(x);
+    count = bytes_number(x->text, x->header, x->big_endian);
+    if (count && (*bytes < 3 * word || count > (*bytes - 3 * word) / word))
+        return damaged_blocks(x);
+    size = count ? bytes_number(x->text + word, x->header, x->big_endian) : 0;
+    last = count ? bytes_number(x->text + 2 * word, x->header, x->big_endian) : 0;
+    size_t from = count ? (3 + (size_t)count) * word : word, to = word, room = 0;
+    char *plain = NULL;
+    int result = array_reserve(&plain, word, &room, 1) ? scene_file_no_memory(x->mesh.path) : 0;
+    for (uint64_t i = 0; i < count && !result; i++, from += taken) {
+        const uint64_t wanted = i + 1 == count && last ? last : size;
+        taken = bytes_number(x->text + (3 + i) * word, x->header, x->big_endian);
+        uLongf made = (uLongf)wanted;
+        if (taken > *bytes - from || wanted / MOST_OF_ONE > taken)
+            result = damaged_blocks(x);
+        else if (array_reserve(&plain, to + (size_t)wanted, &room, 1))
+            result = scene_file_no_memory(x->mesh.path);
+        else if (uncompress((Bytef *)plain + to, &made, (const Bytef *)x->text + from, (uLong)taken)
+                     != Z_OK
+                 || made != wanted)
+            result = damaged_blocks(x);
+        to += (size_t)wanted;
+    }
+    if (result || from != *bytes) {
+        free(plain);
+        return result ? result : damaged_blocks(x);
+    }
+    for (size_t k = 0; k < word; k++)
+        plain[x->big_endian ? word - 1 - k : k] = (char)((uint64_t)(to - word) >> 8 * k & 0xff);
+    free(x->text);
+    x->text = plain;
+    x->text_capacity = room;
+    *bytes = to;
+    return 0;
+}
+
 static int read_bytes(struct xml *x)
 {
     const char *number = strpbrk(x->type, "0123456789");
@@ -131,10 +184,12 @@ static int read_bytes(struct xml *x)
         || (*x->type == 'F' && size < 4))
         return report_error(x->mesh.path, line, "an array of type '%s'; write Float64 and Int64",
                             x->type);
-    const size_t bytes = from_base64(x->text, x->text_size);
+    size_t bytes = from_base64(x->text, x->text_size);
     if (bytes == SIZE_MAX || bytes < x->header)
         return report_error(x->mesh.path, line,
                             "an array is no base64; the file is cut or damaged, export it again");
+    if (x->compressed && inflate_blocks(x, &bytes))
+        return -1;
     const uint64_t counted = bytes_number(x->text, x->header, x->big_endian);
     if (counted != bytes - x->header || counted % size)
         return report_error(x->mesh.path, line,
@@ -237,10 +292,12 @@ static int begin_file(struct xml *x, const char **all)
                             "VTK data of type '%.64s' has no faces; write UnstructuredGrid or "
                             "PolyData (ParaView: Extract Surface)",
                             kind ? kind : "");
-    if (compressor && *compressor)
+    x->compressed = compressor && *compressor;
+    if (x->compressed && !is(compressor, "vtkZLibDataCompressor"))
         return report_error(x->mesh.path, line_of(x),
-                            "the file is compressed; write it uncompressed (ParaView: Save Data, "
-                            "Compressor Type None, Data Mode Ascii; meshio: compression=None)");
+                            "the file is compressed by %.64s; let zlib do it, or write it "
+                            "uncompressed (ParaView: Save Data, Compressor Type ZLib or None)",
+                            compressor);
     return 0;
 }
 

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "folder.h"
 #include "scene/scene_file.h"
@@ -132,6 +133,120 @@ static void write_gmsh_4(void)
     put_block_4(5, 7, 31);
     put_block_4(7, FACES, 32);
     put("$EndElements\n");
+}
+
+static int high_first; /* the order of put_bytes */
+
+static void put_bytes(uint64_t bits, int size)
+{
+    ck_assert_uint_lt(text.size + (size_t)size, TEXT);
+    for (int k = 0; k < size; k++)
+        text.at[text.size++] = (char)(bits >> 8 * (high_first ? size - 1 - k : k) & 0xff);
+}
+
+static void put_doubles(const double *x, int count)
+{
+    for (int k = 0; k < count; k++) {
+        uint64_t bits;
+        memcpy(&bits, &x[k], sizeof bits);
+        put_bytes(bits, 8);
+    }
+}
+
+/* Elements of a kind stand together, or one by one. */
+static void write_gmsh_2_binary(void)
+{
+    put("$MeshFormat\n2.2 1 8\n");
+    put_bytes(1, 4);
+    put("\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"walls\"\n2 9 \"block\"\n$EndPhysicalNames\n"
+        "$Nodes\n%d\n",
+        POINTS);
+    for (int i = POINTS; i-- > 0;) {
+        put_bytes((uint64_t)(3 * i + 5), 4);
+        put_doubles(point[i], 3);
+    }
+    put("\n$EndNodes\n$Elements\n%d\n", FACES + 1);
+    const int rim[] = {1, 1, 2, 1, 7, 1, 5, 8};
+    for (int k = 0; k < 8; k++)
+        put_bytes((uint64_t)rim[k], 4);
+    for (int i = 0; i < FACES; i++) {
+        if (i == 0 || i == 3 || i == 5) {
+            put_bytes((uint64_t)corners(i) - 1, 4);
+            put_bytes(i == 0 ? 3 : i == 3 ? 2 : FACES - 5, 4);
+            put_bytes(2, 4);
+        }
+        put_bytes((uint64_t)i + 2, 4);
+        put_bytes(i < 7 ? 7 : 9, 4);
+        put_bytes(1, 4);
+        for (int j = 0; j < corners(i); j++)
+            put_bytes((uint64_t)(5 + 3 * face[i][j]), 4);
+    }
+    put("\n$EndElements\n");
+}
+
+static void put_entity_4(int tag, int coordinates, int group, int bounds)
+{
+    static const double box[6] = {0, 0, 0, 4, 5, 3};
+    put_bytes((uint64_t)tag, 4);
+    put_doubles(box, coordinates);
+    put_bytes(group != 0, 8);
+    if (group)
+        put_bytes((uint64_t)(int64_t)group, 4);
+    if (coordinates == 6)
+        put_bytes((uint64_t)bounds, 8);
+    for (int k = 0; k < bounds; k++)
+        put_bytes((uint64_t)k + 1, 4);
+}
+
+/* High bytes first; the nodes of the first half have places on their surface. */
+static void write_gmsh_4_binary(void)
+{
+    static const int from[] = {0, 3, 5, 7, FACES};
+    high_first = 1;
+    put("$MeshFormat\n4.1 1 8\n");
+    put_bytes(1, 4);
+    put("\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"walls\"\n2 9 \"block\"\n$EndPhysicalNames\n"
+        "$Entities\n");
+    put_bytes(1, 8);
+    put_bytes(1, 8);
+    put_bytes(2, 8);
+    put_bytes(0, 8);
+    put_entity_4(1, 3, 0, 0);
+    put_entity_4(4, 6, 3, 2);
+    put_entity_4(31, 6, 7, 1);
+    put_entity_4(32, 6, -9, 0);
+    put("\n$EndEntities\n$Nodes\n");
+    for (int k = 0; k < 4; k++)
+        put_bytes(k == 0 ? 2 : POINTS, 8);
+    for (int half = 0; half < 2; half++) {
+        put_bytes(2, 4);
+        put_bytes((uint64_t)half + 31, 4);
+        put_bytes(!half, 4);
+        put_bytes(POINTS / 2, 8);
+        for (int i = 0; i < POINTS / 2; i++)
+            put_bytes((uint64_t)(3 * (i + half * POINTS / 2) + 5), 8);
+        for (int i = 0; i < POINTS / 2; i++) {
+            put_doubles(point[i + half * POINTS / 2], 3);
+            if (!half)
+                put_doubles(point[i], 2);
+        }
+    }
+    put("\n$EndNodes\n$Elements\n");
+    for (int k = 0; k < 4; k++)
+        put_bytes(k == 0 ? 4 : FACES, 8);
+    for (int b = 0; b < 4; b++) {
+        put_bytes(2, 4);
+        put_bytes(b == 3 ? 32 : 31, 4);
+        put_bytes((uint64_t)corners(from[b]) - 1, 4);
+        put_bytes((uint64_t)(from[b + 1] - from[b]), 8);
+        for (int i = from[b]; i < from[b + 1]; i++) {
+            put_bytes((uint64_t)i + 1, 8);
+            for (int j = 0; j < corners(i); j++)
+                put_bytes((uint64_t)(5 + 3 * face[i][j]), 8);
+        }
+    }
+    put("\n$EndElements\n");
+    high_first = 0;
 }
 
 static void put_small(int i)
@@ -289,19 +404,50 @@ static void put_raw(uint64_t bits, int size)
         raw.at[raw.size++] = (unsigned char)(bits >> 8 * size);
 }
 
-static void put_base64(const char *type, const char *name)
+/* As base64; "====" never ends here, as padding is of one or two. */
+static void put_digits(const unsigned char *at, size_t size)
 {
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const size_t body = raw.size - 8;
-    for (int k = 0; k < 8; k++)
-        raw.at[k] = (unsigned char)((uint64_t)body >> (56 - 8 * k));
-    put("<DataArray type=\"%s\" Name=\"%s\" format=\"binary\">\n  ", type, name);
-    for (size_t i = 0; i < raw.size; i += 3) {
+    for (size_t i = 0; i < size; i += 3) {
         uint32_t group = 0;
         for (size_t k = 0; k < 3; k++)
-            group = group << 8 | (i + k < raw.size ? raw.at[i + k] : 0);
+            group = group << 8 | (i + k < size ? at[i + k] : 0);
         for (size_t k = 0; k < 4; k++)
-            put("%c", i + k <= raw.size ? digit[group >> (18 - 6 * k) & 63] : '=');
+            put("%c", i + k <= size ? digit[group >> (18 - 6 * k) & 63] : '=');
+    }
+}
+
+static void put_count(unsigned char *at, uint64_t count)
+{
+    for (int k = 0; k < 8; k++)
+        at[k] = (unsigned char)(count >> (56 - 8 * k));
+}
+
+static int compressed; /* 1: arrays in blocks of 40 bytes, the last one what is left */
+
+static void put_base64(const char *type, const char *name)
+{
+    put("<DataArray type=\"%s\" Name=\"%s\" format=\"binary\">\n  ", type, name);
+    if (compressed) {
+        enum { BLOCK = 40 };
+        static unsigned char head[1024], blocks[8192];
+        const size_t body = raw.size - 8, count = (body + BLOCK - 1) / BLOCK;
+        size_t used = 0;
+        put_count(head, count);
+        put_count(head + 8, BLOCK);
+        put_count(head + 16, body % BLOCK);
+        for (size_t i = 0; i < count; i++) {
+            uLongf made = sizeof blocks - used;
+            const size_t size = body - i * BLOCK < BLOCK ? body - i * BLOCK : BLOCK;
+            ck_assert_int_eq(compress(blocks + used, &made, raw.at + 8 + i * BLOCK, size), Z_OK);
+            put_count(head + 24 + 8 * i, made);
+            used += made;
+        }
+        put_digits(head, 24 + 8 * count);
+        put_digits(blocks, used);
+    } else {
+        put_count(raw.at, raw.size - 8);
+        put_digits(raw.at, raw.size);
     }
     put("\n</DataArray>\n");
     raw.size = 8;
@@ -310,8 +456,9 @@ static void put_base64(const char *type, const char *name)
 /* Two pieces, of which the second has the block. */
 static void write_vtu_base64(void)
 {
-    put("<VTKFile type=\"UnstructuredGrid\" byte_order=\"BigEndian\" header_type=\"UInt64\">"
-        "<UnstructuredGrid>");
+    put("<VTKFile type=\"UnstructuredGrid\" byte_order=\"BigEndian\" header_type=\"UInt64\"%s>"
+        "<UnstructuredGrid>",
+        compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
     raw.size = 8;
     for (int half = 0; half < 2; half++) {
         put("<Piece NumberOfPoints=\"8\" NumberOfCells=\"%d\"><Points>", half ? FACES - 7 : 7);
@@ -340,6 +487,13 @@ static void write_vtu_base64(void)
     put("</UnstructuredGrid></VTKFile>");
 }
 
+static void write_vtu_zlib(void)
+{
+    compressed = 1;
+    write_vtu_base64();
+    compressed = 0;
+}
+
 /* ---- */
 
 static void write_text(const char *name)
@@ -365,6 +519,8 @@ static const struct {
     {"room.vs3", write_vs3, "walls", "block"},
     {"two.msh", write_gmsh_2, "walls", "block"},
     {"four.msh", write_gmsh_4, "walls", "block"},
+    {"bytes_2.msh", write_gmsh_2_binary, "walls", "block"},
+    {"bytes_4.msh", write_gmsh_4_binary, "walls", "block"},
     {"small.bdf", write_nastran_small, "PSHELL 7", "PSHELL 9"},
     {"large.nas", write_nastran_large, "PSHELL 7", "PSHELL 9"},
     {"free.BDF", write_nastran_free, "PSHELL 7", "PSHELL 9"},
@@ -372,6 +528,7 @@ static const struct {
     {"five.vtk", write_vtk_5, "DefaultMaterial", "DefaultMaterial"},
     {"room.vtu", write_vtu, "DefaultMaterial", "DefaultMaterial"},
     {"bytes.vtu", write_vtu_base64, "DefaultMaterial", "DefaultMaterial"},
+    {"zlib.vtu", write_vtu_zlib, "DefaultMaterial", "DefaultMaterial"},
     {"room.vtp", write_vtp, "DefaultMaterial", "DefaultMaterial"},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
@@ -451,6 +608,9 @@ static const char *refusal(const char *path)
 
 #define POLYDATA "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
 #define GRID "<VTKFile type='UnstructuredGrid'><Piece>\n"
+#define ZLIB \
+    "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'>\n<Piece><Points><DataArray " \
+    "format='binary'>"
 
 START_TEST(test_refusals)
 {
@@ -467,7 +627,9 @@ START_TEST(test_refusals)
          ":3: error: surface 1 is a null or masking surface"},
         {"a.vs3", "F 3\nQ\n", ":2: error: 'Q' is no entry"},
         {"a.vs3", "F 3\n", ": error: there is no face"},
-        {"a.msh", "$MeshFormat\n4.1 1 8\n", ":2: error: a binary mesh; convert it to text: gmsh"},
+        {"a.msh", "$MeshFormat\n4.1 1 8\n", ":2: error: ends before the number 1"},
+        {"a.msh", "$MeshFormat\n4.1 1 8\nabcd", ":2: error: no 1 behind this line"},
+        {"a.msh", "$MeshFormat\n4.1 1 4\n", ":2: error: a binary mesh with numbers of 4 bytes"},
         {"a.msh", "$MeshFormat\n4 0 8\n", ":2: error: version 4 is not read; convert it"},
         {"a.msh", "$Nodes\n1\n", ":1: error: no $MeshFormat"},
         {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000\n1 0 0 0\n",
@@ -509,8 +671,15 @@ START_TEST(test_refusals)
          ":8: error: there are volumes in it and no face"},
         {"a.vtu", "<x/>\n", ":1: error: <x> before <VTKFile>"},
         {"a.vtu", "\n<VTKFile type='ImageData'/>\n", ":2: error: VTK data of type 'ImageData'"},
-        {"a.vtu", "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'/>",
-         ":1: error: the file is compressed; write it uncompressed"},
+        {"a.vtu", "<VTKFile type='PolyData' compressor='vtkLZ4DataCompressor'/>",
+         ":1: error: the file is compressed by vtkLZ4DataCompressor"},
+        /* 2^32 - 1 blocks; one of 2^32 - 1 bytes made of 4; of 4 made of 4 that are none; one cut
+         */
+        {"a.vtu", ZLIB "/////wAAAAAAAAAA</DataArray>", ":2: error: the blocks of a compressed"},
+        {"a.vtu", ZLIB "AQAAAP////8AAAAABAAAAAAAAAA=</DataArray>", ":2: error: the blocks of"},
+        {"a.vtu", ZLIB "AQAAAAQAAAAAAAAABAAAAAAAAAA=</DataArray>", ":2: error: the blocks of"},
+        {"a.vtu", ZLIB "AQAAAAQAAAAAAAAABAAAAAA=</DataArray>", ":2: error: the blocks of"},
+        {"a.vtu", ZLIB "AQAA</DataArray>", ":2: error: an array is no base64"},
         {"a.vtu", GRID "<Points>\n", ":3: error: not well-formed XML"},
         {"a.vtu", GRID "<Points><DataArray format='appended'/>", ":2: error: an array of format"},
         {"a.vtu", GRID "<Points><DataArray>1 2\n 3x</DataArray>", ":2: error: '3x' is not a num"},
@@ -531,6 +700,35 @@ START_TEST(test_refusals)
         ck_assert_msg(strstr(said, cases[i].said), "%zu: %s", i, said);
         ck_assert_msg(strchr(said, '\n') == said + strlen(said) - 1, "more than one line: %s",
                       said);
+    }
+}
+END_TEST
+
+/* Each binary mesh, cut at every byte, is refused in one line, but where only ends of lines are
+ * lost; so is one whose counts are huge. */
+START_TEST(test_cut_bytes)
+{
+    static void (*const writers[])(void) = {write_gmsh_2_binary, write_gmsh_4_binary,
+                                            write_vtu_zlib};
+    static const char *const names[] = {"cut.msh", "cut.msh", "cut.vtu"};
+    static char whole[TEXT];
+    text.size = 0;
+    writers[_i]();
+    const size_t size = text.size;
+    memcpy(whole, text.at, size);
+    for (size_t cut = 1; cut + 4 < size; cut += 1 + cut / 97) {
+        memcpy(text.at, whole, text.size = cut);
+        write_text(names[_i]);
+        const char *said = refusal(in_folder(names[_i]));
+        ck_assert_msg(strchr(said, '\n') == said + strlen(said) - 1, "%zu: %s", cut, said);
+    }
+    for (size_t at = 60; _i < 2 && at + 8 < size; at += 1 + at / 97) {
+        struct scene_file f;
+        memcpy(text.at, whole, text.size = size);
+        memset(text.at + at, 0x7f, 4);
+        write_text(names[_i]);
+        if (scene_file_read(&f, in_folder(names[_i]), &quietly) == 0)
+            scene_file_free(&f); /* a coordinate, say */
     }
 }
 END_TEST
@@ -594,6 +792,7 @@ int main(void)
     tcase_add_loop_test(t, test_polygons, 0, FORMATS);
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_refusals);
+    tcase_add_loop_test(t, test_cut_bytes, 0, 3);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
     suite_add_tcase(suite, t);
