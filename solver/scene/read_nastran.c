@@ -2,8 +2,8 @@
  * field.
  *
  * A card is eight fields of 8 characters behind its name, with a `*` four of 16, with a comma
- * fields of any width; further lines continue it. Only the first eight fields of a card are looked
- * at, which have all that a face needs.
+ * fields of any width; further lines continue it. Points may be in coordinate systems of their own
+ * (nastran_systems.h), which may come behind them: they are placed at the end.
  * [NX Nastran quick reference guide, bulk data entries]
  * SPDX-License-Identifier: MIT */
 #include <ctype.h>
@@ -12,12 +12,13 @@
 #include <strings.h>
 
 #include "scene/mesh_parts.h"
+#include "scene/nastran_systems.h"
 #include "scene/read_meshes.h"
 #include "scene/read_numbers.h"
 #include "scene/text_lines.h"
 #include "util/report.h"
 
-enum { FIELDS = 8, WIDEST = 32 };
+enum { LINE_FIELDS = 8, FIELDS = 2 * LINE_FIELDS, WIDEST = 32 };
 
 struct card {
     char name[WIDEST], field[FIELDS][WIDEST]; /* without blanks; shortened to what fits */
@@ -28,7 +29,9 @@ struct card {
 struct nastran {
     struct mesh mesh;
     struct card card; /* the one under way: line 0 when there is none */
-    int begun;        /* 1: behind BEGIN BULK, or there is none */
+    struct nastran_systems systems;
+    double default_system; /* of points that name none: GRDSET's */
+    int begun;             /* 1: behind BEGIN BULK, or there is none */
 };
 
 static void copy_field(char to[WIDEST], const char *from, const char *end)
@@ -42,13 +45,13 @@ static void copy_field(char to[WIDEST], const char *from, const char *end)
 
 /* The fields of a line, its first one apart; a tab goes to the next eighth column. */
 static int line_fields(const char *line, const char *end, char first[WIDEST],
-                       char field[FIELDS][WIDEST])
+                       char field[LINE_FIELDS][WIDEST])
 {
     char flat[81], *comma = memchr(line, ',', (size_t)(end - line));
     int count = 0;
     if (comma) {
         copy_field(first, line, comma);
-        const int most = strchr(first, '*') ? 4 : FIELDS;
+        const int most = strchr(first, '*') ? 4 : LINE_FIELDS;
         while (comma && count < most) {
             const char *from = comma + 1;
             comma = memchr(from, ',', (size_t)(end - from));
@@ -119,12 +122,75 @@ static int read_grid(struct nastran *a)
                             "GRID %lld has no coordinates; the file is cut or damaged, export it "
                             "again",
                             (long long)number);
-    if (system < 0 || system > 0)
+    if (a->card.fields < 2 || !*a->card.field[1])
+        system = a->default_system;
+    if (!(system < 0 || system > 0))
+        return mesh_define_node(&a->mesh, number, p, a->card.line);
+    if (!is_whole(system, 1e15))
         return report_error(a->mesh.path, a->card.line,
-                            "GRID %lld is in coordinate system %g; export the mesh in the basic "
-                            "one, 0",
+                            "GRID %lld is in coordinate system %g; write a whole number",
                             (long long)number, system);
-    return mesh_define_node(&a->mesh, number, p, a->card.line);
+    const struct nastran_point point = {.number = number,
+                                        .system = (int64_t)system,
+                                        .at = {p[0], p[1], p[2]},
+                                        .line = a->card.line};
+    return nastran_point_add(&a->systems, &point) ? scene_file_no_memory(a->mesh.path) : 0;
+}
+
+/* GRDSET: points that name no system are in this one. */
+static int read_defaults(struct nastran *a)
+{
+    return field_number(a, 1, "a system", &a->default_system);
+}
+
+static int add_system(struct nastran *a, const struct nastran_system *s)
+{
+    switch (nastran_system_add(&a->systems, s)) {
+    case NASTRAN_DONE:
+        return 0;
+    case NASTRAN_TWICE:
+        return report_error(a->mesh.path, s->line,
+                            "coordinate system %lld is defined twice; the file is damaged, export "
+                            "it again",
+                            (long long)s->number);
+    default:
+        return scene_file_no_memory(a->mesh.path);
+    }
+}
+
+/* CORD2R, C or S: the number, the system that the points are in, A at the origin, B on the z axis,
+ * C in the plane of x and z. */
+static int read_system_of_points(struct nastran *a)
+{
+    struct nastran_system s = {.kind = a->card.name[5], .line = a->card.line};
+    double other;
+    if (field_whole(a, 0, "the number", &s.number) || field_number(a, 1, "a system", &other))
+        return -1;
+    if (!is_whole(other, 1e15))
+        return report_error(a->mesh.path, s.line, "%g where a system of %s belongs", other,
+                            a->card.name);
+    s.within = (int64_t)other;
+    for (int k = 0; k < 9; k++)
+        if (field_number(a, 2 + k, "a coordinate", &s.at[k / 3][k % 3]))
+            return -1;
+    return add_system(a, &s);
+}
+
+/* CORD1R, C or S: A, B and C are points of the mesh; a card may have two systems. */
+static int read_system_of_grids(struct nastran *a)
+{
+    for (int from = 0; from == 0 || (from == 4 && a->card.fields > 4 && *a->card.field[4]);
+         from += 4) {
+        struct nastran_system s = {.kind = a->card.name[5], .by_grids = 1, .line = a->card.line};
+        if (field_whole(a, from, "the number", &s.number))
+            return -1;
+        for (int k = 0; k < 3; k++)
+            if (field_whole(a, from + 1 + k, "a point", &s.grid[k]))
+                return -1;
+        if (add_system(a, &s))
+            return -1;
+    }
+    return 0;
 }
 
 static int read_shell(struct nastran *a, uint32_t corners)
@@ -163,6 +229,8 @@ static int finish_card(struct nastran *a)
     static const char *const triangles[] = {"CTRIA3", "CTRIA6", "CTRIAR", NULL},
                              *const quads[] = {"CQUAD4", "CQUAD8", "CQUADR",
                                                "CQUAD",  "CSHEAR", NULL},
+                             *const by_points[] = {"CORD2R", "CORD2C", "CORD2S", NULL},
+                             *const by_grids[] = {"CORD1R", "CORD1C", "CORD1S", NULL},
                              *const volumes[] = {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", NULL},
                              *const lines[] = {"CBAR",  "CBEAM",  "CROD",   "CONROD", "CTUBE",
                                                "CBUSH", "CELAS1", "CELAS2", "PLOTEL", NULL};
@@ -172,6 +240,12 @@ static int finish_card(struct nastran *a)
         return 0;
     if (strcasecmp(c->name, "GRID") == 0)
         result = read_grid(a);
+    else if (strcasecmp(c->name, "GRDSET") == 0)
+        result = read_defaults(a);
+    else if (is_one_of(c->name, by_points))
+        result = read_system_of_points(a);
+    else if (is_one_of(c->name, by_grids))
+        result = read_system_of_grids(a);
     else if (is_one_of(c->name, triangles))
         result = read_shell(a, 3);
     else if (is_one_of(c->name, quads))
@@ -191,7 +265,7 @@ static int finish_card(struct nastran *a)
 static int read_line(struct nastran *a, const char *line, const char *end, uint32_t number)
 {
     const char *dollar = memchr(line, '$', (size_t)(end - line));
-    char first[WIDEST], field[FIELDS][WIDEST];
+    char first[WIDEST], field[LINE_FIELDS][WIDEST];
     end = dollar ? dollar : end;
     const char *word = line;
     while (word < end && is_blank(*word))
@@ -258,7 +332,11 @@ int read_nastran(struct scene_file *f, const char *path, char *text, size_t size
         line = last + (broken ? broken : 1);
     }
     if (result >= 0)
-        result = finish_card(&a) || mesh_finish(&a.mesh, quiet) ? -1 : 0;
+        result = finish_card(&a) || nastran_systems_place(&a.systems, &a.mesh)
+                         || mesh_finish(&a.mesh, quiet)
+                     ? -1
+                     : 0;
+    nastran_systems_free(&a.systems);
     mesh_free(&a.mesh);
     return result;
 }

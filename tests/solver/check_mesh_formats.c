@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -646,7 +647,16 @@ START_TEST(test_refusals)
          "1 4 0 1 2 3 4\n$EndElements\n",
          ":9: error: there are volumes in it and no face"},
         {"a.bdf", "GRID,1,,0,0,0\nCTRIA3,1,1,1,2,3\n", ":2: error: this face names node 2"},
-        {"a.bdf", "GRID,1,4,0,0,0\n", ":1: error: GRID 1 is in coordinate system 4"},
+        {"a.bdf", "GRID,1,4,0,0,0\n", ":1: error: GRID 1 is in coordinate system 4, which is not"},
+        {"a.bdf",
+         "CORD2R,4,5,0,0,0,0,0,1\n,1,0,0\nCORD2R,5,4,0,0,0,0,0,1\n,1,0,0\nGRID,1,4,0,0,0\n",
+         ":5: error: GRID 1 is in coordinate system 4, which is not there, or needs itself"},
+        {"a.bdf", "CORD2C,4,,0,0,0,0,0,1\n,0,0,2\n",
+         ":1: error: the three points of coordinate system 4 are in a line"},
+        {"a.bdf", "CORD1S,4,1,2,3\nCORD1R,4,1,2,3\n", ":2: error: coordinate system 4 is def"},
+        {"a.bdf", "CORD1S,4,1,2\n", ":1: error: 0 where a point of CORD1S belongs"},
+        {"a.bdf", "CORD2R,4,-1\n", ":1: error: -1 where a system of CORD2R belongs"},
+        {"a.bdf", "GRID,1,.5,0,0,0\n", ":1: error: GRID 1 is in coordinate system 0.5; write"},
         {"a.bdf", "GRID           1             1.x      0.      0.\n",
          ":1: error: '1.x' where x of GRID belongs"},
         {"a.bdf", "$\nCQUAD4,1,1,1,2,3\n", ":2: error: 0 where a corner of CQUAD4 belongs"},
@@ -701,6 +711,41 @@ START_TEST(test_refusals)
         ck_assert_msg(strchr(said, '\n') == said + strlen(said) - 1, "more than one line: %s",
                       said);
     }
+}
+END_TEST
+
+/* One point in systems of every kind, in one another, before them and behind them. */
+START_TEST(test_systems_of_nastran)
+{
+    struct scene_file f;
+    text.size = 0;
+    put("GRDSET,,6\n"
+        "GRID,1,2,1.,2.,3.\nGRID,2,3,2.,90.,1.\nGRID,3,4,2.,90.,0.\nGRID,4,5,1.,0.,0.\n"
+        "GRID,11,0,10.,0.,0.\nGRID,12,0,10.,0.,1.\nGRID,13,0,10.,1.,0.\nGRID,5,,1.,0.,0.\n"
+        "CTRIA3,1,1,1,2,3\nCTRIA3,2,1,3,4,5\n"
+        /* 2: moved by 10, x to the old y, y to -x; 3 and 4 in it; 5 by points; 6 by angles in 4 */
+        "CORD2R  2               10.     0.      0.      10.     0.      1.\n"
+        "        10.     1.      0.\n"
+        "CORD2C,3,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        "CORD2S,4,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        "CORD1R,5,11,12,13,7,11,12,13\n"
+        "CORD2R,6,4,1.,90.,0.,1.,0.,0.\n,2.,90.,0.\n");
+    write_text("systems.bdf");
+    ck_assert_int_eq(scene_file_read(&f, in_folder("systems.bdf"), &quietly), 0);
+    /* 6: from (1 0 0) of 2 z goes to (0 0 1), so along (-1 0 1), and x, in the plane with (2 0 0),
+     * along (1 0 1) */
+    static const double wanted[5][3] = {{8, 1, 3},
+                                        {8, 0, 1},
+                                        {10, 2, 0},
+                                        {10, 1, 0},
+                                        {10, 1 + .70710678118654752, .70710678118654752}};
+    static const int order[6] = {0, 1, 2, 2, 3, 4};
+    ck_assert_uint_eq(f.polygon_count, 2);
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 3; k++)
+            ck_assert_double_eq_tol(f.positions[3 * f.indices[i] + (unsigned)k],
+                                    wanted[order[i]][k], 1e-14);
+    scene_file_free(&f);
 }
 END_TEST
 
@@ -792,6 +837,7 @@ int main(void)
     tcase_add_loop_test(t, test_polygons, 0, FORMATS);
     tcase_add_test(t, test_factors);
     tcase_add_test(t, test_refusals);
+    tcase_add_test(t, test_systems_of_nastran);
     tcase_add_loop_test(t, test_cut_bytes, 0, 3);
     tcase_add_test(t, test_view3d_surfaces);
     tcase_add_test(t, test_polygons_of_vtk);
