@@ -240,7 +240,8 @@ static int add_outputs(struct named_files *f, const struct options *o)
             return -1;
     }
     if (o->command == COMMAND_VIEWFACTORS && o->out && o->format == FACTOR_OPENFOAM
-        && add_output(f, path_beside(o->out, FACTOR_FACES, strlen(FACTOR_FACES)), 1))
+        && (add_output(f, path_beside(o->out, FACTOR_FACES, strlen(FACTOR_FACES)), 1)
+            || add_output(f, path_beside(o->out, FACTOR_MAP, strlen(FACTOR_MAP)), 1)))
         return -1;
     const char *beside = o->command != COMMAND_SOLVE || !o->out ? NULL
                          : ends_with(o->out, ".obj")            ? ".mtl"

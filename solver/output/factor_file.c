@@ -231,15 +231,36 @@ static void write_view3d(const struct writer *w, FILE *out)
     write_line(w->table->emissivities, w->count, out);
 }
 
-static void write_foam_file(const struct writer *w, const char *type, const char *name,
-                            row_text *write, FILE *out)
+static void write_foam_head(const char *type, const char *name, FILE *out)
 {
     fprintf(out,
             "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       %s;\n"
-            "    location    \"constant\";\n    object      %s;\n}\n\n%lu\n(\n",
-            type, name, (unsigned long)w->count);
+            "    location    \"constant\";\n    object      %s;\n}\n\n",
+            type, name);
+}
+
+static void write_foam_file(const struct writer *w, const char *type, const char *name,
+                            row_text *write, FILE *out)
+{
+    write_foam_head(type, name, out);
+    fprintf(out, "%lu\n(\n", (unsigned long)w->count);
     write_rows(w, write, out);
     fputs(")\n", out);
+}
+
+/* How many faces there are; which of them go to and come from each process, here all of one; that
+ * none is turned on its way, and that nothing is transformed. */
+static void write_foam_map(const struct writer *w, FILE *out)
+{
+    write_foam_head("mapDistribute", FACTOR_MAP, out);
+    fprintf(out, "%lu\n", (unsigned long)w->count);
+    for (int way = 0; way < 2; way++) {
+        fprintf(out, "1(\n%lu(", (unsigned long)w->count);
+        for (uint32_t i = 0; i < w->count; i++)
+            fprintf(out, i ? " %lu" : "%lu", (unsigned long)i);
+        fputs(")\n)\n", out);
+    }
+    fputs("0 0\n\n0()\n0()\n", out);
 }
 
 static void write_text(const struct writer *w, FILE *out)
@@ -268,34 +289,36 @@ static void write_text(const struct writer *w, FILE *out)
 }
 
 /* Returns 0, or -1 after a message. */
-static int write_faces_beside(const struct writer *w, const char *path, struct atomic_file *file)
+static int open_beside(const char *path, const char *what, struct atomic_file *file)
 {
-    char *name = path_beside(path, FACTOR_FACES, strlen(FACTOR_FACES));
-    int status = name ? atomic_open(file, name)
-                      : report_error(path, 0, "out of memory for the name of " FACTOR_FACES);
+    char *name = path_beside(path, what, strlen(what));
+    const int status = name ? atomic_open(file, name)
+                            : report_error(path, 0, "out of memory for the name of %s", what);
     free(name);
-    if (!status)
-        write_foam_file(w, "labelListList", FACTOR_FACES, write_foam_faces, file->stream);
     return status;
 }
 
 static int write_files(const struct writer *w, const char *path)
 {
-    struct atomic_file file = {0}, faces = {0};
-    if (atomic_open(&file, path) < 0)
-        return -1;
-    write_text(w, file.stream);
-    int both = w->format == FACTOR_OPENFOAM, status = 0;
-    if (both && write_faces_beside(w, path, &faces) < 0) {
-        atomic_discard(&file);
-        return -1;
+    static const char *const beside[] = {NULL, FACTOR_FACES, FACTOR_MAP};
+    struct atomic_file files[3] = {{0}};
+    const int count = w->format == FACTOR_OPENFOAM ? 3 : 1;
+    int status = atomic_open(&files[0], path), opened = !status;
+    for (; opened < count && !status; opened += !status)
+        status = open_beside(path, beside[opened], &files[opened]);
+    if (!status) {
+        write_text(w, files[0].stream);
+        if (count > 1) {
+            write_foam_file(w, "labelListList", FACTOR_FACES, write_foam_faces, files[1].stream);
+            write_foam_map(w, files[2].stream);
+        }
     }
-    temporary_lock();              /* a signal takes both or none */
-    status = atomic_commit(&file); /* which finds what fwrite could not write */
-    if (both && status)
-        atomic_discard(&faces);
-    else if (both)
-        status = atomic_commit(&faces);
+    temporary_lock(); /* a signal takes all or none */
+    for (int i = 0; i < opened; i++)
+        if (status)
+            atomic_discard(&files[i]);
+        else
+            status = atomic_commit(&files[i]); /* which finds what fwrite could not write */
     temporary_unlock();
     return status;
 }

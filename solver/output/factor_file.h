@@ -9,8 +9,8 @@
  * Market, coordinate real general, from 1. npz: what scipy.sparse.load_npz reads (factor_npz.h).
  * view3d: what View3D writes: a header, areas, rows, emissivities. energyplus: the object
  * ZoneProperty:UserViewFactors:BySurfaceName, every entry. openfoam: the lists F, entries that are
- * not 0, and beside it globalFaceFaces, their columns. Texts with the 12 digits of %.12g, rows in
- * the order of the scene file. */
+ * not 0, and beside it globalFaceFaces, their columns, and mapDist, which says that one process has
+ * all faces. Texts with the 12 digits of %.12g, rows in the order of the scene file. */
 enum factor_format {
     FACTOR_CSV,
     FACTOR_COO,
@@ -23,6 +23,7 @@ enum factor_format {
 
 /* What openfoam writes beside F. */
 #define FACTOR_FACES "globalFaceFaces"
+#define FACTOR_MAP "mapDist"
 
 /* That of the file's ending, .mtx .npz .idf; csv for any other. */
 enum factor_format factor_format_of(const char *path);

@@ -206,6 +206,11 @@ echo mine >foam2/globalFaceFaces
 count=$((count + 1))
 "$radiosity" viewfactors room.obj -q -o foam2/F --format openfoam 2>err
 [ $? = 2 ] && [ "$(cat foam2/globalFaceFaces)" = mine ] && [ ! -e foam2/F ] || failed "foam2/globalFaceFaces is lost"
+rm foam2/globalFaceFaces
+echo mine >foam2/mapDist
+count=$((count + 1))
+"$radiosity" viewfactors room.obj -q -o foam2/F --format openfoam 2>err
+[ $? = 2 ] && [ "$(cat foam2/mapDist)" = mine ] && [ ! -e foam2/F ] && [ ! -e foam2/globalFaceFaces ] || failed "foam2/mapDist is lost"
 count=$((count + 1))
 "$radiosity" viewfactors room.obj -q -o /dev/null --format npz 2>err
 [ $? = 1 ] && grep -q 'cannot go to a pipe or a device' err || failed "an archive to a device"

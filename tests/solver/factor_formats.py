@@ -152,6 +152,11 @@ def check_foam(right):
     if [len(row) for row in factors] != [len(row) for row in faces]:
         wrong("openfoam: F and globalFaceFaces differ")
     compare("openfoam", dense(right, entries), right)
+    with open("foam/mapDist") as file:
+        said = re.sub(r"\s+", " ", file.read().split("}", 1)[1]).strip()
+    every = f"1( {len(right)}({' '.join(map(str, range(len(right))))}) )"
+    if said != f"{len(right)} {every} {every} 0 0 0() 0()":
+        wrong(f"openfoam: mapDist says {said}")
 
 
 def check_equal(sky):
