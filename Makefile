@@ -284,7 +284,7 @@ $(BUILD)/bin/cost_of: $(BUILD)/tests/studies/cost_of.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^
 .PHONY: tables
-tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays
+tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays $(BUILD)/bin/cost_of
 	@sh tests/tables/make.sh $(BUILD) $(TABLES)
 
 # A row of a table: how far pictures are from what each pixel gathers.

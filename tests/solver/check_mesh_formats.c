@@ -167,8 +167,8 @@ static void write_gmsh_2_binary(void)
         put_doubles(point[i], 3);
     }
     put("\n$EndNodes\n$Elements\n%d\n", FACES + 1);
-    const int rim[] = {1, 1, 2, 1, 7, 1, 5, 8};
-    for (int k = 0; k < 8; k++)
+    const int rim[] = {8, 1, 2, 1, 7, 1, 5, 8, 11}; /* a curved line */
+    for (int k = 0; k < 9; k++)
         put_bytes((uint64_t)rim[k], 4);
     for (int i = 0; i < FACES; i++) {
         if (i == 0 || i == 3 || i == 5) {

@@ -78,7 +78,7 @@ run_radiosity() {
         judge_matrix <"$tmp/factors.coo"
     else
         awk -f "$tables/json.awk" "$tmp/json" |
-            awk '{ v[$1] = $2 } END { print "row_mean", v["row_defect_mean"]; print "row_largest", v["row_defect_largest"] }'
+            awk '{ v[$1] = $2 } END { printf "row_mean %.3g\nrow_largest %.3g\n", v["row_defect_mean"], v["row_defect_largest"] }'
     fi
 }
 # 32 bytes, then floats: areas, rows, emissivities.
@@ -179,7 +179,7 @@ start of the program to its end, reading and writing included: \`radiosity\` wri
     echo "All scenes are closed, so rows sum to 1. \`cube_quads\` and \`cube_triangles\` are a bare cube (\`tests/studies/walls.awk\`), whose entries have closed"
     echo "forms; \`sphere_in_box\` is a sphere of triangles in it, \`room_of_boxes\` half of its faces in walls, half in boxes. There entries are"
     echo "held against \`radiosity --tolerance 3e-6\` (*reference*: what its own rows are off). Errors of entries: the sum of |F - R| in parts of the"
-    echo "sum of R, and the largest; where there are few enough faces."
+    echo "sum of R, and the largest; where there are few enough faces. What took more than $LIMIT s was given up, and nothing larger tried."
     echo
     awk -F , '
         NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
