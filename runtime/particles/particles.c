@@ -44,7 +44,7 @@ void tally_close(struct tally *tally)
 /* A run of particles of one replicate, and its sums that are no place's. */
 struct batch {
     const struct sobol_sequence *sobol;
-    uint32_t shift[SOBOL_DIMENSIONS];
+    uint32_t shift[SOBOL_COORDINATES];
     int replicate;
     uint64_t rays;
     int64_t first[3], second[3]; /* sums of w and w^2, as counts */
@@ -72,6 +72,16 @@ static void count(struct tally *tally, const struct tracer *t, uint32_t face, co
     }
 }
 
+/* What decides next about a reflection, in [0, 1): a coordinate of the sequence as far as these go,
+ * then the dice. used: how many decisions there have been. */
+static double decide(const struct batch *batch, uint64_t index, struct dice *dice, int *used)
+{
+    const int d = SOBOL_DIMENSIONS + (*used)++;
+    if (d >= SOBOL_COORDINATES)
+        return dice_throw(dice);
+    return sobol_sequence_at(batch->sobol, (uint32_t)index, d, batch->shift[d]);
+}
+
 static void trace(struct tally *tally, const struct tracer *t, uint64_t index, struct batch *batch)
 {
     struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
@@ -85,7 +95,7 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
         share[k] = exitance[k] / whole;
     tracer_point(t, face, u[1], u[2], p);
     double s = u[3], v = u[4];
-    for (;;) {
+    for (int used = 0;;) {
         int64_t met = tracer_step(t, face, p, s, v, at);
         batch->rays++;
         if (met < 0)
@@ -99,12 +109,12 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
             share[k] *= rho[k];
             left = share[k] > left ? share[k] : left;
         }
-        if (!(dice_throw(&dice) * strongest < left))
+        if (!(decide(batch, index, &dice, &used) * strongest < left))
             return;
         for (uint32_t k = 0; k < t->bands; k++)
             share[k] *= strongest / left;
-        s = dice_throw(&dice);
-        v = dice_throw(&dice);
+        s = decide(batch, index, &dice, &used);
+        v = decide(batch, index, &dice, &used);
     }
 }
 
@@ -134,8 +144,8 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
                  set = all->tally->stream * REPLICATES + (uint64_t)batch.replicate;
         if (watched_loop_stopped(all->loop))
             continue;
-        for (int d = 0; d < SOBOL_DIMENSIONS; d++)
-            batch.shift[d] = (uint32_t)(hash64(set * SOBOL_DIMENSIONS + (uint64_t)d + 1) >> 32);
+        for (int d = 0; d < SOBOL_COORDINATES; d++)
+            batch.shift[d] = (uint32_t)(hash64(set * SOBOL_COORDINATES + (uint64_t)d + 1) >> 32);
         for (uint64_t i = low; i < high; i++)
             trace(all->tally, all->t, i, &batch);
         all->sums->rays += batch.rays;

@@ -7,9 +7,11 @@
  * known of links, form factors or elements, and no constant is tuned. [Pattanaik and Mudur 1992]
  *
  * Noise. Particles come in REPLICATES independent sets; how these differ is the standard error of
- * whatever is computed of their mean. Within a set the emitter, the point on it and the first
- * direction follow a Sobol' sequence, shifted at random [Cranley and Patterson 1976 the shift, here
- * of digits]: direct light is then far less noisy than by chance, and each set as free of bias.
+ * whatever is computed of their mean. Within a set the emitter, the point on it, the first
+ * direction, and whether and where each of the first five reflections goes on, follow a Sobol'
+ * sequence, shifted at random [Cranley and Patterson 1976 the shift, here of digits]: light is then
+ * far less noisy than by chance, smooth light most, and each set as free of bias. Of what goes on
+ * beyond, a thirtieth where half is reflected, dice decide.
  *
  * Invariant: power is added in fixed point, so neither threads nor their order show.
  * SPDX-License-Identifier: MIT */

@@ -319,11 +319,68 @@ START_TEST(test_sobol)
 }
 END_TEST
 
+/* Of 2^n points in n dimensions each of the 2^n halves of halves has one [property A, Sobol' 1976],
+ * which Joe and Kuo's numbers have for every n: the first digits of the first n directions are
+ * independent. A wrong one among them most likely breaks that. */
+START_TEST(test_directions)
+{
+    struct sobol_sequence sequence;
+    sobol_sequence_open(&sequence);
+    for (int n = 1; n <= SOBOL_COORDINATES; n++) {
+        uint32_t row[SOBOL_COORDINATES] = {0};
+        for (int d = 0; d < n; d++)
+            for (int b = 0; b < n; b++)
+                row[d] |= (sequence.direction[d][b] >> 31) << b;
+        for (int b = 0; b < n; b++) { /* to triangular form */
+            int pivot = b;
+            while (pivot < n && !(row[pivot] >> b & 1))
+                pivot++;
+            ck_assert_int_lt(pivot, n);
+            const uint32_t of_pivot = row[pivot];
+            row[pivot] = row[b];
+            row[b] = of_pivot;
+            for (int d = b + 1; d < n; d++)
+                row[d] ^= row[d] >> b & 1 ? of_pivot : 0;
+        }
+    }
+}
+END_TEST
+
+/* In a furnace a particle lands 1 / (1 - rho) times; by chance the number has a variance of rho /
+ * (1 - rho)^2. Where the sequence decides about reflections replicates differ by less. */
+START_TEST(test_reflections)
+{
+    enum { PARTICLES = 4096 };
+    struct traced x;
+    struct tally tally;
+    furnace_cube(&x.scene, 0.5);
+    traced_open(&x, 1);
+    ck_assert_int_eq(tally_open(&tally, &x.tracer, 1, 0), 0);
+    ck_assert_int_eq(tally_trace(&tally, &x.tracer, PARTICLES, NULL), 0);
+    double mean = 0, square = 0;
+    for (int r = 0; r < REPLICATES; r++) {
+        double landed = 0;
+        for (uint32_t i = 0; i < x.tracer.hierarchy->face_count; i++)
+            landed += tally_face(&tally, r, i, 0) / tally.power;
+        mean += landed / REPLICATES;
+        square += landed * landed / REPLICATES;
+    }
+    const double variance = (square - mean * mean) * REPLICATES / (REPLICATES - 1),
+                 chance = 2.0 / PARTICLES;
+    ck_assert_double_eq_tol(mean, 2, 4 * sqrt(chance / REPLICATES));
+    ck_assert_double_lt(variance, chance / 8);
+    tally_close(&tally);
+    traced_close(&x);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("paths");
     TCase *paths = tcase_create("paths");
     tcase_add_test(paths, test_sobol);
+    tcase_add_test(paths, test_directions);
+    tcase_add_test(paths, test_reflections);
     tcase_add_test(paths, test_corner);
     tcase_add_test(paths, test_squares);
     tcase_add_test(paths, test_plates);
