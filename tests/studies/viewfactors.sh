@@ -138,13 +138,13 @@ others=$({ [ -z "$view3d" ] || checksum "$view3d"; [ -z "$foam" ] || checksum "$
 # ---- the page
 
 {
-    echo "set multiplot layout 3,4 margins .06,.995,.1,.9 spacing .055,.03"
+    echo "set multiplot layout 3,4 margins .068,.995,.1,.9 spacing .055,.03"
     echo "set logscale xy; set mxtics 1; set mytics 1; set grid lc rgb '#888888' dt 3; set format x ''; set datafile separator ','; set xrange [10:20000]"
     for column in seconds memory_mb row_mean; do
         case $column in
         seconds) echo "set ylabel 's of one processor' offset 1.5,0; set format y '%g'; set yrange [.001:200]" ;;
         memory_mb) echo "set ylabel 'MB at the peak' offset 1.5,0; set yrange [1:10000]" ;;
-        row_mean) echo "set ylabel 'mean of |1 - row sum|' offset 1.5,0; set format y '10^{%T}'; set format x '10^{%T}'; set xlabel 'faces'; set yrange [1e-8:1]" ;;
+        row_mean) echo "set ylabel 'mean of |1 - row sum|' offset .3,0; set format y '10^{%T}'; set format x '10^{%T}'; set xlabel 'faces'; set yrange [1e-8:1]" ;;
         esac
         first=1
         for scene in cube_quads cube_triangles sphere_in_box room_of_boxes; do
