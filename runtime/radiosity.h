@@ -944,6 +944,9 @@ struct RadExchangeOptions {
     /* 1: no matrix is kept, memory is that of polygons and links: products can be asked for, rows
      * cannot, and closure is none or rows */
     int stream;
+    /* bytes: what groups of polygons in clear view of each other exchange is kept as far as that
+     * goes, and beyond it computed anew for each row and product, to the same bits. 0: 512 MiB */
+    size_t keep;
 };
 /* The built-in oracle viewfactors, its limits made for the tolerance (0: the default). Returns
  * NULL on error. */

@@ -91,7 +91,8 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
                                        .progress = watch,
                                        .context = device,
                                        .rows = o->rows,
-                                       .stream = o->stream};
+                                       .stream = o->stream,
+                                       .keep = o->keep};
     struct refiner *own = oracle ? NULL : default_oracle(options.tolerance);
     const struct refiner *refiner = oracle ? oracle->refiner : own;
     RadExchange x = refiner ? calloc(1, sizeof *x) : NULL;
@@ -139,7 +140,7 @@ double radGetExchangeRow(RadExchange x, uint32_t i, double *row)
 {
     if (!x || check_row(x, i) < 0)
         return -1;
-    if (!x->exchange.areas.values)
+    if (x->exchange.areas.refinement)
         return api_fail(x->scene->device, RAD_ERROR_INVALID_OPERATION,
                         "a stream keeps no rows: ask radMultiplyExchange, or set "
                         "RadExchangeOptions.stream to 0");

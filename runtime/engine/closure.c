@@ -17,7 +17,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include "engine/exchange_areas.h"
+#include "engine/exchange_product.h"
 #include "kernel/constants.h"
 
 const char *const closure_names[CLOSURES] = {"none", "rows", "reciprocal"};
@@ -38,7 +38,7 @@ static void close_rows(struct exchange_closure *c, const struct exchange_areas *
     }
 }
 
-static int close_both_ways(struct exchange_closure *c, const struct exchange_areas *m,
+static int close_both_ways(struct exchange_closure *c, const struct exchange_areas *m, int threads,
                            const unsigned char *closed)
 {
     double *sums = malloc((m->inputs + 1) * sizeof *sums), low = 1, high = 1;
@@ -46,7 +46,10 @@ static int close_both_ways(struct exchange_closure *c, const struct exchange_are
         return -1;
     for (;; c->iterations++) {
         c->left = 0;
-        exchange_areas_sums(m, c->scale, sums);
+        if (exchange_sums(m, threads, c->scale, sums) < 0) {
+            free(sums);
+            return -1;
+        }
         for (uint32_t i = 0; i < m->inputs; i++)
             if (sums[i] > 0) {
                 double sum = c->scale[i] * sums[i] / m->area[i];
@@ -71,7 +74,7 @@ static int close_both_ways(struct exchange_closure *c, const struct exchange_are
 }
 
 int exchange_closure_make(struct exchange_closure *c, enum closure kind,
-                          const struct exchange_areas *m, const double *sums,
+                          const struct exchange_areas *m, int threads, const double *sums,
                           const unsigned char *closed)
 {
     *c = (struct exchange_closure){0};
@@ -85,7 +88,7 @@ int exchange_closure_make(struct exchange_closure *c, enum closure kind,
     c->both = kind == CLOSURE_RECIPROCAL;
     if (!c->both)
         close_rows(c, m, sums, closed);
-    else if (close_both_ways(c, m, closed) < 0) {
+    else if (close_both_ways(c, m, threads, closed) < 0) {
         exchange_closure_free(c);
         return -1;
     }

@@ -33,7 +33,7 @@ struct exchange_closure {
 /* sums: row sums of A_i F_ij (m2). closed: by row, 1: it ought to sum to A_i; others are only kept
  * from summing to more. Returns 0, or -1 when out of memory. */
 int exchange_closure_make(struct exchange_closure *c, enum closure kind,
-                          const struct exchange_areas *m, const double *sums,
+                          const struct exchange_areas *m, int threads, const double *sums,
                           const unsigned char *closed);
 void exchange_closure_free(struct exchange_closure *c);
 

@@ -19,6 +19,9 @@
 #include "util/thread_pool.h"
 #include "visibility/environment.h"
 
+/* Bytes of values that are kept though they could be made anew, where nobody says. */
+#define KEPT ((size_t)1 << 29)
+
 /* The error of half shadow falls with what is left to it. Pairs of faces are not split for it: each
  * is integrated (engine/exchange_sight.h). */
 void exchange_set_tolerance(struct refiner *refiner, double tolerance)
@@ -138,20 +141,6 @@ static void account(struct exchange *x, const double *share, unsigned char *clos
     r->backs_mean /= all > 0 ? all : 1;
 }
 
-/* sums[i]: the sum of A_i F_ij over j, each times scale[j] unless that is NULL. Returns 0 or -1. */
-static int find_sums(const struct exchange *x, const double *scale, double *sums)
-{
-    const struct exchange_areas *m = &x->areas;
-    if (m->values)
-        return exchange_areas_sums(m, scale, sums), 0;
-    double *ones = malloc((m->inputs + 1) * sizeof *ones);
-    for (uint32_t i = 0; i < m->inputs && ones; i++)
-        ones[i] = scale ? scale[i] : 1;
-    int status = ones ? exchange_product(m, x->threads, 1, ones, sums) : -1;
-    free(ones);
-    return status;
-}
-
 /* Closure changes what open rows sum to a little; their losses still make up for it. */
 static int follow_closure(struct exchange *x, double *sums)
 {
@@ -159,7 +148,7 @@ static int follow_closure(struct exchange *x, double *sums)
     const struct exchange_closure *c = &x->closure;
     if (!c->scale)
         return 0;
-    if (find_sums(x, c->both ? c->scale : NULL, sums) < 0)
+    if (exchange_sums(m, x->threads, c->both ? c->scale : NULL, sums) < 0)
         return -1;
     for (uint32_t i = 0; i < m->rows; i++)
         if (m->area[i] > 0)
@@ -194,7 +183,7 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
     unsigned char *closed = calloc(m->inputs + 1, 1);
     int status = -1;
     x->losses = calloc(m->inputs + 1, sizeof *x->losses);
-    if (share && sums && x->losses && closed && find_sums(x, NULL, sums) == 0) {
+    if (share && sums && x->losses && closed && exchange_sums(m, x->threads, NULL, sums) == 0) {
         for (uint32_t i = 0; i < m->inputs; i++) {
             if (i >= m->rows) /* nobody asks for it */
                 sums[i] = m->area[i];
@@ -203,7 +192,7 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
         const struct asking a = {x, o, share, x->losses};
         thread_pool_run(o->threads, m->rows, 16, ask_rows, &a);
         account(x, share, closed);
-        status = exchange_closure_make(&x->closure, o->closure, m, sums, closed);
+        status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, closed);
         if (status == 0)
             status = follow_closure(x, sums);
     }
@@ -219,7 +208,8 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     struct watcher watcher = {x, o};
     const struct exchange_aim how = {.tolerance = o->tolerance,
                                      .rows = o->rows,
-                                     .keep = !o->stream,
+                                     .stream = o->stream,
+                                     .keep = (o->keep ? o->keep : KEPT) / sizeof(double),
                                      .threads = o->threads,
                                      .tell = tell_share,
                                      .context = &watcher};
@@ -231,7 +221,7 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     if (tell(&watcher, "factors") != 0
         || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, &how) < 0)
         return -1;
-    if (how.keep)
+    if (!how.stream)
         refinement_close(&x->refinement);
     x->report.entry_error = exchange_areas_error(&x->areas);
     if (x->report.entry_error < 0 || close_rows(x, o) < 0)

@@ -24,6 +24,7 @@ struct exchange_options {
     /* 1: values are not kept, but computed anew for each product (exchange_product.h): there are no
      * rows, and closure is none or rows */
     int stream;
+    size_t keep; /* bytes of values of groups in clear view, at the most; 0: 512 MiB */
 };
 
 struct exchange_report {

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_areas.h"
-#include "engine/exchange_blocks.h"
 #include "engine/exchange_tiles.h"
+#include "util/array.h"
 #include "util/thread_pool.h"
 
 /* Blocks between two times that somebody is told: a hundredth of them, but no fewer than that. */
@@ -17,23 +17,27 @@ enum { TELLINGS = 100, LEAST_TOLD = 1024 };
 /* What blocks are filled from. */
 struct filling {
     const struct exchange_areas *areas;
-    const struct link **links; /* [block] */
-    const struct exchange_faces *faces;
+    const struct link **links;        /* [block] */
     struct exchange_scratch *scratch; /* [thread] */
     size_t from;                      /* the first block at hand */
 };
 
-double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_faces *faces,
-                          const struct exchange_block *b, const struct link *link,
-                          struct exchange_scratch *scratch, double *values)
+static struct exchange_pair pair_of(const struct exchange_areas *m, const struct exchange_block *b,
+                                    const struct link *link)
 {
     const struct element *elements = m->tree->h.elements;
-    const struct exchange_pair pair = {m->tree,
-                                       &elements[link->receiver],
-                                       &elements[link->emitter],
-                                       {b->row, b->row + b->rows},
-                                       {b->column, b->column + b->columns}};
-    return exchange_block_fill(faces, &pair, link, scratch, values);
+    return (struct exchange_pair){m->tree,
+                                  &elements[link->receiver],
+                                  &elements[link->emitter],
+                                  {b->row, b->row + b->rows},
+                                  {b->column, b->column + b->columns}};
+}
+
+double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_block *b,
+                          const struct link *link, struct exchange_scratch *scratch, double *values)
+{
+    const struct exchange_pair pair = pair_of(m, b, link);
+    return exchange_block_fill(&m->shapes, &pair, link, scratch, values);
 }
 
 static void fill_blocks(const void *filling, size_t from, size_t to)
@@ -42,32 +46,32 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
     const struct exchange_areas *m = f->areas;
     for (size_t i = f->from + from; i < f->from + to; i++) {
         struct exchange_block *b = &m->blocks[i]; /* no other thread's */
-        b->error = exchange_tile_fill(m, f->faces, b, f->links[i],
-                                      &f->scratch[thread_pool_number()], m->values + b->at);
+        if (!b->anew)
+            b->error = exchange_tile_fill(m, b, f->links[i], &f->scratch[thread_pool_number()],
+                                          m->values + b->at);
     }
 }
 
 static int fill(struct exchange_areas *m, const struct link **links, const struct exchange_aim *how)
 {
     const int threads = how->threads;
-    struct exchange_faces faces = {.all = NULL};
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
-    struct filling f = {m, links, &faces, scratch, 0};
+    struct filling f = {m, links, scratch, 0};
     size_t step = m->block_count / TELLINGS > LEAST_TOLD ? m->block_count / TELLINGS : LEAST_TOLD;
-    int failed = !scratch || exchange_faces_open(&faces, m->tree) < 0;
+    int failed = !scratch;
     for (int t = 0; t < threads && !failed; t++)
-        failed = exchange_scratch_open(&scratch[t], TILE, &m->limits) < 0;
+        failed = exchange_scratch_open(&scratch[t], &m->limits) < 0;
     for (; f.from < m->block_count && !failed; f.from += step) {
         size_t left = m->block_count - f.from;
         failed = f.from && how->tell
-                 && how->tell(how->context, (double)m->blocks[f.from].at / (double)m->value_count);
+                 && how->tell(how->context,
+                              (double)m->blocks[f.from].at / (double)(m->kept ? m->kept : 1));
         if (!failed)
             thread_pool_run(threads, left < step ? left : step, 32, fill_blocks, &f);
     }
     for (int t = 0; t < threads && scratch; t++)
         exchange_scratch_close(&scratch[t]);
     free(scratch);
-    exchange_faces_close(&faces);
     return failed ? -1 : 0;
 }
 
@@ -119,27 +123,55 @@ static int find_inputs(struct exchange_areas *m, const struct scene *scene)
     return 0;
 }
 
-/* All tiles, and what they stand for. */
-static int keep_values(struct exchange_areas *m, const struct exchange_aim *how)
+/* Which blocks there are, and which of them are kept: of those that may be made anew the first
+ * ones, as far as `keep` goes. `links`: by block. Returns 0, or -1 when out of memory. */
+static int deal_out(struct exchange_areas *m, const struct refinement *refinement, size_t keep,
+                    const struct link **links)
 {
-    struct exchange_tiles t = exchange_tiles(m, m->refinement);
+    struct exchange_tiles t = exchange_tiles(m, refinement);
+    const struct link *last = NULL;
+    size_t capacity = 0;
+    for (size_t i = 0; exchange_tiles_next(&t); i++) {
+        struct exchange_block *b = &m->blocks[i];
+        size_t size = (size_t)t.is.rows * t.is.columns;
+        *b = t.is;
+        b->at = m->kept;
+        links[i] = t.link;
+        if (!exchange_link_clear(m->tree, t.link)) {
+            m->kept += size;
+        } else if (size <= keep) {
+            m->kept += size;
+            keep -= size;
+        } else {
+            if (t.link != last) {
+                if (array_reserve(&m->links, m->links_anew + 1, &capacity, sizeof *m->links) < 0)
+                    return -1;
+                m->links[m->links_anew++] = *t.link;
+            }
+            last = t.link;
+            b->anew = m->links_anew;
+        }
+    }
+    return 0;
+}
+
+/* All blocks, and what those that are kept stand for. */
+static int keep_values(struct exchange_areas *m, const struct refinement *refinement,
+                       const struct exchange_aim *how)
+{
+    struct exchange_tiles t = exchange_tiles(m, refinement);
     while (exchange_tiles_next(&t))
         m->block_count++;
     const struct link **links;
     links = malloc((m->block_count + 1) * sizeof *links);
     m->blocks = malloc((m->block_count + 1) * sizeof *m->blocks);
-    m->values = malloc((t.values + 1) * sizeof *m->values);
     int status = -1;
-    if (links && m->blocks && m->values && m->block_count <= UINT32_MAX / 2) {
-        t = exchange_tiles(m, m->refinement);
-        for (size_t i = 0; exchange_tiles_next(&t); i++) {
-            m->blocks[i] = t.is;
-            links[i] = t.link;
-        }
-        status = make_index(m) < 0 ? -1 : fill(m, links, how);
+    if (links && m->blocks && m->block_count <= UINT32_MAX / 2
+        && deal_out(m, refinement, how->keep, links) == 0) {
+        m->values = malloc((m->kept + 1) * sizeof *m->values);
+        status = !m->values || make_index(m) < 0 ? -1 : fill(m, links, how);
     }
     free(links);
-    m->refinement = NULL;
     return status;
 }
 
@@ -152,14 +184,14 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
                                  .inputs = scene->input_count,
                                  .rows = how->rows ? how->rows : scene->input_count,
                                  .limits = sight_limits_for(how->tolerance, tree->h.face_count),
-                                 .refinement = refinement};
-    if (find_inputs(m, scene) == 0) {
+                                 .refinement = how->stream ? refinement : NULL};
+    if (find_inputs(m, scene) == 0 && exchange_faces_open(&m->shapes, tree) == 0) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
         while (exchange_tiles_next(&t))
             ;
         m->link_count = t.links;
         m->value_count = t.values;
-        if (!how->keep || keep_values(m, how) == 0)
+        if (how->stream || keep_values(m, refinement, how) == 0)
             return 0;
     }
     exchange_areas_close(m);
@@ -174,23 +206,36 @@ void exchange_areas_close(struct exchange_areas *m)
     free(m->next);
     free(m->blocks);
     free(m->values);
+    free(m->links);
     free(m->entry);
     free(m->index);
+    exchange_faces_close(&m->shapes);
     memset(m, 0, sizeof *m);
+}
+
+/* The line of block b that place p is: its values, each so many after the one before. */
+static const double *line_of(const struct exchange_areas *m, const struct exchange_block *b,
+                             uint32_t p, int column, double room[TILE], uint32_t *step)
+{
+    *step = column && !b->anew ? b->columns : 1;
+    if (!b->anew)
+        return m->values + b->at + (column ? p - b->column : (size_t)(p - b->row) * b->columns);
+    const struct exchange_pair pair = pair_of(m, b, &m->links[b->anew - 1]);
+    clear_line(&m->shapes, &pair, m->limits.tolerance, p, column, room);
+    return room;
 }
 
 double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const double *scale,
                           double *row)
 {
-    double sum = 0, own = scale ? scale[i] : 1;
+    double sum = 0, own = scale ? scale[i] : 1, room[TILE];
     for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
         for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {
             const struct exchange_block *b = &m->blocks[m->index[at] / 2];
             int column = m->index[at] & 1;
-            const double *v =
-                m->values + b->at + (column ? p - b->column : (size_t)(p - b->row) * b->columns);
-            uint32_t n = column ? b->rows : b->columns, step = column ? b->columns : 1;
+            uint32_t n = column ? b->rows : b->columns, step;
             const uint32_t *input = m->input + (column ? b->row : b->column);
+            const double *v = line_of(m, b, p, column, room, &step);
             for (uint32_t k = 0; k < n; k++, v += step) {
                 double e = scale ? *v * (own * scale[input[k]]) : *v;
                 row[input[k]] += e;
@@ -200,38 +245,11 @@ double exchange_areas_row(const struct exchange_areas *m, uint32_t i, const doub
     return sum;
 }
 
-void exchange_areas_sums(const struct exchange_areas *m, const double *scale, double *sums)
-{
-    double column[TILE], times_row[TILE], times_column[TILE];
-    memset(sums, 0, m->inputs * sizeof *sums);
-    for (size_t b = 0; b < m->block_count; b++) {
-        const struct exchange_block *block = &m->blocks[b];
-        const double *v = m->values + block->at;
-        for (uint32_t i = 0; i < block->rows; i++)
-            times_row[i] = scale ? scale[m->input[block->row + i]] : 1;
-        for (uint32_t j = 0; j < block->columns; j++) {
-            times_column[j] = scale ? scale[m->input[block->column + j]] : 1;
-            column[j] = 0;
-        }
-        for (uint32_t i = 0; i < block->rows; i++, v += block->columns) {
-            double sum = 0, own = times_row[i];
-#pragma omp simd reduction(+ : sum)
-            for (uint32_t j = 0; j < block->columns; j++) {
-                sum += v[j] * times_column[j];
-                column[j] += v[j] * own;
-            }
-            sums[m->input[block->row + i]] += sum;
-        }
-        for (uint32_t j = 0; j < block->columns; j++)
-            sums[m->input[block->column + j]] += column[j];
-    }
-}
-
 double exchange_areas_error(const struct exchange_areas *m)
 {
     double *sum = calloc(m->inputs + 1, sizeof *sum), most = 0;
     uint32_t *met = malloc((m->inputs + 1) * sizeof *met), count;
-    for (uint32_t i = 0; i < m->rows && m->values && sum && met; i++) {
+    for (uint32_t i = 0; i < m->rows && m->blocks && sum && met; i++) {
         count = 0;
         for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
             for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {

@@ -11,17 +11,13 @@
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
 
-int exchange_scratch_open(struct exchange_scratch *s, uint32_t most,
-                          const struct sight_limits *limits)
+int exchange_scratch_open(struct exchange_scratch *s, const struct sight_limits *limits)
 {
-    if (clear_scratch_open(&s->clear, most) < 0 || sight_scratch_open(&s->sight, limits) < 0)
-        return -1;
-    return shadow_scratch_open(&s->shadow, most);
+    return sight_scratch_open(&s->sight, limits) < 0 ? -1 : shadow_scratch_open(&s->shadow, TILE);
 }
 
 void exchange_scratch_close(struct exchange_scratch *s)
 {
-    clear_scratch_close(&s->clear);
     sight_scratch_close(&s->sight);
     shadow_scratch_close(&s->shadow);
 }
@@ -62,13 +58,24 @@ static double link_factor(const struct exchange_pair *pair, const struct link *l
                               || dot3(away, away) < reach * reach);
 }
 
+static int is_proved(const struct link *link)
+{
+    return link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE;
+}
+
+int exchange_link_clear(const struct exchange_tree *tree, const struct link *link)
+{
+    const struct element *r = &tree->h.elements[link->receiver],
+                         *s = &tree->h.elements[link->emitter];
+    return is_proved(link) && (r->group || s->group) && !r->depth && !s->depth;
+}
+
 double exchange_block_fill(const struct exchange_faces *p, const struct exchange_pair *pair,
                            const struct link *link, struct exchange_scratch *scratch, double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
-    int proved = link->levels >> 4 == VISIBILITY_EXACT && link->visibility == LINK_VISIBLE;
-    if (proved && !r->group && !s->group) {
+    if (is_proved(link) && !r->group && !s->group) {
         double e = r->area * link_factor(pair, link, scratch->sight.limits.tolerance),
                least = fmin(r->area, s->area);
         *out = e < least ? e : least;
@@ -76,14 +83,14 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
     }
     if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */
         return block_by_pairs(pair, scratch, out);
-    if (proved) {
-        clear_block(p, pair, scratch->sight.limits.tolerance, &scratch->clear, out);
+    if (is_proved(link)) {
+        clear_block(p, pair, scratch->sight.limits.tolerance, out);
         return 0;
     }
     blockers_find(r, s, &pair->tree->host, &list);
     if (list.count > BLOCKERS_MAX)
         return block_by_pairs(pair, scratch, out);
-    clear_block(p, pair, scratch->sight.limits.tolerance, &scratch->clear, out);
+    clear_block(p, pair, scratch->sight.limits.tolerance, out);
     shadow_block(pair, &list, &scratch->shadow, out);
     return 0;
 }

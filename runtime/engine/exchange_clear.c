@@ -81,21 +81,11 @@ void exchange_faces_close(struct exchange_faces *p)
     free(p->all);
 }
 
-int clear_scratch_open(struct clear_scratch *s, uint32_t most)
-{
-    s->shift[0] = malloc(4 * (size_t)most * sizeof **s->shift);
-    if (!s->shift[0])
-        return -1;
-    s->shift[1] = s->shift[0] + most;
-    s->shift[2] = s->shift[1] + most;
-    s->doubt = s->shift[2] + most;
-    return 0;
-}
-
-void clear_scratch_close(struct clear_scratch *s)
-{
-    free(s->shift[0]);
-}
+/* What a line of pairs needs of the faces across. */
+struct line {
+    double shift[3][TILE]; /* M_j n */
+    double doubt[TILE];    /* of its pairs, how much of the tolerance the error may be, squared */
+};
 
 /* M_i v. */
 static void moment_times(const struct exchange_faces *p, uint32_t i, const double v[3],
@@ -108,13 +98,13 @@ static void moment_times(const struct exchange_faces *p, uint32_t i, const doubl
 
 /* M_j n for every face of a range. */
 static void moments_times(const struct exchange_faces *p, struct face_range range,
-                          const double n[3], const struct clear_scratch *scratch)
+                          const double n[3], struct line *line)
 {
     for (uint32_t j = range.from; j < range.to; j++) {
         double shift[3];
         moment_times(p, j, n, shift);
         for (int k = 0; k < 3; k++)
-            scratch->shift[k][j - range.from] = shift[k];
+            line->shift[k][j - range.from] = shift[k];
     }
 }
 
@@ -138,10 +128,11 @@ static inline double rest_square(double a, double b, double t, double quad, doub
 }
 
 /* The exchange areas of face i, normal n, with the faces of a range, normal -m; and how far they
- * may be off, as a share of what is allowed, squared. */
+ * may be off, as a share of what is allowed, squared. Of two faces they are the same numbers from
+ * either: all that is added or multiplied is the same but for its order. */
 TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const double n[3],
                             struct face_range range, const double m[3], double tolerance,
-                            const struct clear_scratch *scratch, double *restrict out)
+                            struct line *line, double *restrict out)
 {
     const double *restrict x = p->c[0] + range.from, *restrict y = p->c[1] + range.from,
                            *restrict z = p->c[2] + range.from;
@@ -152,11 +143,11 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
                            *restrict xz = p->moment[4] + range.from,
                            *restrict yz = p->moment[5] + range.from,
                            *restrict lopsided = p->lopsided + range.from;
-    const double *restrict sx = scratch->shift[0], *restrict sy = scratch->shift[1],
-                           *restrict sz = scratch->shift[2];
-    double *restrict doubt = scratch->doubt;
+    const double *restrict sx = line->shift[0], *restrict sy = line->shift[1],
+                           *restrict sz = line->shift[2];
+    double *restrict doubt = line->doubt;
     const double cx = p->c[0][i], cy = p->c[1][i], cz = p->c[2][i], own_area = p->area[i],
-                 ai = p->area[i] * (1 / LAMBERT_PI), own_lopsided = p->lopsided[i];
+                 own_lopsided = p->lopsided[i];
     const double ixx = p->moment[0][i], iyy = p->moment[1][i], izz = p->moment[2][i],
                  ixy = p->moment[3][i], ixz = p->moment[4][i], iyz = p->moment[5][i], n0 = n[0],
                  n1 = n[1], n2 = n[2], m0 = m[0], m1 = m[1], m2 = m[2];
@@ -175,7 +166,8 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
                       + 2 * (qxy * r0 * r1 + qxz * r0 * r2 + qyz * r1 * r2);
         double trace = qxx + qyy + qzz, skew_i = a * (own[0] * r0 + own[1] * r1 + own[2] * r2),
                skew_j = b * (sx[j] * r0 + sy[j] * r1 + sz[j] * r2);
-        double scale = ai * area[j], least = own_area < area[j] ? own_area : area[j],
+        double scale = own_area * area[j] * (1 / LAMBERT_PI),
+               least = own_area < area[j] ? own_area : area[j],
                e = scale * lambert_second_order(a, b, t, quad, trace, skew_i + skew_j);
         double square = sx[j] * sx[j] + sy[j] * sy[j] + sz[j] * sz[j],
                rise = n0 * sx[j] + n1 * sy[j] + n2 * sz[j];
@@ -193,31 +185,31 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
 #if LANES_CHOSEN
 LANES_AVX512 void second_order_8(const struct exchange_faces *p, uint32_t i, const double n[3],
                                  struct face_range range, const double m[3], double tolerance,
-                                 const struct clear_scratch *scratch, double *out)
+                                 struct line *line, double *out)
 {
-    second_order_body(p, i, n, range, m, tolerance, scratch, out);
+    second_order_body(p, i, n, range, m, tolerance, line, out);
 }
 LANES_AVX2 void second_order_4(const struct exchange_faces *p, uint32_t i, const double n[3],
                                struct face_range range, const double m[3], double tolerance,
-                               const struct clear_scratch *scratch, double *out)
+                               struct line *line, double *out)
 {
-    second_order_body(p, i, n, range, m, tolerance, scratch, out);
+    second_order_body(p, i, n, range, m, tolerance, line, out);
 }
 #endif
 
 static void second_order_row(const struct exchange_faces *p, uint32_t i, const double n[3],
                              struct face_range range, const double m[3], double tolerance,
-                             const struct clear_scratch *scratch, double *out)
+                             struct line *line, double *out)
 {
     int width = lanes_width();
 #if LANES_CHOSEN
     if (width == 8)
-        second_order_8(p, i, n, range, m, tolerance, scratch, out);
+        second_order_8(p, i, n, range, m, tolerance, line, out);
     else if (width == 4)
-        second_order_4(p, i, n, range, m, tolerance, scratch, out);
+        second_order_4(p, i, n, range, m, tolerance, line, out);
     else
 #endif
-        second_order_body(p, i, n, range, m, tolerance, scratch, out);
+        second_order_body(p, i, n, range, m, tolerance, line, out);
     (void)width;
 }
 
@@ -294,32 +286,51 @@ static int rules_do(const struct exchange_faces *p, uint32_t i, uint32_t j, doub
     return less < CLEAR_RULES_NEAR && doubt * less * less < 1;
 }
 
-void clear_block(const struct exchange_faces *p, const struct exchange_pair *pair, double tolerance,
-                 const struct clear_scratch *scratch, double *out)
+/* The line of the face at place i, `line` with the shifts of the faces across. */
+static void make_line(const struct exchange_faces *p, const struct exchange_pair *pair,
+                      double tolerance, uint32_t i, int column, struct line *line, double *out)
 {
-    const struct element *r = pair->receiver, *s = pair->emitter;
-    const double m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
-    uint32_t across = pair->columns.to - pair->columns.from;
-    moments_times(p, pair->columns, r->normal, scratch);
-    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++, out += across) {
-        const struct element *a = exchange_tree_face(pair->tree, i);
-        struct rule own = {.count = 0}, other;
-        second_order_row(p, i, r->normal, pair->columns, m, tolerance, scratch, out);
-        for (uint32_t j = 0; j < across; j++) {
-            if (!(scratch->doubt[j] > 1))
-                continue;
-            uint32_t at = pair->columns.from + j;
-            const struct element *b = exchange_tree_face(pair->tree, at);
-            double e;
-            if (rules_do(p, i, at, scratch->doubt[j])) {
-                if (own.count == 0)
-                    rule_of(&own, a);
-                rule_of(&other, b);
-                e = a->area * b->area * rule_kernel(&own, r->normal, &other, m);
-            } else {
-                e = a->area * polygon_factor(a, b, 1);
-            }
-            out[j] = e > 0 ? fmin(e, fmin(a->area, b->area)) : 0;
+    const struct element *r = pair->receiver, *s = pair->emitter, *own = column ? s : r,
+                         *other = column ? r : s;
+    const struct face_range range = column ? pair->rows : pair->columns;
+    const double turned[3] = {-other->normal[0], -other->normal[1], -other->normal[2]},
+                 m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
+    struct rule rule[2] = {{.count = 0}, {.count = 0}};
+    second_order_row(p, i, own->normal, range, turned, tolerance, line, out);
+    for (uint32_t j = range.from; j < range.to; j++) {
+        double doubt = line->doubt[j - range.from], e;
+        if (!(doubt > 1))
+            continue;
+        const struct element *a = exchange_tree_face(pair->tree, column ? j : i),
+                             *b = exchange_tree_face(pair->tree, column ? i : j);
+        if (rules_do(p, i, j, doubt)) {
+            if (rule[column].count == 0)
+                rule_of(&rule[column], column ? b : a);
+            rule_of(&rule[!column], column ? a : b);
+            e = a->area * b->area * rule_kernel(&rule[0], r->normal, &rule[1], m);
+        } else {
+            e = a->area * polygon_factor(a, b, 1);
         }
+        out[j - range.from] = e > 0 ? fmin(e, fmin(a->area, b->area)) : 0;
+    }
+}
+
+void clear_line(const struct exchange_faces *p, const struct exchange_pair *pair, double tolerance,
+                uint32_t place, int column, double *out)
+{
+    struct line line;
+    moments_times(p, column ? pair->rows : pair->columns,
+                  (column ? pair->emitter : pair->receiver)->normal, &line);
+    make_line(p, pair, tolerance, place, column, &line, out);
+}
+
+void clear_block(const struct exchange_faces *p, const struct exchange_pair *pair, double tolerance,
+                 double *out)
+{
+    struct line line;
+    moments_times(p, pair->columns, pair->receiver->normal, &line);
+    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++) {
+        make_line(p, pair, tolerance, i, 0, &line, out);
+        out += pair->columns.to - pair->columns.from;
     }
 }

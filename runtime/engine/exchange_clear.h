@@ -5,6 +5,10 @@
 
 #include "engine/exchange_tree.h"
 
+/* Blocks are no larger than that on a side, so that a column's values are in the cache while its
+ * neighbours' rows are written. */
+enum { TILE = 64 };
+
 enum { MOMENTS = 6 }; /* xx yy zz xy xz yz */
 
 /* The faces, as the kernel wants them: [faces] each, in the tree's order. */
@@ -15,17 +19,9 @@ struct exchange_faces {
     double *all;             /* where they stand */
 };
 
-/* One thread's room: [most faces of a side]. */
-struct clear_scratch {
-    double *shift[3]; /* M_j n for the faces j of a row */
-    double *doubt;    /* of its pairs, how much of the tolerance the error may be, squared */
-};
-
 /* Returns 0, or -1 when out of memory; close is fine then too. */
 int exchange_faces_open(struct exchange_faces *faces, const struct exchange_tree *tree);
 void exchange_faces_close(struct exchange_faces *faces);
-int clear_scratch_open(struct clear_scratch *scratch, uint32_t most);
-void clear_scratch_close(struct clear_scratch *scratch);
 
 /* Two linked elements of the tree, and which of the receiver's faces (rows) and of the emitter's
  * (columns) a block holds, by place in the tree's order. */
@@ -38,6 +34,11 @@ struct exchange_pair {
 /* out[rows][columns]: A_i F_ij (m2) if nothing stands between the two groups, none above the
  * smaller area; within `tolerance` of itself, or of SIGHT_FLOOR of the smaller area. */
 void clear_block(const struct exchange_faces *faces, const struct exchange_pair *pair,
-                 double tolerance, const struct clear_scratch *scratch, double *out);
+                 double tolerance, double *out);
+
+/* One of its lines, to the same bits: out[columns], the row of the face at that place in the tree's
+ * order; `column`: out[rows], its column. */
+void clear_line(const struct exchange_faces *faces, const struct exchange_pair *pair,
+                double tolerance, uint32_t place, int column, double *out);
 
 #endif

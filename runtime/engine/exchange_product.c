@@ -2,25 +2,23 @@
  *
  * Tiles are dealt out to a fixed number of lanes, each with sums of its own, which are added up in
  * their order: so the result does not depend on who worked on what. Each tile serves both ways
- * round, and is forgotten: memory is that of the links and of the lanes' sums.
+ * round; one that is not kept is forgotten then.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
-#include "engine/exchange_blocks.h"
 #include "engine/exchange_product.h"
 #include "engine/exchange_tiles.h"
 #include "util/thread_pool.h"
 
-/* COLUMNS: at a time. */
-enum { LANES = 16, COLUMNS = 8 };
+/* COLUMNS: at a time. DEAL: tiles that stand one after the other in a lane. */
+enum { LANES = 16, COLUMNS = 8, DEAL = 64 };
 
 struct product {
     const struct exchange_areas *areas;
-    const struct exchange_faces *faces; /* where values are not kept */
-    struct exchange_scratch *scratch;   /* [thread] */
-    double *values;                     /* [thread][TILE * TILE] */
-    double *sums;                       /* [LANES][inputs][columns] */
-    const double *x;                    /* [inputs][across] */
+    struct exchange_scratch *scratch; /* [thread] */
+    double *values;                   /* [thread][TILE * TILE] */
+    double *sums;                     /* [LANES][inputs][columns] */
+    const double *x;                  /* [inputs][across] */
     uint32_t columns, across;
 };
 
@@ -55,18 +53,23 @@ static void add_tile(const struct product *p, const struct exchange_block *b, co
 static void add_lane(const struct product *p, size_t lane)
 {
     const struct exchange_areas *m = p->areas;
-    double *sums = p->sums + lane * m->inputs * p->columns;
-    for (size_t i = lane; m->values && i < m->block_count; i += LANES)
-        add_tile(p, &m->blocks[i], m->values + m->blocks[i].at, sums);
-    if (m->values)
-        return;
-    double *values = p->values + (size_t)thread_pool_number() * TILE * TILE;
+    double *sums = p->sums + lane * m->inputs * p->columns,
+           *values = p->values + (size_t)thread_pool_number() * TILE * TILE;
     struct exchange_scratch *scratch = &p->scratch[thread_pool_number()];
+    for (size_t from = lane * DEAL; from < m->block_count; from += LANES * DEAL)
+        for (size_t i = from; i < from + DEAL && i < m->block_count; i++) {
+            const struct exchange_block *b = &m->blocks[i];
+            if (b->anew)
+                (void)exchange_tile_fill(m, b, &m->links[b->anew - 1], scratch, values);
+            add_tile(p, b, b->anew ? values : m->values + b->at, sums);
+        }
+    if (!m->refinement)
+        return;
     struct exchange_tiles t = exchange_tiles(m, m->refinement);
     for (size_t i = 0; exchange_tiles_next(&t); i++) {
-        if (i % LANES != lane)
+        if (i / DEAL % LANES != lane)
             continue;
-        (void)exchange_tile_fill(m, p->faces, &t.is, t.link, scratch, values);
+        (void)exchange_tile_fill(m, &t.is, t.link, scratch, values);
         add_tile(p, &t.is, values, sums);
     }
 }
@@ -94,18 +97,15 @@ static void run(struct product *p, int threads, double *y)
 int exchange_product(const struct exchange_areas *m, int threads, uint32_t columns, const double *x,
                      double *y)
 {
-    struct exchange_faces faces = {.all = NULL};
     size_t most = columns < COLUMNS ? columns : COLUMNS, workers = (size_t)threads;
     struct product p = {.areas = m,
-                        .faces = &faces,
                         .scratch = calloc(workers, sizeof *p.scratch),
                         .values = malloc(workers * TILE * TILE * sizeof *p.values),
                         .sums = malloc((LANES * most * m->inputs + 1) * sizeof *p.sums),
                         .across = columns};
-    int failed = !p.scratch || !p.values || !p.sums
-                 || (!m->values && exchange_faces_open(&faces, m->tree) < 0);
-    for (size_t t = 0; t < workers && !failed && !m->values; t++)
-        failed = exchange_scratch_open(&p.scratch[t], TILE, &m->limits) < 0;
+    int failed = !p.scratch || !p.values || !p.sums;
+    for (size_t t = 0; t < workers && !failed && (m->refinement || m->links_anew); t++)
+        failed = exchange_scratch_open(&p.scratch[t], &m->limits) < 0;
     for (uint32_t c = 0; c < columns && !failed; c += COLUMNS) {
         p.columns = columns - c < COLUMNS ? columns - c : COLUMNS;
         p.x = x + c;
@@ -116,6 +116,15 @@ int exchange_product(const struct exchange_areas *m, int threads, uint32_t colum
     free(p.scratch);
     free(p.values);
     free(p.sums);
-    exchange_faces_close(&faces);
     return failed ? -1 : 0;
+}
+
+int exchange_sums(const struct exchange_areas *m, int threads, const double *x, double *sums)
+{
+    double *ones = x ? NULL : malloc((m->inputs + 1) * sizeof *ones);
+    for (uint32_t i = 0; i < m->inputs && ones; i++)
+        ones[i] = 1;
+    int status = x || ones ? exchange_product(m, threads, 1, x ? x : ones, sums) : -1;
+    free(ones);
+    return status;
 }

@@ -8,10 +8,6 @@
 
 #include "engine/exchange_areas.h"
 
-/* Tiles are no larger, so that a column's values are in the cache while its neighbours' rows are
- * written. */
-enum { TILE = 64 };
-
 struct exchange_tiles {
     const struct exchange_areas *areas;
     const struct refinement *refinement;
@@ -57,9 +53,10 @@ static inline int exchange_tiles_next(struct exchange_tiles *t)
             t->links += (size_t)counts;
         }
         struct exchange_block *b = &t->is;
-        *b = (struct exchange_block){t->i,      t->r.to - t->i < TILE ? t->r.to - t->i : TILE,
-                                     t->j,      t->s.to - t->j < TILE ? t->s.to - t->j : TILE,
-                                     t->values, 0};
+        uint32_t rows = t->r.to - t->i < TILE ? t->r.to - t->i : TILE,
+                 columns = t->s.to - t->j < TILE ? t->s.to - t->j : TILE;
+        *b =
+            (struct exchange_block){t->i, t->j, (uint16_t)rows, (uint16_t)columns, 0, t->values, 0};
         t->j += TILE;
         if (t->j >= t->s.to) {
             t->j = t->s.from;

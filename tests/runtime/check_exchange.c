@@ -63,7 +63,7 @@ static double wall_to_wall(int cells, int deep)
     ck_assert_int_eq(refinement_open(&refinement, &tree.h, &tree.host, &refiner, 2), 0);
     ck_assert_int_eq(refinement_start(&refinement), 0);
     struct exchange_areas matrix;
-    const struct exchange_aim how = {.tolerance = 3e-4, .keep = 1, .threads = 2};
+    const struct exchange_aim how = {.tolerance = 3e-4, .keep = SIZE_MAX, .threads = 2};
     ck_assert_int_eq(exchange_areas_open(&matrix, &tree, &scene, &refinement, &how), 0);
     uint32_t wall = (uint32_t)(cells * cells);
     double *row = calloc(scene.input_count, sizeof *row), sum = 0;
@@ -183,6 +183,58 @@ START_TEST(test_product)
 }
 END_TEST
 
+/* Rows, products, losses and closures are the same to the bit whether all values are kept, some of
+ * those in clear view, or none; and A_i F_ij is A_j F_ji in all of them. Faces with a back are two
+ * in one row. Faces far and near, in clear view and in half shadow. */
+START_TEST(test_made_anew)
+{
+    enum { CELLS = 12, N = 2 * CELLS * CELLS + 12, FINS = 3 };
+    static const enum closure closures[] = {CLOSURE_NONE, CLOSURE_RECIPROCAL};
+    static double rows[2][N + FINS][N + FINS], out[2][N + FINS], in[N + FINS];
+    size_t keep[] = {SIZE_MAX, 1, 0}, anew;
+    struct scene scene;
+    plates(&scene, CELLS);
+    for (int i = 0; i < FINS; i++) { /* with a back each */
+        made_quad(&scene, 0, 0.2, i * 0.3, 0.2, 0, 0.25, 0, 0, 0, 0.4 + i * 0.1);
+        made_quad(&scene, 0, 0.2, i * 0.3, 0.2, 0, 0, 0.4 + i * 0.1, 0, 0.25, 0);
+        scene.faces[scene.face_count - 2].input = scene.faces[scene.face_count - 1].input =
+            --scene.input_count - 1;
+    }
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    for (int k = 0; k < N + FINS; k++)
+        in[k] = cos(k);
+    for (int i = 0; i < 6; i++) {
+        const struct exchange_options options = {.tolerance = 3e-4,
+                                                 .closure = closures[i / 3],
+                                                 .threads = 1 + i % 3,
+                                                 .keep = keep[i % 3]};
+        struct exchange x;
+        const char *cause = "not set";
+        ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options, &cause), 0);
+        ck_assert_uint_eq(x.areas.inputs, N + FINS);
+        anew = x.areas.value_count - x.areas.kept;
+        ck_assert(i % 3 == 0 ? anew == 0 : anew > 1000);
+        keep[2] = anew / 2 * sizeof(double);
+        for (uint32_t r = 0; r < N + FINS; r++)
+            (void)exchange_row(&x, r, rows[i % 3 > 0][r]);
+        ck_assert_int_eq(exchange_multiply(&x, 1, in, out[i % 3 > 0]), 0);
+        for (uint32_t r = 0; r < N + FINS && i < 3; r++)
+            for (uint32_t c = 0; c < r; c++) {
+                double there = x.areas.area[r] * rows[i > 0][r][c];
+                ck_assert_double_le(fabs(x.areas.area[c] * rows[i > 0][c][r] - there),
+                                    1e-12 * there);
+            }
+        if (i % 3) {
+            ck_assert_int_eq(memcmp(rows[1], rows[0], sizeof rows[0]), 0);
+            ck_assert_int_eq(memcmp(out[1], out[0], sizeof out[0]), 0);
+        }
+        exchange_close(&x);
+    }
+    refiner_close(refiner);
+    made_close(&scene);
+}
+END_TEST
+
 /* Limits follow the tolerance, and only they do. */
 START_TEST(test_tolerance)
 {
@@ -220,6 +272,7 @@ int main(void)
     tcase_add_test(c, test_parts_and_groups);
     tcase_add_test(c, test_cancel);
     tcase_add_test(c, test_product);
+    tcase_add_test(c, test_made_anew);
     tcase_add_test(c, test_tolerance);
     tcase_add_test(c, test_row_scale);
     suite_add_tcase(suite, c);
