@@ -994,17 +994,22 @@ REFINER_TOOL double refiner_plain_angle(double s, double c)
 
 #define REFINER_LAMBERT_PI 3.14159265358979323846
 
-/* The kernel of points on front sides, else 0 (1/m2). `spread` (m2), a piece's area, bounds it
- * where pieces touch: no more than about 1 / spread is exchanged. */
+/* The kernel of points on front sides, else 0 (1/m2), by their cosines times their distance and its
+ * square. `spread` (m2), a piece's area, bounds it where pieces touch: no more than about 1 /
+ * spread is exchanged. Has no branch, for loops that run several at a time. */
+REFINER_TOOL double refiner_lambert_kernel(double cos_x, double cos_y, double square, double spread)
+{
+    double k = cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread));
+    k = cos_x > 0 ? k : 0;
+    return cos_y > 0 ? k : 0;
+}
+
 static inline double refiner_lambert_points(const double x[3], const double n[3], const double y[3],
                                     const double m[3], double spread)
 {
     double w[3];
     refiner_sub3(w, y, x);
-    double cos_x = refiner_dot3(n, w);
-    double cos_y = -refiner_dot3(m, w);
-    double square = refiner_dot3(w, w);
-    return cos_x > 0 && cos_y > 0 ? cos_x * cos_y / (square * (REFINER_LAMBERT_PI * square + spread)) : 0;
+    return refiner_lambert_kernel(refiner_dot3(n, w), -refiner_dot3(m, w), refiner_dot3(w, w), spread);
 }
 
 /* theta Gamma.n of an edge from a to b, both as seen from the point. */
@@ -1805,74 +1810,12 @@ REFINER_OUTLINE double refiner_hemicube_factor(const struct refiner_element *r, 
  * front.
  *
  * (s, t) of the unit square is mapped so that area is kept: straight for a parallelogram, else over
- * a fan of triangles from corner 0. */
+ * a fan of triangles from corner 0. s chooses the triangle; a triangle is the square pulled
+ * together to a point at one side, s drawn to its root so that area is kept. Points are computed
+ * several at a time (lanes.h), each as it would be alone. */
 #ifndef REFINER_KERNEL_SAMPLER_H
 #define REFINER_KERNEL_SAMPLER_H
 
-
-/* A polygon ready to be sampled: a parallelogram, or a fan of triangles. (Its inner loops are
- * written out: at -O2 they cost a quarter more otherwise.) */
-struct refiner_sampler {
-    struct refiner_polygon p;
-    int parallelogram;
-    double right[3], up[3]; /* parallelogram: the sides from corner 0 */
-    /* twice the areas of the fan's triangles (0, i - 1, i), and their sum */
-    double area[REFINER_POLYGON_MAX], whole;
-};
-
-/* The part of e in front of the plane of `other`. */
-static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct refiner_element *e,
-                                const struct refiner_element *other)
-{
-    const struct refiner_polygon *p = &q->p;
-    refiner_polygon_clip(&q->p, (const double(*)[3])e->vertex, e->vertices, other->centre, other->normal);
-    q->whole = 0;
-    q->parallelogram = 0;
-    if (p->n == 4) {
-        double gap = 0, size = 0;
-        for (int k = 0; k < 3; k++) {
-            double x = p->v[0][k] - p->v[1][k] + p->v[2][k] - p->v[3][k],
-                   y = p->v[2][k] - p->v[0][k];
-            gap += x * x;
-            size += y * y;
-        }
-        q->parallelogram = gap <= REFINER_SAMPLER_PARALLELOGRAM * size;
-        refiner_sub3(q->right, p->v[1], p->v[0]);
-        refiner_sub3(q->up, p->v[3], p->v[0]);
-    }
-    for (int i = 2; i < p->n && !q->parallelogram; i++) {
-        double a[3], b[3], c[3];
-        refiner_sub3(a, p->v[i - 1], p->v[0]);
-        refiner_sub3(b, p->v[i], p->v[0]);
-        refiner_cross3(c, a, b);
-        q->area[i] = refiner_dot3(c, e->normal);
-        q->whole += q->area[i];
-    }
-}
-
-/* Map (s, t) in the unit square to the polygon so that area is kept. */
-static inline void refiner_sampler_point(double out[3], const struct refiner_sampler *q, double s, double t)
-{
-    const double *a = q->p.v[0];
-    if (q->parallelogram) {
-        out[0] = a[0] + s * q->right[0] + t * q->up[0];
-        out[1] = a[1] + s * q->right[1] + t * q->up[1];
-        out[2] = a[2] + s * q->right[2] + t * q->up[2];
-        return;
-    }
-    s *= q->whole;
-    int i;
-    for (i = 2; i < q->p.n - 1 && s >= q->area[i]; i++)
-        s -= q->area[i];
-    s = q->area[i] > 0 && s < q->area[i] ? sqrt(s / q->area[i]) : 1;
-    const double *b = q->p.v[i - 1];
-    const double *c = q->p.v[i];
-    out[0] = a[0] + s * (b[0] - a[0]) + s * t * (c[0] - b[0]);
-    out[1] = a[1] + s * (b[1] - a[1]) + s * t * (c[1] - b[1]);
-    out[2] = a[2] + s * (b[2] - a[2]) + s * t * (c[2] - b[2]);
-}
-
-#endif
 /* sobol.h - points spread evenly over four dimensions: Sobol's net, its digits shifted.
  *
  * The first 2^m points stand one each in the boxes of many subdivisions, so that means over them
@@ -1914,7 +1857,7 @@ struct refiner_sobol {
     uint32_t digit[4];
 };
 
-/* Before the first point of the net that the hash shifts. */
+/* The net that the hash shifts. */
 static inline void refiner_sobol_start(struct refiner_sobol *net, uint64_t hash)
 {
     for (int k = 0; k < 4; k += 2) {
@@ -1924,39 +1867,166 @@ static inline void refiner_sobol_start(struct refiner_sobol *net, uint64_t hash)
     }
 }
 
-/* Go to point i; to be called with 0, 1, 2 and so on. */
-static inline void refiner_sobol_go(struct refiner_sobol *net, int i)
+/* The digits of points first to first + count - 1, first a multiple of SEGMENTS_MAX, in the order
+ * of Gray codes; up to 15 more are written. The four low bits of an index have a table; what each
+ * of the others toggles is the sum of its direction number and the one before. */
+static inline void refiner_sobol_points(const struct refiner_sobol *net, int first, int count,
+                                uint32_t digit[4][REFINER_SEGMENTS_MAX])
 {
-    /* Direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the index. */
-    static const uint32_t direction[12][4] = {
-        {0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u},
-        {0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u},
-        {0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u},
-        {0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u},
-        {0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u},
-        {0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u},
-        {0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u},
-        {0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u},
-        {0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u},
-        {0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u},
-        {0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u},
-        {0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u},
+    /* The leading four digits of the first 16 points; they have no others. */
+    static const uint32_t low[4][16] = {
+        {0x0, 0x8, 0xc, 0x4, 0x6, 0xe, 0xa, 0x2, 0x3, 0xb, 0xf, 0x7, 0x5, 0xd, 0x9, 0x1},
+        {0x0, 0x8, 0x4, 0xc, 0x6, 0xe, 0x2, 0xa, 0x5, 0xd, 0x1, 0x9, 0x3, 0xb, 0x7, 0xf},
+        {0x0, 0x8, 0x4, 0xc, 0xa, 0x2, 0xe, 0x6, 0xf, 0x7, 0xb, 0x3, 0x5, 0xd, 0x1, 0x9},
+        {0x0, 0x8, 0x4, 0xc, 0xe, 0x6, 0xa, 0x2, 0x7, 0xf, 0x3, 0xb, 0x9, 0x1, 0xd, 0x5},
     };
-    if (i > 0) { /* one digit changes from point to point */
-        const uint32_t *toggle = direction[0];
-        for (int bits = i; !(bits & 1); bits >>= 1)
-            toggle += 4;
-        net->digit[0] ^= toggle[0];
-        net->digit[1] ^= toggle[1];
-        net->digit[2] ^= toggle[2];
-        net->digit[3] ^= toggle[3];
+    static const uint32_t toggle[8][4] = {
+        {0x18000000u, 0x78000000u, 0x78000000u, 0xa8000000u},
+        {0x0c000000u, 0x44000000u, 0xb4000000u, 0x8c000000u},
+        {0x06000000u, 0x66000000u, 0xd2000000u, 0xd6000000u},
+        {0x03000000u, 0x55000000u, 0x4b000000u, 0x31000000u},
+        {0x01800000u, 0x7f800000u, 0xad800000u, 0x4b800000u},
+        {0x00c00000u, 0x40400000u, 0xf4400000u, 0xfdc00000u},
+        {0x00600000u, 0x60600000u, 0x72a00000u, 0x7ca00000u},
+        {0x00300000u, 0x50500000u, 0xbbf00000u, 0xbf300000u},
+    };
+    for (int at = 0; at < count; at += 16) {
+        uint32_t shift[4];
+        for (int k = 0; k < 4; k++)
+            shift[k] = net->digit[k];
+        const uint32_t(*of)[4] = toggle;
+        for (int bits = (first + at) >> 4; bits; bits >>= 1, of++)
+            for (int k = 0; bits & 1 && k < 4; k++)
+                shift[k] ^= (*of)[k];
+        for (int k = 0; k < 4; k++)
+            for (int i = 0; i < 16; i++)
+                digit[k][at + i] = low[k][i] << 28 ^ shift[k];
     }
 }
 
-/* Coordinate k of the point, in [0, 1). */
-static inline double refiner_sobol_at(const struct refiner_sobol *net, int k)
+/* The coordinate that digits stand for, digits / 2^32, in [0, 1): by a number with a sign, as
+ * processors convert those several at a time. */
+REFINER_TOOL double refiner_sobol_unit(uint32_t digits)
 {
-    return net->digit[k] * (1 / 4294967296.0);
+    return (double)(int32_t)(digits ^ 0x80000000u) * (1 / 4294967296.0) + 0.5;
+}
+
+#endif
+
+enum { REFINER_SAMPLER_PARTS = REFINER_POLYGON_MAX - 2 };
+
+/* A polygon ready to be sampled: a parallelogram, or a fan of triangles (0, i + 1, i + 2). */
+struct refiner_sampler {
+    struct refiner_polygon p;
+    int parallelogram;
+    /* the sides from corner 0; of triangle i, its side from corner 0 and the one across */
+    double right[REFINER_SAMPLER_PARTS][3], up[REFINER_SAMPLER_PARTS][3];
+    /* twice the triangles' areas, and their sum; what s must reach for the next one */
+    double area[REFINER_SAMPLER_PARTS], whole, limit[REFINER_SAMPLER_PARTS];
+};
+
+/* The part of e in front of the plane of `other`. */
+static inline void refiner_sampler_clip(struct refiner_sampler *q, const struct refiner_element *e,
+                                const struct refiner_element *other)
+{
+    const struct refiner_polygon *p = &q->p;
+    refiner_polygon_clip(&q->p, (const double(*)[3])e->vertex, e->vertices, other->centre, other->normal);
+    q->parallelogram = 0;
+    if (p->n == 4) {
+        double gap = 0, size = 0;
+        for (int k = 0; k < 3; k++) {
+            double x = p->v[0][k] - p->v[1][k] + p->v[2][k] - p->v[3][k],
+                   y = p->v[2][k] - p->v[0][k];
+            gap += x * x;
+            size += y * y;
+        }
+        q->parallelogram = gap <= REFINER_SAMPLER_PARALLELOGRAM * size;
+    }
+    if (q->parallelogram) {
+        refiner_sub3(q->right[0], p->v[1], p->v[0]);
+        refiner_sub3(q->up[0], p->v[3], p->v[0]);
+        return;
+    }
+    q->whole = 0;
+    for (int i = 0; i < REFINER_SAMPLER_PARTS; i++) {
+        q->limit[i] = INFINITY;
+        q->area[i] = 0;
+        if (i + 2 < p->n) {
+            double c[3], d[3];
+            refiner_sub3(q->right[i], p->v[i + 1], p->v[0]);
+            refiner_sub3(q->up[i], p->v[i + 2], p->v[i + 1]);
+            refiner_sub3(d, p->v[i + 2], p->v[0]);
+            refiner_cross3(c, q->right[i], d);
+            q->area[i] = refiner_dot3(c, e->normal);
+            q->whole += q->area[i];
+            if (i + 3 < p->n)
+                q->limit[i] = q->area[i];
+        } else {
+            for (int k = 0; k < 3; k++)
+                q->right[i][k] = q->up[i][k] = 0;
+        }
+    }
+}
+
+REFINER_TOOL void refiner_sampler_parallelogram(const struct refiner_sampler *q, int count, const uint32_t *s,
+                                const uint32_t *t, double (*out)[REFINER_SEGMENTS_MAX])
+{
+    const double *a = q->p.v[0], *r = q->right[0], *u = q->up[0];
+    const double a0 = a[0], a1 = a[1], a2 = a[2], r0 = r[0], r1 = r[1], r2 = r[2], u0 = u[0],
+                 u1 = u[1], u2 = u[2];
+    for (int i = 0; i < count; i += REFINER_LANES)
+        for (int j = i; j < i + REFINER_LANES; j++) {
+            const double x = refiner_sobol_unit(s[j]), y = refiner_sobol_unit(t[j]);
+            out[0][j] = a0 + x * r0 + y * u0;
+            out[1][j] = a1 + x * r1 + y * u1;
+            out[2][j] = a2 + x * r2 + y * u2;
+        }
+}
+
+REFINER_TOOL void refiner_sampler_fan(const struct refiner_sampler *q, int count, const uint32_t *s, const uint32_t *t,
+                      double (*out)[REFINER_SEGMENTS_MAX])
+{
+    /* how far along the triangle's side and how far across, and which it is: 0, 1, 2 */
+    double along[REFINER_SEGMENTS_MAX], across[REFINER_SEGMENTS_MAX], part[REFINER_SEGMENTS_MAX];
+    const double whole = q->whole, limit_0 = q->limit[0], limit_1 = q->limit[1],
+                 area_0 = q->area[0], area_1 = q->area[1], area_2 = q->area[2];
+    for (int i = 0; i < count; i += REFINER_LANES)
+        for (int j = i; j < i + REFINER_LANES; j++) {
+            double x = refiner_sobol_unit(s[j]) * whole, rest = x - area_0, last = rest - area_1;
+            double area = x >= limit_0 ? area_1 : area_0;
+            double at = x >= limit_0 ? 1 : 0;
+            double y = x >= limit_0 ? rest : x;
+            double other = x >= limit_0 ? limit_1 : INFINITY;
+            area = y >= other ? area_2 : area;
+            part[j] = y >= other ? 2 : at;
+            y = y >= other ? last : y;
+            double root = sqrt(y / area);
+            root = area > 0 ? root : 1;
+            root = y < area ? root : 1;
+            along[j] = root;
+            across[j] = root * refiner_sobol_unit(t[j]);
+        }
+    for (int k = 0; k < 3; k++) {
+        const double from = q->p.v[0][k], r0 = q->right[0][k], r1 = q->right[1][k],
+                     r2 = q->right[2][k], u0 = q->up[0][k], u1 = q->up[1][k], u2 = q->up[2][k];
+        for (int i = 0; i < count; i += REFINER_LANES)
+            for (int j = i; j < i + REFINER_LANES; j++) {
+                double right = part[j] > 0 ? r1 : r0, up = part[j] > 0 ? u1 : u0;
+                right = part[j] > 1 ? r2 : right;
+                up = part[j] > 1 ? u2 : up;
+                out[k][j] = from + along[j] * right + across[j] * up;
+            }
+    }
+}
+
+/* `count` points, rounded up to whole lanes; from the digits of both coordinates. */
+REFINER_TOOL void refiner_sampler_points(const struct refiner_sampler *q, int count, const uint32_t *s, const uint32_t *t,
+                         double (*out)[REFINER_SEGMENTS_MAX])
+{
+    if (q->parallelogram)
+        refiner_sampler_parallelogram(q, count, s, t, out);
+    else
+        refiner_sampler_fan(q, count, s, t, out);
 }
 
 #endif
@@ -2011,7 +2081,8 @@ REFINER_OUTLINE double refiner_ray_factor(const struct refiner_element *r, const
     const struct refiner_element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct refiner_sampler p, q;
     struct refiner_sobol net;
-    double x[3], y[3], sum = 0;
+    uint32_t digit[4][REFINER_SEGMENTS_MAX];
+    double from[3][REFINER_SEGMENTS_MAX], to[3][REFINER_SEGMENTS_MAX], sum = 0;
     refiner_sampler_clip(&p, small, large);
     refiner_sampler_clip(&q, large, small);
     if (p.p.n == 0 || q.p.n == 0)
@@ -2019,13 +2090,18 @@ REFINER_OUTLINE double refiner_ray_factor(const struct refiner_element *r, const
     const double area = refiner_polygon_area(&q.p, large->normal);
     const struct refiner_hemisphere h = refiner_hemisphere_over(small->normal);
     refiner_sobol_start(&net, refiner_hash64(small->id + refiner_hash64(large->id)));
-    for (int i = 0; i < count; i++) {
-        refiner_sobol_go(&net, i);
-        const double u = refiner_sobol_at(&net, 2), v = refiner_sobol_at(&net, 3);
-        refiner_sampler_point(x, &p, refiner_sobol_at(&net, 0), refiner_sobol_at(&net, 1));
-        refiner_sampler_point(y, &q, u, v);
-        sum += refiner_ray_factor_to(x, &h, y, large->normal, area);
-        sum += refiner_ray_factor_along(x, &h, u, v, &q.p, large->normal, area);
+    for (int first = 0; first < count; first += REFINER_SEGMENTS_MAX) {
+        const int batch = count - first < REFINER_SEGMENTS_MAX ? count - first : REFINER_SEGMENTS_MAX;
+        refiner_sobol_points(&net, first, batch, digit);
+        refiner_sampler_points(&p, batch, digit[0], digit[1], from);
+        refiner_sampler_points(&q, batch, digit[2], digit[3], to);
+        for (int i = 0; i < batch; i++) {
+            const double x[3] = {from[0][i], from[1][i], from[2][i]},
+                         y[3] = {to[0][i], to[1][i], to[2][i]};
+            sum += refiner_ray_factor_to(x, &h, y, large->normal, area);
+            sum += refiner_ray_factor_along(x, &h, refiner_sobol_unit(digit[2][i]), refiner_sobol_unit(digit[3][i]), &q.p,
+                                    large->normal, area);
+        }
     }
     const double exchange = refiner_polygon_area(&p.p, small->normal) * sum / count;
     const double least = r->area < s->area ? r->area : s->area;
@@ -2174,6 +2250,99 @@ REFINER_TOOL enum refiner_larger_answer refiner_tool_larger(struct refiner_discu
 #ifndef REFINER_TERM_VISIBILITY_H
 #define REFINER_TERM_VISIBILITY_H
 
+/* samples.h - segments between two surfaces and the weight of what each would carry, computed
+ * several at a time (lanes.h), each as it would be alone. */
+#ifndef REFINER_KERNEL_SAMPLES_H
+#define REFINER_KERNEL_SAMPLES_H
+
+
+/* Up to SEGMENTS_MAX segments, coordinate by coordinate; the digits of a net's points that made
+ * them (sobol_points). */
+struct refiner_samples {
+    uint32_t digit[4][REFINER_SEGMENTS_MAX];
+    double from[3][REFINER_SEGMENTS_MAX], to[3][REFINER_SEGMENTS_MAX], weight[REFINER_SEGMENTS_MAX];
+};
+
+/* Between what. */
+struct refiner_samples_ends {
+    struct refiner_sampler p, q; /* where they start and end; q.p.n = 0: where they end is known */
+    const double *n, *m; /* the normals */
+    double spread;       /* as lambert_kernel has it (m2) */
+    double ray_offset;   /* how far off the surfaces they start and end (m) */
+};
+
+REFINER_TOOL void refiner_samples_body(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+{
+    refiner_sampler_points(&e->p, count, x->digit[0], x->digit[1], x->from);
+    if (e->q.p.n)
+        refiner_sampler_points(&e->q, count, x->digit[2], x->digit[3], x->to);
+    const double n0 = e->n[0], n1 = e->n[1], n2 = e->n[2], m0 = e->m[0], m1 = e->m[1], m2 = e->m[2],
+                 off = e->ray_offset, spread = e->spread;
+    for (int i = 0; i < count; i += REFINER_LANES)
+        for (int j = i; j < i + REFINER_LANES; j++) {
+            double a0 = x->from[0][j], a1 = x->from[1][j], a2 = x->from[2][j];
+            double b0 = x->to[0][j], b1 = x->to[1][j], b2 = x->to[2][j];
+            double w0 = b0 - a0, w1 = b1 - a1, w2 = b2 - a2;
+            x->weight[j] =
+                refiner_lambert_kernel(n0 * w0 + n1 * w1 + n2 * w2, -(m0 * w0 + m1 * w1 + m2 * w2),
+                               w0 * w0 + w1 * w1 + w2 * w2, spread);
+            x->from[0][j] = a0 + off * n0;
+            x->from[1][j] = a1 + off * n1;
+            x->from[2][j] = a2 + off * n2;
+            x->to[0][j] = b0 + off * m0;
+            x->to[1][j] = b1 + off * m1;
+            x->to[2][j] = b2 + off * m2;
+        }
+}
+
+#if REFINER_LANES_CHOSEN
+REFINER_LANES_AVX512 void refiner_samples_8(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+{
+    refiner_samples_body(x, e, count);
+}
+REFINER_LANES_AVX2 void refiner_samples_4(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+{
+    refiner_samples_body(x, e, count);
+}
+#endif
+REFINER_OUTLINE void refiner_samples_1(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+{
+    refiner_samples_body(x, e, count);
+}
+
+/* Make `count` segments of their digits, in vectors of a width (lanes_width). */
+static inline void refiner_samples_at(int width, struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+{
+#if REFINER_LANES_CHOSEN
+    if (width == 8 && refiner_lanes_width() == 8) {
+        refiner_samples_8(x, e, count);
+        return;
+    }
+    if (width >= 4 && refiner_lanes_width() >= 4) {
+        refiner_samples_4(x, e, count);
+        return;
+    }
+#endif
+    (void)width;
+    refiner_samples_1(x, e, count);
+}
+
+static inline void refiner_samples_make(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+{
+    refiner_samples_at(refiner_lanes_width(), x, e, count);
+}
+
+/* As `occluded` takes them. */
+static inline void refiner_samples_segments(const struct refiner_samples *x, int count, struct refiner_segment *segments)
+{
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) {
+            segments[i].from[k] = x->from[k][i];
+            segments[i].to[k] = x->to[k][i];
+        }
+}
+
+#endif
 /* segments.h - visibility by segments, each with the weight of what it would carry. */
 #ifndef REFINER_KERNEL_SEGMENTS_H
 #define REFINER_KERNEL_SEGMENTS_H
@@ -2227,32 +2396,31 @@ REFINER_OUTLINE double refiner_visibility_rays(const struct refiner_element *rec
     const struct refiner_element *r = receiver->id < emitter->id ? receiver : emitter,
                          *s = r == receiver ? emitter : receiver;
     int points = count > 1 ? count : REFINER_VISIBILITY_CHOICE;
-    double weight[REFINER_SEGMENTS_MAX], seen = 0, all = 0,
-                                 spread = (r->area < s->area ? r->area : s->area) / points;
     uint64_t hash = refiner_hash64(r->id + refiner_hash64(s->id));
-    struct refiner_sampler p, q;
-    struct refiner_sobol net;
-    refiner_sampler_clip(&p, r, s);
-    refiner_sampler_clip(&q, s, r);
-    if (p.p.n == 0 || q.p.n == 0)
+    struct refiner_samples_ends ends;
+    refiner_sampler_clip(&ends.p, r, s);
+    refiner_sampler_clip(&ends.q, s, r);
+    if (ends.p.p.n == 0 || ends.q.p.n == 0)
         return 0;
+    ends.n = r->normal;
+    ends.m = s->normal;
+    ends.spread = (r->area < s->area ? r->area : s->area) / points;
+    ends.ray_offset = host->ray_offset;
+    struct refiner_sobol net;
     refiner_sobol_start(&net, hash);
+    struct refiner_samples samples;
     struct refiner_segment segments[REFINER_SEGMENTS_MAX];
+    double seen = 0, all = 0;
     for (int first = 0; first < points; first += REFINER_SEGMENTS_MAX) {
         int batch = points - first < REFINER_SEGMENTS_MAX ? points - first : REFINER_SEGMENTS_MAX;
-        for (int i = 0; i < batch; i++) {
-            struct refiner_segment *g = &segments[i];
-            refiner_sobol_go(&net, first + i);
-            refiner_sampler_point(g->from, &p, refiner_sobol_at(&net, 0), refiner_sobol_at(&net, 1));
-            refiner_sampler_point(g->to, &q, refiner_sobol_at(&net, 2), refiner_sobol_at(&net, 3));
-            weight[i] = refiner_lambert_points(g->from, r->normal, g->to, s->normal, spread);
-            refiner_segment_clear(g, r->normal, s->normal, host);
-        }
+        refiner_sobol_points(&net, first, batch, samples.digit);
+        refiner_samples_make(&samples, &ends, batch);
+        refiner_samples_segments(&samples, batch, segments);
         if (count < points) {
-            refiner_segments_choose(batch, segments, weight, refiner_hash_unit(hash + REFINER_HASH_STEP));
+            refiner_segments_choose(batch, segments, samples.weight, refiner_hash_unit(hash + REFINER_HASH_STEP));
             batch = count;
         }
-        refiner_segments_cast(host, batch, segments, weight, &seen, &all);
+        refiner_segments_cast(host, batch, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

@@ -72,7 +72,8 @@ OUTLINE double ray_factor(const struct element *r, const struct element *s, int 
     const struct element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
     struct sampler p, q;
     struct sobol net;
-    double x[3], y[3], sum = 0;
+    uint32_t digit[4][SEGMENTS_MAX];
+    double from[3][SEGMENTS_MAX], to[3][SEGMENTS_MAX], sum = 0;
     sampler_clip(&p, small, large);
     sampler_clip(&q, large, small);
     if (p.p.n == 0 || q.p.n == 0)
@@ -80,13 +81,18 @@ OUTLINE double ray_factor(const struct element *r, const struct element *s, int 
     const double area = polygon_area(&q.p, large->normal);
     const struct hemisphere h = hemisphere_over(small->normal);
     sobol_start(&net, hash64(small->id + hash64(large->id)));
-    for (int i = 0; i < count; i++) {
-        sobol_go(&net, i);
-        const double u = sobol_at(&net, 2), v = sobol_at(&net, 3);
-        sampler_point(x, &p, sobol_at(&net, 0), sobol_at(&net, 1));
-        sampler_point(y, &q, u, v);
-        sum += ray_factor_to(x, &h, y, large->normal, area);
-        sum += ray_factor_along(x, &h, u, v, &q.p, large->normal, area);
+    for (int first = 0; first < count; first += SEGMENTS_MAX) {
+        const int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;
+        sobol_points(&net, first, batch, digit);
+        sampler_points(&p, batch, digit[0], digit[1], from);
+        sampler_points(&q, batch, digit[2], digit[3], to);
+        for (int i = 0; i < batch; i++) {
+            const double x[3] = {from[0][i], from[1][i], from[2][i]},
+                         y[3] = {to[0][i], to[1][i], to[2][i]};
+            sum += ray_factor_to(x, &h, y, large->normal, area);
+            sum += ray_factor_along(x, &h, sobol_unit(digit[2][i]), sobol_unit(digit[3][i]), &q.p,
+                                    large->normal, area);
+        }
     }
     const double exchange = polygon_area(&p.p, small->normal) * sum / count;
     const double least = r->area < s->area ? r->area : s->area;

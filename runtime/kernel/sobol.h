@@ -17,7 +17,7 @@ struct sobol {
     uint32_t digit[4];
 };
 
-/* Before the first point of the net that the hash shifts. */
+/* The net that the hash shifts. */
 static inline void sobol_start(struct sobol *net, uint64_t hash)
 {
     for (int k = 0; k < 4; k += 2) {
@@ -27,39 +27,48 @@ static inline void sobol_start(struct sobol *net, uint64_t hash)
     }
 }
 
-/* Go to point i; to be called with 0, 1, 2 and so on. */
-static inline void sobol_go(struct sobol *net, int i)
+/* The digits of points first to first + count - 1, first a multiple of SEGMENTS_MAX, in the order
+ * of Gray codes; up to 15 more are written. The four low bits of an index have a table; what each
+ * of the others toggles is the sum of its direction number and the one before. */
+static inline void sobol_points(const struct sobol *net, int first, int count,
+                                uint32_t digit[4][SEGMENTS_MAX])
 {
-    /* Direction numbers, dimensions 1 to 4, the twelve leading bits: one per bit of the index. */
-    static const uint32_t direction[12][4] = {
-        {0x80000000u, 0x80000000u, 0x80000000u, 0x80000000u},
-        {0x40000000u, 0xc0000000u, 0xc0000000u, 0xc0000000u},
-        {0x20000000u, 0xa0000000u, 0x60000000u, 0x20000000u},
-        {0x10000000u, 0xf0000000u, 0x90000000u, 0x50000000u},
-        {0x08000000u, 0x88000000u, 0xe8000000u, 0xf8000000u},
-        {0x04000000u, 0xcc000000u, 0x5c000000u, 0x74000000u},
-        {0x02000000u, 0xaa000000u, 0x8e000000u, 0xa2000000u},
-        {0x01000000u, 0xff000000u, 0xc5000000u, 0x93000000u},
-        {0x00800000u, 0x80800000u, 0x68800000u, 0xd8800000u},
-        {0x00400000u, 0xc0c00000u, 0x9cc00000u, 0x25400000u},
-        {0x00200000u, 0xa0a00000u, 0xee600000u, 0x59e00000u},
-        {0x00100000u, 0xf0f00000u, 0x55900000u, 0xe6d00000u},
+    /* The leading four digits of the first 16 points; they have no others. */
+    static const uint32_t low[4][16] = {
+        {0x0, 0x8, 0xc, 0x4, 0x6, 0xe, 0xa, 0x2, 0x3, 0xb, 0xf, 0x7, 0x5, 0xd, 0x9, 0x1},
+        {0x0, 0x8, 0x4, 0xc, 0x6, 0xe, 0x2, 0xa, 0x5, 0xd, 0x1, 0x9, 0x3, 0xb, 0x7, 0xf},
+        {0x0, 0x8, 0x4, 0xc, 0xa, 0x2, 0xe, 0x6, 0xf, 0x7, 0xb, 0x3, 0x5, 0xd, 0x1, 0x9},
+        {0x0, 0x8, 0x4, 0xc, 0xe, 0x6, 0xa, 0x2, 0x7, 0xf, 0x3, 0xb, 0x9, 0x1, 0xd, 0x5},
     };
-    if (i > 0) { /* one digit changes from point to point */
-        const uint32_t *toggle = direction[0];
-        for (int bits = i; !(bits & 1); bits >>= 1)
-            toggle += 4;
-        net->digit[0] ^= toggle[0];
-        net->digit[1] ^= toggle[1];
-        net->digit[2] ^= toggle[2];
-        net->digit[3] ^= toggle[3];
+    static const uint32_t toggle[8][4] = {
+        {0x18000000u, 0x78000000u, 0x78000000u, 0xa8000000u},
+        {0x0c000000u, 0x44000000u, 0xb4000000u, 0x8c000000u},
+        {0x06000000u, 0x66000000u, 0xd2000000u, 0xd6000000u},
+        {0x03000000u, 0x55000000u, 0x4b000000u, 0x31000000u},
+        {0x01800000u, 0x7f800000u, 0xad800000u, 0x4b800000u},
+        {0x00c00000u, 0x40400000u, 0xf4400000u, 0xfdc00000u},
+        {0x00600000u, 0x60600000u, 0x72a00000u, 0x7ca00000u},
+        {0x00300000u, 0x50500000u, 0xbbf00000u, 0xbf300000u},
+    };
+    for (int at = 0; at < count; at += 16) {
+        uint32_t shift[4];
+        for (int k = 0; k < 4; k++)
+            shift[k] = net->digit[k];
+        const uint32_t(*of)[4] = toggle;
+        for (int bits = (first + at) >> 4; bits; bits >>= 1, of++)
+            for (int k = 0; bits & 1 && k < 4; k++)
+                shift[k] ^= (*of)[k];
+        for (int k = 0; k < 4; k++)
+            for (int i = 0; i < 16; i++)
+                digit[k][at + i] = low[k][i] << 28 ^ shift[k];
     }
 }
 
-/* Coordinate k of the point, in [0, 1). */
-static inline double sobol_at(const struct sobol *net, int k)
+/* The coordinate that digits stand for, digits / 2^32, in [0, 1): by a number with a sign, as
+ * processors convert those several at a time. */
+TOOL double sobol_unit(uint32_t digits)
 {
-    return net->digit[k] * (1 / 4294967296.0);
+    return (double)(int32_t)(digits ^ 0x80000000u) * (1 / 4294967296.0) + 0.5;
 }
 
 #endif

@@ -27,8 +27,7 @@
 #include "discussion.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
-#include "kernel/lambert.h"
-#include "kernel/sampler.h"
+#include "kernel/samples.h"
 #include "kernel/segments.h"
 #include "kernel/sobol.h"
 
@@ -40,32 +39,31 @@ OUTLINE double visibility_rays(const struct element *receiver, const struct elem
     const struct element *r = receiver->id < emitter->id ? receiver : emitter,
                          *s = r == receiver ? emitter : receiver;
     int points = count > 1 ? count : VISIBILITY_CHOICE;
-    double weight[SEGMENTS_MAX], seen = 0, all = 0,
-                                 spread = (r->area < s->area ? r->area : s->area) / points;
     uint64_t hash = hash64(r->id + hash64(s->id));
-    struct sampler p, q;
-    struct sobol net;
-    sampler_clip(&p, r, s);
-    sampler_clip(&q, s, r);
-    if (p.p.n == 0 || q.p.n == 0)
+    struct samples_ends ends;
+    sampler_clip(&ends.p, r, s);
+    sampler_clip(&ends.q, s, r);
+    if (ends.p.p.n == 0 || ends.q.p.n == 0)
         return 0;
+    ends.n = r->normal;
+    ends.m = s->normal;
+    ends.spread = (r->area < s->area ? r->area : s->area) / points;
+    ends.ray_offset = host->ray_offset;
+    struct sobol net;
     sobol_start(&net, hash);
+    struct samples samples;
     struct segment segments[SEGMENTS_MAX];
+    double seen = 0, all = 0;
     for (int first = 0; first < points; first += SEGMENTS_MAX) {
         int batch = points - first < SEGMENTS_MAX ? points - first : SEGMENTS_MAX;
-        for (int i = 0; i < batch; i++) {
-            struct segment *g = &segments[i];
-            sobol_go(&net, first + i);
-            sampler_point(g->from, &p, sobol_at(&net, 0), sobol_at(&net, 1));
-            sampler_point(g->to, &q, sobol_at(&net, 2), sobol_at(&net, 3));
-            weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
-            segment_clear(g, r->normal, s->normal, host);
-        }
+        sobol_points(&net, first, batch, samples.digit);
+        samples_make(&samples, &ends, batch);
+        samples_segments(&samples, batch, segments);
         if (count < points) {
-            segments_choose(batch, segments, weight, hash_unit(hash + HASH_STEP));
+            segments_choose(batch, segments, samples.weight, hash_unit(hash + HASH_STEP));
             batch = count;
         }
-        segments_cast(host, batch, segments, weight, &seen, &all);
+        segments_cast(host, batch, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

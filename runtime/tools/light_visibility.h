@@ -43,28 +43,35 @@ OUTLINE double light_visibility_rays(const struct element *r, const struct eleme
                                      const struct host *host, int count)
 {
     const struct element *elements = host->elements ? *host->elements : NULL;
-    double weight[SEGMENTS_MAX], seen = 0, all = 0,
-                                 spread = (r->area < s->area ? r->area : s->area) / count;
-    struct sampler p;
-    struct sobol net;
-    struct segment segments[SEGMENTS_MAX];
-    sampler_clip(&p, r, s);
-    if (p.p.n == 0)
+    struct samples_ends ends;
+    sampler_clip(&ends.p, r, s);
+    if (ends.p.p.n == 0)
         return 0;
+    ends.q.p.n = 0;
+    ends.n = r->normal;
+    ends.m = s->normal;
+    ends.spread = (r->area < s->area ? r->area : s->area) / count;
+    ends.ray_offset = host->ray_offset;
+    struct sobol net;
     sobol_start(&net, hash64(r->id + 2 * hash64(s->id)));
+    struct samples samples;
+    struct segment segments[SEGMENTS_MAX];
+    double seen = 0, all = 0;
     for (int first = 0; first < count; first += SEGMENTS_MAX) {
         int batch = count - first < SEGMENTS_MAX ? count - first : SEGMENTS_MAX;
+        sobol_points(&net, first, batch, samples.digit);
         for (int i = 0; i < batch; i++) {
-            struct segment *g = &segments[i];
-            sobol_go(&net, first + i);
-            double u = sobol_at(&net, 2);
+            double u = sobol_unit(samples.digit[2][i]), to[3];
             const struct element *part = light_visibility_part(s, elements, &u);
-            sampler_point(g->from, &p, sobol_at(&net, 0), sobol_at(&net, 1));
-            surface_point(g->to, part, u, sobol_at(&net, 3));
-            weight[i] = lambert_points(g->from, r->normal, g->to, s->normal, spread);
-            segment_clear(g, r->normal, s->normal, host);
+            surface_point(to, part, u, sobol_unit(samples.digit[3][i]));
+            for (int k = 0; k < 3; k++)
+                samples.to[k][i] = to[k];
         }
-        segments_cast(host, batch, segments, weight, &seen, &all);
+        for (int i = batch; i % LANES; i++) /* no numbers there, but read */
+            samples.to[0][i] = samples.to[1][i] = samples.to[2][i] = 0;
+        samples_make(&samples, &ends, batch);
+        samples_segments(&samples, batch, segments);
+        segments_cast(host, batch, segments, samples.weight, &seen, &all);
     }
     return all > 0 ? seen / all : 0;
 }

@@ -12,7 +12,7 @@ struct rays;
 /* What the rays have cost so far, all threads together. */
 struct rays_count {
     uint64_t rays;
-    double seconds; /* inside Embree, summed over threads */
+    double seconds; /* inside Embree, summed over threads; by some of the calls */
 };
 
 /* Build the occlusion structure over the faces; those marked `back` cast no shadow of their own,

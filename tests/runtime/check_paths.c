@@ -298,8 +298,7 @@ START_TEST(test_particles)
 }
 END_TEST
 
-/* Two ways through the same points: by any index, and one after the other in the order of Gray
- * codes, where one digit changes from point to point. */
+/* Two ways to the same points: one by one, and many at once in the order of Gray codes. */
 START_TEST(test_sobol)
 {
     struct sobol_sequence sequence;
@@ -311,10 +310,12 @@ START_TEST(test_sobol)
         shift[k] = net.digit[k];
     for (int i = 0; i < SOBOL_MOST; i++) {
         double point[SOBOL_DIMENSIONS];
-        sobol_go(&net, i);
+        uint32_t digit[4][SEGMENTS_MAX];
+        const int at = i % SEGMENTS_MAX;
+        sobol_points(&net, i - at, at + 1, digit);
         sobol_sequence_point(&sequence, (uint32_t)(i ^ i >> 1), shift, point);
         for (int k = 0; k < 4; k++)
-            ck_assert(point[k] == sobol_at(&net, k));
+            ck_assert(point[k] == sobol_unit(digit[k][at]));
     }
 }
 END_TEST

@@ -9,6 +9,7 @@
 #include "util/oracles.h"
 #include "engine/solve.h"
 #include "suite.h"
+#include "kernel/samples.h"
 #include "terms/form_factor.h"
 #include "terms/form_factor_range.h"
 #include "terms/gradient.h"
@@ -628,6 +629,90 @@ START_TEST(test_coplanar)
 }
 END_TEST
 
+/* Point (s, t) of the sampled polygon, alone. */
+static void sampled_alone(const struct sampler *q, const double normal[3], double s, double t,
+                          double out[3])
+{
+    const double(*v)[3] = (const double(*)[3])q->p.v;
+    double area[POLYGON_MAX] = {0}, whole = 0;
+    int i;
+    if (q->parallelogram) {
+        for (int k = 0; k < 3; k++)
+            out[k] = v[0][k] + s * (v[1][k] - v[0][k]) + t * (v[3][k] - v[0][k]);
+        return;
+    }
+    for (i = 2; i < q->p.n; i++) {
+        double a[3], b[3], c[3];
+        sub3(a, v[i - 1], v[0]);
+        sub3(b, v[i], v[0]);
+        cross3(c, a, b);
+        area[i] = dot3(c, normal);
+        whole += area[i];
+    }
+    s *= whole;
+    for (i = 2; i < q->p.n - 1 && s >= area[i]; i++)
+        s -= area[i];
+    s = area[i] > 0 && s < area[i] ? sqrt(s / area[i]) : 1;
+    for (int k = 0; k < 3; k++)
+        out[k] = v[0][k] + s * (v[i - 1][k] - v[0][k]) + s * t * (v[i][k] - v[i - 1][k]);
+}
+
+/* Segments that are computed several at a time have the bits of each alone, in vectors of any
+ * width. */
+START_TEST(test_samples)
+{
+    unsigned state = 17;
+    int kinds[POLYGON_MAX + 1][2] = {{0}}, checked = 0;
+    static struct samples made[3];
+    for (int i = 0; i < 4000; i++) {
+        struct two t;
+        struct samples_ends ends;
+        struct sobol net;
+        two_random(&t, i % 5 == 4, i % 6, 1, &state);
+        const struct element *r = t.a, *s = t.b;
+        const int count = 1 << 2 * (i % 3 + 1);
+        sampler_clip(&ends.p, r, s);
+        sampler_clip(&ends.q, s, r);
+        kinds[ends.p.p.n][ends.p.parallelogram]++;
+        if (ends.p.p.n && ends.q.p.n) {
+            ends.n = r->normal;
+            ends.m = s->normal;
+            ends.spread = r->area / count;
+            ends.ray_offset = 1e-6;
+            sobol_start(&net, hash64((uint64_t)i));
+            for (int w = 0; w < 3; w++)
+                sobol_points(&net, 0, count, made[w].digit);
+            samples_1(&made[0], &ends, count);
+            made[1].weight[0] = made[2].weight[0] = -1;
+            samples_at(4, &made[1], &ends, count);
+            samples_at(8, &made[2], &ends, count);
+            for (int j = 0; j < count; j++) {
+                double u[4], from[3], to[3];
+                for (int k = 0; k < 4; k++)
+                    u[k] = made[0].digit[k][j] * (1 / 4294967296.0);
+                sampled_alone(&ends.p, r->normal, u[0], u[1], from);
+                sampled_alone(&ends.q, s->normal, u[2], u[3], to);
+                double weight = lambert_points(from, r->normal, to, s->normal, ends.spread);
+                for (int w = 0; w < 3; w++) {
+                    ck_assert_msg(made[w].weight[j] == weight, "pair %d, width %d, segment %d", i,
+                                  w, j);
+                    for (int k = 0; k < 3; k++) {
+                        ck_assert(made[w].from[k][j] == from[k] + 1e-6 * r->normal[k]);
+                        ck_assert(made[w].to[k][j] == to[k] + 1e-6 * s->normal[k]);
+                    }
+                }
+                checked++;
+            }
+        }
+        two_close(&t);
+    }
+    for (int n = 3; n <= POLYGON_MAX; n++)
+        ck_assert_msg(kinds[n][0] > 20, "%d corners: %d", n, kinds[n][0]);
+    ck_assert_int_gt(kinds[4][1], 20);
+    ck_assert_int_gt(checked, 10000);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("terms");
@@ -645,6 +730,7 @@ int main(void)
     tcase_add_test(c, test_answers);
     tcase_add_test(c, test_projected_area);
     tcase_add_test(c, test_coplanar);
+    tcase_add_test(c, test_samples);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
