@@ -217,6 +217,7 @@ void dag_emit_dot(struct dag *dag, struct text *out);
 void dag_emit_json(struct dag *dag, struct text *out);
 void dag_emit_text(struct dag *dag, struct text *out, enum pass pass);
 void dag_emit_availability(struct dag *dag, struct text *out); /* --dump=availability */
+void dag_emit_waves(struct dag *dag, struct text *out);        /* --dump=waves */
 void dag_emit_catalog_doc(struct dag *dag, struct text *out);
 /* terms: as above */
 void dag_emit_catalog_h(const struct dag *dag, struct text *out, const unsigned char *terms);

@@ -28,6 +28,7 @@ static const struct step on_oracles[] = {
     {dag_check_graph, PASS_CHECK, 1},
     {dag_analyse, PASS_ANALYSE, 1},
     {NULL, PASS_AVAILABILITY, 1}, /* the same graph, shown otherwise */
+    {NULL, PASS_WAVES, 1},        /* likewise */
     {dag_fingerprint, -1, 1},
 };
 

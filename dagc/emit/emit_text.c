@@ -161,6 +161,10 @@ void dag_emit_text(struct dag *dag, struct text *out, enum pass pass)
         dag_emit_availability(dag, out);
         return;
     }
+    if (pass == PASS_WAVES) {
+        dag_emit_waves(dag, out);
+        return;
+    }
     for (int i = 0; i < dag->branch_count && pass == PASS_PARSE; i++)
         print_branch(&listing, &dag->branches[i]);
     for (int i = 0; i < dag->oracle_count; i++) {
