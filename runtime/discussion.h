@@ -111,6 +111,7 @@ struct blockers {
 };
 
 /* What the program around the refiner provides. */
+enum { HOST_HIDDEN = -1 };
 struct host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */
@@ -132,8 +133,9 @@ struct host {
 
     /* For the tools that look into a shaft; NULL: the host has none of it, and they answer
      * too_complex. Lists in `faces` up to `most` faces that may meet the shaft and returns how
-     * many; more than `most` when there may be more. It may list a face too many, never one too
-     * few; kernel/shaft.h helps. */
+     * many; more than `most` when there may be more; HOST_HIDDEN when it has proved that faces stop
+     * all light in the shaft. It may list a face too many, never one too few; kernel/shaft.h
+     * helps. */
     int (*candidates)(const struct host *host, const struct shaft *shaft, int most,
                       uint32_t *faces);
     /* The corners of a face that `candidates` listed. */

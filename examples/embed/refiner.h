@@ -375,6 +375,7 @@ struct refiner_blockers {
 };
 
 /* What the program around the refiner provides. */
+enum { REFINER_HOST_HIDDEN = -1 };
 struct refiner_host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */
@@ -396,8 +397,9 @@ struct refiner_host {
 
     /* For the tools that look into a shaft; NULL: the host has none of it, and they answer
      * too_complex. Lists in `faces` up to `most` faces that may meet the shaft and returns how
-     * many; more than `most` when there may be more. It may list a face too many, never one too
-     * few; kernel/shaft.h helps. */
+     * many; more than `most` when there may be more; HOST_HIDDEN when it has proved that faces stop
+     * all light in the shaft. It may list a face too many, never one too few; kernel/shaft.h
+     * helps. */
     int (*candidates)(const struct refiner_host *host, const struct refiner_shaft *shaft, int most,
                       uint32_t *faces);
     /* The corners of a face that `candidates` listed. */

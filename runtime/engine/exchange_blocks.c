@@ -6,6 +6,7 @@
  * looked into pair by pair (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include <string.h>
 #include "engine/exchange_blocks.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
@@ -28,11 +29,15 @@ static double block_by_pairs(const struct exchange_pair *pair, struct exchange_s
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     double error, most = 0;
+    struct sight_list list;
+    if (r->group || s->group)
+        sight_list_find(&list, r, s, pair->tree);
+    int listed = (r->group || s->group) && list.count <= SIGHT_LIST;
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
         for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
             *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                                s->group ? exchange_tree_face(pair->tree, j) : s, &pair->tree->host,
-                                &scratch->sight, &error);
+                                s->group ? exchange_tree_face(pair->tree, j) : s, pair->tree,
+                                listed ? &list : NULL, &scratch->sight, &error);
             most = fmax(most, error);
         }
     return most;
@@ -88,6 +93,12 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
         return 0;
     }
     blockers_find(r, s, &pair->tree->host, &list);
+    if (list.covered) { /* which a list handed down to the oracle does not tell */
+        memset(out, 0,
+               (size_t)(pair->rows.to - pair->rows.from) * (pair->columns.to - pair->columns.from)
+                   * sizeof *out);
+        return 0;
+    }
     if (list.count > BLOCKERS_MAX)
         return block_by_pairs(pair, scratch, out);
     clear_block(p, pair, scratch->sight.limits.tolerance, out);

@@ -14,12 +14,14 @@
  * de Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include <string.h>
 #include "engine/exchange_sight.h"
-#include "engine/sight_pieces.h"
+#include "engine/sight_outlines.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "kernel/shaft.h"
 #include "terms/visibility.h"
+#include "visibility/candidates.h"
 
 enum { QUARTERS = 4, MANY = SIGHT_LIST + 1 };
 
@@ -32,11 +34,12 @@ struct sight_node {
 
 /* A pair at work. */
 struct looking {
-    const struct host *host;
+    const struct exchange_tree *tree;
     const struct element *from, *to;
     struct sight sight;
     struct sight_scratch *scratch;
     int nodes, heap;
+    int between_of;       /* the node that scratch->between is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
 };
 
@@ -53,13 +56,15 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     scratch->limits = *limits;
     scratch->nodes = malloc(most * sizeof *scratch->nodes);
     scratch->heap = malloc(most * sizeof *scratch->heap);
-    return scratch->nodes && scratch->heap ? 0 : -1;
+    scratch->between = malloc(sizeof *scratch->between);
+    return scratch->nodes && scratch->heap && scratch->between ? 0 : -1;
 }
 
 void sight_scratch_close(struct sight_scratch *scratch)
 {
     free(scratch->nodes);
     free(scratch->heap);
+    free(scratch->between);
 }
 
 /* A piece of e with these corners. */
@@ -123,6 +128,17 @@ static void make_quarter(struct element *out, const struct element *e, int q)
     out->id = hash64(e->id + (uint64_t)q + 1);
 }
 
+static int compare_faces(const void *a, const void *b)
+{
+    const uint32_t *x = a, *y = b;
+    return *x < *y ? -1 : *x > *y;
+}
+
+static void sort_list(uint32_t *list, int count)
+{
+    qsort(list, (size_t)count, sizeof *list, compare_faces);
+}
+
 /* Points of a rule, and what they weigh: of a side of a quad, for its Gauss rule and Simpson's; of
  * a triangle, by the barycentric coordinate that stands alone. */
 static const double side_node[2][3] = {{0.11270166537925831148, 0.5, 0.88729833462074168852},
@@ -134,20 +150,28 @@ static const double corner_node[2][3] = {{0.81684757298045851308, 0.108103018168
 static const double corner_weight[2][3] = {{0.10995174365532186764, 0.22338158967801146570, 0},
                                            {3 / 60.0, 8 / 60.0, 27 / 60.0}};
 
+/* What a point sees past what stands between. Outlines save most where faces go on into each other;
+ * faces by themselves are cut out one by one. */
+static double past(const struct looking *l, const double x[3], const double n[3])
+{
+    const struct sight_between *b = l->scratch->between;
+    double up = l->tree->host.ray_offset;
+    return b->edges <= 2 * b->faces ? sight_past(&l->sight, x, n, up, b)
+                                    : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces);
+}
+
 /* The exchange area of a piece by points: within it, exact to degree 4 and 5 [Dunavant 1985;
  * Gauss]; `rim`: by its corners, the middles of its sides and its own, exact to degree 3. */
-static double by_points(const struct looking *l, const struct element *e,
-                        const struct polygon *blockers, int count, int rim)
+static double by_points(const struct looking *l, const struct element *e, int rim)
 {
     const double(*v)[3] = (const double(*)[3])e->vertex;
-    double sum = 0, up = l->host->ray_offset, x[3];
+    double sum = 0, x[3];
     if (e->vertices == 3) {
         for (int i = 0; i < 6 + rim; i++) {
             double w = corner_node[rim][i / 3], u = 0.5 * (1 - w);
             for (int k = 0; k < 3; k++)
                 x[k] = w * v[i % 3][k] + u * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
-            sum += corner_weight[rim][i / 3]
-                   * sight_factor(&l->sight, x, e->normal, up, blockers, count);
+            sum += corner_weight[rim][i / 3] * past(l, x, e->normal);
         }
         return sum * e->area;
     }
@@ -162,7 +186,7 @@ static double by_points(const struct looking *l, const struct element *e,
         }
         cross3(jacobian, ds, dt);
         sum += side_weight[rim][i / 3] * side_weight[rim][i % 3] * dot3(jacobian, e->normal)
-               * sight_factor(&l->sight, x, e->normal, up, blockers, count);
+               * past(l, x, e->normal);
     }
     return sum;
 }
@@ -172,44 +196,57 @@ static void by_rays(const struct looking *l, struct sight_node *node)
 {
     int rays = visibility_rays_of(VISIBILITY_RAYS_64);
     double clear = node->piece.area * polygon_factor(&node->piece, l->to, 1),
-           v = visibility_rays(&node->piece, l->to, l->host, rays);
+           v = visibility_rays(&node->piece, l->to, &l->tree->host, rays);
     node->count = MANY;
     node->points = node->value = clear * v;
     node->error = clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
 }
 
-/* What a piece sees, by its own points, past those of the list that stand in its shaft. */
-static void measure(const struct looking *l, struct sight_node *node, const uint32_t *list,
-                    int count)
+/* What stands between a piece and the other face, of the list or of the whole scene. Returns -1
+ * when that is more than a list holds. */
+static enum between find_between(struct looking *l, const struct element *piece,
+                                 const uint32_t *list, int count)
 {
+    const struct host *host = &l->tree->host;
     struct shaft shaft;
-    struct polygon blockers[SIGHT_LIST];
-    if (count == MANY)
-        list = node->list;
+    uint32_t own[SIGHT_LIST];
+    l->between_of = -1;
+    if (!(piece->area > 0) || !shaft_open(&shaft, piece, l->to, host))
+        return BETWEEN_ALL;
+    if (count == MANY) {
+        count = host->candidates(host, &shaft, SIGHT_LIST, own);
+        if (count == HOST_HIDDEN)
+            return BETWEEN_ALL;
+        if (count > SIGHT_LIST)
+            return BETWEEN_MANY;
+        sort_list(own, count);
+        list = own;
+    }
+    return sight_between_open(l->scratch->between, l->tree, &shaft, &l->sight, list, count);
+}
+
+/* What a piece sees, by its own points, past those of the list that stand in its shaft. */
+static void measure(struct looking *l, int at, const uint32_t *list, int count)
+{
+    struct sight_node *node = &l->scratch->nodes[at];
+    const struct sight_between *between = l->scratch->between;
     node->count = node->quarters = 0;
     node->points = node->value = node->error = 0;
-    if (!(node->piece.area > 0) || !shaft_open(&shaft, &node->piece, l->to, l->host))
+    switch (find_between(l, &node->piece, list, count)) {
+    case BETWEEN_ALL:
         return;
-    if (count == MANY)
-        count = l->host->candidates(l->host, &shaft, SIGHT_LIST, node->list);
-    if (count > SIGHT_LIST) {
+    case BETWEEN_MANY:
         by_rays(l, node);
         return;
+    case BETWEEN_NOTHING:
+        node->points = node->value = node->piece.area * polygon_factor(&node->piece, l->to, 1);
+        return;
+    case BETWEEN_SOME:
+        node->count = between->faces;
+        memcpy(node->list, between->list, (size_t)node->count * sizeof *node->list);
+        l->between_of = at;
+        node->points = node->value = by_points(l, &node->piece, 0);
     }
-    for (int i = 0; i < count; i++) {
-        struct polygon *p = &blockers[node->count];
-        l->host->corners(l->host, list[i], p);
-        if (!shaft_meets(&shaft, (const double(*)[3])p->v, p->n, NULL))
-            continue;
-        if (shaft_covered(&shaft, (const double(*)[3])p->v, p->n)) {
-            node->count = 0;
-            return;
-        }
-        node->list[node->count++] = list[i];
-    }
-    node->points = node->value = node->count
-                                     ? by_points(l, &node->piece, blockers, node->count, 0)
-                                     : node->piece.area * polygon_factor(&node->piece, l->to, 1);
 }
 
 /* Hold a piece against its quarters; in scenes of many faces, whose entries are many, not where its
@@ -226,10 +263,9 @@ static void compare(struct looking *l, int at, double aim)
     }
     double noise = 0, rim = 0;
     if (node->count < MANY) {
-        struct polygon blockers[SIGHT_LIST];
-        for (int i = 0; i < node->count; i++)
-            l->host->corners(l->host, node->list[i], &blockers[i]);
-        rim = by_points(l, &node->piece, blockers, node->count, 1);
+        if (l->between_of != at)
+            (void)find_between(l, &node->piece, node->list, node->count);
+        rim = by_points(l, &node->piece, 1);
         node->error = fabs(node->points - rim);
         if (node->error <= aim * node->piece.area)
             return;
@@ -239,7 +275,7 @@ static void compare(struct looking *l, int at, double aim)
     for (int q = 0; q < QUARTERS; q++) {
         struct sight_node *quarter = &nodes[l->nodes++];
         make_quarter(&quarter->piece, &node->piece, q);
-        measure(l, quarter, node->list, node->count);
+        measure(l, l->nodes - 1, node->list, node->count);
         node->value += quarter->value;
         double of = quarter->count == MANY ? quarter->error : node->error;
         noise += of * of;
@@ -289,7 +325,7 @@ static void start(struct looking *l, const double (*v)[3], int n, const uint32_t
 {
     struct sight_node *node = &l->scratch->nodes[l->nodes];
     make_piece(&node->piece, l->from, v, n);
-    measure(l, node, list, count);
+    measure(l, l->nodes, list, count);
     l->nodes++;
 }
 
@@ -331,39 +367,55 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
 
 /* How large e looks from the nearest of the faces: seen from another point of e, their shadows move
  * by so much. */
-static double sway(const struct element *e, const struct host *host, const uint32_t *list,
+static double sway(const struct element *e, const struct exchange_tree *t, const uint32_t *list,
                    int count)
 {
-    double least = INFINITY, normal[3];
+    double least = INFINITY;
     for (int i = 0; i < count; i++) {
-        struct polygon face;
-        host->corners(host, list[i], &face);
-        if (shaft_normal((const double(*)[3])face.v, face.n, normal))
-            least = fmin(least,
-                         polygon_distance(e->centre, (const double(*)[3])face.v, face.n, normal));
+        const struct element *face = &t->h.elements[list[i]];
+        least = fmin(least, polygon_distance(e->centre, (const double(*)[3])face->vertex,
+                                             face->vertices, face->normal));
     }
     return e->radius / (least + e->radius);
 }
 
-double sight_pair(const struct element *r, const struct element *s, const struct host *host,
-                  struct sight_scratch *scratch, double *error)
+/* Those of a list that the shaft does not lie aside of. Returns how many. */
+static int near_ones(const struct sight_list *list, const struct exchange_tree *t,
+                     const struct shaft *shaft, uint32_t *faces)
 {
-    double clear = r->area * polygon_factor(r, s, 1), least = fmin(r->area, s->area);
-    uint32_t list[SIGHT_LIST];
+    int count = 0;
+    for (int i = 0; i < list->count; i++) {
+        const struct element *e = &t->h.elements[list->face[i]];
+        if (!shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
+            faces[count++] = list->face[i];
+    }
+    return count;
+}
+
+double sight_pair(const struct element *r, const struct element *s, const struct exchange_tree *t,
+                  const struct sight_list *among, struct sight_scratch *scratch, double *error)
+{
+    double least = fmin(r->area, s->area);
+    const struct host *host = &t->host;
+    uint32_t own[SIGHT_LIST];
     struct shaft shaft;
     *error = 0;
-    clear = fmin(clear, least);
-    if (!(clear > 0) || !shaft_open(&shaft, r, s, host))
+    if (!shaft_open(&shaft, r, s, host))
         return 0;
-    int count = host->candidates(host, &shaft, SIGHT_LIST, list);
+    int count =
+        among ? near_ones(among, t, &shaft, own) : host->candidates(host, &shaft, SIGHT_LIST, own);
+    if (count == HOST_HIDDEN)
+        return 0;
     if (count == 0)
-        return clear;
+        return fmin(r->area * polygon_factor(r, s, 1), least);
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
-    double sway_r = many ? -r->radius : sway(r, host, list, count),
-           sway_s = many ? -s->radius : sway(s, host, list, count);
+    if (!many && !among)
+        sort_list(own, count);
+    double sway_r = many ? -r->radius : sway(r, t, own, count),
+           sway_s = many ? -s->radius : sway(s, t, own, count);
     int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
     struct looking l = {
-        .host = host, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
+        .tree = t, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
     struct polygon part, seen;
     polygon_clip(&part, (const double(*)[3])l.from->vertex, l.from->vertices, l.to->centre,
                  l.to->normal);
@@ -372,5 +424,20 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     if (part.n == 0 || seen.n == 0)
         return 0;
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
-    return fmin(integrate(&l, &part, list, many ? MANY : count, least, error), clear);
+    double sum = integrate(&l, &part, own, many ? MANY : count, least, error);
+    if (!(sum > SIGHT_NEARLY_CLEAR * r->area * polygon_factor(r, s, 0)))
+        return sum;
+    return fmin(sum, fmin(r->area * polygon_factor(r, s, 1), least));
+}
+
+void sight_list_find(struct sight_list *list, const struct element *r, const struct element *s,
+                     const struct exchange_tree *t)
+{
+    struct shaft shaft;
+    list->count = 0;
+    if (!shaft_open(&shaft, r, s, &t->host))
+        return;
+    list->count = candidates_find(&t->h, &shaft, t->host.ray_offset, SIGHT_LIST, list->face);
+    if (list->count <= SIGHT_LIST)
+        sort_list(list->face, list->count);
 }

@@ -5,6 +5,7 @@
 #define EXCHANGE_SIGHT_H
 
 #include "engine/exchange_tree.h"
+#include "engine/sight_pieces.h"
 
 /* How near to come: the error of F, of itself, or of `floor` where F is smaller; with at most so
  * many pieces. */
@@ -18,6 +19,7 @@ struct sight_limits {
 struct sight_scratch {
     struct sight_node *nodes;
     int *heap;
+    struct sight_between *between;
     struct sight_limits limits;
 };
 
@@ -27,8 +29,18 @@ struct sight_limits sight_limits_for(double tolerance, uint32_t faces);
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits);
 void sight_scratch_close(struct sight_scratch *scratch);
 
-/* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). */
-double sight_pair(const struct element *r, const struct element *s, const struct host *host,
+/* What may stand between, ascending; more than SIGHT_LIST: more than that. */
+struct sight_list {
+    int count;
+    uint32_t face[SIGHT_LIST];
+};
+void sight_list_find(struct sight_list *list, const struct element *r, const struct element *s,
+                     const struct exchange_tree *tree);
+
+/* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). `among`:
+ * of a pair that holds this one; NULL: nobody has looked. */
+double sight_pair(const struct element *r, const struct element *s,
+                  const struct exchange_tree *tree, const struct sight_list *among,
                   struct sight_scratch *scratch, double *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "engine/exchange_tree.h"
 #include "visibility/candidates.h"
+#include "visibility/hidden.h"
 
 static const struct exchange_tree *tree_of(const struct host *host)
 {
@@ -17,10 +18,31 @@ static uint64_t occluded(const struct host *host, int count, const struct segmen
     return rays->occluded(rays, count, segments);
 }
 
+/* Faces found in a shaft, and whether they hide all. */
+struct found {
+    struct hidden hidden;
+    int count, most;
+    uint32_t *elements;
+};
+
+static int add_found(void *found, uint32_t element)
+{
+    struct found *f = found;
+    if (f->count < f->most)
+        f->elements[f->count] = element;
+    f->count += f->count <= f->most;
+    hidden_add(&f->hidden, element);
+    return f->count > f->most && f->hidden.open ? -1 : 0;
+}
+
 static int candidates(const struct host *host, const struct shaft *shaft, int most,
                       uint32_t *elements)
 {
-    return candidates_find(&tree_of(host)->h, shaft, host->ray_offset, most, elements);
+    const struct exchange_tree *t = tree_of(host);
+    struct found f = {.most = most, .elements = elements};
+    hidden_start(&f.hidden, &t->h, &t->mates, shaft);
+    (void)candidates_walk(&t->h, shaft, host->ray_offset, add_found, &f);
+    return hidden_all(&f.hidden) ? HOST_HIDDEN : f.count;
 }
 
 static void corners(const struct host *host, uint32_t element, struct polygon *polygon)
@@ -43,7 +65,8 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     t->rays = rays_open(&plain, unit, black, threads, cause);
     if (!t->rays)
         goto fail;
-    if (hierarchy_build_groups(&t->h, &plain, rays_host(t->rays)->flat) < 0)
+    if (hierarchy_build_groups(&t->h, &plain, rays_host(t->rays)->flat) < 0
+        || mates_open(&t->mates, &t->h) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
     t->host.occluded = occluded;
@@ -66,6 +89,7 @@ fail:
 void exchange_tree_close(struct exchange_tree *t)
 {
     rays_close(t->rays);
+    mates_close(&t->mates);
     hierarchy_free(&t->h);
     memset(t, 0, sizeof *t);
 }

@@ -5,12 +5,14 @@
 #define EXCHANGE_TREE_H
 
 #include "hierarchy/group_hierarchy.h"
+#include "hierarchy/mates.h"
 #include "visibility/rays.h"
 
 struct exchange_tree {
     /* first, so that a host is its tree: rays, and what stands in a shaft, by groups */
     struct host host;
     struct hierarchy h;
+    struct mates mates; /* of what stands in shafts */
     struct rays *rays;
 };
 

@@ -10,23 +10,12 @@
 #include "kernel/lambert.h"
 #include "kernel/lanes.h"
 
-/* Edges of pieces, from a to b as the eye sees them: summed as many at a time as there is room. */
-enum { EDGES = 96 };
-_Static_assert((int)EDGES >= (int)OUTLINE_CELL && EDGES % LANES_MOST == 0, "room for any piece");
-struct edges {
-    int count;
-    double a[2][EDGES], b[2][EDGES], value[EDGES], sum;
-};
+_Static_assert((int)SIGHT_EYE_EDGES >= (int)OUTLINE_CELL && SIGHT_EYE_EDGES % LANES_MOST == 0,
+               "room for any piece");
 
-/* A point over the plane, in the plane's coordinates, and what it has found. */
-struct eye {
-    double at[2], height, normal[3];
-    struct edges edges;
-};
-
-TOOL void edges_body(struct eye *eye)
+TOOL void edges_body(struct sight_eye *eye)
 {
-    struct edges *g = &eye->edges;
+    struct sight_edges *g = &eye->edges;
     const double z = -eye->height, n0 = eye->normal[0], n1 = eye->normal[1], n2 = eye->normal[2];
     const int count = g->count;
     for (int i = 0; i < count; i += LANES)
@@ -36,19 +25,19 @@ TOOL void edges_body(struct eye *eye)
 }
 
 #if LANES_CHOSEN
-LANES_AVX512 void edges_8(struct eye *eye)
+LANES_AVX512 void edges_8(struct sight_eye *eye)
 {
     edges_body(eye);
 }
-LANES_AVX2 void edges_4(struct eye *eye)
+LANES_AVX2 void edges_4(struct sight_eye *eye)
 {
     edges_body(eye);
 }
 #endif
 
-static void edges_sum(struct eye *eye)
+static void edges_sum(struct sight_eye *eye)
 {
-    struct edges *g = &eye->edges;
+    struct sight_edges *g = &eye->edges;
     int width = lanes_width();
     for (int k = g->count; k % LANES; k++)
         g->a[0][k] = g->a[1][k] = g->b[0][k] = g->b[1][k] = 0;
@@ -75,10 +64,30 @@ void sight_open(struct sight *sight, const struct element *e, const struct polyg
         outline_in(&sight->frame, part->v[i], sight->cell.p[i]);
 }
 
-static void add_cell(struct eye *eye, const struct outline_cell *cell)
+void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const double x[3],
+                    const double n[3])
 {
-    struct edges *g = &eye->edges;
-    if (g->count + cell->n > EDGES)
+    const struct outline_frame *f = &sight->frame;
+    eye->height = height3(x, f->origin, f->n);
+    eye->normal[0] = dot3(n, f->u);
+    eye->normal[1] = dot3(n, f->v);
+    eye->normal[2] = dot3(n, f->n);
+    eye->edges.count = 0;
+    eye->edges.sum = 0;
+    outline_in(f, x, eye->at);
+}
+
+double sight_eye_factor(struct sight_eye *eye)
+{
+    edges_sum(eye);
+    double seen = eye->edges.sum * (-0.5 / LAMBERT_PI);
+    return seen > 0 ? seen < 1 ? seen : 1 : 0;
+}
+
+void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
+{
+    struct sight_edges *g = &eye->edges;
+    if (g->count + cell->n > SIGHT_EYE_EDGES)
         edges_sum(eye);
     for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
         for (int k = 0; k < 2; k++) {
@@ -104,7 +113,7 @@ static int beside(const struct outline *s, const struct outline_cell *cell)
 }
 
 /* Adds what is left of the cell when the shadows from k on are taken away. */
-static void add_left(struct eye *eye, const struct outline *shadows, int count, int k,
+static void add_left(struct sight_eye *eye, const struct outline *shadows, int count, int k,
                      const struct outline_cell *cell)
 {
     struct outline_cell inside[2], outside;
@@ -115,7 +124,7 @@ static void add_left(struct eye *eye, const struct outline *shadows, int count, 
     while (k < count && beside(&shadows[k], cell))
         k++;
     if (k == count) {
-        add_cell(eye, cell);
+        sight_eye_add(eye, cell);
         return;
     }
     const struct outline *s = &shadows[k];
@@ -141,30 +150,23 @@ static void add_left(struct eye *eye, const struct outline *shadows, int count, 
 }
 
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
-                    const struct polygon *blockers, int count)
+                    const struct exchange_tree *tree, const uint32_t *faces, int count)
 {
     struct outline shadows[SIGHT_LIST];
-    const struct outline_frame *f = &sight->frame;
-    struct eye eye;
+    struct sight_eye eye;
     double from[3];
     int cast = 0;
-    eye.height = height3(x, f->origin, f->n);
-    eye.normal[0] = dot3(n, f->u);
-    eye.normal[1] = dot3(n, f->v);
-    eye.normal[2] = dot3(n, f->n);
-    eye.edges.count = 0;
-    eye.edges.sum = 0;
-    outline_in(f, x, eye.at);
+    sight_eye_open(&eye, sight, x, n);
     for (int k = 0; k < 3; k++)
         from[k] = x[k] + up * n[k];
-    double height = height3(from, sight->raised.origin, f->n);
+    double height = height3(from, sight->raised.origin, sight->raised.n);
     if (!(eye.height > 0) || !(height > 0))
         return 0;
-    for (int b = 0; b < count; b++)
+    for (int b = 0; b < count; b++) {
+        const struct element *e = &tree->h.elements[faces[b]];
         cast += outline_cast(&shadows[cast], &sight->raised, from, height,
-                             (const double(*)[3])blockers[b].v, blockers[b].n);
+                             (const double(*)[3])e->vertex, e->vertices);
+    }
     add_left(&eye, shadows, cast, 0, &sight->cell);
-    edges_sum(&eye);
-    double seen = eye.edges.sum * (-0.5 / LAMBERT_PI);
-    return seen > 0 ? seen < 1 ? seen : 1 : 0;
+    return sight_eye_factor(&eye);
 }

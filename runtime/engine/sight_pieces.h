@@ -3,9 +3,11 @@
 #ifndef SIGHT_PIECES_H
 #define SIGHT_PIECES_H
 
+#include "engine/exchange_tree.h"
 #include "kernel/outline.h"
 
-enum { SIGHT_LIST = 64 }; /* the most faces that may stand between */
+/* the most faces that may stand between; their edges, and the feet of as many */
+enum { SIGHT_LIST = 256, SIGHT_EDGES = 5 * SIGHT_LIST };
 
 /* The polygon that is looked at, in its plane; the plane that shadows are cast on is raised a
  * little, as rays' ends are. */
@@ -14,13 +16,32 @@ struct sight {
     struct outline_cell cell;
 };
 
+/* Edges of pieces, from a to b as the eye sees them: summed as many at a time as there is room. */
+enum { SIGHT_EYE_EDGES = 96 };
+struct sight_edges {
+    int count;
+    double a[2][SIGHT_EYE_EDGES], b[2][SIGHT_EYE_EDGES], value[SIGHT_EYE_EDGES], sum;
+};
+
+/* A point over the plane, in the plane's coordinates, and what it has found. */
+struct sight_eye {
+    double at[2], height, normal[3];
+    struct sight_edges edges;
+};
+
 /* `part`: what of the element is to be seen. */
 void sight_open(struct sight *sight, const struct element *e, const struct polygon *part,
                 double up);
 
+void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const double x[3],
+                    const double n[3]);
+/* Of all cells of the plane that were added, Lambert's sum; in [0, 1]. */
+void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
+double sight_eye_factor(struct sight_eye *eye);
+
 /* The form factor from a point x with normal n, in front of whose plane all of the polygon lies, to
- * what it sees of the polygon past the blockers, from `up` over x. In [0, 1]. */
+ * what it sees of the polygon past the faces, from `up` over x. In [0, 1]. */
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
-                    const struct polygon *blockers, int count);
+                    const struct exchange_tree *tree, const uint32_t *faces, int count);
 
 #endif

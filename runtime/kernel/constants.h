@@ -471,6 +471,9 @@
 /* of what the rule with points along the rim differs by: the error. A shade that no other point
  * meets is in a strip of .056 of the side, over which it fades; the rule has it for a sixth */
 #define SIGHT_RIM_SHARE 0.1
+/* of what is exchanged with nothing between, by polygon_factor's fair way, right to 1e-5: what is
+ * below that is below the exact one */
+#define SIGHT_NEARLY_CLEAR 0.999
 /* of a piece's exchange: its error when no pieces are left to hold it against; chosen */
 #define SIGHT_UNKNOWN 0.1
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */

@@ -33,6 +33,10 @@ OUTLINE void blockers_find(const struct element *r, const struct element *s,
     }
     if (found < 0)
         found = host->candidates(host, &shaft, BLOCKERS_MAX, list->face);
+    if (found == HOST_HIDDEN) {
+        list->covered = 1;
+        return;
+    }
     if (found > BLOCKERS_MAX) {
         list->count = BLOCKERS_TOO_MANY;
         return;

@@ -12,8 +12,8 @@ struct walk {
     const struct hierarchy *h;
     const struct shaft *shaft;
     double offset; /* how far the ends are off their surfaces (m) */
-    int most, found;
-    uint32_t *faces;
+    int (*found)(void *context, uint32_t face);
+    void *context;
 };
 
 /* The box of a group, whose faces may reach out of its plane a little. */
@@ -71,23 +71,26 @@ static int on_one_side(const struct shaft *shaft, double offset, const struct el
            || (high <= strip && low < -SHAFT_AWAY * strip);
 }
 
-/* Returns 0, or -1 when there is no room left. */
-static int walk_shaft(struct walk *w, uint32_t index)
+int candidates_meets(const struct hierarchy *h, const struct shaft *shaft, double offset,
+                     uint32_t index)
+{
+    const struct element *e = &h->elements[index];
+    return !(h->solid && lies_behind(shaft, offset, e))
+           && shaft_meets(shaft, (const double(*)[3])e->vertex, e->vertices, NULL)
+           && !(h->solid && on_one_side(shaft, offset, e));
+}
+
+/* Returns 0, or -1 when who is told wants no more. */
+static int walk_shaft(const struct walk *w, uint32_t index)
 {
     const struct hierarchy *h = w->h;
     const struct element *e = &h->elements[index];
     double low[3], high[3];
-    if (h->solid ? h->solid[index] : e->vertices) {
-        if (h->faces[h->order[h->range[index].from]].back
-            || (h->solid && lies_behind(w->shaft, w->offset, e))
-            || !shaft_meets(w->shaft, (const double(*)[3])e->vertex, e->vertices, NULL)
-            || (h->solid && on_one_side(w->shaft, w->offset, e)))
-            return 0;
-        if (w->found == w->most)
-            return -1;
-        w->faces[w->found++] = h->solid ? index : e->face;
-        return 0;
-    }
+    if (h->solid ? h->solid[index] : e->vertices)
+        return !h->faces[h->order[h->range[index].from]].back
+                       && candidates_meets(h, w->shaft, w->offset, index)
+                   ? w->found(w->context, h->solid ? index : e->face)
+                   : 0;
     if (e->vertices)
         box_of_group(e, h->flat, low, high);
     if (shaft_misses_box(w->shaft, e->vertices ? low : e->vertex[0],
@@ -99,11 +102,32 @@ static int walk_shaft(struct walk *w, uint32_t index)
     return 0;
 }
 
+int candidates_walk(const struct hierarchy *h, const struct shaft *shaft, double offset,
+                    int (*found)(void *context, uint32_t face), void *context)
+{
+    const struct walk w = {h, shaft, offset, found, context};
+    return walk_shaft(&w, 0);
+}
+
+struct list {
+    int most, count;
+    uint32_t *faces;
+};
+
+static int add_face(void *list, uint32_t face)
+{
+    struct list *l = list;
+    if (l->count == l->most)
+        return -1;
+    l->faces[l->count++] = face;
+    return 0;
+}
+
 int candidates_find(const struct hierarchy *h, const struct shaft *shaft, double offset, int most,
                     uint32_t *faces)
 {
-    struct walk w = {h, shaft, offset, most, 0, faces};
-    return walk_shaft(&w, 0) < 0 ? most + 1 : w.found;
+    struct list list = {most, 0, faces};
+    return candidates_walk(h, shaft, offset, add_face, &list) < 0 ? most + 1 : list.count;
 }
 
 void candidates_corners(const struct hierarchy *h, uint32_t face, struct polygon *polygon)

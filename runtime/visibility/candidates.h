@@ -5,6 +5,15 @@
 
 #include "hierarchy/hierarchy.h"
 
+/* Tells of the faces that meet the shaft, one by one, until it is answered -1. Returns 0, or -1
+ * then. What is told of is as in candidates_find. */
+int candidates_walk(const struct hierarchy *h, const struct shaft *shaft, double offset,
+                    int (*found)(void *context, uint32_t face), void *context);
+
+/* Does an element that is no `back` meet the shaft? `offset`: as below. */
+int candidates_meets(const struct hierarchy *h, const struct shaft *shaft, double offset,
+                     uint32_t index);
+
 /* The faces that meet the shaft, at most `most` of them. Returns how many there are, or most + 1
  * when there are more. Faces marked `back` are left out: their front stands at the same place. In a
  * hierarchy with groups what is listed are elements: faces, and groups that are as good as one;

@@ -1,0 +1,45 @@
+/* sight_outlines.h - what a point sees of a convex polygon past surfaces made of many faces, by
+ * their outlines.
+ * SPDX-License-Identifier: MIT */
+#ifndef SIGHT_OUTLINES_H
+#define SIGHT_OUTLINES_H
+
+#include "engine/exchange_tree.h"
+#include "engine/sight_pieces.h"
+
+/* An edge across which the number of faces that a ray meets may change, in the coordinates of the
+ * plane that shadows are cast on. Seen from where both faces at it turn the same side, it does not.
+ */
+struct sight_edge {
+    double end[2][3];
+    double plane[2][4]; /* of the two faces: n . p - c */
+    int mates;          /* 0: it always may */
+};
+
+/* A face in the same coordinates. */
+struct sight_face {
+    double v[4][3], plane[4];
+    int n;
+};
+
+/* What stands between a piece and the polygon it looks at. */
+struct sight_between {
+    int faces, edges;
+    uint32_t list[SIGHT_LIST]; /* ascending */
+    struct sight_face face[SIGHT_LIST];
+    struct sight_edge edge[SIGHT_EDGES];
+};
+
+enum between { BETWEEN_NOTHING, BETWEEN_ALL, BETWEEN_SOME, BETWEEN_MANY };
+
+/* Of the faces list[count], ascending, among which are all that meet the shaft: what stands in it;
+ * all: it is proved that every ray is stopped. */
+enum between sight_between_open(struct sight_between *between, const struct exchange_tree *tree,
+                                const struct shaft *shaft, const struct sight *sight,
+                                const uint32_t *list, int count);
+
+/* sight_factor past what stands between. */
+double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,
+                  const struct sight_between *between);
+
+#endif
