@@ -933,9 +933,9 @@ RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t 
 /* ---- exchange areas */
 
 struct RadExchangeOptions {
-    /* error to work for; 0: 3e-4. Of a row's sum; and of entries of single faces in half shadow, as
-     * a share of the entry, or, where that is smaller, of 1e-4 (in scenes of more than 24 faces: of
-     * one over the root of their number) */
+    /* error to work for; 0: 3e-4. Of a row's sum; and of entries, as a share of the entry, or,
+     * where that is smaller, of 1e-4 (in half shadow in scenes of more than 24 faces: of four over
+     * the root of their number) */
     double tolerance;
     enum RadClosure closure;
     /* only the first so many rows are asked for, as of a scene whose other polygons are copies; the

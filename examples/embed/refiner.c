@@ -490,6 +490,9 @@
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define REFINER_SIGHT_PIECES 8192
 #define REFINER_SIGHT_PIECES_MANY 512
+/* of the tolerance: two rules that agree to so much are believed. Of a shade's edge both may be
+ * wrong the same way; a sixth of a side is what the edge may lie off both, a quarter is chosen */
+#define REFINER_SIGHT_BELIEVED 0.25
 /* of a side: how far within a piece points along its rim stand, so that none is in a corner that
  * touches; chosen */
 #define REFINER_SIGHT_RIM 1e-3
@@ -501,6 +504,12 @@
 #define REFINER_SIGHT_NEARLY_CLEAR 0.999
 /* of a piece's exchange: its error when no pieces are left to hold it against; chosen */
 #define REFINER_SIGHT_UNKNOWN 0.1
+/* shares of a pair of groups in half shadow, seen from four points, that may be wrong: of how far
+ * the points differ; the least of that; where they do not. chosen: half of a quarter, a tenth of
+ * that, a strip of a quarter that fades */
+#define REFINER_SHADOW_BETWEEN 0.125
+#define REFINER_SHADOW_LEAST 0.0125
+#define REFINER_SHADOW_UNSEEN 0.125
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
 #define REFINER_CLOSURE_ENOUGH 1e-12
 

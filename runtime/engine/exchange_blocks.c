@@ -1,9 +1,9 @@
 /* exchange_blocks.c - the exchange areas of a block of pairs.
  *
  * In a clear view each pair has its own (exchange_clear.h). In half shadow of groups each value is
- * multiplied by what its pair sees (exchange_shadow.h). Single faces that are not proved to see
- * each other, groups with more between than a list holds, and parts of faces linked to groups are
- * looked into pair by pair (exchange_sight.h).
+ * looked into from a few points, or pair by pair (exchange_shadow.h). Single faces that are not
+ * proved to see each other, groups with more between than a list holds, and parts of faces linked
+ * to groups are looked into pair by pair (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -102,6 +102,5 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
     if (list.count > BLOCKERS_MAX)
         return block_by_pairs(pair, scratch, out);
     clear_block(p, pair, scratch->sight.limits.tolerance, out);
-    shadow_block(pair, &list, &scratch->shadow, out);
-    return 0;
+    return shadow_block(pair, &list, &scratch->shadow, &scratch->sight, out);
 }

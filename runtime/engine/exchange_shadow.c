@@ -2,7 +2,9 @@
  *
  * Each pair is seen from four points of its one face: from there the blockers cast shadows on the
  * plane of the other group, once for all its faces, and what is left of each face is cut out
- * exactly (kernel/outline.h). The points are on the side where a face's size matters less.
+ * exactly (kernel/outline.h). The points are on the side where a face's size matters less. How far
+ * they may be off is estimated by how far they differ; a pair that this is too much for is
+ * integrated by itself (exchange_sight.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -195,29 +197,58 @@ static double seen_from(const struct element *e, struct face_range range,
     return sqrt(e->area / (range.to - range.from)) / (least + e->radius);
 }
 
-void shadow_block(const struct exchange_pair *pair, const struct blockers *list,
-                  struct shadow_scratch *scratch, double *values)
+/* Which share of a pair the points may be wrong by. Where they differ: between neighbours the share
+ * is taken for linear, and a kink or a step between them moves the mean by no more than half of
+ * what a quarter of the face differs by. Where they agree, what stands between them is not seen: a
+ * strip as wide as a quarter of the face. */
+static double doubt_of(const struct shadow_sight *sight, double area)
+{
+    double low = INFINITY, high = 0;
+    if (!sight || sight->hidden == OUTLINE_FEW || sight->clear == OUTLINE_FEW)
+        return SHADOW_UNSEEN;
+    for (int k = 0; k < OUTLINE_FEW; k++) {
+        low = fmin(low, sight->part[k]);
+        high = fmax(high, sight->part[k]);
+    }
+    return fmax(SHADOW_BETWEEN * (high - low) / area, SHADOW_LEAST);
+}
+
+double shadow_block(const struct exchange_pair *pair, const struct blockers *list,
+                    struct shadow_scratch *scratch, struct sight_scratch *looking, double *values)
 {
     const struct exchange_tree *t = pair->tree;
     const struct element *r = pair->receiver, *s = pair->emitter;
+    const struct sight_limits *limits = &looking->limits;
     uint32_t across = pair->columns.to - pair->columns.from;
     int swap = seen_from(s, pair->columns, t, list) < seen_from(r, pair->rows, t, list);
-    struct face_range from = swap ? pair->columns : pair->rows;
+    struct face_range from = swap ? pair->columns : pair->rows,
+                      onto = swap ? pair->rows : pair->columns;
     size_t step_i = swap ? 1 : across, step_j = swap ? across : 1;
+    double most = 0;
     struct screen screen = {.cells = scratch->cells};
-    make_screen(&screen, t, swap ? r : s, swap ? pair->rows : pair->columns);
+    make_screen(&screen, t, swap ? r : s, onto);
     struct polygon blockers[BLOCKERS_MAX];
     for (int b = 0; b < list->count; b++)
         t->host.corners(&t->host, list->face[b], &blockers[b]);
     for (uint32_t i = from.from; i < from.to; i++) {
         struct points points;
-        outline_points(exchange_tree_face(t, i), t->host.ray_offset, OUTLINE_FEW, points.x,
-                       points.weight);
-        if (see_screen(&screen, &points, blockers, list->count, scratch->sights))
-            continue;
-        for (uint32_t j = 0; j < screen.count; j++)
-            values[(i - from.from) * step_i + j * step_j] *=
-                seen_share(&scratch->sights[j], &screen.cells[j], &points, (swap ? s : r)->normal,
-                           &screen.frame);
+        const struct element *e = exchange_tree_face(t, i);
+        outline_points(e, t->host.ray_offset, OUTLINE_FEW, points.x, points.weight);
+        int clear = see_screen(&screen, &points, blockers, list->count, scratch->sights);
+        for (uint32_t j = 0; j < screen.count; j++) {
+            double *value = &values[(i - from.from) * step_i + j * step_j], all = *value,
+                   least = fmin(e->area, screen.cells[j].whole.area), error;
+            const struct shadow_sight *sight = clear ? NULL : &scratch->sights[j];
+            if (sight)
+                *value *= seen_share(sight, &screen.cells[j], &points, (swap ? s : r)->normal,
+                                     &screen.frame);
+            error = all * doubt_of(sight, screen.cells[j].whole.area);
+            if (error > limits->tolerance * fmax(*value, limits->floor * least))
+                *value = fmin(
+                    sight_pair(e, exchange_tree_face(t, onto.from + j), &t->host, looking, &error),
+                    all);
+            most = fmax(most, error);
+        }
     }
+    return most;
 }

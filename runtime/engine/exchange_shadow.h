@@ -4,6 +4,7 @@
 #define EXCHANGE_SHADOW_H
 
 #include "engine/exchange_clear.h"
+#include "engine/exchange_sight.h"
 
 /* One thread's room. */
 struct shadow_scratch {
@@ -13,9 +14,9 @@ struct shadow_scratch {
 int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most);
 void shadow_scratch_close(struct shadow_scratch *scratch);
 
-/* values[rows][columns] are what pairs would exchange if nothing stood between; on return each is
- * times what its pair sees past the faces of the list. */
-void shadow_block(const struct exchange_pair *pair, const struct blockers *list,
-                  struct shadow_scratch *scratch, double *values);
+/* values[rows][columns] are what pairs would exchange if nothing stood between; on return, what
+ * they do past the faces of the list. Returns the largest error estimated (m2). */
+double shadow_block(const struct exchange_pair *pair, const struct blockers *list,
+                    struct shadow_scratch *scratch, struct sight_scratch *looking, double *values);
 
 #endif

@@ -341,7 +341,7 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
             {v[0][0], v[0][1], v[0][2]}, {v[3][0], v[3][1], v[3][2]}, {v[4][0], v[4][1], v[4][2]}};
         start(l, rest, 3, list, count);
     }
-    double aim = limits->many ? limits->tolerance
+    double aim = limits->many ? SIGHT_BELIEVED * limits->tolerance
                                     * fmax(nodes[0].points + (l->nodes > 1 ? nodes[1].points : 0),
                                            limits->floor * least)
                                     / l->from->area
