@@ -169,16 +169,17 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
         double scale = own_area * area[j] * (1 / LAMBERT_PI),
                least = own_area < area[j] ? own_area : area[j],
                e = scale * lambert_second_order(a, b, t, quad, trace, skew_i + skew_j);
+        int front = (a > 0) & (b > 0); /* behind each other two signs would cancel */
         double square = sx[j] * sx[j] + sy[j] * sy[j] + sz[j] * sz[j],
                rise = n0 * sx[j] + n1 * sy[j] + n2 * sz[j];
         double most = own_lopsided > lopsided[j] ? own_lopsided : lopsided[j];
         double rest =
             rest_square(a, b, t, quad, trace, fabs(skew_i) + fabs(skew_j), own_square * square,
                         a * a * own_rise + b * b * rise, most * most);
-        e = e > 0 ? e < least ? e : least : 0;
+        e = front & (e > 0) ? e < least ? e : least : 0;
         double limit = tolerance * (e > SIGHT_FLOOR * least ? e : SIGHT_FLOOR * least);
         out[j] = e;
-        doubt[j] = scale * scale * rest / (limit * limit);
+        doubt[j] = front ? scale * scale * rest / (limit * limit) : INFINITY;
     }
 }
 

@@ -228,8 +228,11 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
     struct screen screen = {.cells = scratch->cells};
     make_screen(&screen, t, swap ? r : s, onto);
     struct polygon blockers[BLOCKERS_MAX];
-    for (int b = 0; b < list->count; b++)
+    struct sight_list among = {.count = list->count};
+    for (int b = 0; b < list->count; b++) {
+        among.face[b] = list->face[b];
         t->host.corners(&t->host, list->face[b], &blockers[b]);
+    }
     for (uint32_t i = from.from; i < from.to; i++) {
         struct points points;
         const struct element *e = exchange_tree_face(t, i);
@@ -245,7 +248,7 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
             error = all * doubt_of(sight, screen.cells[j].whole.area);
             if (error > limits->tolerance * fmax(*value, limits->floor * least))
                 *value = fmin(
-                    sight_pair(e, exchange_tree_face(t, onto.from + j), &t->host, looking, &error),
+                    sight_pair(e, exchange_tree_face(t, onto.from + j), t, &among, looking, &error),
                     all);
             most = fmax(most, error);
         }

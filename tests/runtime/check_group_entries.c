@@ -116,6 +116,56 @@ START_TEST(test_tolerances)
 }
 END_TEST
 
+/* The sides of a box turned about z, seen from inside or from outside. */
+static void put_box(struct mesh_room *room, const double from[3], double size, double turn,
+                    int inside)
+{
+    const double x[3] = {size * cos(turn), size * sin(turn), 0},
+                 y[3] = {-size * sin(turn), size * cos(turn), 0}, z[3] = {0, 0, size},
+                 *edge[3] = {x, y, z}, all[2] = {0, 1};
+    for (int k = 0; k < 3; k++)
+        for (int far = 0; far < 2; far++) {
+            double at[3];
+            const double *u = edge[(k + 1) % 3], *v = edge[(k + 2) % 3];
+            for (int c = 0; c < 3; c++)
+                at[c] = from[c] + far * edge[k][c];
+            mesh_part(room, at, far == inside ? v : u, far == inside ? u : v, all, all);
+        }
+}
+
+/* Sides of a box whose corners were rounded are in one another's plane to the last digit only: they
+ * were taken for facing each other, behind both, and exchanged light through the box. */
+START_TEST(test_rounded_box)
+{
+    struct mesh_room room = {.count = 0};
+    struct scene s;
+    struct exchange x;
+    double worst = 0;
+    put_box(&room, (const double[3]){0, 0, 0}, 1, 0, 1);
+    put_box(&room, (const double[3]){.4, .3, .2}, .3, .3, 0);
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    for (int i = 0; i < room.count; i++)
+        mesh_of_patch(&room, &s, &room.patch[i], i < 6 ? 400 : 36, CELLS_QUADS);
+    for (uint32_t i = 0; i < s.face_count; i++)
+        for (uint32_t c = 0; c < s.faces[i].vertices; c++)
+            for (int k = 0; k < 3; k++)
+                s.faces[i].vertex[c][k] = rint(s.faces[i].vertex[c][k] * 1e9) * 1e-9;
+    open_exchange(&x, &s, 3e-4);
+    double *row = malloc(s.input_count * sizeof *row);
+    for (uint32_t i = 6 * 400; i < s.input_count; i++) {
+        double sum = exchange_row(&x, i, row);
+        for (uint32_t j = 6 * 400; j < s.input_count; j++)
+            ck_assert(row[j] == 0);
+        worst = fmax(worst, fabs(sum - 1));
+    }
+    ck_assert_double_le(worst, 3e-4);
+    free(row);
+    exchange_close(&x);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("group entries");
@@ -123,6 +173,7 @@ int main(void)
     tcase_set_timeout(c, 120);
     tcase_add_loop_test(c, test_entries, 0, thorough() ? ROOMS_THOROUGH : ROOMS);
     tcase_add_loop_test(c, test_tolerances, 0, 2);
+    tcase_add_test(c, test_rounded_box);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
