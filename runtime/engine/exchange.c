@@ -70,13 +70,13 @@ static int refine(struct exchange *x, const struct refiner *refiner, struct watc
 }
 
 /* Where the row's light goes that meets no front: shares of all rays. */
-static struct exchange_loss ask_row(const struct exchange *x, uint32_t i)
+static struct exchange_loss ask_row(const struct exchange *x, uint32_t i, int side)
 {
     const struct exchange_areas *m = &x->areas;
     double leaves = 0, backs = 0, covered = 0;
     for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p]) {
         const struct element *e = exchange_tree_face(&x->tree, p);
-        struct environment f = environment_of(x->tree.rays, e);
+        struct environment f = environment_of(x->tree.rays, e, side);
         double ray = e->area / (f.fronts + f.leaves + f.backs + f.covered);
         leaves += ray * f.leaves;
         backs += ray * f.backs;
@@ -164,14 +164,20 @@ struct asking {
     struct exchange_loss *ways; /* [input] */
 };
 
+/* A row that lacks more than a cell of the finer grid, where the coarse one shows no way out, may
+ * stand on feet smaller than the coarse one's cells. */
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
-    for (size_t i = from; i < to; i++)
-        if (a->exchange->areas.area[i] > 0
-            && (a->options->closure != CLOSURE_NONE
-                || !(fabs(1 - a->share[i]) <= a->options->tolerance)))
-            a->ways[i] = ask_row(a->exchange, (uint32_t)i);
+    for (size_t i = from; i < to; i++) {
+        if (!(a->exchange->areas.area[i] > 0)
+            || (a->options->closure == CLOSURE_NONE
+                && fabs(1 - a->share[i]) <= a->options->tolerance))
+            continue;
+        a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
+        if (is_closed(&a->ways[i]) && 1 - a->share[i] > 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE))
+            a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
+    }
 }
 
 /* Row sums, their account, and closure. */

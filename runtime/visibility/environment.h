@@ -14,7 +14,10 @@ struct environment {
     int covered;
 };
 
-/* Thread-safe. The result depends on the surface and the scene alone. */
-struct environment environment_of(const struct rays *rays, const struct element *surface);
+/* The points stand on a grid of side x side; what is smaller than a cell may be missed. */
+enum { ENVIRONMENT_COARSE = 4, ENVIRONMENT_FINE = 16 };
+
+/* Thread-safe. The result depends on the surface, the scene and `side` alone. */
+struct environment environment_of(const struct rays *rays, const struct element *surface, int side);
 
 #endif

@@ -255,11 +255,40 @@ START_TEST(test_inside_out)
 }
 END_TEST
 
+/* A pillar between the points of a coarse grid covers a hundredth of floor and ceiling. */
+START_TEST(test_pillar)
+{
+    struct shape s;
+    put_cube(&s);
+    for (int k = 0; k < 8; k++) {
+        double *p = s.position[8 + k];
+        p[0] = k % 4 == 1 || k % 4 == 2 ? 0.3 : 0.2;
+        p[1] = k % 4 >= 2 ? 0.3 : 0.2;
+        p[2] = k / 4;
+    }
+    for (uint32_t k = 0; k < 4; k++) {
+        const uint32_t side[4] = {8 + k, 8 + (k + 1) % 4, 12 + (k + 1) % 4, 12 + k};
+        memcpy(s.corner[s.count++], side, sizeof side);
+    }
+    compute(&s, RAD_CLOSURE_NONE);
+    for (uint32_t i = 0; i < 2; i++) {
+        ck_assert_double_eq_tol(s.loss[i].covered, 0.01, 3e-4);
+        ck_assert_double_eq_tol(s.sum[i], 0.99, 3e-4);
+    }
+    for (uint32_t i = 2; i < s.count; i++)
+        ck_assert_double_eq(s.loss[i].covered, 0);
+    ck_assert_uint_eq(s.report.rows_covered, 2);
+    ck_assert_uint_eq(s.report.rows_open + s.report.rows_backs, 0);
+    close_shape(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("losses");
     TCase *rows = tcase_create("rows");
     tcase_add_test(rows, test_closed);
+    tcase_add_test(rows, test_pillar);
     tcase_add_test(rows, test_sky);
     tcase_add_test(rows, test_turned);
     tcase_add_test(rows, test_both);
