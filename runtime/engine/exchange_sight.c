@@ -365,6 +365,26 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
     return fmax(l->value, 0);
 }
 
+/* The part of e in front of a plane; corners within `flat` of it lie in it. Where rounding puts the
+ * ends of a shared edge on either side, a clip at no distance would add a corner on the edge. */
+static void clip_front(struct polygon *out, const struct element *e, const struct element *plane,
+                       double flat)
+{
+    double h[4];
+    int front = 0;
+    for (int i = 0; i < e->vertices; i++) {
+        h[i] = height3(e->vertex[i], plane->centre, plane->normal);
+        if (fabs(h[i]) <= flat)
+            h[i] = 0;
+        front += h[i] > 0;
+    }
+    out->n = front ? polygon_divide(&e->vertex[0][0], e->vertices, 3, h, POLYGON_MAX, &out->v[0][0],
+                                    NULL, NULL)
+                   : 0;
+    if (out->n < 3)
+        out->n = 0;
+}
+
 /* How large e looks from the nearest of the faces: seen from another point of e, their shadows move
  * by so much. */
 static double sway(const struct element *e, const struct exchange_tree *t, const uint32_t *list,
@@ -417,8 +437,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     struct looking l = {
         .tree = t, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
     struct polygon part, seen;
-    polygon_clip(&part, (const double(*)[3])l.from->vertex, l.from->vertices, l.to->centre,
-                 l.to->normal);
+    clip_front(&part, l.from, l.to, host->flat);
     polygon_clip(&seen, (const double(*)[3])l.to->vertex, l.to->vertices, l.from->centre,
                  l.from->normal);
     if (part.n == 0 || seen.n == 0)
