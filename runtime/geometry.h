@@ -9,6 +9,12 @@
 #include <math.h>
 #include <stddef.h>
 
+/* Products are rounded before they are added, whatever the processor could do at once: clang asks
+ * this here of all that follows, gcc is asked by -std=c11 or -ffp-contract=off. */
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
+
 static inline double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -893,8 +893,14 @@ static inline void refiner_hemisphere_direction(double out[3], const struct refi
 #ifndef REFINER_LANES
 #define REFINER_LANES 8
 #endif
+/* AVX-512 can fuse products and sums, AVX2 alone cannot. gcc does so in C++ and in its own C unless
+ * told not to, which a header cannot see. */
 #ifndef REFINER_LANES_WIDEST
+#if defined __GNUC__ && !defined __clang__ && (defined __cplusplus || !defined __STRICT_ANSI__)
+#define REFINER_LANES_WIDEST 4
+#else
 #define REFINER_LANES_WIDEST 8
+#endif
 #endif
 enum { REFINER_LANES_MOST = 16 }; /* to what lengths of arrays are rounded up */
 

@@ -151,13 +151,14 @@ static const double corner_weight[2][3] = {{0.10995174365532186764, 0.2233815896
                                            {3 / 60.0, 8 / 60.0, 27 / 60.0}};
 
 /* What a point sees past what stands between. Outlines save most where faces go on into each other;
- * faces by themselves are cut out one by one. */
+ * faces by themselves, and bent ones, are cut out one by one. */
 static double past(const struct looking *l, const double x[3], const double n[3])
 {
     const struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
-    return b->edges <= 2 * b->faces ? sight_past(&l->sight, x, n, up, b)
-                                    : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces);
+    return !b->bent && b->edges <= 2 * b->faces
+               ? sight_past(&l->sight, x, n, up, b)
+               : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces);
 }
 
 /* The exchange area of a piece by points: within it, exact to degree 4 and 5 [Dunavant 1985;

@@ -6,7 +6,7 @@
  * shadow changes at its outline alone. The polygon is cut along the outline's edges that cross it,
  * as far as they do; what is then left uncut is seen or hidden as one, and one ray at each part's
  * middle says which, past the faces themselves. An edge too many costs time and changes nothing.
- * Nothing is asked of surfaces: they may be open, bent to any shape, and cross.
+ * Faces must be flat. Nothing else is asked of surfaces: they may be open, of any shape, and cross.
  * Invariant: as sight_pieces.c, but for rounding; where no edge is an outline from anywhere, the
  * piece is clear or hidden, proved (visibility/hidden.c).
  * [Appel 1967, outlines and how many surfaces hide; binary space partition, Fuchs, Kedem & Naylor
@@ -53,6 +53,15 @@ static void make_face(struct sight_face *face, const struct element *e,
     face->plane[1] = dot3(e->normal, f->v);
     face->plane[2] = dot3(e->normal, f->n);
     face->plane[3] = dot3(face->plane, face->v[0]);
+}
+
+/* Corners that rounding put off the plane: edges and planes tell two outlines. */
+static int is_bent(const struct element *e, double flat)
+{
+    for (int i = 3; i < e->vertices; i++)
+        if (fabs(height3(e->vertex[i], e->vertex[0], e->normal)) > flat)
+            return 1;
+    return 0;
 }
 
 /* Where in the list; -1: it is not in it. */
@@ -134,7 +143,7 @@ enum between sight_between_open(struct sight_between *b, const struct exchange_t
 {
     signed char front[SIGHT_LIST];
     int parted = 1;
-    b->faces = b->edges = 0;
+    b->faces = b->edges = b->bent = 0;
     for (int i = 0; i < count; i++) {
         const struct element *e = &t->h.elements[list[i]];
         if (shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
@@ -143,6 +152,7 @@ enum between sight_between_open(struct sight_between *b, const struct exchange_t
         if (!front[b->faces] && !candidates_meets(&t->h, shaft, t->host.ray_offset, list[i]))
             continue;
         parted &= front[b->faces] != 0;
+        b->bent |= is_bent(e, shaft->flat);
         make_face(&b->face[b->faces], e, &sight->raised);
         b->list[b->faces++] = list[i];
     }

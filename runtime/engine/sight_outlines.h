@@ -25,6 +25,7 @@ struct sight_face {
 /* What stands between a piece and the polygon it looks at. */
 struct sight_between {
     int faces, edges;
+    int bent;                  /* 1: a face is not in one plane, as outlines want them */
     uint32_t list[SIGHT_LIST]; /* ascending */
     struct sight_face face[SIGHT_LIST];
     struct sight_edge edge[SIGHT_EDGES];

@@ -18,8 +18,14 @@
 #ifndef LANES
 #define LANES 8
 #endif
+/* AVX-512 can fuse products and sums, AVX2 alone cannot. gcc does so in C++ and in its own C unless
+ * told not to, which a header cannot see. */
 #ifndef LANES_WIDEST
+#if defined __GNUC__ && !defined __clang__ && (defined __cplusplus || !defined __STRICT_ANSI__)
+#define LANES_WIDEST 4
+#else
 #define LANES_WIDEST 8
+#endif
 #endif
 enum { LANES_MOST = 16 }; /* to what lengths of arrays are rounded up */
 
