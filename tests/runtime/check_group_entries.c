@@ -99,7 +99,7 @@ static struct verdict judge_room(int number, double tolerance)
     return v;
 }
 
-/* Rooms that fail, and stand as failing: single entries by 1 to 3 tolerances, where a far pair's
+/* Rooms that fail, and stand as failing: single entries by 1 to 7 tolerances, where a far pair's
  * rule of points or half shadow's estimate is too sure of itself; of 27 two are lost altogether,
  * where a wall's face crosses the plane of a box's side. */
 static const int failing[] = {18, 19, 27, 34, 37, 41, 43, 44, 47, 52, 55, 58};
