@@ -11,7 +11,7 @@ source=examples/oracles/$oracle.dag
 mkdir -p "$out"
 
 echo "1. Compile the oracle"
-"$build/bin/dagc" -o "$out/$oracle.c" --header "$out/$oracle.h" "$source"
+"$build/bin/dagc" --release=wave -o "$out/$oracle.c" --header "$out/$oracle.h" "$source"
 text_lines=$(grep -c '[^[:space:]]' "$source")
 c_lines=$(grep -c '[^[:space:]]' "$out/$oracle.c")
 nodes=$("$build/bin/dagc" --emit=text "$source" | grep -c '^ *node ')
