@@ -302,6 +302,7 @@ struct RadAnswerCount {
     const char *target;      /* node or decision */
     uint64_t count;
 };
+enum { RAD_WIDTHS = 3 };
 struct RadTermCount {
     const char *name;
     uint64_t count; /* how often the node brought the term to a better level than it had */
@@ -316,6 +317,9 @@ struct RadNodeCount {
     uint64_t rays;  /* segments that it asked the host's `occluded` for */
     const struct RadTermCount *terms; /* [term_count], those that it computed at least once */
     int term_count;
+    /* What a release in waves finds here: lists of up to 256 pairs, and the vectors of 4, 8 and 16
+     * pairs that they fill, the last of a list in part. 0: pairs were asked one by one. */
+    uint64_t lists, vectors[RAD_WIDTHS];
 };
 /* A way through the graph that discussions went: nodes[i] gave answers[i]. */
 struct RadPath {

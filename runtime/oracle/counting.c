@@ -11,6 +11,9 @@
  * sixteens. A timed discussion during which the thread was off its processor is not told as timed:
  * one such pause lasts longer than the discussions of a second that are timed.
  *
+ * A node's pairs in a block of WAVE_PAIRS, as the release in waves is given them, are the list that
+ * it would ask there: so the interpreter can tell how full the lists are, of any graph.
+ *
  * A path is counted under its number (follow.h); a graph of too many to be numbered has none
  * counted.
  * SPDX-License-Identifier: MIT */
@@ -22,6 +25,7 @@
 #include "oracle/follow.h"
 #include "oracle/statistics.h"
 #include "oracle/tool_table.h"
+#include "wave.h"
 
 /* The tally that the thread used last, and of which counting: a number that is never given
  * twice. */
@@ -48,6 +52,7 @@ static void free_tally(struct tally *t)
     free(t->levels);
     free(t->paths);
     free(t->spans);
+    free(t->called);
     free(t);
 }
 
@@ -66,8 +71,9 @@ static struct tally *find_tally(struct program *p)
             t->path_capacity = 256;
             t->paths = calloc(t->path_capacity, sizeof *t->paths);
             t->spans = calloc((size_t)p->graph->order.count, sizeof *t->spans);
+            t->called = calloc((size_t)p->graph->order.count, sizeof *t->called);
         }
-        if (!t || !t->levels || !t->paths || !t->spans) {
+        if (!t || !t->levels || !t->paths || !t->spans || !t->called) {
             free_tally(t);
             atomic_store(&p->lost, 1);
             return NULL;
@@ -297,6 +303,49 @@ enum decision program_walk_counted(const void *state, struct discussion *d)
     return decision;
 }
 
+/* ---- blocks */
+
+/* A vector of 4, of 8 and of 16 pairs: doubles in 256 bits, in 512, floats in 512. */
+static const uint64_t widths[RAD_WIDTHS] = {4, 8, 16};
+
+/* How often step i was asked, so far. */
+static uint64_t calls_of(const struct program *p, const struct tally *t, int i)
+{
+    const int *next = p->steps[i].next, *end = i + 1 < p->graph->order.count
+                                                   ? p->steps[i + 1].next
+                                                   : p->next + p->answer_count;
+    uint64_t calls = 0;
+    for (; next < end; next++)
+        calls += t->numbers[next - p->next];
+    return calls;
+}
+
+static void count_lists(const struct program *p, struct tally *t)
+{
+    for (int i = 0; i < p->graph->order.count; i++) {
+        const uint64_t pairs = calls_of(p, t, i) - t->called[i];
+        uint64_t *numbers = t->numbers + (size_t)p->answer_count + (size_t)i * program_stride();
+        numbers[NUMBER_LISTS] += pairs > 0;
+        for (int k = 0; k < RAD_WIDTHS; k++)
+            numbers[NUMBER_VECTORS + k] += (pairs + widths[k] - 1) / widths[k];
+    }
+}
+
+void program_walk_block(const void *state, struct discussion *block, int count,
+                        enum decision *decisions)
+{
+    const struct program *p = state;
+    for (int from = 0; from < count; from += WAVE_PAIRS) {
+        struct tally *t = mine.counting == p->counting ? mine.tally : find_tally(p->self);
+        for (int i = 0; t && i < p->graph->order.count; i++)
+            t->called[i] = calls_of(p, t, i);
+        for (int i = from; i < count && i < from + WAVE_PAIRS; i++)
+            decisions[i] = program_walk_counted(p, &block[i]);
+        if (t)
+            count_lists(p, t);
+    }
+}
+
 /* ---- to begin with */
 
 /* What two readings of the clock leave between them, ns: the least of many, the others were
@@ -328,6 +377,7 @@ int refiner_count(struct refiner *r)
     p->counting = atomic_fetch_add(&countings, 1) + 1;
     atomic_store(&p->lost, 0);
     r->refine = program_walk_counted;
+    r->wave = program_walk_block;
     r->state = p;
     return 0;
 }

@@ -28,6 +28,7 @@ struct tally {
     uint64_t *levels; /* of all terms before the node, eight in each */
     int wait;         /* this many discussions on, one is timed */
     uint32_t random;
+    uint64_t *called;           /* per step, how often before this block */
     uint64_t path;              /* of the discussion that goes on */
     struct span_of_step *spans; /* [span_count], of a timed one: at most one per step */
     size_t span_count;
@@ -39,9 +40,16 @@ struct tally {
     uint64_t numbers[];
 };
 
-/* Of a step: timed calls, ns in them, rays, and per term of the catalog how often it was computed.
- */
-enum { NUMBER_TIMED, NUMBER_NANOSECONDS, NUMBER_RAYS, NUMBER_TERMS };
+/* Of a step: timed calls, ns in them, rays, blocks in which a pair came by, the vectors of 4, 8 and
+ * 16 pairs that those take, and per term of the catalog how often it was computed. */
+enum {
+    NUMBER_TIMED,
+    NUMBER_NANOSECONDS,
+    NUMBER_RAYS,
+    NUMBER_LISTS,
+    NUMBER_VECTORS,
+    NUMBER_TERMS = NUMBER_VECTORS + RAD_WIDTHS
+};
 
 static inline uint64_t program_stride(void)
 {

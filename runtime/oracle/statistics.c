@@ -68,6 +68,8 @@ static void show_nodes(struct statistics *s, const struct program *p, size_t vie
         x->timed = at[NUMBER_TIMED];
         x->seconds = scaled_seconds(at[NUMBER_NANOSECONDS], x->timed, x->calls);
         x->rays = at[NUMBER_RAYS];
+        x->lists = at[NUMBER_LISTS];
+        memcpy(x->vectors, at + NUMBER_VECTORS, sizeof x->vectors);
         for (size_t k = 0; k < (size_t)term_table_count; k++) {
             size_t of = own + NUMBER_TERMS + k;
             uint64_t count = numbers[of] - (since ? since[of] : 0);

@@ -13,6 +13,18 @@ static json_t *whole(uint64_t count)
     return json_integer((json_int_t)count);
 }
 
+/* Of 4, 8 and 16 pairs. */
+static json_t *vectors_json(const struct RadNodeCount *n)
+{
+    json_t *vectors = json_object();
+    for (int k = 0; k < RAD_WIDTHS; k++) {
+        char width[8];
+        snprintf(width, sizeof width, "%d", 4 << k);
+        json_object_set_new(vectors, width, whole(n->vectors[k]));
+    }
+    return vectors;
+}
+
 /* What nodes have in common with the nodes of one pass. */
 static json_t *node_json(const struct RadNodeCount *n)
 {
@@ -25,9 +37,10 @@ static json_t *node_json(const struct RadNodeCount *n)
     }
     for (int k = 0; k < n->term_count; k++)
         json_object_set_new(terms, n->terms[k].name, whole(n->terms[k].count));
-    return json_pack("{s:s, s:s, s:o, s:f, s:o, s:o, s:o, s:o}", "node", n->name, "tool", n->tool,
-                     "calls", whole(n->calls), "seconds", n->seconds, "timed", whole(n->timed),
-                     "rays", whole(n->rays), "terms", terms, "answers", answers);
+    return json_pack("{s:s, s:s, s:o, s:f, s:o, s:o, s:o, s:o, s:o, s:o}", "node", n->name, "tool",
+                     n->tool, "calls", whole(n->calls), "seconds", n->seconds, "timed",
+                     whole(n->timed), "rays", whole(n->rays), "lists", whole(n->lists), "vectors",
+                     vectors_json(n), "terms", terms, "answers", answers);
 }
 
 static json_t *nodes_json(const struct RadStatistics *s)

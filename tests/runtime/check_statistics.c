@@ -7,6 +7,7 @@
 #include "oracle/statistics.h"
 #include "oracles.h"
 #include "suite.h"
+#include "wave.h"
 
 /* An oracle that counts depths and records what links bring. */
 static const char counting[] =
@@ -97,6 +98,80 @@ START_TEST(test_statistics)
     solve_close(&plain);
     refiner_close(r);
     refiner_close(other);
+    made_close(&scene);
+}
+END_TEST
+
+/* What a spy sees of the blocks that the engine hands to a counted graph: after each, what every
+ * node was called more, of which a list is made. */
+enum { NODES = 32 };
+
+struct spy {
+    const struct refiner *refiner;
+    uint64_t called[NODES], lists[NODES], vectors[NODES][RAD_WIDTHS], blocks;
+};
+
+static void spy_wave(const void *state, struct discussion *block, int count,
+                     enum decision *decisions)
+{
+    struct spy *spy = *(struct spy *const *)state;
+    struct statistics s;
+    spy->refiner->wave(spy->refiner->state, block, count, decisions);
+    ck_assert_int_le(count, WAVE_PAIRS);
+    ck_assert_int_eq(statistics_take(&s, spy->refiner), 0);
+    ck_assert_int_le(s.shown.node_count, NODES);
+    spy->blocks++;
+    for (int i = 0; i < s.shown.node_count; i++) {
+        const uint64_t pairs = s.shown.nodes[i].calls - spy->called[i];
+        spy->called[i] += pairs;
+        spy->lists[i] += pairs > 0;
+        for (int k = 0; k < RAD_WIDTHS; k++)
+            for (uint64_t left = pairs, width = 4u << k; left; left -= left < width ? left : width)
+                spy->vectors[i][k]++;
+    }
+    statistics_free(&s);
+}
+
+/* The lists that a release in waves would ask are those of the blocks, on any number of threads. */
+START_TEST(test_lists)
+{
+    struct scene scene;
+    struct solve s;
+    struct statistics one, other;
+    const char *cause;
+    furnished(&scene, 1);
+    struct refiner *r = interpreted("counting.dag", counting, NULL);
+    ck_assert_ptr_nonnull(r);
+    ck_assert_int_eq(refiner_count(r), 0);
+    struct spy spy = {.refiner = r}, *at = &spy;
+    struct refiner asking = *r;
+    struct solve_options options = quick(1);
+    asking.wave = spy_wave;
+    asking.state = &at;
+    ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_run(&s, &asking, &cause), 0);
+    solve_close(&s);
+    ck_assert_int_eq(statistics_take(&one, r), 0);
+    ck_assert_uint_eq(one.shown.nodes[0].lists, spy.blocks);
+    ck_assert_uint_gt(one.shown.nodes[0].calls, 20 * spy.blocks);
+    ck_assert_int_eq(refiner_count(r), 0);
+    options = quick(3);
+    ck_assert_int_eq(solve_open(&s, &scene, &options, &cause), 0);
+    ck_assert_int_eq(solve_run(&s, r, &cause), 0);
+    solve_close(&s);
+    ck_assert_int_eq(statistics_take(&other, r), 0);
+    for (int i = 0; i < one.shown.node_count; i++) {
+        const struct RadNodeCount *a = &one.shown.nodes[i], *b = &other.shown.nodes[i];
+        ck_assert_uint_eq(a->lists, spy.lists[i]);
+        ck_assert_uint_eq(b->lists, spy.lists[i]);
+        for (int k = 0; k < RAD_WIDTHS; k++) {
+            ck_assert_uint_eq(a->vectors[k], spy.vectors[i][k]);
+            ck_assert_uint_eq(b->vectors[k], spy.vectors[i][k]);
+        }
+    }
+    statistics_free(&one);
+    statistics_free(&other);
+    refiner_close(r);
     made_close(&scene);
 }
 END_TEST
@@ -304,6 +379,7 @@ int main(void)
     TCase *c = tcase_create("statistics");
     tcase_set_timeout(c, 300);
     tcase_add_test(c, test_statistics);
+    tcase_add_test(c, test_lists);
     tcase_add_test(c, test_paths);
     tcase_add_test(c, test_times);
     tcase_add_test(c, test_threads);
