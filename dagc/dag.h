@@ -210,7 +210,7 @@ struct guard {
 };
 
 /* tool NAME(parameters) question|command answers (...) [reads] [writes]
- * [guards (...) [by (...)] [after TOOL(...)]] [counts|records] [header] [wave] "doc"; */
+ * [guards (...) [by (...)] [after TOOL(...)]] [counts|records] [header] [wave] [anywhere] "doc"; */
 struct tool {
     const char *name;
     struct where where;
@@ -230,6 +230,7 @@ struct tool {
     struct where keeps_where; /* of the word that says so */
     const char *header;       /* C header with `tool_NAME`, "tools/NAME.h" when not written */
     const char *wave;         /* with `wave_NAME`, likewise, its form over a block; NULL: none */
+    unsigned char anywhere;   /* it has an answer for every pair, whatever others have answered */
     const char *doc;
 };
 
@@ -389,6 +390,7 @@ enum { ERRORS_SHOWN = 50 }; /* the rest of the errors, or of the warnings, are o
 struct block;
 struct protector;
 struct warnings;
+struct profile;
 struct arena {
     struct block *blocks;
     struct protector *protector;
@@ -457,7 +459,8 @@ struct dag {
     struct use *uses;
     int use_count;
     int *order;
-    int order_count; /* indices in nodes */
+    int order_count;               /* indices in nodes */
+    const struct profile *profile; /* what --profile told of one oracle; NULL: nothing */
     struct oracle_graph *oracles;
     int oracle_count;
     struct oracle_graph *branches;

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "analyse/order.h"
 #include "base/tidy.h"
 #include "command/depfile.h"
 #include "prove/diff.h"
@@ -94,6 +95,22 @@ static void make_skeleton(struct dag *dag, struct job *job)
     dag_emit_skeleton(&job->files);
 }
 
+/* What was measured of an oracle goes in, and what follows from it. */
+static void use_profile(struct dag *dag, struct job *job)
+{
+    struct profile *profile = dag_read_profile(dag, &job->profile);
+    if (profile == NULL)
+        return;
+    dag_order_questions(dag, profile);
+    dag->profile = profile;
+    if (profile->ordered
+        && dag_diff_graphs(dag, &profile->before, &dag->oracles[profile->oracle]) != 0)
+        dag_error(dag, dag_nowhere, "the ordered graph of %s is not proved to decide the same",
+                  profile->before.name);
+    if (job->stop == PASSES)
+        dag_fingerprint(dag);
+}
+
 static void passes(struct dag *dag, void *context)
 {
     struct job *job = context;
@@ -105,6 +122,8 @@ static void passes(struct dag *dag, void *context)
 
     dag_run_passes(dag, is_catalog ? &job->input : &job->catalog,
                    is_catalog || job->emit == EMIT_STUB ? NULL : &job->input, job->stop);
+    if (dag->error_count == 0 && job->profile_path != NULL)
+        use_profile(dag, job);
     if (dag->error_count > 0)
         return;
     if (job->skeleton)
@@ -147,6 +166,8 @@ static int run(struct job *job)
     int result = 1;
     if (job->emit != EMIT_STUB || job->skeleton) /* there FILE.dag is the name of a tool */
         dag_input_open(&job->input, job->input_path);
+    if (job->profile_path != NULL)
+        dag_input_open(&job->profile, job->profile_path);
     if (job->catalog_path != NULL)
         dag_input_open(&job->catalog, job->catalog_path);
     else {
@@ -178,6 +199,7 @@ static int run(struct job *job)
         dag_text_free(&job->files.files[i].text);
     dag_input_close(&job->input);
     dag_input_close(&job->catalog);
+    dag_input_close(&job->profile);
     dag_free(dag);
     return result;
 }

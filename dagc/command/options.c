@@ -242,6 +242,9 @@ static int set_option(struct job *job, enum option option, const char *value)
     case OPTION_HOST:
         job->host[job->c.host_count++] = value;
         return -1;
+    case OPTION_PROFILE:
+        job->profile_path = value;
+        return -1;
     case OPTION_PROVE:
         job->prove = 1;
         return -1;
@@ -360,7 +363,8 @@ static const char *contradiction(const struct job *job)
                 || (is_standard(path) && is_standard(job->outputs[k].path)))
                 return "two outputs name the same file";
         if ((!is_standard(job->input_path) && same_file(path, job->input_path))
-            || (job->catalog_path != NULL && same_file(path, job->catalog_path)))
+            || (job->catalog_path != NULL && same_file(path, job->catalog_path))
+            || (job->profile_path != NULL && same_file(path, job->profile_path)))
             return "an output would replace an input";
     }
     if (is_standard(job->input_path) && is_standard(job->catalog_path))
@@ -372,6 +376,12 @@ static const char *contradiction(const struct job *job)
         && (job->emit != EMIT_C || job->stop != PASSES))
         return "--instrument, --trace, --release=wave, --copies, --outline, --lines, "
                "--line-directives, --standalone and --prove belong to C text";
+    if (job->profile_path != NULL
+        && (dag_job_is_catalog(job) || (job->stop != PASSES && job->stop < PASS_ANALYSE)))
+        return "--profile belongs to an analysed oracle";
+    if (job->profile_path != NULL && (job->prove || job->c.outline))
+        return "--profile changes the graph: have it written by --emit=text, then --prove or "
+               "--outline that";
     if (job->c.outline && job->c.copies > 1)
         return "--outline makes the text shorter, --copies longer: take one";
     if (job->prove && (job->c.standalone || header != NULL || depfile != NULL || !is_standard(out)))

@@ -21,11 +21,12 @@ struct job {
     enum emit emit;
     enum pass stop; /* --dump; PASSES: none */
     struct warnings warnings;
-    struct emit_options c; /* of C text */
-    int prove;             /* --prove */
-    int skeleton;          /* --emit=stub of a catalog */
-    int proved;            /* what it found */
-    struct input input, catalog;
+    struct emit_options c;    /* of C text */
+    int prove;                /* --prove */
+    int skeleton;             /* --emit=stub of a catalog */
+    int proved;               /* what it found */
+    const char *profile_path; /* NULL: none */
+    struct input input, catalog, profile;
     const char **folders; /* of -I; room for as many as there are arguments */
     int folder_count;
     struct skeleton files;   /* when it makes one */

@@ -239,6 +239,8 @@ static void print_tool(const struct dag *dag, struct text *out, const struct too
     print_field(out, ",\n       ", "header", tool->header);
     if (tool->wave != NULL)
         print_field(out, ", ", "wave", tool->wave);
+    if (tool->anywhere)
+        print_flag(out, "anywhere", 1);
     print_field(out, ", ", "doc", tool->doc);
     dag_print(out, "}");
 }

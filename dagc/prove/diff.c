@@ -55,7 +55,7 @@ struct walk {
     int states, cut;
     struct group groups[GROUPS_MAX];
     int group_count;
-    FILE *out;
+    FILE *out; /* NULL: nothing is told */
 };
 
 static const struct node *node_at(const struct side *side, int place)
@@ -324,7 +324,7 @@ static void report(struct walk *walk)
     if (walk->group_count >= GROUPS_MAX)
         return;
     walk->groups[walk->group_count++] = new_group;
-    if (walk->group_count > SHOWN)
+    if (walk->out == NULL || walk->group_count > SHOWN)
         return;
     fprintf(walk->out, "\n");
     for (int i = 0; i < walk->trail_count; i++) {
@@ -455,6 +455,45 @@ struct request {
     int result;
 };
 
+/* Makes room for a walk, and walks. */
+static void begin(struct walk *walk)
+{
+    struct arena *arena = walk->arena;
+    const size_t terms = (size_t)walk->side[0].dag->term_count;
+    find_bases(walk);
+    find_reach(walk);
+    find_subgraphs(walk);
+    size_t most = 1;
+    int reads = 0;
+    for (int s = 0; s < SIDES; s++) {
+        struct side *side = &walk->side[s];
+        side->levels = dag_alloc(arena, terms + 1);
+        side->at = side->oracle->start;
+        most += (size_t)side->oracle->order.count;
+        for (int i = 0; i < side->oracle->order.count; i++) {
+            int more = read_count(side->dag, node_at(side, i));
+            reads = more > reads ? more : reads;
+        }
+    }
+    walk->kept_size = 2 * terms + (size_t)reads + 1;
+    walk->kept = dag_alloc(arena, most * walk->kept_size);
+    walk->trail = dag_alloc(arena, most * sizeof *walk->trail);
+    walk->seen = dag_alloc(arena, TABLE_SIZE * sizeof *walk->seen);
+    walk_on(walk);
+}
+
+int dag_diff_graphs(struct dag *dag, const struct oracle_graph *a, const struct oracle_graph *b)
+{
+    struct walk *walk = dag_alloc(&dag->arena, sizeof *walk);
+    walk->arena = &dag->arena;
+    for (int s = 0; s < SIDES; s++) {
+        walk->side[s].dag = dag;
+        walk->side[s].oracle = s == 0 ? a : b;
+    }
+    begin(walk);
+    return walk->group_count > 0 || walk->cut;
+}
+
 /* (Protected twice: the arenas of both dags grow.) */
 static void compare(struct dag *other, void *context)
 {
@@ -465,28 +504,9 @@ static void compare(struct dag *other, void *context)
     walk->arena = &dag->arena;
     walk->out = request->out;
     memcpy(walk->side, request->side, sizeof walk->side);
-    find_bases(walk);
-    find_reach(walk);
-    find_subgraphs(walk);
-    for (int s = 0; s < SIDES; s++) {
-        walk->side[s].levels = dag_alloc(walk->arena, (size_t)dag->term_count + 1);
-        walk->side[s].at = walk->side[s].oracle->start;
-    }
-    size_t most =
-        (size_t)walk->side[0].oracle->order.count + (size_t)walk->side[1].oracle->order.count + 1;
-    int reads = 0;
-    for (int s = 0; s < SIDES; s++)
-        for (int i = 0; i < walk->side[s].oracle->order.count; i++) {
-            int more = read_count(walk->side[s].dag, node_at(&walk->side[s], i));
-            reads = more > reads ? more : reads;
-        }
-    walk->kept_size = 2 * (size_t)dag->term_count + (size_t)reads + 1;
-    walk->kept = dag_alloc(walk->arena, most * walk->kept_size);
-    walk->trail = dag_alloc(walk->arena, most * sizeof *walk->trail);
-    walk->seen = dag_alloc(walk->arena, TABLE_SIZE * sizeof *walk->seen);
     fprintf(walk->out, "oracle %s\n", walk->side[0].oracle->name);
     request->result |= compare_parameters(walk);
-    walk_on(walk);
+    begin(walk);
     if (walk->group_count > SHOWN)
         fprintf(walk->out, "\n%d ways to decide differ%s; the first %d are shown\n",
                 walk->group_count, walk->group_count == GROUPS_MAX ? " at least" : "", SHOWN);

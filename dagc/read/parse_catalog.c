@@ -330,7 +330,7 @@ int dag_parse_answers(struct parser *parser, struct span *span)
 /* tool = "tool" NAME "(" [ parameter { "," parameter } ] ")" ( "question" | "command" )
  *        "answers" answers
  *        { "reads" needs | "writes" needs | guards | "counts" | "records" | "header" STRING
- *        | "wave" }
+ *        | "wave" | "anywhere" }
  *        [ STRING ] ";" */
 static int parse_tool(struct parser *parser)
 {
@@ -388,6 +388,8 @@ static int parse_tool(struct parser *parser)
                 return 0;
         } else if (dag_take_word(parser, "wave"))
             wave = 1;
+        else if (dag_take_word(parser, "anywhere"))
+            t->anywhere = 1;
         else
             break;
     }

@@ -82,6 +82,22 @@ oracle one {
 }
 END
 sed 's/heavy -> split/heavy -> drop/' one.dag >two.dag
+cat >row.dag <<'END'
+tool dear() question answers (no, yes) anywhere "";
+tool cheap() question answers (no, yes) anywhere "";
+oracle row {
+  start a;
+  node a = dear() { no -> drop; yes -> b; }
+  node b = cheap() { no -> drop; yes -> c; }
+  node c = measure() { done -> keep; }
+}
+END
+cat >row.json <<'END'
+{"oracle": "row", "nodes": [
+ {"node": "a", "tool": "dear", "calls": 9, "mean_seconds": 2, "answers": [{"answer": "no", "count": 1}, {"answer": "yes", "count": 8}]},
+ {"node": "b", "tool": "cheap", "calls": 8, "mean_seconds": 1, "answers": [{"answer": "no", "count": 4}, {"answer": "yes", "count": 4}]},
+ {"node": "c", "tool": "measure", "calls": 4, "answers": [{"answer": "done", "count": 4}]}]}
+END
 
 # Stand-ins for the programs that dagc runs: what matters here is dagc.
 printf '#!/bin/sh\nexec cat\n' >bin/dot
@@ -171,6 +187,8 @@ survives 1 --catalog test_catalog.dag -o old.c cycle.dag
 survives 1 $c none.dag
 survives 2 diff --catalog test_catalog.dag one.dag one.dag
 survives 2 diff --catalog test_catalog.dag one.dag two.dag
+survives 1 $c --dump=waves --profile row.json row.dag
+survives 1 $c --header old.h --depfile old.d --profile row.json row.dag
 survives 1 -Wno-all --catalog test_catalog.dag --prove --instrument --trace one.dag
 
 echo "memory: $failures failed allocations in $count modes, $bad wrong"

@@ -6,7 +6,7 @@ endif
 
 syntax keyword dagStructure import graph oracle catalog runtime verb unit type term fact role extern tool decision
 syntax keyword dagStatement node start fixed param exits
-syntax keyword dagModifier answers reads writes guards by after counts records header levels subdivides question command abi in standard
+syntax keyword dagModifier answers reads writes guards by after counts records header wave anywhere levels subdivides question command abi in standard
 syntax keyword dagKind precise approximate other refuses
 syntax keyword dagType real integer
 syntax keyword dagDefault otherwise
