@@ -110,8 +110,9 @@ struct blockers {
     uint32_t face[BLOCKERS_MAX];
 };
 
+enum { HOST_HIDDEN = -1 }; /* what `candidates` says of a shaft that lets no light pass */
+
 /* What the program around the refiner provides. */
-enum { HOST_HIDDEN = -1 };
 struct host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */

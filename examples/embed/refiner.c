@@ -908,8 +908,12 @@ enum { REFINER_LANES_MOST = 16 }; /* to what lengths of arrays are rounded up */
 #define REFINER_LANES_CHOSEN 1
 #define REFINER_LANES_AVX2 __attribute__((target("avx2"), noinline, unused)) static
 #define REFINER_LANES_AVX512 __attribute__((target("avx512f"), noinline, unused)) static
+/* Calls the function for vectors of a width, each `arguments` in parentheses. */
+#define REFINER_LANES_RUN(width, wide, middle, narrow, arguments) \
+    ((width) == 8 ? wide arguments : (width) == 4 ? middle arguments : narrow arguments)
 #else
 #define REFINER_LANES_CHOSEN 0
+#define REFINER_LANES_RUN(width, wide, middle, narrow, arguments) ((void)(width), narrow arguments)
 #endif
 
 /* How many doubles a vector of this processor holds: 8, 4, or 1 for whatever the compiler was told
@@ -1076,15 +1080,7 @@ REFINER_LANES_AVX2 void refiner_lambert_edges_4(struct refiner_lambert_edges *g)
 
 REFINER_OUTLINE void refiner_lambert_edges_at(int width, struct refiner_lambert_edges *g)
 {
-#if REFINER_LANES_CHOSEN
-    if (width == 8)
-        refiner_lambert_edges_8(g);
-    else if (width == 4)
-        refiner_lambert_edges_4(g);
-    else
-#endif
-        refiner_lambert_edges_body(g);
-    (void)width;
+    REFINER_LANES_RUN(width, refiner_lambert_edges_8, refiner_lambert_edges_4, refiner_lambert_edges_body, (g));
 }
 
 /* The form factors from `points` points, normal n, to a flat convex polygon v[count] in front of
@@ -1272,28 +1268,14 @@ REFINER_OUTLINE void refiner_contour_factor_lines_at(int width, const struct ref
                                      const struct refiner_contour_factor_side *inner, int count,
                                      struct refiner_contour_factor_lines *lines)
 {
-#if REFINER_LANES_CHOSEN
-    if (width == 8)
-        refiner_contour_factor_lines_8(outer, inner, count, lines);
-    else if (width == 4)
-        refiner_contour_factor_lines_4(outer, inner, count, lines);
-    else
-#endif
-        refiner_contour_factor_lines_body(outer, inner, count, lines);
-    (void)width;
+    REFINER_LANES_RUN(width, refiner_contour_factor_lines_8, refiner_contour_factor_lines_4, refiner_contour_factor_lines_body,
+              (outer, inner, count, lines));
 }
 
 REFINER_OUTLINE void refiner_contour_factor_seconds_at(int width, int count, struct refiner_contour_factor_seconds *g)
 {
-#if REFINER_LANES_CHOSEN
-    if (width == 8)
-        refiner_contour_factor_seconds_8(count, g);
-    else if (width == 4)
-        refiner_contour_factor_seconds_4(count, g);
-    else
-#endif
-        refiner_contour_factor_seconds_body(count, g);
-    (void)width;
+    REFINER_LANES_RUN(width, refiner_contour_factor_seconds_8, refiner_contour_factor_seconds_4,
+              refiner_contour_factor_seconds_body, (count, g));
 }
 
 /* The integral over parts from part[i][0] to part[i][1] of the outer edge, by five points each. */
@@ -2323,26 +2305,11 @@ REFINER_LANES_AVX2 void refiner_samples_4(struct refiner_samples *x, const struc
     refiner_samples_body(x, e, count);
 }
 #endif
-REFINER_OUTLINE void refiner_samples_1(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
-{
-    refiner_samples_body(x, e, count);
-}
 
-/* Make `count` segments of their digits, in vectors of a width (lanes_width). */
-static inline void refiner_samples_at(int width, struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
+/* Make `count` segments of their digits, in vectors of a width, lanes_width() at the most. */
+REFINER_OUTLINE void refiner_samples_at(int width, struct refiner_samples *x, const struct refiner_samples_ends *e, int count)
 {
-#if REFINER_LANES_CHOSEN
-    if (width == 8 && refiner_lanes_width() == 8) {
-        refiner_samples_8(x, e, count);
-        return;
-    }
-    if (width >= 4 && refiner_lanes_width() >= 4) {
-        refiner_samples_4(x, e, count);
-        return;
-    }
-#endif
-    (void)width;
-    refiner_samples_1(x, e, count);
+    REFINER_LANES_RUN(width, refiner_samples_8, refiner_samples_4, refiner_samples_body, (x, e, count));
 }
 
 static inline void refiner_samples_make(struct refiner_samples *x, const struct refiner_samples_ends *e, int count)

@@ -380,8 +380,9 @@ struct refiner_blockers {
     uint32_t face[REFINER_BLOCKERS_MAX];
 };
 
+enum { REFINER_HOST_HIDDEN = -1 }; /* what `candidates` says of a shaft that lets no light pass */
+
 /* What the program around the refiner provides. */
-enum { REFINER_HOST_HIDDEN = -1 };
 struct refiner_host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */

@@ -159,9 +159,6 @@ static int deal_out(struct exchange_areas *m, const struct refinement *refinemen
 static int keep_values(struct exchange_areas *m, const struct refinement *refinement,
                        const struct exchange_aim *how)
 {
-    struct exchange_tiles t = exchange_tiles(m, refinement);
-    while (exchange_tiles_next(&t))
-        m->block_count++;
     const struct link **links;
     links = malloc((m->block_count + 1) * sizeof *links);
     m->blocks = malloc((m->block_count + 1) * sizeof *m->blocks);
@@ -188,7 +185,7 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
     if (find_inputs(m, scene) == 0 && exchange_faces_open(&m->shapes, tree) == 0) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
         while (exchange_tiles_next(&t))
-            ;
+            m->block_count += !how->stream;
         m->link_count = t.links;
         m->value_count = t.values;
         if (how->stream || keep_values(m, refinement, how) == 0)

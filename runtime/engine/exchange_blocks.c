@@ -29,32 +29,30 @@ static double block_by_pairs(const struct exchange_pair *pair, struct exchange_s
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     double error, most = 0;
-    struct sight_list list;
-    if (r->group || s->group)
+    struct sight_list list, *among = NULL;
+    if (r->group || s->group) {
         sight_list_find(&list, r, s, pair->tree);
-    int listed = (r->group || s->group) && list.count <= SIGHT_LIST;
+        among = list.count <= SIGHT_LIST ? &list : NULL;
+    }
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
         for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
             *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                                s->group ? exchange_tree_face(pair->tree, j) : s, pair->tree,
-                                listed ? &list : NULL, &scratch->sight, &error);
+                                s->group ? exchange_tree_face(pair->tree, j) : s, pair->tree, among,
+                                &scratch->sight, &error);
             most = fmax(most, error);
         }
     return most;
 }
 
-/* The form factor of a link. Of whole faces that see all of each other in all its digits, since the
- * link keeps those of a float; near ones, and all for small tolerances, have the contour integral.
- * Else what the link holds is as good as what is known of half shadow. None is made anew that the
- * oracle had by other means. */
+/* The form factor of a link in clear view. Of whole faces in all its digits, since the link keeps
+ * those of a float; near ones, and all for small tolerances, have the contour integral. None is
+ * made anew that the oracle had by other means. */
 static double link_factor(const struct exchange_pair *pair, const struct link *link,
                           double tolerance)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     int level = link->levels & 15;
-    if (r->depth || s->depth || link->levels >> 4 != VISIBILITY_EXACT
-        || link->visibility != LINK_VISIBLE
-        || (level != FORM_FACTOR_POLYGON && level != FORM_FACTOR_CONTOUR))
+    if (r->depth || s->depth || (level != FORM_FACTOR_POLYGON && level != FORM_FACTOR_CONTOUR))
         return (double)link->form_factor;
     double away[3], reach = EXCHANGE_NEAR * (r->radius + s->radius);
     sub3(away, s->centre, r->centre);

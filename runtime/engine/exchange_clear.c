@@ -10,12 +10,11 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_clear.h"
+#include "engine/face_rule.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/lanes.h"
 #include "kernel/polygon_factor.h"
-
-enum { RULE = 9 }; /* the most points of a rule */
 
 /* How large a face's third moments are: 1 of a triangle, 0 of a parallelogram. */
 static double lopsided(const struct element *e)
@@ -202,59 +201,22 @@ static void second_order_row(const struct exchange_faces *p, uint32_t i, const d
                              struct face_range range, const double m[3], double tolerance,
                              struct line *line, double *out)
 {
-    int width = lanes_width();
-#if LANES_CHOSEN
-    if (width == 8)
-        second_order_8(p, i, n, range, m, tolerance, line, out);
-    else if (width == 4)
-        second_order_4(p, i, n, range, m, tolerance, line, out);
-    else
-#endif
-        second_order_body(p, i, n, range, m, tolerance, line, out);
-    (void)width;
+    LANES_RUN(lanes_width(), second_order_8, second_order_4, second_order_body,
+              (p, i, n, range, m, tolerance, line, out));
 }
 
 /* ---- pairs that second order may not do for */
 
-/* The points of a face, and what each weighs. */
-struct rule {
-    int count;
-    double x[3][RULE], weight[RULE];
-};
-
-static void rule_of(struct rule *rule, const struct element *e)
+/* The points within a face, and which share of it each stands for. */
+static void rule_of(struct face_rule *rule, const struct element *e)
 {
-    static const double corner[2] = {0.81684757298045851308, 0.10810301816807022736},
-                        share[2] = {0.10995174365532186764, 0.22338158967801146570},
-                        node[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852},
-                        weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
-    const double(*v)[3] = (const double(*)[3])e->vertex;
-    rule->count = e->vertices == 3 ? 6 : 9;
-    if (e->vertices == 3) {
-        for (int i = 0; i < 6; i++) {
-            double w = corner[i / 3], u = 0.5 * (1 - w);
-            rule->weight[i] = share[i / 3];
-            for (int k = 0; k < 3; k++)
-                rule->x[k][i] = w * v[i % 3][k] + u * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
-        }
-        return;
-    }
-    for (int i = 0; i < 9; i++) {
-        double s = node[i / 3], t = node[i % 3], ds[3], dt[3], jacobian[3];
-        for (int k = 0; k < 3; k++) {
-            double low = v[0][k] + s * (v[1][k] - v[0][k]),
-                   high = v[3][k] + s * (v[2][k] - v[3][k]);
-            dt[k] = high - low;
-            ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
-            rule->x[k][i] = low + t * dt[k];
-        }
-        cross3(jacobian, ds, dt);
-        rule->weight[i] = weight[i / 3] * weight[i % 3] * dot3(jacobian, e->normal) / e->area;
-    }
+    face_rule_of(rule, e, 0);
+    for (int i = 0; i < rule->count; i++)
+        rule->weight[i] /= rule->all;
 }
 
 /* The mean kernel (1/m2) of the points of two faces with normals n and -m. */
-static double rule_kernel(const struct rule *p, const double n[3], const struct rule *q,
+static double rule_kernel(const struct face_rule *p, const double n[3], const struct face_rule *q,
                           const double m[3])
 {
     double sum = 0;
@@ -296,7 +258,7 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
     const struct face_range range = column ? pair->rows : pair->columns;
     const double turned[3] = {-other->normal[0], -other->normal[1], -other->normal[2]},
                  m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
-    struct rule rule[2] = {{.count = 0}, {.count = 0}};
+    struct face_rule rule[2] = {{.count = 0}, {.count = 0}};
     second_order_row(p, i, own->normal, range, turned, tolerance, line, out);
     for (uint32_t j = range.from; j < range.to; j++) {
         double doubt = line->doubt[j - range.from], e;

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_sight.h"
+#include "engine/face_rule.h"
 #include "engine/sight_outlines.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
@@ -139,17 +140,6 @@ static void sort_list(uint32_t *list, int count)
     qsort(list, (size_t)count, sizeof *list, compare_faces);
 }
 
-/* Points of a rule, and what they weigh: of a side of a quad, for its Gauss rule and Simpson's; of
- * a triangle, by the barycentric coordinate that stands alone. */
-static const double side_node[2][3] = {{0.11270166537925831148, 0.5, 0.88729833462074168852},
-                                       {SIGHT_RIM, 0.5, 1 - SIGHT_RIM}};
-static const double side_weight[2][3] = {{5 / 18.0, 8 / 18.0, 5 / 18.0},
-                                         {1 / 6.0, 4 / 6.0, 1 / 6.0}};
-static const double corner_node[2][3] = {{0.81684757298045851308, 0.10810301816807022736, 1 / 3.0},
-                                         {1 - SIGHT_RIM, SIGHT_RIM, 1 / 3.0}};
-static const double corner_weight[2][3] = {{0.10995174365532186764, 0.22338158967801146570, 0},
-                                           {3 / 60.0, 8 / 60.0, 27 / 60.0}};
-
 /* What a point sees past what stands between. Outlines save most where faces go on into each other;
  * faces by themselves, and bent ones, are cut out one by one. */
 static double past(const struct looking *l, const double x[3], const double n[3])
@@ -161,35 +151,17 @@ static double past(const struct looking *l, const double x[3], const double n[3]
                : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces);
 }
 
-/* The exchange area of a piece by points: within it, exact to degree 4 and 5 [Dunavant 1985;
- * Gauss]; `rim`: by its corners, the middles of its sides and its own, exact to degree 3. */
+/* The exchange area of a piece by points within it; `rim`: on its rim, too. */
 static double by_points(const struct looking *l, const struct element *e, int rim)
 {
-    const double(*v)[3] = (const double(*)[3])e->vertex;
-    double sum = 0, x[3];
-    if (e->vertices == 3) {
-        for (int i = 0; i < 6 + rim; i++) {
-            double w = corner_node[rim][i / 3], u = 0.5 * (1 - w);
-            for (int k = 0; k < 3; k++)
-                x[k] = w * v[i % 3][k] + u * (v[(i + 1) % 3][k] + v[(i + 2) % 3][k]);
-            sum += corner_weight[rim][i / 3] * past(l, x, e->normal);
-        }
-        return sum * e->area;
+    struct face_rule rule;
+    double sum = 0;
+    face_rule_of(&rule, e, rim);
+    for (int i = 0; i < rule.count; i++) {
+        const double x[3] = {rule.x[0][i], rule.x[1][i], rule.x[2][i]};
+        sum += rule.weight[i] * past(l, x, e->normal);
     }
-    for (int i = 0; i < 9; i++) {
-        double s = side_node[rim][i / 3], t = side_node[rim][i % 3], ds[3], dt[3], jacobian[3];
-        for (int k = 0; k < 3; k++) {
-            double low = v[0][k] + s * (v[1][k] - v[0][k]),
-                   high = v[3][k] + s * (v[2][k] - v[3][k]);
-            dt[k] = high - low;
-            ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
-            x[k] = low + t * dt[k];
-        }
-        cross3(jacobian, ds, dt);
-        sum += side_weight[rim][i / 3] * side_weight[rim][i % 3] * dot3(jacobian, e->normal)
-               * past(l, x, e->normal);
-    }
-    return sum;
+    return sum * (e->area / rule.all);
 }
 
 /* A piece with more between than a list holds. */
@@ -352,8 +324,7 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
         count_in(l, i);
     }
     while (l->heap > 0 && l->nodes + QUARTERS * QUARTERS <= limits->pieces
-           && sqrt(fmax(l->square, 0))
-                  > limits->tolerance * fmax(l->value, limits->floor * least)) {
+           && !sight_enough(limits, sqrt(fmax(l->square, 0)), l->value, least)) {
         int at = heap_out(l), quarters = nodes[at].quarters;
         l->value -= nodes[at].value;
         l->square -= nodes[at].error * nodes[at].error;

@@ -23,6 +23,13 @@ struct sight_scratch {
     struct sight_limits limits;
 };
 
+/* Is the error of an exchange area (m2) as small as asked for? `least`: the smaller area. */
+static inline int sight_enough(const struct sight_limits *limits, double error, double value,
+                               double least)
+{
+    return error <= limits->tolerance * fmax(value, limits->floor * least);
+}
+
 /* Limits for a scene of so many faces. */
 struct sight_limits sight_limits_for(double tolerance, uint32_t faces);
 /* Returns 0, or -1 when out of memory; close is fine then too. */

@@ -55,15 +55,6 @@ static void make_face(struct sight_face *face, const struct element *e,
     face->plane[3] = dot3(face->plane, face->v[0]);
 }
 
-/* Corners that rounding put off the plane: edges and planes tell two outlines. */
-static int is_bent(const struct element *e, double flat)
-{
-    for (int i = 3; i < e->vertices; i++)
-        if (fabs(height3(e->vertex[i], e->vertex[0], e->normal)) > flat)
-            return 1;
-    return 0;
-}
-
 /* Where in the list; -1: it is not in it. */
 static int place_of(const uint32_t *list, int count, uint32_t face)
 {
@@ -152,7 +143,7 @@ enum between sight_between_open(struct sight_between *b, const struct exchange_t
         if (!front[b->faces] && !candidates_meets(&t->h, shaft, t->host.ray_offset, list[i]))
             continue;
         parted &= front[b->faces] != 0;
-        b->bent |= is_bent(e, shaft->flat);
+        b->bent |= hidden_bent(e, shaft->flat); /* edges and planes tell two outlines */
         make_face(&b->face[b->faces], e, &sight->raised);
         b->list[b->faces++] = list[i];
     }

@@ -38,18 +38,9 @@ LANES_AVX2 void edges_4(struct sight_eye *eye)
 static void edges_sum(struct sight_eye *eye)
 {
     struct sight_edges *g = &eye->edges;
-    int width = lanes_width();
     for (int k = g->count; k % LANES; k++)
         g->a[0][k] = g->a[1][k] = g->b[0][k] = g->b[1][k] = 0;
-#if LANES_CHOSEN
-    if (width == 8)
-        edges_8(eye);
-    else if (width == 4)
-        edges_4(eye);
-    else
-#endif
-        edges_body(eye);
-    (void)width;
+    LANES_RUN(lanes_width(), edges_8, edges_4, edges_body, (eye));
     for (int k = 0; k < g->count; k++)
         g->sum += g->value[k];
     g->count = 0;

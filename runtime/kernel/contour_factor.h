@@ -113,28 +113,14 @@ OUTLINE void contour_factor_lines_at(int width, const struct contour_factor_side
                                      const struct contour_factor_side *inner, int count,
                                      struct contour_factor_lines *lines)
 {
-#if LANES_CHOSEN
-    if (width == 8)
-        contour_factor_lines_8(outer, inner, count, lines);
-    else if (width == 4)
-        contour_factor_lines_4(outer, inner, count, lines);
-    else
-#endif
-        contour_factor_lines_body(outer, inner, count, lines);
-    (void)width;
+    LANES_RUN(width, contour_factor_lines_8, contour_factor_lines_4, contour_factor_lines_body,
+              (outer, inner, count, lines));
 }
 
 OUTLINE void contour_factor_seconds_at(int width, int count, struct contour_factor_seconds *g)
 {
-#if LANES_CHOSEN
-    if (width == 8)
-        contour_factor_seconds_8(count, g);
-    else if (width == 4)
-        contour_factor_seconds_4(count, g);
-    else
-#endif
-        contour_factor_seconds_body(count, g);
-    (void)width;
+    LANES_RUN(width, contour_factor_seconds_8, contour_factor_seconds_4,
+              contour_factor_seconds_body, (count, g));
 }
 
 /* The integral over parts from part[i][0] to part[i][1] of the outer edge, by five points each. */

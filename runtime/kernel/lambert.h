@@ -82,15 +82,7 @@ LANES_AVX2 void lambert_edges_4(struct lambert_edges *g)
 
 OUTLINE void lambert_edges_at(int width, struct lambert_edges *g)
 {
-#if LANES_CHOSEN
-    if (width == 8)
-        lambert_edges_8(g);
-    else if (width == 4)
-        lambert_edges_4(g);
-    else
-#endif
-        lambert_edges_body(g);
-    (void)width;
+    LANES_RUN(width, lambert_edges_8, lambert_edges_4, lambert_edges_body, (g));
 }
 
 /* The form factors from `points` points, normal n, to a flat convex polygon v[count] in front of

@@ -33,8 +33,12 @@ enum { LANES_MOST = 16 }; /* to what lengths of arrays are rounded up */
 #define LANES_CHOSEN 1
 #define LANES_AVX2 __attribute__((target("avx2"), noinline, unused)) static
 #define LANES_AVX512 __attribute__((target("avx512f"), noinline, unused)) static
+/* Calls the function for vectors of a width, each `arguments` in parentheses. */
+#define LANES_RUN(width, wide, middle, narrow, arguments) \
+    ((width) == 8 ? wide arguments : (width) == 4 ? middle arguments : narrow arguments)
 #else
 #define LANES_CHOSEN 0
+#define LANES_RUN(width, wide, middle, narrow, arguments) ((void)(width), narrow arguments)
 #endif
 
 /* How many doubles a vector of this processor holds: 8, 4, or 1 for whatever the compiler was told

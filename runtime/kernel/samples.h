@@ -59,26 +59,11 @@ LANES_AVX2 void samples_4(struct samples *x, const struct samples_ends *e, int c
     samples_body(x, e, count);
 }
 #endif
-OUTLINE void samples_1(struct samples *x, const struct samples_ends *e, int count)
-{
-    samples_body(x, e, count);
-}
 
-/* Make `count` segments of their digits, in vectors of a width (lanes_width). */
-static inline void samples_at(int width, struct samples *x, const struct samples_ends *e, int count)
+/* Make `count` segments of their digits, in vectors of a width, lanes_width() at the most. */
+OUTLINE void samples_at(int width, struct samples *x, const struct samples_ends *e, int count)
 {
-#if LANES_CHOSEN
-    if (width == 8 && lanes_width() == 8) {
-        samples_8(x, e, count);
-        return;
-    }
-    if (width >= 4 && lanes_width() >= 4) {
-        samples_4(x, e, count);
-        return;
-    }
-#endif
-    (void)width;
-    samples_1(x, e, count);
+    LANES_RUN(width, samples_8, samples_4, samples_body, (x, e, count));
 }
 
 static inline void samples_make(struct samples *x, const struct samples_ends *e, int count)

@@ -22,9 +22,9 @@
 
 #include "discussion.h"
 #include "kernel/constants.h"
+#include "kernel/corner_factors.h"
 #include "kernel/point_factor.h"
 #include "kernel/point_gradient.h"
-#include "kernel/surface_point.h"
 
 enum { FORM_FACTOR_RANGE_DEPTH = 3 };
 
@@ -41,16 +41,10 @@ struct form_factor_range {
 OUTLINE void form_factor_range_sample(const struct element *r, const struct element *s,
                                       double range[2])
 {
-    struct polygon q;
-    double x[5][3], f[5]; /* the centre's, the corners' */
-    point_factor_clip(&q, r, s);
-    for (int k = 0; k < 3; k++)
-        x[0][k] = r->centre[k];
-    for (int i = 0; i < r->vertices; i++)
-        surface_corner(x[1 + i], r, i);
-    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, &q, f);
+    double f[5];
+    int open = corner_factors(r, s, f);
     range[0] = range[1] = f[0];
-    if (q.n == 0 || polygon_factor_hidden(r, s, range[1] * r->area)) {
+    if (!open || polygon_factor_hidden(r, s, range[1] * r->area)) {
         range[0] = range[1] = 0;
         return;
     }

@@ -16,23 +16,16 @@
 #define TOOL_LINEAR_GAP_H
 
 #include "discussion.h"
-#include "kernel/point_factor.h"
-#include "kernel/surface_point.h"
+#include "kernel/corner_factors.h"
 #include "kernel/threshold.h"
 #include "terms/axis.h"
 #include "terms/form_factor.h"
 
-/* What is left of F over r beside its best linear function, s being clipped to q. */
+/* What is left of F over r beside its best linear function. */
 OUTLINE double linear_gap_bend(const struct element *r, const struct element *s, double mean)
 {
-    struct polygon q;
-    double x[5][3], at[5], sum = 0, twist = 0;
-    point_factor_clip(&q, r, s);
-    for (int k = 0; k < 3; k++)
-        x[0][k] = r->centre[k];
-    for (int i = 0; i < r->vertices; i++)
-        surface_corner(x[1 + i], r, i);
-    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, &q, at);
+    double at[5], sum = 0, twist = 0;
+    (void)corner_factors(r, s, at);
     const double middle = at[0], *f = at + 1;
     for (int i = 0; i < r->vertices; i++)
         sum += f[i] / r->vertices;

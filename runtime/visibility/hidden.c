@@ -23,10 +23,15 @@ int hidden_front(const struct shaft *shaft, const struct element *e)
             if (!(height3(shaft->end[end][i], e->vertex[0], e->normal) * (end ? -first : first)
                   > clear))
                 return 0;
-    for (int i = 0; i < e->vertices; i++) /* a bent one has several planes */
-        if (fabs(height3(e->vertex[i], e->vertex[0], e->normal)) > shaft->flat)
-            return 0;
-    return first;
+    return hidden_bent(e, shaft->flat) ? 0 : first;
+}
+
+int hidden_bent(const struct element *e, double flat)
+{
+    for (int i = 3; i < e->vertices; i++)
+        if (fabs(height3(e->vertex[i], e->vertex[0], e->normal)) > flat)
+            return 1;
+    return 0;
 }
 
 int hidden_edge(const struct shaft *shaft, const double a[3], const double b[3])

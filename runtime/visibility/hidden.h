@@ -28,6 +28,8 @@ static inline int hidden_all(const struct hidden *hidden)
 /* Which end is in front of a face whose plane parts the two: 1, the first; -1, the second; 0: it
  * does not part them, or is bent. */
 int hidden_front(const struct shaft *shaft, const struct element *e);
+/* Is a corner of the face farther than `flat` (m) off its plane? Then it has several. */
+int hidden_bent(const struct element *e, double flat);
 /* May the edge from a to b meet the shaft? */
 int hidden_edge(const struct shaft *shaft, const double a[3], const double b[3]);
 

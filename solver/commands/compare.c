@@ -17,8 +17,9 @@
 #include "util/device.h"
 #include "util/report.h"
 #include "util/solved.h"
+#include "wave.h"
 
-enum { RELEASES = 4, BLOCK = 256 };
+enum { RELEASES = 4 };
 
 /* The order of the report: the first that there is is the yardstick. */
 static const enum RadRelease order[RELEASES] = {RAD_RELEASE_HAND, RAD_RELEASE_DAG, RAD_RELEASE_FLAT,
@@ -110,9 +111,9 @@ static void panel_defaults(void *parameters)
 
 /* A block's discussions as one release holds them. */
 struct held {
-    struct discussion d[BLOCK];
-    struct blockers lists[BLOCK];
-    enum decision decisions[BLOCK];
+    struct discussion d[WAVE_PAIRS];
+    struct blockers lists[WAVE_PAIRS];
+    enum decision decisions[WAVE_PAIRS];
 };
 
 /* Each of them from the same beginning, lists included; those of the first release go on. */
@@ -168,8 +169,9 @@ static void ask_all_in_blocks(const void *parameters, struct discussion *block, 
 {
     struct panel *p;
     memcpy(&p, parameters, sizeof p);
-    for (int from = 0; from < count; from += BLOCK)
-        ask_block(p, block + from, count - from < BLOCK ? count - from : BLOCK, decisions + from);
+    for (int from = 0; from < count; from += WAVE_PAIRS)
+        ask_block(p, block + from, count - from < WAVE_PAIRS ? count - from : WAVE_PAIRS,
+                  decisions + from);
 }
 
 static enum decision ask_all(const void *parameters, struct discussion *d)

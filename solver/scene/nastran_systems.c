@@ -9,6 +9,7 @@
 #include <ctype.h>
 #include <math.h>
 
+#include "geometry.h"
 #include "util/array.h"
 #include "util/report.h"
 
@@ -79,12 +80,6 @@ static int node_at(const struct mesh *mesh, int64_t number, double to[3])
     return !isnan(to[0]);
 }
 
-static void cross(const double a[3], const double b[3], double to[3])
-{
-    for (int k = 0; k < 3; k++)
-        to[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
 /* To length 1; 0 when there is none. */
 static int normalise(double a[3])
 {
@@ -108,9 +103,9 @@ static int place_system(struct nastran_systems *all, struct nastran_system *s,
         to_c[k] = at[2][k] - at[0][k];
     }
     int good = normalise(s->axis[2]) && normalise(to_c);
-    cross(s->axis[2], to_c, s->axis[1]);
+    cross3(s->axis[1], s->axis[2], to_c);
     good = good && normalise(s->axis[1]);
-    cross(s->axis[1], s->axis[2], s->axis[0]);
+    cross3(s->axis[0], s->axis[1], s->axis[2]);
     if (!good)
         return report_error(mesh->path, s->line,
                             "the three points of coordinate system %lld are in a line; give it a "

@@ -149,6 +149,14 @@ static void put_box(struct mesh_room *room, const double from[3], double size, d
         }
 }
 
+static void round_corners(struct scene *s, double unit)
+{
+    for (uint32_t i = 0; i < s->face_count; i++)
+        for (uint32_t c = 0; c < s->faces[i].vertices; c++)
+            for (int k = 0; k < 3; k++)
+                s->faces[i].vertex[c][k] = rint(s->faces[i].vertex[c][k] / unit) * unit;
+}
+
 /* Sides of a box whose corners were rounded are in one another's plane to the last digit only: they
  * were taken for facing each other, behind both, and exchanged light through the box. */
 START_TEST(test_rounded_box)
@@ -163,10 +171,7 @@ START_TEST(test_rounded_box)
     made_material(&s, 0.5, 0);
     for (int i = 0; i < room.count; i++)
         mesh_of_patch(&room, &s, &room.patch[i], i < 6 ? 400 : 36, CELLS_QUADS);
-    for (uint32_t i = 0; i < s.face_count; i++)
-        for (uint32_t c = 0; c < s.faces[i].vertices; c++)
-            for (int k = 0; k < 3; k++)
-                s.faces[i].vertex[c][k] = rint(s.faces[i].vertex[c][k] * 1e9) * 1e-9;
+    round_corners(&s, 1e-9);
     open_exchange(&x, &s, 3e-4);
     double *row = malloc(s.input_count * sizeof *row);
     for (uint32_t i = 6 * 400; i < s.input_count; i++) {
@@ -201,10 +206,7 @@ START_TEST(test_bent_quads)
         made_material(&s, 0.5, 0);
         for (int i = 0; i < room.count; i++)
             mesh_of_patch(&room, &s, &room.patch[i], 4, CELLS_QUADS);
-        for (uint32_t i = 0; i < s.face_count; i++)
-            for (uint32_t c = 0; c < s.faces[i].vertices; c++)
-                for (int k = 0; k < 3; k++)
-                    s.faces[i].vertex[c][k] = rint(s.faces[i].vertex[c][k] * 1e4) * 1e-4;
+        round_corners(&s, 1e-4);
         open_exchange(&x, &s, 3e-4);
         double *row = malloc(s.input_count * sizeof *row);
         for (uint32_t i = 0; i < s.input_count; i++)

@@ -682,10 +682,10 @@ START_TEST(test_samples)
             sobol_start(&net, hash64((uint64_t)i));
             for (int w = 0; w < 3; w++)
                 sobol_points(&net, 0, count, made[w].digit);
-            samples_1(&made[0], &ends, count);
+            samples_at(1, &made[0], &ends, count);
             made[1].weight[0] = made[2].weight[0] = -1;
-            samples_at(4, &made[1], &ends, count);
-            samples_at(8, &made[2], &ends, count);
+            for (int w = 1; w < 3; w++)
+                samples_at(4 * w < lanes_width() ? 4 * w : lanes_width(), &made[w], &ends, count);
             for (int j = 0; j < count; j++) {
                 double u[4], from[3], to[3];
                 for (int k = 0; k < 4; k++)

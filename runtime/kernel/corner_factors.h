@@ -1,0 +1,25 @@
+/* corner_factors.h - the form factor from a few points of the receiver: its centre and its corners,
+ * these CORNER_INSET of the way to the centre (kernel/surface_point.h).
+ * SPDX-License-Identifier: MIT */
+#ifndef KERNEL_CORNER_FACTORS_H
+#define KERNEL_CORNER_FACTORS_H
+
+#include "discussion.h"
+#include "kernel/point_factor.h"
+#include "kernel/surface_point.h"
+
+/* f[0]: the centre's, then the corners'. Returns 0 when no part of s is in front of r. */
+static inline int corner_factors(const struct element *r, const struct element *s, double f[5])
+{
+    struct polygon q;
+    double x[5][3];
+    point_factor_clip(&q, r, s);
+    for (int k = 0; k < 3; k++)
+        x[0][k] = r->centre[k];
+    for (int i = 0; i < r->vertices; i++)
+        surface_corner(x[1 + i], r, i);
+    point_factors_at(1 + r->vertices, (const double(*)[3])x, r, s, &q, f);
+    return q.n > 0;
+}
+
+#endif
