@@ -99,7 +99,8 @@ RAD_API const char *radGetDeviceErrorMessage(RadDevice device);
 /* Where long work is. All counts rise; 0 where the phase has none. */
 struct RadProgress {
     /* "refine", "solve", "matrix" (of RAD_SOLVER_LU, which says nothing until it is done),
-     * "particles", "paths", "account", "factors" */
+     * "particles", "paths", "account", "factors"; "resumed": once, what a run before this one had
+     * done (struct RadExchangeState) */
     const char *phase;
     int pass; /* from 1 */
     uint64_t rounds, pairs, waiting, links;
@@ -936,6 +937,34 @@ RAD_API int radFindElement(RadSolution solution, const char *name, uint32_t *ele
 RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t *element);
 /* ---- exchange areas */
 
+/* Long work, put down and gone on with another day. What goes on from a state ends with the same
+ * bits as what was never put down, on any number of threads. A state is of one scene, oracle,
+ * tolerance, `rows` and `stream` (closure and `keep` may be others), of this version of the library
+ * and of machines with this one's order of bytes. It takes about 8 bytes per pair of polygons in
+ * half shadow, 16 per link, and as much again while it is kept in a file that is replaced; no
+ * memory. Answers that an oracle counts are those of the last run alone. All functions are called
+ * from the calling thread and may not call this library's with handles of the same device. */
+enum RadStateWish {
+    RAD_STATE_NONE, /* go on */
+    RAD_STATE_SAVE, /* write the state, and go on */
+    RAD_STATE_STOP  /* write it, and fail with RAD_ERROR_CANCELLED */
+};
+struct RadExchangeState {
+    /* The next `size` bytes, 1 or more, of the state to go on from. Returns how many there were:
+     * fewer at its end. NULL: there is none, begin. One that is damaged, cut short, or not of this
+     * work is refused with RAD_ERROR_INVALID_ARGUMENT; the message says why, as in "it is damaged".
+     */
+    size_t (*read)(void *user, void *bytes, size_t size);
+    /* Asked wherever the work can be put down: between rounds of refinement, about every half
+     * second while values are computed, and once when all are. NULL: nobody wants one. */
+    enum RadStateWish (*asked)(void *user);
+    /* The next bytes of the state that was asked for; (NULL, 0) behind the last of them. Return 0,
+     * or anything else to have no more of it. Where it is not called with NULL, there is no whole
+     * state. NULL: nothing is written. */
+    int (*write)(void *user, const void *bytes, size_t size);
+    void *user;
+};
+
 struct RadExchangeOptions {
     /* error to work for; 0: 3e-4. Of a row's sum; and of entries, as a share of the entry, or,
      * where that is smaller, of 1e-4 (in half shadow in scenes of more than 24 faces: of four over
@@ -951,6 +980,7 @@ struct RadExchangeOptions {
     /* bytes: what groups of polygons in clear view of each other exchange is kept as far as that
      * goes, and beyond it computed anew for each row and product, to the same bits. 0: 512 MiB */
     size_t keep;
+    const struct RadExchangeState *state; /* NULL: it is done in one go. Borrowed for the call */
 };
 /* The built-in oracle viewfactors, its limits made for the tolerance (0: the default). Returns
  * NULL on error. */

@@ -21,7 +21,7 @@ static int watch(void *context, const struct exchange *x, const char *phase)
                                          r->pairs,
                                          r->queue_count,
                                          r->link_count,
-                                         rays_count(x->tree.rays).rays,
+                                         x->state.rays + rays_count(x->tree.rays).rays,
                                          0,
                                          x->share};
     return api_progress(context, &progress);
@@ -92,15 +92,19 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
                                        .context = device,
                                        .rows = o->rows,
                                        .stream = o->stream,
-                                       .keep = o->keep};
+                                       .keep = o->keep,
+                                       .state = o->state};
     struct refiner *own = oracle ? NULL : default_oracle(options.tolerance);
     const struct refiner *refiner = oracle ? oracle->refiner : own;
     RadExchange x = refiner ? calloc(1, sizeof *x) : NULL;
     if (!x || exchange_open(&x->exchange, &scene->scene, refiner, &options, &cause) < 0) {
         if (cause)
-            api_fail(device, api_cause(cause), "%s", cause);
+            api_fail(device,
+                     x && x->exchange.refused ? RAD_ERROR_INVALID_ARGUMENT : api_cause(cause), "%s",
+                     cause);
         else
-            api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the progress function");
+            api_fail(device, RAD_ERROR_CANCELLED, "cancelled by the %s function",
+                     x->exchange.cancelled ? "progress" : "state's");
         free(x);
         x = NULL;
     } else {

@@ -40,9 +40,11 @@ struct watcher {
 static int tell(struct watcher *w, const char *phase)
 {
     const struct exchange_options *o = w->options;
-    if (o->progress && o->progress(o->context, w->exchange, phase) != 0)
-        w->exchange->cancelled = 1;
-    return w->exchange->cancelled;
+    struct exchange *x = w->exchange;
+    if (o->progress && o->progress(o->context, x, x->resumed ? "resumed" : phase) != 0)
+        x->cancelled = 1;
+    x->resumed = 0;
+    return x->cancelled;
 }
 
 static int tell_share(void *context, double share)
@@ -54,11 +56,14 @@ static int tell_share(void *context, double share)
 
 static int watch_round(void *context, const struct refinement *refinement)
 {
+    struct watcher *w = context;
     (void)refinement;
-    return tell(context, "refine");
+    return tell(w, "refine") != 0 || exchange_state_ask(&w->exchange->state, NULL, NULL, 0) != 0;
 }
 
-static int refine(struct exchange *x, const struct refiner *refiner, struct watcher *watcher)
+/* From a state that waits, or from the start. */
+static int refine(struct exchange *x, const struct refiner *refiner, struct watcher *watcher,
+                  const struct exchange_aim *how)
 {
     if (refinement_open(&x->refinement, &x->tree.h, &x->tree.host, refiner,
                         watcher->options->threads)
@@ -66,7 +71,16 @@ static int refine(struct exchange *x, const struct refiner *refiner, struct watc
         return -1;
     x->refinement.watch = watch_round;
     x->refinement.watch_context = watcher;
-    return refinement_start(&x->refinement);
+    exchange_state_open(&x->state, watcher->options->state, &x->tree, &x->refinement, how);
+    if (!exchange_state_waits(&x->state))
+        return refinement_start(&x->refinement);
+    if (exchange_state_read(&x->state, &x->refinement) < 0)
+        return -1;
+    x->resumed = 1;
+    /* what has values, of which the first to be told knows how many */
+    if (!x->state.head.blocks && tell(watcher, "resumed") != 0)
+        return -1;
+    return refinement_resume(&x->refinement);
 }
 
 /* Where the row's light goes that meets no front: shares of all rays. */
@@ -218,13 +232,14 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
                                      .keep = (o->keep ? o->keep : KEPT) / sizeof(double),
                                      .threads = o->threads,
                                      .tell = tell_share,
-                                     .context = &watcher};
+                                     .context = &watcher,
+                                     .state = &x->state};
     double start = seconds();
-    if (refine(x, refiner, &watcher) < 0)
+    if (refine(x, refiner, &watcher, &how) < 0)
         return -1;
     double middle = seconds();
     x->report.seconds.refine = middle - start;
-    if (tell(&watcher, "factors") != 0
+    if ((!x->resumed && tell(&watcher, "factors") != 0)
         || exchange_areas_open(&x->areas, &x->tree, scene, &x->refinement, &how) < 0)
         return -1;
     if (!how.stream)
@@ -235,7 +250,7 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     x->report.seconds.fill = seconds() - middle;
     x->report.links = x->areas.link_count;
     x->report.pairs = x->areas.value_count;
-    x->report.rays = rays_count(x->tree.rays).rays;
+    x->report.rays = x->state.rays + rays_count(x->tree.rays).rays;
     x->report.closure_change = x->closure.change;
     x->report.closure_left = x->closure.left;
     return 0;
@@ -249,11 +264,15 @@ int exchange_open(struct exchange *x, const struct scene *scene, const struct re
         return -1;
     if (compute(x, scene, refiner, options) == 0)
         return 0;
-    *cause = x->cancelled ? NULL
+    const int cancelled = x->cancelled, refused = x->state.cause != NULL;
+    *cause = x->state.cause                     ? x->state.cause
+             : x->cancelled || x->state.stopped ? NULL
              : x->refinement.met
                  ? "refinement for view factors does not end; a larger tolerance needs less"
                  : "out of memory for exchange areas; a larger tolerance needs less";
     exchange_close(x);
+    x->cancelled = cancelled;
+    x->refused = refused;
     return -1;
 }
 

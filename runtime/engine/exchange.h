@@ -6,6 +6,7 @@
 
 #include "engine/closure.h"
 #include "engine/exchange_areas.h"
+#include "engine/exchange_state.h"
 
 struct exchange;
 
@@ -16,8 +17,9 @@ struct exchange_options {
     enum closure closure;
     int threads;
     /* Told from the calling thread after each round of refinement ("refine"), and before values are
-     * computed and while they are ("factors", exchange.share of them done); anything but 0 cancels.
-     * NULL: nobody is. */
+     * computed and while they are ("factors", exchange.share of them done); once instead
+     * ("resumed") where the work of a run before stands. Anything but 0 cancels. NULL: nobody is.
+     */
     int (*progress)(void *context, const struct exchange *exchange, const char *phase);
     void *context; /* of progress */
     uint32_t rows; /* of the first so many inputs, which alone are accounted for; 0: all */
@@ -25,6 +27,7 @@ struct exchange_options {
      * rows, and closure is none or rows */
     int stream;
     size_t keep; /* bytes of values of groups in clear view, at the most; 0: 512 MiB */
+    const struct RadExchangeState *state; /* borrowed; NULL: none */
 };
 
 struct exchange_report {
@@ -59,8 +62,11 @@ struct exchange {
     struct exchange_closure closure;
     struct exchange_loss *losses; /* [areas.inputs], after closure */
     struct exchange_report report;
-    double share; /* done of the phase; 0: not known */
+    struct exchange_state state; /* while it is computed */
+    double share;                /* done of the phase; 0: not known */
     int cancelled, threads;
+    int resumed; /* a run before this one has begun, and nobody has been told */
+    int refused; /* the state is no good, as *cause says */
 };
 
 /* Parameters of the oracle viewfactors whose defaults are made for EXCHANGE_TOLERANCE become what
@@ -69,7 +75,8 @@ void exchange_set_tolerance(struct refiner *refiner, double tolerance);
 
 /* Compute everything. The scene is borrowed and must outlive the exchange, the refiner need not.
  * Returns 0; on failure -1 with *cause set (a constant string) and nothing to free; *cause is NULL
- * when the progress function has cancelled. */
+ * when the progress function has cancelled, or the state was put down. Which of these, and whether
+ * the state to go on from was refused, `cancelled` and `refused` say. */
 int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
                   const struct exchange_options *options, const char **cause);
 void exchange_close(struct exchange *x);

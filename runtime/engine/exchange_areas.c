@@ -7,12 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_areas.h"
+#include "engine/exchange_state.h"
 #include "engine/exchange_tiles.h"
 #include "util/array.h"
+#include "util/clock.h"
 #include "util/thread_pool.h"
 
-/* Blocks between two times that somebody is told: a hundredth of them, but no fewer than that. */
-enum { TELLINGS = 100, LEAST_TOLD = 1024 };
+/* Blocks between two times that somebody is told: as many as take about so long (s), since he may
+ * want no more. LEAST: for each thread, or they wait for each other. RUN: that one takes at a time.
+ */
+enum { LEAST = 4, RUN = 32 };
+static const double SOON = 0.25, LATE = 1;
 
 /* What blocks are filled from. */
 struct filling {
@@ -20,6 +25,7 @@ struct filling {
     const struct link **links;        /* [block] */
     struct exchange_scratch *scratch; /* [thread] */
     size_t from;                      /* the first block at hand */
+    size_t read;                      /* of the first so many the state has given most */
 };
 
 static struct exchange_pair pair_of(const struct exchange_areas *m, const struct exchange_block *b,
@@ -46,28 +52,53 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
     const struct exchange_areas *m = f->areas;
     for (size_t i = f->from + from; i < f->from + to; i++) {
         struct exchange_block *b = &m->blocks[i]; /* no other thread's */
-        if (!b->anew)
+        if (!b->anew && (i >= f->read || exchange_link_clear(m->tree, f->links[i])))
             b->error = exchange_tile_fill(m, b, f->links[i], &f->scratch[thread_pool_number()],
                                           m->values + b->at);
     }
+}
+
+/* Somebody is told that the first f->from blocks are there. Returns nonzero: he wants no more. */
+static int tell(const struct filling *f, const struct exchange_aim *how)
+{
+    const struct exchange_areas *m = f->areas;
+    const size_t at = f->from < m->block_count ? m->blocks[f->from].at : m->kept;
+    return (how->tell && how->tell(how->context, (double)at / (double)(m->kept ? m->kept : 1)))
+           || (how->state && f->from > f->read
+               && exchange_state_ask(how->state, m, f->links, f->from));
+}
+
+/* Fill the next blocks, and find how many are to come next. */
+static size_t fill_some(const struct filling *f, size_t count, int threads)
+{
+    const double start = seconds();
+    const size_t run = count / 8 < RUN ? count / 8 : RUN;
+    thread_pool_run(threads, count, run ? run : 1, fill_blocks, f);
+    const double took = seconds() - start;
+    const size_t least = LEAST * (size_t)threads;
+    return took < SOON ? 2 * count : took > LATE && count > 2 * least ? count / 2 : count;
 }
 
 static int fill(struct exchange_areas *m, const struct link **links, const struct exchange_aim *how)
 {
     const int threads = how->threads;
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
-    struct filling f = {m, links, scratch, 0};
-    size_t step = m->block_count / TELLINGS > LEAST_TOLD ? m->block_count / TELLINGS : LEAST_TOLD;
-    int failed = !scratch;
+    const int64_t read = how->state ? exchange_state_read_values(how->state, m, links) : 0;
+    struct filling f = {m, links, scratch, 0, read > 0 ? (size_t)read : 0};
+    size_t next = LEAST * (size_t)threads;
+    int failed = !scratch || read < 0;
     for (int t = 0; t < threads && !failed; t++)
         failed = exchange_scratch_open(&scratch[t], &m->limits) < 0;
-    for (; f.from < m->block_count && !failed; f.from += step) {
-        size_t left = m->block_count - f.from;
-        failed = f.from && how->tell
-                 && how->tell(how->context,
-                              (double)m->blocks[f.from].at / (double)(m->kept ? m->kept : 1));
-        if (!failed)
-            thread_pool_run(threads, left < step ? left : step, 32, fill_blocks, &f);
+    if (f.read && !failed) { /* those of groups in clear view */
+        thread_pool_run(threads, f.read, RUN, fill_blocks, &f);
+        f.from = f.read;
+        failed = tell(&f, how);
+    }
+    while (f.from < m->block_count && !failed) {
+        const size_t left = m->block_count - f.from, count = left < next ? left : next;
+        next = fill_some(&f, count, threads);
+        f.from += count;
+        failed = tell(&f, how);
     }
     for (int t = 0; t < threads && scratch; t++)
         exchange_scratch_close(&scratch[t]);

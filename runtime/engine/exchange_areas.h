@@ -12,6 +12,8 @@
 #include "engine/refine.h"
 #include "hierarchy/scene.h"
 
+struct exchange_state;
+
 /* Faces stand in the tree's order; rows and columns are ranges of it. */
 struct exchange_block {
     uint32_t row, column;
@@ -32,6 +34,9 @@ struct exchange_aim {
      * but 0 ends it, which returns -1. NULL: nobody is. */
     int (*tell)(void *context, double share);
     void *context;
+    /* What was done before this run is read from it, and it is asked wherever `tell` is, and at the
+     * end (engine/exchange_state.h). NULL: there is none. */
+    struct exchange_state *state;
 };
 
 struct exchange_areas {
@@ -58,7 +63,8 @@ struct exchange_areas {
 
 /* Take the links of a refinement of the tree, sort out one of each two ways round, and compute what
  * they stand for. Of a stream it must outlive the areas, and there are no rows. Returns 0, or -1
- * when out of memory; then there is nothing to free. */
+ * when out of memory, or not wanted any more, or not started by the state; then there is nothing to
+ * free. */
 int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tree,
                         const struct scene *scene, const struct refinement *refinement,
                         const struct exchange_aim *how);

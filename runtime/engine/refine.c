@@ -346,6 +346,11 @@ int refinement_start(struct refinement *r)
     if (array_reserve(&r->queue, 1, &r->queue_capacity, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
+    return refinement_resume(r);
+}
+
+int refinement_resume(struct refinement *r)
+{
     return drain(r) < 0 ? -1 : statistics_end_pass(r->refiner);
 }
 

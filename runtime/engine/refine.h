@@ -106,6 +106,9 @@ int refinement_open(struct refinement *r, struct hierarchy *hierarchy, const str
 /* Refine from the pair (root, root). Returns 0, or -1: out of memory, or `met` a limit. */
 int refinement_start(struct refinement *r);
 
+/* Refine on from the pairs that wait. Returns as that. */
+int refinement_resume(struct refinement *r);
+
 /* Discuss the links again whose receiver or emitter is marked in changed[elements] (NULL: all of
  * them), with the radiosities as they now are: a link stays, is known better, or gives way to links
  * below it. Returns how many links changed, or -1 as refinement_start does. */

@@ -6,13 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 #include "commands/commands.h"
+#include "commands/factor_state.h"
 #include "commands/product_columns.h"
 #include "commands/sensor_rows.h"
 #include "output/factor_file.h"
 #include "output/factor_names.h"
 #include "output/json_file.h"
 #include "output/json_values.h"
-#include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/open_oracle.h"
@@ -144,32 +144,43 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     return json_file_write(o->json, report);
 }
 
-/* The matrix, or the columns' product with it. */
-static int compute(const struct options *o, const struct open_scene *scene,
-                   const struct columns *columns)
+/* Work it out, and write what was asked for. Returns the exit status. */
+static int work(const struct options *o, const struct open_scene *scene,
+                const struct factor_parts *by, RadOracle oracle, const struct columns *columns)
 {
+    struct factor_state state;
+    if (factor_state_open(&state, o) < 0)
+        return 1;
     const struct RadExchangeOptions how = {.tolerance = o->tolerance,
                                            .closure = o->closure,
                                            .rows = o->copies.count ? scene->originals : 0,
-                                           .stream = o->product != NULL};
-    int status = -1;
+                                           .stream = o->product != NULL,
+                                           .state = factor_state_host(&state)};
+    radSetDeviceProgressFunction(scene->device, factor_state_show, &state);
+    RadExchange exchange = radNewExchange(scene->scene, oracle, &how);
+    factor_state_close(&state);
+    int status = exchange ? write_outputs(o, scene, by, exchange, columns) < 0
+                          : factor_state_report(&state, scene->device, o->scene);
+    radReleaseExchange(exchange);
+    if (status == 0)
+        factor_state_remove(&state);
+    return status;
+}
+
+/* The matrix, or the columns' product with it. Returns the exit status. */
+static int compute(const struct options *o, const struct open_scene *scene,
+                   const struct columns *columns)
+{
     struct factor_parts parts;
     const struct factor_parts *by;
     if (parts_of(o, &scene->file, &parts, &by) < 0)
-        return -1; /* before the work */
+        return 1; /* before the work */
     RadOracle oracle = radNewExchangeOracle(scene->device, o->tolerance);
     if (!oracle)
-        return report_device(scene->device, o->scene);
-    if (set_oracle(scene->device, oracle, o->settings, o->setting_count) == 0) {
-        struct progress progress;
-        progress_start(&progress, o->quiet);
-        radSetDeviceProgressFunction(scene->device, progress_show, &progress);
-        RadExchange exchange = radNewExchange(scene->scene, oracle, &how);
-        progress_end(&progress);
-        status = exchange ? write_outputs(o, scene, by, exchange, columns)
-                          : report_device(scene->device, o->scene);
-        radReleaseExchange(exchange);
-    }
+        return report_device(scene->device, o->scene) < 0;
+    int status = 1;
+    if (set_oracle(scene->device, oracle, o->settings, o->setting_count) == 0)
+        status = work(o, scene, by, oracle, columns);
     radReleaseOracle(oracle);
     return status;
 }
@@ -179,9 +190,9 @@ int command_viewfactors(const struct options *o, const struct open_scene *scene)
     struct columns columns = {0};
     if (o->sensor)
         return sensor_rows(o, scene);
-    int status = o->product ? columns_read(&columns, o->product, scene->originals) : 0;
+    int status = o->product && columns_read(&columns, o->product, scene->originals) < 0;
     if (status == 0)
         status = compute(o, scene, &columns);
     columns_free(&columns);
-    return status < 0;
+    return status;
 }

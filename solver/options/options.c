@@ -393,6 +393,8 @@ static int check_together(struct options *o)
                      o->format_given ? "--format"
                      : o->closure    ? "--closure"
                                      : "--set");
+    if (o->sensor && o->resume)
+        return wrong(c->name, "--sensor is soon done: it does not go with --resume");
     if (o->product && (!o->out || o->sensor || o->format_given))
         return wrong(c->name,
                      o->out ? "--product writes columns: it does not go with %s"

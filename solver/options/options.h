@@ -99,6 +99,7 @@ struct options {
     enum factor_rows by;          /* viewfactors */
     int losses;                   /* viewfactors */
     const char *sensor, *product; /* viewfactors: rows of points, and products, instead */
+    const char *resume;           /* viewfactors: where the work stands */
     struct copies copies;         /* viewfactors: --mirror, --repeat */
     int width, height, mesh;      /* of the picture */
     int gather;                   /* rays per pixel; 0: none; -1, not given: at corners */
