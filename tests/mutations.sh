@@ -62,6 +62,10 @@ differences are timed | solver/commands/compare.c | s/    if (!p->differences)$/
 fixed and yet set | runtime/oracle/refiner.c | s/if (p->fixed)/if (0)/ | runtime/check_api solver/check_params
 parameters set twice | solver/util/parameter_file.c | s/if (f->lines\[i\])/if (0)/ | solver/check_params
 libraries: the first counts | solver/scene/materials_by_name.c | s/^    \*slot = n;/    if (*slot == NONE) *slot = n;/ | solver/check_damaged
+damage of a state unseen | runtime/engine/state_stream.c | s/check == wanted ? STATE_READ/check == wanted || wanted + 1 ? STATE_READ/ | runtime/check_exchange_state
+more behind a state | runtime/engine/exchange_state_read.c | s/|| judge(s, state_get_end(&s->in)) < 0// | runtime/check_exchange_state
+a block of a state is left out | runtime/engine/exchange_areas.c | s/i >= f->read ||/i > f->read ||/ | runtime/check_exchange_state
+a state of other parameters | runtime/engine/exchange_state.c | s/hash = state_mix(hash, &value, sizeof value);/(void)value;/ | runtime/check_exchange_state
 unfinished, not told       | solver/util/solved.c | s/return 3;/return 0;/ | solver/check_lost_work
 a proof's folder stays     | dagc/prove/compile.c | s/dag_tidy_push(&tidy);/(void)tidy;/ | dagc/check_signals
 imports are outputs        | solver/commands/check_outputs.c | s/return radListOracleFiles.*/return 0;/ | solver/check_options

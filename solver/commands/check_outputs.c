@@ -279,10 +279,21 @@ static int check(const struct named_files *f, size_t i)
     return standard || atomic_check(out->path) == 0 ? 0 : 1;
 }
 
+/* An archive is written with ways back in the file. Returns 0 or the exit status. */
+static int check_archive(const struct options *o)
+{
+    struct stat status;
+    if (o->command != COMMAND_VIEWFACTORS || !o->out || o->sensor || o->product
+        || o->format != FACTOR_NPZ || stat(o->out, &status) || S_ISREG(status.st_mode)
+        || S_ISDIR(status.st_mode))
+        return 0;
+    return -report_error(o->out, 0, "an archive cannot go to a pipe or a device; give a file");
+}
+
 int check_outputs(const struct options *o)
 {
     struct named_files f = {0};
-    int status = 0;
+    int status = check_archive(o);
     if (add_outputs(&f, o) || (f.output_count && add_inputs(&f, o)))
         status = -report_error("radiosity", 0, "out of memory for the names of files");
     for (size_t i = 0; i < f.output_count && !status; i++)

@@ -44,12 +44,17 @@ static int read_row(struct columns *c, const char *path, struct text_lines *t)
     return 0;
 }
 
-/* A line that does not begin with a number. */
+/* A line that does not begin with a number; a comma ends one, too. */
 static int is_head(const struct text_lines *t)
 {
     struct text_lines ahead = *t;
     double x;
-    return next_word(&ahead) && !word_number(&ahead, &x);
+    if (!next_word(&ahead))
+        return 0;
+    const char *comma = memchr(ahead.word, ',', (size_t)(ahead.word_end - ahead.word));
+    if (comma)
+        ahead.word_end = ahead.word + (comma - ahead.word);
+    return !word_number(&ahead, &x);
 }
 
 int columns_read(struct columns *c, const char *path, uint32_t faces)

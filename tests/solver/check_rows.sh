@@ -113,4 +113,21 @@ for format in ply stl; do
     [ ! -e lost.csv ] || failed "$format: a matrix of what is left"
     told 'error: [0-9]* of [0-9]* faces have no area left: coordinates are floats up to 5e+06 m, rounded to 0.6 m; move the scene'
 done
+# ---- columns: parted by commas from the first line on; a line too many is no line of names
+yes '1,2' | head -n 6 >two
+yes '1,2' | head -n 7 >seven
+{ echo a,b && cat two; } >named
+check "a product with columns parted by commas" "$radiosity" viewfactors cube.obj -q --product two -o y
+check "each row of a cube sums to 1" awk -F '[, ]' '{ bad = bad || NF != 2 || ($1 - 1) ^ 2 + ($2 - 2) ^ 2 > 1e-12 } END { exit NR != 6 || bad }' y
+check "a line of names" "$radiosity" viewfactors cube.obj -q --product named -o z
+check "which is kept" sh -c '[ "$(head -n 1 z)" = a,b ] && tail -n 6 z | cmp - y'
+count=$((count + 1))
+"$radiosity" viewfactors cube.obj -q --product seven -o w >out 2>err
+[ $? = 1 ] && grep -q "7 lines of numbers, but the scene has 6 faces" err && [ ! -e w ] || failed "a line too many"
+
+# ---- what cannot be written is told before the work, not after it: nothing says what the scene lacks
+count=$((count + 1))
+"$radiosity" viewfactors none.obj -q --format npz -o /dev/null >out 2>err
+[ $? = 1 ] && grep -q "^/dev/null: error: an archive cannot go to a pipe or a device" err || failed "an archive to a device"
+
 finish rows
