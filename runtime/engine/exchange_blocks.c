@@ -23,24 +23,41 @@ void exchange_scratch_close(struct exchange_scratch *s)
     shadow_scratch_close(&s->shadow);
 }
 
-/* A block of which no more is known than what it links. */
+/* What may stand between one face of the receiver and all of the emitter: of those of a list, or,
+ * when this is NULL, of all there are. Returns `own`, or the list when that is good enough. */
+static const struct sight_list *list_row(const struct exchange_pair *pair, uint32_t row,
+                                         const struct sight_list *list, struct sight_list *own)
+{
+    const struct element *s = pair->emitter;
+    if (!s->group || (list && list->count <= SIGHT_SHORT))
+        return list;
+    const struct element *r =
+        pair->receiver->group ? exchange_tree_face(pair->tree, row) : pair->receiver;
+    sight_list_find(own, r, s, pair->tree, list);
+    return own->count <= SIGHT_LIST ? own : list;
+}
+
+/* A block of which no more is known than what it links. Lists are handed down: a row's shaft lies
+ * in the block's, a pair's in the row's. */
 static double block_by_pairs(const struct exchange_pair *pair, struct exchange_scratch *scratch,
                              double *out)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     double error, most = 0;
-    struct sight_list list, *among = NULL;
+    struct sight_list list, own, *among = NULL;
     if (r->group || s->group) {
-        sight_list_find(&list, r, s, pair->tree);
+        sight_list_find(&list, r, s, pair->tree, NULL);
         among = list.count <= SIGHT_LIST ? &list : NULL;
     }
-    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++)
+    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++) {
+        const struct sight_list *row = list_row(pair, i, among, &own);
         for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
             *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                                s->group ? exchange_tree_face(pair->tree, j) : s, pair->tree, among,
+                                s->group ? exchange_tree_face(pair->tree, j) : s, pair->tree, row,
                                 &scratch->sight, &error);
             most = fmax(most, error);
         }
+    }
     return most;
 }
 

@@ -30,7 +30,6 @@ struct sight_node {
     struct element piece;
     double points, value, error; /* by its own points; by its quarters' (m2) */
     int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
-    uint32_t list[SIGHT_LIST];
 };
 
 /* A pair at work. */
@@ -48,7 +47,8 @@ struct sight_limits sight_limits_for(double tolerance, uint32_t faces)
 {
     int few = faces <= SIGHT_FEW_FACES;
     return (struct sight_limits){tolerance, few ? SIGHT_FLOOR : SIGHT_FLOOR_MANY / sqrt(faces),
-                                 few ? SIGHT_PIECES : SIGHT_PIECES_MANY, !few};
+                                 few ? SIGHT_PIECES : SIGHT_PIECES_MANY,
+                                 faces < SIGHT_LIST ? (int)faces : SIGHT_LIST, !few};
 }
 
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits)
@@ -56,14 +56,16 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     size_t most = (size_t)limits->pieces;
     scratch->limits = *limits;
     scratch->nodes = malloc(most * sizeof *scratch->nodes);
+    scratch->lists = malloc((most * (size_t)limits->list + 1) * sizeof *scratch->lists);
     scratch->heap = malloc(most * sizeof *scratch->heap);
     scratch->between = malloc(sizeof *scratch->between);
-    return scratch->nodes && scratch->heap && scratch->between ? 0 : -1;
+    return scratch->nodes && scratch->lists && scratch->heap && scratch->between ? 0 : -1;
 }
 
 void sight_scratch_close(struct sight_scratch *scratch)
 {
     free(scratch->nodes);
+    free(scratch->lists);
     free(scratch->heap);
     free(scratch->between);
 }
@@ -127,6 +129,11 @@ static void make_quarter(struct element *out, const struct element *e, int q)
     }
     make_piece(out, e, (const double(*)[3])p, n);
     out->id = hash64(e->id + (uint64_t)q + 1);
+}
+
+static uint32_t *list_of(const struct looking *l, int at)
+{
+    return l->scratch->lists + (size_t)at * (size_t)l->scratch->limits.list;
 }
 
 static int compare_faces(const void *a, const void *b)
@@ -216,7 +223,7 @@ static void measure(struct looking *l, int at, const uint32_t *list, int count)
         return;
     case BETWEEN_SOME:
         node->count = between->faces;
-        memcpy(node->list, between->list, (size_t)node->count * sizeof *node->list);
+        memcpy(list_of(l, at), between->list, (size_t)node->count * sizeof *between->list);
         l->between_of = at;
         node->points = node->value = by_points(l, &node->piece, 0);
     }
@@ -237,7 +244,7 @@ static void compare(struct looking *l, int at, double aim)
     double noise = 0, rim = 0;
     if (node->count < MANY) {
         if (l->between_of != at)
-            (void)find_between(l, &node->piece, node->list, node->count);
+            (void)find_between(l, &node->piece, list_of(l, at), node->count);
         rim = by_points(l, &node->piece, 1);
         node->error = fabs(node->points - rim);
         if (node->error <= aim * node->piece.area)
@@ -248,7 +255,7 @@ static void compare(struct looking *l, int at, double aim)
     for (int q = 0; q < QUARTERS; q++) {
         struct sight_node *quarter = &nodes[l->nodes++];
         make_quarter(&quarter->piece, &node->piece, q);
-        measure(l, l->nodes - 1, node->list, node->count);
+        measure(l, l->nodes - 1, list_of(l, at), node->count);
         node->value += quarter->value;
         double of = quarter->count == MANY ? quarter->error : node->error;
         noise += of * of;
@@ -422,12 +429,16 @@ double sight_pair(const struct element *r, const struct element *s, const struct
 }
 
 void sight_list_find(struct sight_list *list, const struct element *r, const struct element *s,
-                     const struct exchange_tree *t)
+                     const struct exchange_tree *t, const struct sight_list *among)
 {
     struct shaft shaft;
-    list->count = 0;
+    list->count = MANY; /* where these make no shaft, faces of theirs that lie a little off may */
     if (!shaft_open(&shaft, r, s, &t->host))
         return;
+    if (among) {
+        list->count = near_ones(among, t, &shaft, list->face);
+        return;
+    }
     list->count = candidates_find(&t->h, &shaft, t->host.ray_offset, SIGHT_LIST, list->face);
     if (list->count <= SIGHT_LIST)
         sort_list(list->face, list->count);

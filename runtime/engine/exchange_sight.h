@@ -12,12 +12,14 @@
 struct sight_limits {
     double tolerance, floor;
     int pieces;
+    int list; /* the most that can stand between */
     int many; /* 1: rules that agree are believed */
 };
 
 /* One thread's room, for the pieces of a pair. */
 struct sight_scratch {
     struct sight_node *nodes;
+    uint32_t *lists; /* limits.list for each node */
     int *heap;
     struct sight_between *between;
     struct sight_limits limits;
@@ -41,8 +43,9 @@ struct sight_list {
     int count;
     uint32_t face[SIGHT_LIST];
 };
+/* `among`: those of a pair that holds this one; NULL: of all there are. */
 void sight_list_find(struct sight_list *list, const struct element *r, const struct element *s,
-                     const struct exchange_tree *tree);
+                     const struct exchange_tree *tree, const struct sight_list *among);
 
 /* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). `among`:
  * of a pair that holds this one; NULL: nobody has looked. */

@@ -70,7 +70,7 @@ static int place_of(const uint32_t *list, int count, uint32_t face)
 }
 
 /* The line along which a face meets the plane, if it crosses it: its shadow ends there. */
-static void add_foot(struct sight_between *b, const struct sight_face *face)
+static int add_foot(struct sight_between *b, const struct sight_face *face)
 {
     double end[2][3] = {{0}};
     int found = 0;
@@ -83,7 +83,9 @@ static void add_foot(struct sight_between *b, const struct sight_face *face)
         found++;
     }
     if (found < 2)
-        return;
+        return 0;
+    if (b->edges == SIGHT_EDGES)
+        return -1;
     struct sight_edge *edge = &b->edge[b->edges++];
     edge->mates = 0;
     for (int k = 0; k < 2; k++) {
@@ -91,11 +93,13 @@ static void add_foot(struct sight_between *b, const struct sight_face *face)
         edge->end[k][1] = end[k][1];
         edge->end[k][2] = 0;
     }
+    return 0;
 }
 
-/* front[]: which end is in front of each face, 0 where its plane does not part them. */
-static void add_edges(struct sight_between *b, const struct exchange_tree *t,
-                      const struct shaft *shaft, const signed char *front, int at)
+/* front[]: which end is in front of each face, 0 where its plane does not part them. Returns -1
+ * when there are too many. */
+static int add_edges(struct sight_between *b, const struct exchange_tree *t,
+                     const struct shaft *shaft, const signed char *front, int at)
 {
     uint32_t index = b->list[at];
     const struct element *e = &t->h.elements[index];
@@ -115,6 +119,8 @@ static void add_edges(struct sight_between *b, const struct exchange_tree *t,
             continue;
         if (!hidden_edge(shaft, e->vertex[i], e->vertex[next]))
             continue;
+        if (b->edges == SIGHT_EDGES)
+            return -1;
         struct sight_edge *edge = &b->edge[b->edges++];
         edge->mates = mate >= 0;
         for (int k = 0; k < 3; k++) {
@@ -124,6 +130,28 @@ static void add_edges(struct sight_between *b, const struct exchange_tree *t,
         for (int k = 0; k < 4 && mate >= 0; k++) {
             edge->plane[0][k] = face->plane[k];
             edge->plane[1][k] = turned ? -b->face[mate].plane[k] : b->face[mate].plane[k];
+        }
+    }
+    return 0;
+}
+
+/* Boxes around so many faces each, which stand in the list as in the tree: neighbours are near each
+ * other. Larger by more than rounding. */
+static void make_boxes(struct sight_between *b, double more)
+{
+    for (int i = 0; i < b->faces; i++) {
+        struct sight_box *box = &b->box[i / SIGHT_BOXED];
+        const struct sight_face *face = &b->face[i];
+        for (int k = 0; k < 3; k++) {
+            double low = face->v[0][k], high = low;
+            for (int c = 1; c < face->n; c++) {
+                low = face->v[c][k] < low ? face->v[c][k] : low;
+                high = face->v[c][k] > high ? face->v[c][k] : high;
+            }
+            low -= more;
+            high += more;
+            box->low[k] = i % SIGHT_BOXED && box->low[k] < low ? box->low[k] : low;
+            box->high[k] = i % SIGHT_BOXED && box->high[k] > high ? box->high[k] : high;
         }
     }
 }
@@ -147,10 +175,12 @@ enum between sight_between_open(struct sight_between *b, const struct exchange_t
         make_face(&b->face[b->faces], e, &sight->raised);
         b->list[b->faces++] = list[i];
     }
-    for (int i = 0; i < b->faces; i++) {
-        add_edges(b, t, shaft, front, i);
-        add_foot(b, &b->face[i]);
-    }
+    for (int i = 0; i < b->faces; i++)
+        if (add_edges(b, t, shaft, front, i) < 0 || add_foot(b, &b->face[i]) < 0)
+            return BETWEEN_MANY;
+    if (b->faces > SIGHT_CUT && (b->bent || b->edges > 2 * b->faces))
+        return BETWEEN_MANY;
+    make_boxes(b, shaft->flat);
     if (!parted || b->edges > 0)
         return BETWEEN_SOME;
     struct hidden hidden;
@@ -193,19 +223,51 @@ static int cast_edge(const struct cutting *c, const struct sight_edge *edge,
     return above && below;
 }
 
+/* A ray to the middle of a part, in the plane's coordinates. */
+struct sight_ray {
+    const double *from;
+    double to[3], along[3], per[3]; /* per: 1 / along */
+};
+
+/* Does a ray pass a box by? Where it runs along a side, that side does not tell. */
+static int passes_by(const struct sight_ray *ray, const struct sight_box *box)
+{
+    double enter = 0, leave = 1;
+    for (int k = 0; k < 3; k++) {
+        double a = (box->low[k] - ray->from[k]) * ray->per[k],
+               b = (box->high[k] - ray->from[k]) * ray->per[k];
+        double first = a < b ? a : b, last = a < b ? b : a;
+        enter = first > enter ? first : enter;
+        leave = last < leave ? last : leave;
+    }
+    return enter > leave;
+}
+
+static int stops(const struct sight_ray *ray, const struct sight_face *f)
+{
+    return (over(f->plane, ray->from) > 0) != (over(f->plane, ray->to) > 0)
+           && hidden_through(ray->from, ray->along, (const double(*)[3])f->v, f->n);
+}
+
 /* Does the ray to the middle of a part meet a face? */
 static int is_hidden(const struct cutting *c, const struct outline_cell *cell)
 {
-    double to[3] = {0, 0, 0}, along[3];
+    const struct sight_between *b = c->between;
+    struct sight_ray ray = {.from = c->from};
     for (int i = 0; i < cell->n; i++)
         for (int k = 0; k < 2; k++)
-            to[k] += cell->p[i][k] / cell->n;
-    sub3(along, to, c->from);
-    for (int i = 0; i < c->between->faces; i++) {
-        const struct sight_face *f = &c->between->face[i];
-        if ((over(f->plane, c->from) > 0) != (over(f->plane, to) > 0)
-            && hidden_through(c->from, along, (const double(*)[3])f->v, f->n))
-            return 1;
+            ray.to[k] += cell->p[i][k] / cell->n;
+    sub3(ray.along, ray.to, c->from);
+    for (int k = 0; k < 3; k++)
+        ray.per[k] = 1 / ray.along[k];
+    for (int box = 0; box * SIGHT_BOXED < b->faces; box++) {
+        int from = box * SIGHT_BOXED,
+            to = from + SIGHT_BOXED < b->faces ? from + SIGHT_BOXED : b->faces;
+        if (passes_by(&ray, &b->box[box]))
+            continue;
+        for (int i = from; i < to; i++)
+            if (stops(&ray, &b->face[i]))
+                return 1;
     }
     return 0;
 }

@@ -22,12 +22,18 @@ struct sight_face {
     int n;
 };
 
+/* Around SIGHT_BOXED of them. */
+struct sight_box {
+    double low[3], high[3];
+};
+
 /* What stands between a piece and the polygon it looks at. */
 struct sight_between {
     int faces, edges;
     int bent;                  /* 1: a face is not in one plane, as outlines want them */
     uint32_t list[SIGHT_LIST]; /* ascending */
     struct sight_face face[SIGHT_LIST];
+    struct sight_box box[SIGHT_LIST / SIGHT_BOXED];
     struct sight_edge edge[SIGHT_EDGES];
 };
 

@@ -143,7 +143,7 @@ static void add_left(struct sight_eye *eye, const struct outline *shadows, int c
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
                     const struct exchange_tree *tree, const uint32_t *faces, int count)
 {
-    struct outline shadows[SIGHT_LIST];
+    struct outline shadows[SIGHT_CUT];
     struct sight_eye eye;
     double from[3];
     int cast = 0;

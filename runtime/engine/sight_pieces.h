@@ -6,8 +6,11 @@
 #include "engine/exchange_tree.h"
 #include "kernel/outline.h"
 
-/* the most faces that may stand between; their edges, and the feet of as many */
-enum { SIGHT_LIST = 256, SIGHT_EDGES = 5 * SIGHT_LIST };
+/* the most faces that may stand between, of a mesh; so many where each is cut out by itself; the
+ * most edges and feet, which as many have; faces of one box (a power of two) */
+enum { SIGHT_LIST = 2048, SIGHT_CUT = 256, SIGHT_EDGES = 5 * SIGHT_CUT, SIGHT_BOXED = 8 };
+/* faces of a list that is not worth being made shorter for each face of a group */
+enum { SIGHT_SHORT = 16 };
 
 /* The polygon that is looked at, in its plane; the plane that shadows are cast on is raised a
  * little, as rays' ends are. */

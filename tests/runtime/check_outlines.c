@@ -115,7 +115,7 @@ START_TEST(test_both_ways)
         memcpy(whole.v, high->vertex, 4 * sizeof *whole.v);
         ck_assert(shaft_open(&shaft, low, high, &t.host));
         int count = candidates_find(&t.h, &shaft, t.host.ray_offset, SIGHT_LIST, list);
-        ck_assert_int_le(count, SIGHT_LIST);
+        ck_assert_int_le(count, SIGHT_CUT);
         qsort(list, (size_t)count, sizeof *list, compare_faces);
         sight_open(&sight, high, &whole, t.host.ray_offset);
         ck_assert_int_eq(sight_between_open(&between, &t, &shaft, &sight, list, count),
@@ -171,34 +171,39 @@ START_TEST(test_hidden)
 }
 END_TEST
 
+/* The unit cube from inside, each wall cut into 2 n n triangles. */
+static void add_box(struct scene *s, int n)
+{
+    for (int wall = 0; wall < 6; wall++)
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) {
+                double p[4][3], q[3][3];
+                int axis = wall / 2;
+                for (int k = 0; k < 4; k++) {
+                    p[k][axis] = wall % 2;
+                    p[k][(axis + 1) % 3] = (i + (k == 1 || k == 2)) / (double)n;
+                    p[k][(axis + 2) % 3] = (j + (k >= 2)) / (double)n;
+                }
+                for (int half = 0; half < 2; half++) {
+                    for (int k = 0; k < 3; k++)
+                        memcpy(q[wall % 2 ? 2 - k : k], p[k ? k + half : 0], sizeof *q);
+                    made_face(s, 0, 3, (const double(*)[3])q);
+                }
+            }
+}
+
 /* Two balls, one dented, in a box of triangles: every row is 1. An entry may be off by the
  * tolerance times 4 over the root of 308 faces, 7e-5; about a hundred of a row are in half shadow,
  * which by chance makes ten times that, and three times so much is met once in 300 rows. */
 START_TEST(test_closed)
 {
-    enum { CUTS = 3 };
     struct scene s;
     struct exchange x;
     const char *cause;
     const double c[2][3] = {{0.35, 0.4, 0.4}, {0.7, 0.65, 0.6}};
     made_open(&s);
     made_material(&s, 0.5, 0);
-    for (int wall = 0; wall < 6; wall++)
-        for (int i = 0; i < CUTS; i++)
-            for (int j = 0; j < CUTS; j++) {
-                double p[4][3], q[3][3];
-                int axis = wall / 2;
-                for (int k = 0; k < 4; k++) {
-                    p[k][axis] = wall % 2;
-                    p[k][(axis + 1) % 3] = (i + (k == 1 || k == 2)) / (double)CUTS;
-                    p[k][(axis + 2) % 3] = (j + (k >= 2)) / (double)CUTS;
-                }
-                for (int half = 0; half < 2; half++) {
-                    for (int k = 0; k < 3; k++)
-                        memcpy(q[wall % 2 ? 2 - k : k], p[k ? k + half : 0], sizeof *q);
-                    made_face(&s, 0, 3, (const double(*)[3])q);
-                }
-            }
+    add_box(&s, 3);
     add_ball(&s, c[0], 0.25, 0, 4, no_gap);
     add_ball(&s, c[1], 0.15, 0.3, 3, no_gap);
     struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
@@ -214,6 +219,32 @@ START_TEST(test_closed)
 }
 END_TEST
 
+/* A ball of faces much smaller than the walls': hundreds stand between two of these, and yet its
+ * outline is exact, so that no ray is cast and rows are 1 to the tolerance. */
+START_TEST(test_many_between)
+{
+    struct scene s;
+    struct exchange x;
+    const char *cause;
+    const double c[3] = {0.5, 0.45, 0.55};
+    made_open(&s);
+    made_material(&s, 0.5, 0);
+    add_box(&s, 2);
+    add_ball(&s, c, 0.25, 0, 12, no_gap);
+    struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+    exchange_set_tolerance(refiner, 3e-4);
+    const struct exchange_options options = {.tolerance = 3e-4, .threads = 1};
+    ck_assert_int_eq(exchange_open(&x, &s, refiner, &options, &cause), 0);
+    ck_assert_int_eq((int)x.report.rows_closed, (int)s.input_count);
+    printf("a fine ball in a box: rows off by %.1e at the most\n", x.report.defect_most);
+    ck_assert_double_lt(x.report.defect_most, 3e-4);
+    ck_assert_int_eq((int)x.report.rays, 0);
+    exchange_close(&x);
+    refiner_close(refiner);
+    made_close(&s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("outlines");
@@ -223,5 +254,6 @@ int main(void)
     tcase_add_loop_test(tests, test_both_ways, 0, 3);
     tcase_add_test(tests, test_hidden);
     tcase_add_test(tests, test_closed);
+    tcase_add_test(tests, test_many_between);
     return suite_failures(suite);
 }
