@@ -4,6 +4,8 @@
  * exchange_blocks.c's.
  * Invariant: one value per pair serves both rows, so A_i F_ij = A_j F_ji to rounding.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_areas.h"
@@ -13,11 +15,11 @@
 #include "util/clock.h"
 #include "util/thread_pool.h"
 
-/* Blocks between two times that somebody is told: as many as take about so long (s), since he may
- * want no more. LEAST: for each thread, or they wait for each other. RUN: that one takes at a time.
- */
-enum { LEAST = 4, RUN = 32 };
-static const double SOON = 0.25, LATE = 1;
+/* Somebody is told about so often (s), since he may want no more; at first after a few blocks for
+ * each thread, then after twice as many, but for MOST. RUN: that a thread takes at a time. One
+ * block takes from a microsecond to a second, so the clock is looked at before each. */
+enum { LEAST = 4, MOST = 1 << 20, RUN = 32 };
+static const double OFTEN = 0.5;
 
 /* What blocks are filled from. */
 struct filling {
@@ -26,6 +28,8 @@ struct filling {
     struct exchange_scratch *scratch; /* [thread] */
     size_t from;                      /* the first block at hand */
     size_t read;                      /* of the first so many the state has given most */
+    double late;                      /* s, when to begin no more of them, */
+    atomic_size_t *end;               /* and at which block that was; it is the first not filled */
 };
 
 static struct exchange_pair pair_of(const struct exchange_areas *m, const struct exchange_block *b,
@@ -46,11 +50,22 @@ double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_
     return exchange_block_fill(&m->shapes, &pair, link, scratch, values);
 }
 
+/* Is block i to be left for later? The first at hand never is, so that all come to an end. */
+static int is_late(const struct filling *f, size_t i)
+{
+    size_t end = atomic_load(f->end);
+    if (i >= end || i == f->from || seconds() < f->late)
+        return i >= end;
+    while (i < end && !atomic_compare_exchange_weak(f->end, &end, i))
+        ;
+    return 1;
+}
+
 static void fill_blocks(const void *filling, size_t from, size_t to)
 {
     const struct filling *f = filling;
     const struct exchange_areas *m = f->areas;
-    for (size_t i = f->from + from; i < f->from + to; i++) {
+    for (size_t i = f->from + from; i < f->from + to && !is_late(f, i); i++) {
         struct exchange_block *b = &m->blocks[i]; /* no other thread's */
         if (!b->anew && (i >= f->read || exchange_link_clear(m->tree, f->links[i])))
             b->error = exchange_tile_fill(m, b, f->links[i], &f->scratch[thread_pool_number()],
@@ -68,15 +83,17 @@ static int tell(const struct filling *f, const struct exchange_aim *how)
                && exchange_state_ask(how->state, m, f->links, f->from));
 }
 
-/* Fill the next blocks, and find how many are to come next. */
-static size_t fill_some(const struct filling *f, size_t count, int threads)
+/* Fill the next blocks, as far as that goes until `late`. Blocks behind one that was left may be
+ * filled; they will be again. */
+static void fill_some(struct filling *f, size_t count, double late, int threads)
 {
-    const double start = seconds();
     const size_t run = count / 8 < RUN ? count / 8 : RUN;
+    atomic_size_t end;
+    atomic_init(&end, f->from + count);
+    f->late = late;
+    f->end = &end;
     thread_pool_run(threads, count, run ? run : 1, fill_blocks, f);
-    const double took = seconds() - start;
-    const size_t least = LEAST * (size_t)threads;
-    return took < SOON ? 2 * count : took > LATE && count > 2 * least ? count / 2 : count;
+    f->from = atomic_load(&end);
 }
 
 static int fill(struct exchange_areas *m, const struct link **links, const struct exchange_aim *how)
@@ -84,20 +101,20 @@ static int fill(struct exchange_areas *m, const struct link **links, const struc
     const int threads = how->threads;
     struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
     const int64_t read = how->state ? exchange_state_read_values(how->state, m, links) : 0;
-    struct filling f = {m, links, scratch, 0, read > 0 ? (size_t)read : 0};
+    struct filling f = {
+        .areas = m, .links = links, .scratch = scratch, .read = read > 0 ? (size_t)read : 0};
     size_t next = LEAST * (size_t)threads;
     int failed = !scratch || read < 0;
     for (int t = 0; t < threads && !failed; t++)
         failed = exchange_scratch_open(&scratch[t], &m->limits) < 0;
     if (f.read && !failed) { /* those of groups in clear view */
-        thread_pool_run(threads, f.read, RUN, fill_blocks, &f);
-        f.from = f.read;
+        fill_some(&f, f.read, INFINITY, threads);
         failed = tell(&f, how);
     }
     while (f.from < m->block_count && !failed) {
-        const size_t left = m->block_count - f.from, count = left < next ? left : next;
-        next = fill_some(&f, count, threads);
-        f.from += count;
+        const size_t left = m->block_count - f.from;
+        fill_some(&f, left < next ? left : next, seconds() + OFTEN, threads);
+        next = next < MOST ? 2 * next : next;
         failed = tell(&f, how);
     }
     for (int t = 0; t < threads && scratch; t++)
