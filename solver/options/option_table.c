@@ -688,7 +688,7 @@ const struct option_row option_rows[] = {
      "AXIS=X:N such as y=2.5:3, X above 0, N 1 to 1000; with --mirror, 8 at the most",
      .read = read_repeat},
     {"names", "FILE", FACTORS, NULL, "a name for each row; .csv: its area, too", OUTPUT(names)},
-    {"resume", "FILE", FACTORS, NULL, "where a stopped run stands; it goes on from there",
+    {"resume", "FILE", FACTORS, NULL, "stopped, it goes on from there another time",
      OUTPUT(resume)},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
      NAMED(image, pictures)},
