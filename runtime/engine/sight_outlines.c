@@ -12,6 +12,7 @@
  * [Appel 1967, outlines and how many surfaces hide; binary space partition, Fuchs, Kedem & Naylor
  * 1980; put together here]
  * SPDX-License-Identifier: MIT */
+#include <string.h>
 #include "engine/sight_outlines.h"
 #include "kernel/shaft.h"
 #include "visibility/candidates.h"
@@ -55,18 +56,35 @@ static void make_face(struct sight_face *face, const struct element *e,
     face->plane[3] = dot3(face->plane, face->v[0]);
 }
 
-/* Where in the list; -1: it is not in it. */
-static int place_of(const uint32_t *list, int count, uint32_t face)
+/* Faces of a short list are looked for in it; of others, their places are kept by the last digits
+ * of their indices. */
+static void make_places(struct sight_between *b)
 {
-    int low = 0;
-    while (low < count) {
-        int middle = (low + count) / 2;
-        if (list[middle] < face)
+    if (b->faces <= SIGHT_SHORT)
+        return;
+    memset(b->place, 0, sizeof b->place);
+    for (int i = 0; i < b->faces; i++)
+        b->place[b->list[i] % SIGHT_PLACES] = (uint16_t)(i + 1);
+}
+
+/* Where in the list a face is; -1: it is not in it. */
+static int place_of(const struct sight_between *b, uint32_t face)
+{
+    int low = 0, high = b->faces;
+    if (b->faces > SIGHT_SHORT) {
+        int at = b->place[face % SIGHT_PLACES] - 1;
+        if (at < 0 || b->list[at] == face)
+            return at;
+        high = at; /* the place is the last one's with these digits */
+    }
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (b->list[middle] < face)
             low = middle + 1;
         else
-            count = middle;
+            high = middle;
     }
-    return low;
+    return low < b->faces && b->list[low] == face ? low : -1;
 }
 
 /* The line along which a face meets the plane, if it crosses it: its shadow ends there. */
@@ -108,11 +126,8 @@ static int add_edges(struct sight_between *b, const struct exchange_tree *t,
         int next = i + 1 < e->vertices ? i + 1 : 0, mate = -1, turned = 0;
         int64_t across = t->mates.of[index][i];
         if (across != NO_MATE) {
-            uint32_t other = (uint32_t)(across / 2);
             turned = (int)(across % 2);
-            mate = place_of(b->list, b->faces, other);
-            if (mate == b->faces || b->list[mate] != other)
-                mate = -1;
+            mate = place_of(b, (uint32_t)(across / 2));
         }
         if (mate >= 0
             && (mate < at || (front[at] && front[mate] == (turned ? -front[at] : front[at]))))
@@ -175,6 +190,7 @@ enum between sight_between_open(struct sight_between *b, const struct exchange_t
         make_face(&b->face[b->faces], e, &sight->raised);
         b->list[b->faces++] = list[i];
     }
+    make_places(b);
     for (int i = 0; i < b->faces; i++)
         if (add_edges(b, t, shaft, front, i) < 0 || add_foot(b, &b->face[i]) < 0)
             return BETWEEN_MANY;

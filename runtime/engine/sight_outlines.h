@@ -33,6 +33,7 @@ struct sight_between {
     int bent;                  /* 1: a face is not in one plane, as outlines want them */
     uint32_t list[SIGHT_LIST]; /* ascending */
     struct sight_face face[SIGHT_LIST];
+    uint16_t place[SIGHT_PLACES]; /* 1 more than it, of the last face of the list; 0: of none */
     struct sight_box box[SIGHT_LIST / SIGHT_BOXED];
     struct sight_edge edge[SIGHT_EDGES];
 };

@@ -9,8 +9,9 @@
 /* the most faces that may stand between, of a mesh; so many where each is cut out by itself; the
  * most edges and feet, which as many have; faces of one box (a power of two) */
 enum { SIGHT_LIST = 2048, SIGHT_CUT = 256, SIGHT_EDGES = 5 * SIGHT_CUT, SIGHT_BOXED = 8 };
-/* faces of a list that is not worth being made shorter for each face of a group */
-enum { SIGHT_SHORT = 16 };
+/* faces of a list that is not worth being made shorter for each face of a group, nor an index; by
+ * how many an index tells places apart, twice the longest list's */
+enum { SIGHT_SHORT = 16, SIGHT_PLACES = 2 * SIGHT_LIST };
 
 /* The polygon that is looked at, in its plane; the plane that shadows are cast on is raised a
  * little, as rays' ends are. */
