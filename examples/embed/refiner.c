@@ -473,11 +473,6 @@
 /* of a row's sum. The default, and the tolerance that the limits of
  * examples/oracles/viewfactors.dag are made for: chosen */
 #define REFINER_EXCHANGE_TOLERANCE 3e-4
-/* sums of two faces' radii. Links of faces nearer than that have the contour integral; chosen */
-#define REFINER_EXCHANGE_NEAR 2.5
-/* of an entry. For tolerances below it all links of faces have the contour integral: ten times what
- * polygon_factor leaves of the others */
-#define REFINER_EXCHANGE_FINE 1e-4
 /* of distance squared: the variance of two faces' points together. Above it rules of points say
  * nothing; chosen: nearer, the series in size over distance need not converge */
 #define REFINER_CLEAR_RULES_NEAR 0.1

@@ -61,21 +61,16 @@ static double block_by_pairs(const struct exchange_pair *pair, struct exchange_s
     return most;
 }
 
-/* The form factor of a link in clear view. Of whole faces in all its digits, since the link keeps
- * those of a float; near ones, and all for small tolerances, have the contour integral. None is
- * made anew that the oracle had by other means. */
-static double link_factor(const struct exchange_pair *pair, const struct link *link,
-                          double tolerance)
+/* The form factor of a link in clear view. Of whole faces in all its digits: the link keeps those
+ * of a float, and what is right to 1e-5 where faces look at each other is right to 1e-3 where they
+ * graze. None is made anew that the oracle had by other means. */
+static double link_factor(const struct exchange_pair *pair, const struct link *link)
 {
     const struct element *r = pair->receiver, *s = pair->emitter;
     int level = link->levels & 15;
     if (r->depth || s->depth || (level != FORM_FACTOR_POLYGON && level != FORM_FACTOR_CONTOUR))
         return (double)link->form_factor;
-    double away[3], reach = EXCHANGE_NEAR * (r->radius + s->radius);
-    sub3(away, s->centre, r->centre);
-    return polygon_factor(r, s,
-                          level == FORM_FACTOR_CONTOUR || tolerance < EXCHANGE_FINE
-                              || dot3(away, away) < reach * reach);
+    return polygon_factor(r, s, 1);
 }
 
 static int is_proved(const struct link *link)
@@ -96,8 +91,7 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
     const struct element *r = pair->receiver, *s = pair->emitter;
     struct blockers list = {.known = BLOCKERS_UNKNOWN};
     if (is_proved(link) && !r->group && !s->group) {
-        double e = r->area * link_factor(pair, link, scratch->sight.limits.tolerance),
-               least = fmin(r->area, s->area);
+        double e = r->area * link_factor(pair, link), least = fmin(r->area, s->area);
         *out = e < least ? e : least;
         return 0;
     }

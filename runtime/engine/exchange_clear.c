@@ -3,9 +3,10 @@
  * Each pair has Lambert's kernel and its second derivatives at the centroids (kernel/lambert.h),
  * and an estimate of what that leaves out. Where this may be more than is allowed, the kernel is
  * taken at points of both faces, by rules exact to degree 4 and more; where these may not do
- * either, the pair has the contour integral (kernel/polygon_factor.h). How near that is depends on
- * how flat the two look from each other: near a plane, what is left out falls with the distance's
- * second power alone. [Taylor's formula; rules: Dunavant 1985, Gauss; the rest derived here]
+ * either, or one face's plane runs through the other, the pair has the contour integral of what is
+ * in front (kernel/polygon_factor.h). How near that is depends on how flat the two look from each
+ * other: near a plane, what is left out falls with the distance's second power alone.
+ * [Taylor's formula; rules: Dunavant 1985, Gauss; the rest derived here]
  * Invariant: none above the smaller area.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -84,6 +85,7 @@ void exchange_faces_close(struct exchange_faces *p)
 struct line {
     double shift[3][TILE]; /* M_j n */
     double doubt[TILE];    /* of its pairs, how much of the tolerance the error may be, squared */
+    unsigned char crosses[TILE]; /* whether the plane of the own group runs through them */
 };
 
 /* M_i v. */
@@ -95,15 +97,28 @@ static void moment_times(const struct exchange_faces *p, uint32_t i, const doubl
     out[2] = p->moment[4][i] * v[0] + p->moment[5][i] * v[1] + p->moment[2][i] * v[2];
 }
 
-/* M_j n for every face of a range. */
-static void moments_times(const struct exchange_faces *p, struct face_range range,
-                          const double n[3], struct line *line)
+/* Is a part of e behind the plane, whose kernel is no longer smooth over e then? */
+static int crosses(const struct element *e, const struct element *plane, double flat)
 {
+    for (int v = 0; v < e->vertices; v++)
+        if (height3(e->vertex[v], plane->centre, plane->normal) < -flat)
+            return 1;
+    return 0;
+}
+
+/* What every face across is to the group whose lines are asked for. */
+static void open_line(const struct exchange_faces *p, const struct exchange_pair *pair, int column,
+                      struct line *line)
+{
+    const struct element *own = column ? pair->emitter : pair->receiver;
+    const struct face_range range = column ? pair->rows : pair->columns;
     for (uint32_t j = range.from; j < range.to; j++) {
         double shift[3];
-        moment_times(p, j, n, shift);
+        moment_times(p, j, own->normal, shift);
         for (int k = 0; k < 3; k++)
             line->shift[k][j - range.from] = shift[k];
+        line->crosses[j - range.from] =
+            (unsigned char)crosses(exchange_tree_face(pair->tree, j), own, pair->tree->host.flat);
     }
 }
 
@@ -258,10 +273,13 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
     const struct face_range range = column ? pair->rows : pair->columns;
     const double turned[3] = {-other->normal[0], -other->normal[1], -other->normal[2]},
                  m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
+    const int cut = crosses(exchange_tree_face(pair->tree, i), other, pair->tree->host.flat);
     struct face_rule rule[2] = {{.count = 0}, {.count = 0}};
     second_order_row(p, i, own->normal, range, turned, tolerance, line, out);
     for (uint32_t j = range.from; j < range.to; j++) {
-        double doubt = line->doubt[j - range.from], e;
+        double doubt =
+                   cut || line->crosses[j - range.from] ? INFINITY : line->doubt[j - range.from],
+               e;
         if (!(doubt > 1))
             continue;
         const struct element *a = exchange_tree_face(pair->tree, column ? j : i),
@@ -282,8 +300,7 @@ void clear_line(const struct exchange_faces *p, const struct exchange_pair *pair
                 uint32_t place, int column, double *out)
 {
     struct line line;
-    moments_times(p, column ? pair->rows : pair->columns,
-                  (column ? pair->emitter : pair->receiver)->normal, &line);
+    open_line(p, pair, column, &line);
     make_line(p, pair, tolerance, place, column, &line, out);
 }
 
@@ -291,7 +308,7 @@ void clear_block(const struct exchange_faces *p, const struct exchange_pair *pai
                  double *out)
 {
     struct line line;
-    moments_times(p, pair->columns, pair->receiver->normal, &line);
+    open_line(p, pair, 0, &line);
     for (uint32_t i = pair->rows.from; i < pair->rows.to; i++) {
         make_line(p, pair, tolerance, i, 0, &line, out);
         out += pair->columns.to - pair->columns.from;

@@ -42,13 +42,7 @@ static void judge_row(const struct mesh_room *room, const struct scene *s, const
                       uint32_t i, double tolerance, double least, struct verdict *v)
 {
     struct judge_polygon a = polygon_of(&s->faces[i]);
-    double n[3];
-    judge_cross(a.v[0], a.v[1], a.v[2], n);
-    double area = 0.5 * sqrt(judge_dot(n, n));
-    if (a.n == 4) {
-        judge_cross(a.v[0], a.v[2], a.v[3], n);
-        area += 0.5 * sqrt(judge_dot(n, n));
-    }
+    const double area = judge_area(&a);
     for (uint32_t j = 0; j < s->face_count; j++) {
         struct judge_polygon b = polygon_of(&s->faces[j]);
         if (i == j) {
@@ -99,10 +93,9 @@ static struct verdict judge_room(int number, double tolerance)
     return v;
 }
 
-/* Rooms that fail, and stand as failing: single entries by 1 to 7 tolerances, where a far pair's
- * rule of points or half shadow's estimate is too sure of itself; of 27 two are lost altogether,
- * where a wall's face crosses the plane of a box's side. */
-static const int failing[] = {18, 19, 27, 34, 37, 41, 43, 44, 47, 52, 55, 58};
+/* Rooms that fail, and stand as failing: single entries by 1 to 4 tolerances, where half shadow's
+ * estimate is too sure of itself; in 47 and 55 by .04, where that of the second order is. */
+static const int failing[] = {18, 19, 34, 41, 47, 52, 55, 58};
 
 static int stands_as_failing(int room)
 {
@@ -121,6 +114,16 @@ START_TEST(test_entries)
     ck_assert_int_eq(v.over[0], 0);
     ck_assert_int_eq(v.over[1], 0);
     ck_assert_int_eq(v.above, 0);
+}
+END_TEST
+
+/* 27: faces that the plane of a meshed side runs through were taken as if all of them were in
+ * front, and what is behind counted against the rest: entries of 0. 44: single faces far off each
+ * other had one point's factor, which is right to 1e-5 only where faces look at each other. */
+START_TEST(test_once_wrong)
+{
+    static const int rooms[] = {27, 44};
+    ck_assert_int_eq(judge_room(rooms[_i], 3e-4).over[0], 0);
 }
 END_TEST
 
@@ -254,6 +257,7 @@ int main(void)
     TCase *c = tcase_create("group entries");
     tcase_set_timeout(c, 120);
     tcase_add_loop_test(c, test_entries, 0, thorough() ? ROOMS_THOROUGH : ROOMS);
+    tcase_add_loop_test(c, test_once_wrong, 0, 2);
     tcase_add_loop_test(c, test_tolerances, 0, 2);
     tcase_add_test(c, test_rounded_box);
     tcase_add_test(c, test_bent_quads);

@@ -4,21 +4,23 @@
  * From a point x each blocker hides of the other polygon what lies within the pyramid of x over the
  * blocker, and beyond its plane; what is left is cut, in space, into convex pieces that the next
  * blocker is held against, and Lambert's sum of each is exact. The outer integral is Gauss points,
- * three for a triangle, each triangle against its four quarters until they agree.
+ * three for a triangle, each triangle against its four quarters until they agree, are no larger
+ * than the smallest blocker, and have no corner in a shade that ends before their points: where all
+ * points of a large one see past a small box, they agree, too.
  * SPDX-License-Identifier: MIT */
 #ifndef ROOM_JUDGE_H
 #define ROOM_JUDGE_H
 
 #include "runtime/quad_judge.h"
 
-enum { JUDGE_BLOCKERS = 64, JUDGE_LEAST_DEPTH = 2, JUDGE_MOST_DEPTH = 10 };
+enum { JUDGE_BLOCKERS = 64, JUDGE_LEAST_DEPTH = 2, JUDGE_SHADE_DEPTH = 6, JUDGE_MOST_DEPTH = 10 };
 
 /* A pair at work: what is looked at, past what. */
 struct judge_view {
     const struct judge_polygon *to;
-    double normal[3]; /* of the face that looks, a unit vector */
-    double enough;    /* the error to leave (m2), of area */
-    double area;
+    double normal[3];   /* of the face that looks, a unit vector */
+    double enough;      /* the error to leave (m2), of area */
+    double area, least; /* least: the smallest blocker's (m2) */
     int count;
     const struct judge_polygon *blockers[JUDGE_BLOCKERS];
     double plane[JUDGE_BLOCKERS][3]; /* their normals */
@@ -30,6 +32,16 @@ static inline void judge_normal(const struct judge_polygon *p, double n[3])
     double size = sqrt(judge_dot(n, n));
     for (int k = 0; k < 3; k++)
         n[k] /= size;
+}
+
+static inline double judge_area(const struct judge_polygon *p)
+{
+    double n[3], area = 0;
+    for (int i = 2; i < p->n; i++) {
+        judge_cross(p->v[0], p->v[i - 1], p->v[i], n);
+        area += 0.5 * sqrt(judge_dot(n, n));
+    }
+    return area;
 }
 
 /* How far p reaches over the plane through o with normal n, and under it: out[0], out[1] (m). */
@@ -120,6 +132,29 @@ static inline double judge_rule(const struct judge_view *view, const double t[3]
     return sum * area;
 }
 
+/* Is something of what x would see hidden? */
+static inline int judge_dim(const struct judge_view *view, const double *x)
+{
+    struct judge_polygon p = *view->to;
+    judge_cut(&p, x, view->normal);
+    return p.n >= 3 && judge_left(view, x, 0, &p) < judge_sum(&p, x, view->normal) * (1 - 1e-9);
+}
+
+/* Does a shade that a corner is in end before the rule's points? */
+static inline int judge_missed(const struct judge_view *view, const double t[3][3])
+{
+    int dim[2] = {0, 0};
+    for (int i = 0; i < 3; i++)
+        for (int corner = 0; corner < 2 && view->count; corner++) {
+            const double w = corner ? 1 - 2e-6 : 4 / 6.0, u = 0.5 * (1 - w);
+            double x[3];
+            for (int k = 0; k < 3; k++)
+                x[k] = w * t[i][k] + u * (t[(i + 1) % 3][k] + t[(i + 2) % 3][k]);
+            dim[corner] |= judge_dim(view, x);
+        }
+    return dim[1] && !dim[0];
+}
+
 static inline double judge_triangle(const struct judge_view *view, const double t[3][3],
                                     double area, double value, int depth)
 {
@@ -136,8 +171,8 @@ static inline double judge_triangle(const struct judge_view *view, const double 
         sum += values[q] = judge_rule(view, (const double(*)[3])quarter[q], 0.25 * area);
     }
     if (depth == JUDGE_MOST_DEPTH
-        || (depth >= JUDGE_LEAST_DEPTH
-            && fabs(sum - value) <= view->enough * sqrt(area / view->area)))
+        || (!(depth < JUDGE_SHADE_DEPTH && judge_missed(view, t)) && depth >= JUDGE_LEAST_DEPTH
+            && area <= view->least && fabs(sum - value) <= view->enough * sqrt(area / view->area)))
         return sum;
     sum = 0;
     for (int q = 0; q < 4; q++)
@@ -151,7 +186,7 @@ static inline double judge_pair(const struct judge_polygon *a, const struct judg
                                 const struct judge_polygon *blockers, int count, double flat,
                                 double enough)
 {
-    struct judge_view view = {.to = b, .enough = enough};
+    struct judge_view view = {.to = b, .enough = enough, .least = INFINITY};
     struct judge_polygon p = *a;
     double n[3], other[3], sum = 0;
     judge_normal(a, view.normal);
@@ -160,6 +195,7 @@ static inline double judge_pair(const struct judge_polygon *a, const struct judg
     for (int i = 0; i < count && view.count < JUDGE_BLOCKERS; i++)
         if (judge_between(&blockers[i], a, b, flat)) {
             judge_normal(&blockers[i], view.plane[view.count]);
+            view.least = fmin(view.least, judge_area(&blockers[i]));
             view.blockers[view.count++] = &blockers[i];
         }
     for (int i = 2; i < p.n; i++) {
