@@ -27,7 +27,7 @@ struct wave {
     struct text *out;
     const struct oracle_graph *oracle;
     const struct emit_options *options;
-    int *list; /* by place in the order; list NO_LIST takes those that are decided */
+    int *list; /* by place in the order; those that are decided stand in none, NO_LIST */
     int lists;
 };
 
@@ -116,41 +116,91 @@ void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned cha
             dag_print(out, "#include \"%s\"\n", dag->terms[i].wave);
 }
 
+/* Does some answer lead to another node? */
+static int leads_on(const struct dag *dag)
+{
+    for (int i = 0; i < dag->oracle_count; i++)
+        if (dag->oracles[i].order.count > 1)
+            return 1;
+    return 0;
+}
+
 void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char *reached)
 {
+    if (leads_on(dag))
+        dag_print(
+            out,
+            "\n/* Of the pairs of a list those whose answer leads on to another, behind the "
+            "`waiting` "
+            "that\n * are there. Every pair is written, and the next in its place unless it is "
+            "counted: no branch,\n * so that answers in any order cost the same. Returns how many "
+            "are there. */\n"
+            "static int lists_part(const unsigned char *leads, const unsigned char *answers,\n"
+            "    const uint16_t *from, int count, uint16_t *to, int waiting)\n{\n"
+            "    for (int k = 0; k < count; k++) {\n"
+            "        to[waiting] = from[k];\n"
+            "        waiting += leads[answers[k]];\n    }\n"
+            "    return waiting;\n}\n");
     dag_print(
         out,
-        "\n/* Where an answer leads: to the list of the next node, or (list %d) to a decision."
-        " */\nstruct lists_way {\n    int list;\n    enum decision decision;\n};\n"
-        "\nstatic void lists_part(const struct lists_way *ways, const unsigned char *answers,\n"
-        "    int list, uint16_t (*at)[%d], int *waiting, enum decision *decisions)\n{\n"
-        "    waiting[%d] = 0;\n"
-        "    for (int k = 0; k < waiting[list]; k++) {\n"
-        "        const struct lists_way way = ways[answers[k]];\n"
-        "        const uint16_t pair = at[list][k];\n"
-        "        at[way.list][waiting[way.list]++] = pair;\n"
-        "        decisions[pair] = way.decision;\n    }\n"
-        "    waiting[list] = 0;\n}\n",
-        NO_LIST, PAIRS, NO_LIST);
+        "\n/* What answers decide; where one leads on it is told later, and until then anything. "
+        "*/\n"
+        "static void lists_decide(const enum decision *decides, const unsigned char *answers,\n"
+        "    const uint16_t *from, int count, enum decision *decisions)\n{\n"
+        "    for (int k = 0; k < count; k++)\n"
+        "        decisions[from[k]] = decides[answers[k]];\n}\n");
     for (int i = 0; i < dag->tool_count; i++)
         if (reached[i] && dag->tools[i].wave == NULL)
             print_loop(dag, out, &dag->tools[i]);
 }
 
-/* static const struct lists_way ways[] = {{2, DECISION_...}, ...} */
-static void print_ways(const struct wave *wave, const struct node *node)
+/* The list that an answer leads to. */
+static int list_behind(const struct wave *wave, const struct node *node, int answer)
+{
+    const struct target *target = &arc_of(wave, node, answer)->target;
+    return target->kind == TARGET_DECISION ? NO_LIST
+                                           : wave->list[wave->dag->nodes[target->index].order];
+}
+
+/* static const enum decision decides[] = {DECISION_...} */
+static void print_decisions(const struct wave *wave, const struct node *node, int list)
 {
     const struct dag *dag = wave->dag;
-    dag_print(wave->out, "        static const struct lists_way ways[] = {");
+    int any = 0;
+    for (int a = 0; a < node->arcs.count; a++)
+        any |= list_behind(wave, node, a) == NO_LIST;
+    if (!any)
+        return;
+    dag_print(wave->out, "        static const enum decision decides[] = {");
     for (int a = 0; a < node->arcs.count; a++) {
         const struct target *target = &arc_of(wave, node, a)->target;
-        const int decides = target->kind == TARGET_DECISION;
-        dag_print(wave->out, "%s{%d, DECISION_", a > 0 ? ", " : "",
-                  decides ? NO_LIST : wave->list[dag->nodes[target->index].order]);
-        dag_print_upper(wave->out, dag->decisions[decides ? target->index : 0].name);
-        dag_print(wave->out, "}");
+        dag_print(wave->out, "%sDECISION_", a > 0 ? ", " : "");
+        dag_print_upper(wave->out,
+                        dag->decisions[target->kind == TARGET_DECISION ? target->index : 0].name);
     }
-    dag_print(wave->out, "};\n");
+    dag_print(wave->out,
+              "};\n        lists_decide(decides, answers, at[%d], waiting[%d], decisions);\n", list,
+              list);
+}
+
+/* One sweep for each list that answers lead to. */
+static void print_ways(const struct wave *wave, const struct node *node, int list)
+{
+    for (int a = 0; a < node->arcs.count; a++) {
+        const int to = list_behind(wave, node, a);
+        int before = 0;
+        for (int k = 0; k < a; k++)
+            before |= list_behind(wave, node, k) == to;
+        if (before || to == NO_LIST)
+            continue;
+        dag_print(wave->out, "        static const unsigned char leads_%d[] = {", to);
+        for (int k = 0; k < node->arcs.count; k++)
+            dag_print(wave->out, "%s%d", k > 0 ? ", " : "", list_behind(wave, node, k) == to);
+        dag_print(wave->out,
+                  "};\n        waiting[%d] = lists_part(leads_%d, answers, at[%d], waiting[%d], "
+                  "at[%d], waiting[%d]);\n",
+                  to, to, list, list, to, to);
+    }
 }
 
 /* Does an argument look at the discussion? */
@@ -220,16 +270,15 @@ static void print_node(const struct wave *wave, int place)
     if (wave->options->directives)
         dag_line_at(wave->dag, out, node->where);
     dag_print(out, "        if (waiting[%d] > 0) {\n", list);
-    print_ways(wave, node);
     print_arguments(wave, node, list);
     dag_print(out, "        wave_%s(block, at[%d], waiting[%d]", wave->dag->tools[node->tool].name,
               list, list);
     for (int i = 0; i < node->arguments.count; i++)
         dag_print(out, ", given_%d", i + 1);
-    dag_print(out,
-              ", answers);\n"
-              "        lists_part(ways, answers, %d, at, waiting, decisions);\n        }\n",
-              list);
+    dag_print(out, ", answers);\n");
+    print_decisions(wave, node, list);
+    print_ways(wave, node, list);
+    dag_print(out, "        waiting[%d] = 0;\n        }\n", list);
 }
 
 /* What no decision reads is unknown at first. */

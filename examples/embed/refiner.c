@@ -661,6 +661,16 @@ static inline double refiner_plane_side_flat(const struct refiner_element *r, co
     return host->flat + REFINER_PLANE_FLAT * (r->radius + s->radius);
 }
 
+/* What the sphere that holds e proves of its corners: 1, all are above `flat`; -1, all are below 0;
+ * 0, nothing. `flat` is thousands of roundings of any coordinate, so that the computed heights of
+ * the corners say the same. */
+static inline int refiner_plane_side_proved(const struct refiner_element *e, const struct refiner_element *plane,
+                                    double flat)
+{
+    const double h = refiner_height3(e->centre, plane->centre, plane->normal);
+    return (h - e->radius > 2 * flat) - (h + e->radius < 0);
+}
+
 /* The lowest and the highest signed distance of the surface e from the plane of the surface
  * `plane` (m). */
 static inline void refiner_plane_side_heights(const struct refiner_element *e, const struct refiner_element *plane,
@@ -704,6 +714,9 @@ static inline int refiner_support_planes_side(const struct refiner_element *e, c
                                       double flat)
 {
     double low, high;
+    const int proved = refiner_plane_side_proved(e, plane, flat);
+    if (proved)
+        return proved;
     refiner_plane_side_heights(e, plane, &low, &high);
     return high <= flat ? -1 : low < -flat ? 0 : 1;
 }

@@ -16,6 +16,16 @@ static inline double plane_side_flat(const struct element *r, const struct eleme
     return host->flat + PLANE_FLAT * (r->radius + s->radius);
 }
 
+/* What the sphere that holds e proves of its corners: 1, all are above `flat`; -1, all are below 0;
+ * 0, nothing. `flat` is thousands of roundings of any coordinate, so that the computed heights of
+ * the corners say the same. */
+static inline int plane_side_proved(const struct element *e, const struct element *plane,
+                                    double flat)
+{
+    const double h = height3(e->centre, plane->centre, plane->normal);
+    return (h - e->radius > 2 * flat) - (h + e->radius < 0);
+}
+
 /* The lowest and the highest signed distance of the surface e from the plane of the surface
  * `plane` (m). */
 static inline void plane_side_heights(const struct element *e, const struct element *plane,

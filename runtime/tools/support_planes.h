@@ -16,6 +16,9 @@ static inline int support_planes_side(const struct element *e, const struct elem
                                       double flat)
 {
     double low, high;
+    const int proved = plane_side_proved(e, plane, flat);
+    if (proved)
+        return proved;
     plane_side_heights(e, plane, &low, &high);
     return high <= flat ? -1 : low < -flat ? 0 : 1;
 }

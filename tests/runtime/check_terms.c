@@ -153,6 +153,58 @@ START_TEST(test_gradient)
 }
 END_TEST
 
+/* A plane on whose normal the element's centre and its farthest corner lie, this one lower (way 1)
+ * or higher (-1), and the centre at the height `to`. */
+static struct element plane_below(const struct element *e, int way, double to)
+{
+    struct element plane = *e;
+    double most = -1;
+    for (int j = 0; j < e->vertices; j++) {
+        double v[3];
+        sub3(v, e->centre, e->vertex[j]);
+        if (length3(v) > most) {
+            most = length3(v);
+            for (int k = 0; k < 3; k++)
+                plane.normal[k] = way * v[k] / most;
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        plane.centre[k] = e->centre[k] - to * plane.normal[k];
+    return plane;
+}
+
+/* What spheres prove of sides is what corners say, where the sphere touches the plane with a
+ * corner, as near as `flat` and rounding are. */
+START_TEST(test_sides)
+{
+    unsigned state = 5;
+    int proved[3] = {0};
+    for (int i = 0; i < 20000; i++) {
+        struct two t;
+        two_random(&t, i % 4 == 3, i % 4, random_size(&state, 1e3), &state);
+        struct discussion d = two_discussion(&t);
+        const struct element *e = t.b;
+        const double flat = plane_side_flat(t.a, e, d.host),
+                     off = flat * ((i % 7 - 3) * pow(2, -(i % 40)) + i % 5 - 2);
+        double low, high;
+        const struct element plane =
+            i % 2 ? plane_below(e, 1, e->radius + off) : plane_below(e, -1, off - e->radius);
+        plane_side_heights(e, &plane, &low, &high);
+        const int side = high <= flat  ? -1
+                         : low < -flat ? 0
+                                       : 1,
+                  sphere = plane_side_proved(e, &plane, flat);
+        ck_assert_msg(sphere == 0 || sphere == side, "pair %d: %d by its sphere, %d by corners", i,
+                      sphere, side);
+        ck_assert_int_eq(support_planes_side(e, &plane, flat), side);
+        proved[sphere + 1]++;
+        two_close(&t);
+    }
+    for (int k = 0; k < 3; k++)
+        ck_assert_int_gt(proved[k], 500);
+}
+END_TEST
+
 /* Random points of two elements, faces or clusters of faces. */
 static void any_point(const struct hierarchy *h, const struct element *e, unsigned *state,
                       double p[3], double n[3])
@@ -730,6 +782,7 @@ int main(void)
     tcase_add_test(c, test_answers);
     tcase_add_test(c, test_projected_area);
     tcase_add_test(c, test_coplanar);
+    tcase_add_test(c, test_sides);
     tcase_add_test(c, test_samples);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
