@@ -16,6 +16,7 @@
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
 # make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors: rows, charts and pages (STUDIES="NAME...": some)
 # make bench-threads  what two threads bring, and what they cost beside 8 busy loops
+# make bench-waves  what releases take of the same pairs, in blocks and one by one, over the bare Embree time of their rays
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
 # make install-dagc  the part of it that is dagc's
 # make clean    build/ is removed
@@ -239,6 +240,16 @@ bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost
 .PHONY: bench-threads
 bench-threads: commands
 	@bash tests/bench_threads.sh $(BUILD)/bin/radiosity $(SCENES)
+
+# What releases take of the same pairs, block by block, and the bare Embree time of their rays; ORACLE="..." SCENES="..." for others.
+.PHONY: bench-waves
+bench-waves: commands $(BUILD)/bin/wave_times
+	@for oracle in $(or $(ORACLE),bf bf_guarded power); do \
+	    echo "$$oracle"; $(BUILD)/bin/wave_times $$oracle $(or $(SCENES),$(addprefix examples/scenes/,cornell.obj room.obj maze_8.obj td.obj)) || exit 1; \
+	done
+$(BUILD)/bin/wave_times: $(BUILD)/tests/studies/wave_times.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS)
 
 # The drawings of the oracles, without Graphviz's comments and tooltips. Not of tester, which asks the
 # same of eight sizes of pairs.
