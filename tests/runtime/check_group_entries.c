@@ -94,7 +94,7 @@ static struct verdict judge_room(int number, double tolerance)
 }
 
 /* Rooms that fail, and stand as failing: single entries by 1 to 4 tolerances, where half shadow's
- * estimate is too sure of itself; in 47 and 55 by .04, where that of the second order is. */
+ * estimate is too sure of itself; in 47 and 55 by 1.04 at the most, where the second order's is. */
 static const int failing[] = {18, 19, 34, 41, 47, 52, 55, 58};
 
 static int stands_as_failing(int room)
