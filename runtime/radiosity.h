@@ -315,7 +315,7 @@ struct RadNodeCount {
     int answer_count;
     uint64_t timed; /* calls whose time was measured */
     double seconds; /* of all calls, arguments included, in all threads together; 0: none timed */
-    uint64_t rays;  /* segments that it asked the host's `occluded` for */
+    uint64_t rays;  /* that it cast, by the host's `occluded` */
     const struct RadTermCount *terms; /* [term_count], those that it computed at least once */
     int term_count;
     /* What a release in waves finds here: lists of up to 256 pairs, and the vectors of 4, 8 and 16

@@ -8,6 +8,7 @@
 #define COUNTED_HOST_H
 
 #include "discussion.h"
+#include "util/spared_rays.h"
 
 struct counted_host {
     struct host host; /* first, so that a pointer to it is one to all */
@@ -19,8 +20,9 @@ static inline uint64_t counted_occluded(const struct host *host, int count,
                                         const struct segment *segments)
 {
     struct counted_host *c = (struct counted_host *)(uintptr_t)host;
-    c->rays += (uint64_t)count;
-    return c->real->occluded(c->real, count, segments);
+    uint64_t before = spared_rays, blocked = c->real->occluded(c->real, count, segments);
+    c->rays += (uint64_t)count - (spared_rays - before);
+    return blocked;
 }
 
 static inline int counted_candidates(const struct host *host, const struct shaft *shaft, int most,

@@ -19,8 +19,10 @@
 #include <time.h>
 #include "visibility/back_faces.h"
 #include "visibility/candidates.h"
+#include "visibility/free_space.h"
 #include "util/embree.h"
 #include "util/embree_memory.h"
+#include "util/spared_rays.h"
 #include "util/thread_pool.h"
 #include "kernel/constants.h"
 #include "visibility/rays.h"
@@ -50,6 +52,7 @@ struct rays {
     double origins[STEP];    /* the origin, again and again */
     uint32_t *face;          /* by Embree's primitive: its front */
     uint32_t *behind;        /* by face: what is met from behind (back_faces.h) */
+    struct free_space free;  /* what passes it by needs no ray */
     int threads;
     struct tally *tallies; /* [threads] */
 };
@@ -108,9 +111,23 @@ static void cast_packet(const struct rays *rays, const int *valid, struct RTCRay
 #endif
 }
 
+/* Does nothing stand in the way of any of them, for sure? One that may be stopped is cast with all
+ * its company: rays of a packet are what they are together. */
+static int all_free(const struct rays *rays, int count, const struct segment *segments)
+{
+    for (int i = 0; i < count; i++)
+        if (!free_space_passes(&rays->free, segments[i].from, segments[i].to))
+            return 0;
+    return 1;
+}
+
 static uint64_t occluded(const struct host *host, int count, const struct segment *segments)
 {
     const struct rays *rays = (const struct rays *)(const void *)host;
+    if (all_free(rays, count, segments)) {
+        spared_rays += (uint64_t)count;
+        return 0;
+    }
     struct tally *tally = &rays->tallies[thread_pool_number() % rays->threads];
     uint64_t hits = 0, before = tally->rays, spent = 0;
     tally->rays += (uint64_t)count;
@@ -258,6 +275,7 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
         return NULL;
     }
     totals(rays, h, exitance, reflectance);
+    free_space_find(&rays->free, h, rays->host.flat, 2 * rays->host.ray_offset);
     rays->device = rtcNewDevice(threads == 1 ? "threads=1,set_affinity=0" : NULL);
     if (!rays->device) {
         if (rtcGetDeviceError(NULL) == RTC_ERROR_UNSUPPORTED_CPU)

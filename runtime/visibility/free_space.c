@@ -1,0 +1,124 @@
+/* free_space.c - see free_space.h.
+ *
+ * A wall whose plane has the whole scene on one side stops no segment between two surfaces: both
+ * ends are on that side, and so is all between. So only the other faces stand in the way: those of
+ * a table, not those of the room; in an empty convex room none. What runs past the box of them
+ * needs no ray.
+ *
+ * What lies behind a plane by no more than `flat` lies in it, as for all rays. Whether anything is
+ * behind is asked of the clusters: a box that is not is left alone with all it holds, so that a
+ * walk takes few steps; it ends at the first face behind. A face in the plane of a wall found
+ * before needs none. Where walls are curved and fine many boxes reach behind a little: what is not
+ * known after FREE_SPACE_STEPS for each face may stand in the way.
+ * [derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include "kernel/constants.h"
+#include "kernel/surface.h"
+#include "visibility/free_space.h"
+
+enum { WALLS = 16 };
+
+/* The height of the lowest corner of a box over a plane through `at`. */
+static double lowest_of_box(const double low[3], const double high[3], const double at[3],
+                            const double normal[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++)
+        sum += fmin(normal[k] * (low[k] - at[k]), normal[k] * (high[k] - at[k]));
+    return sum;
+}
+
+static double lowest_of_corners(const double (*vertex)[3], int vertices, const double at[3],
+                                const double normal[3])
+{
+    double lowest = INFINITY;
+    for (int i = 0; i < vertices; i++) {
+        double off[3];
+        sub3(off, vertex[i], at);
+        lowest = fmin(lowest, dot3(off, normal));
+    }
+    return lowest;
+}
+
+/* The plane of a face, from one of its sides, and how many steps all walks together have left. */
+struct walk {
+    const struct hierarchy *h;
+    const double *at;
+    double normal[3], flat;
+    uint64_t steps;
+};
+
+/* Is a part of element i or of what it holds more than `flat` behind the plane? 1 where it is not
+ * known, too. */
+static int reaches_behind(struct walk *w, uint32_t i)
+{
+    const struct hierarchy *h = w->h;
+    const struct element *e = &h->elements[i];
+    int face = e->vertices && h->face_element[e->face] == i;
+    if (w->steps == 0)
+        return 1;
+    w->steps--;
+    if (face)
+        return lowest_of_corners((const double(*)[3])e->vertex, e->vertices, w->at, w->normal)
+               < -w->flat;
+    if (!e->vertices && lowest_of_box(e->vertex[0], e->vertex[1], w->at, w->normal) >= -w->flat)
+        return 0;
+    for (uint32_t c = 0; c < e->children; c++)
+        if (reaches_behind(w, e->child + c))
+            return 1;
+    return 0;
+}
+
+/* The walls found last: most faces lie in the plane of a neighbour. */
+struct walls {
+    const struct element *last[WALLS];
+    uint32_t found;
+};
+
+static int lies_in(const struct element *e, const struct element *wall, double flat)
+{
+    for (int i = 0; i < e->vertices; i++)
+        if (fabs(height3(e->vertex[i], wall->vertex[0], wall->normal)) > flat)
+            return 0;
+    return 1;
+}
+
+/* Is all of the scene on one side of the face? */
+static int is_wall(struct walk *w, struct walls *walls, uint32_t face)
+{
+    const struct element *e = &w->h->elements[w->h->face_element[face]];
+    for (uint32_t i = 0; i < walls->found && i < WALLS; i++)
+        if (lies_in(e, walls->last[i], w->flat))
+            return 1;
+    w->at = e->vertex[0];
+    for (int side = 0; side < 2; side++) {
+        for (int k = 0; k < 3; k++)
+            w->normal[k] = side ? -e->normal[k] : e->normal[k];
+        if (!reaches_behind(w, 0)) {
+            walls->last[walls->found++ % WALLS] = e;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+void free_space_find(struct free_space *space, const struct hierarchy *h, double flat, double off)
+{
+    struct walls walls = {.found = 0};
+    struct walk walk = {.h = h, .flat = flat, .steps = FREE_SPACE_STEPS * (uint64_t)h->face_count};
+    for (int k = 0; k < 3; k++) {
+        space->low[k] = INFINITY;
+        space->high[k] = -INFINITY;
+    }
+    for (uint32_t i = 0; i < h->face_count; i++) {
+        const struct face *f = &h->faces[i];
+        if (f->back || is_wall(&walk, &walls, i))
+            continue;
+        for (uint32_t v = 0; v < f->vertices; v++)
+            for (int k = 0; k < 3; k++) {
+                space->low[k] = fmin(space->low[k], f->vertex[v][k] - off);
+                space->high[k] = fmax(space->high[k], f->vertex[v][k] + off);
+            }
+    }
+}
