@@ -265,6 +265,9 @@
 /* of the ray offset: a point this near to a plane lies in it, so that no ray that starts off the
  * one surface starts behind the other; chosen */
 #define REFINER_RAY_FLAT 0.5
+/* steps for each face, all together. A million faces are then asked in seconds. Chosen: rooms take
+ * up to 10, a ball of 20,000 triangles takes 560: part of a ball so fine counts as in the way */
+#define REFINER_FREE_SPACE_STEPS 256
 #define REFINER_CONTACT_RAYS 8 /* rays per point. chosen: cosine-spread, enough that two may go astray */
 /* of CONTACT_RAYS that must meet backs for a point to lie inside a solid. chosen: two may meet
  * fronts of what reaches into the solid; points outside meet backs of closed solids never */
