@@ -26,7 +26,7 @@ compare '/LARGER_RECEIVER:/,/LARGER_EMITTER:/s/RECEIVER;/BOTH;/' 1
 check "the same by one thread" cmp out two
 compare 's/discussion->terms.visibility = /&0.5 * /' 2
 check "a link of other visibility" sh -c "[ $status = 1 ] && grep -q '^  dag  link, F = .*, V = 0[.]4131' out && grep -q '^  flat link, F = .*, V = 0[.]20655' out && grep -q 'node seen__form = form_factor: done -> link' out"
-compare 's/{{0, DECISION_SUBDIVIDE_RECEIVER}, {0, DECISION_SUBDIVIDE_EMITTER}}/{{0, DECISION_SUBDIVIDE_BOTH}, {0, DECISION_SUBDIVIDE_EMITTER}}/' 2
+compare 's/decides\[\] = {DECISION_SUBDIVIDE_RECEIVER, DECISION_SUBDIVIDE_EMITTER}/decides[] = {DECISION_SUBDIVIDE_BOTH, DECISION_SUBDIVIDE_EMITTER}/' 2
 check "waves that differ" sh -c "[ $status = 1 ] && grep -q '^  flat subdivide_receiver$' out && grep -q '^  wave subdivide_both$' out"
 compare 's/nothing/to change/' 2
 check "no difference" sh -c "[ $status = 0 ] && grep -q '^identical: ' out && grep -q '^  flat .* s  ' out && grep -q '^  wave .* s  ' out"

@@ -406,10 +406,11 @@ START_TEST(tables_are_those_of_single_solves)
 END_TEST
 
 /* Of two scenes, the fit without one is the fit to the other alone: and so are its numbers. A
- * furnace asks for few links, cornell for many, so that the two differ. */
+ * furnace asks for few links and no rays, cornell for many, so that the two differ; 10 % since a fit
+ * to a scene that any threshold solves has to do for the other, too. */
 START_TEST(what_is_left_out_is_not_seen)
 {
-    const char *how = "--error 4% --power 8 --evaluations 9";
+    const char *how = "--error 10% --power 8 --evaluations 9";
     json_t *both = run(0, "both.json", "tune ff examples/scenes/%s.obj examples/scenes/%s.obj %s",
                        scenes[0], scenes[1], how);
     double limit[2];
@@ -423,7 +424,7 @@ START_TEST(what_is_left_out_is_not_seen)
         const json_t *left = json_object_get(mine, "left_out");
         double used[2] = {number(mine, "used", "cost"), number(mine, "used", "error")};
         double fared[2] = {number(left, "cost", NULL), number(left, "error", NULL)};
-        double more = pow(fmax(1, fared[1] / 0.04) / fmax(1, used[1] / 0.04), 2);
+        double more = pow(fmax(1, fared[1] / 0.1) / fmax(1, used[1] / 0.1), 2);
         ck_assert_double_eq_tol(
             used[0] / cost_alone(s, number(without, "parameters", "limit"), used[1]), 1, 1e-12);
         ck_assert_double_eq(fared[0], cost_alone(s, number(mine, "parameters", "limit"), fared[1]));
@@ -478,7 +479,7 @@ START_TEST(scenes_left_out_say_how_near_fits_stay)
         json_t *t = run(
             k ? 3 : 0, "held.json",
             "tune %s examples/scenes/furnace.obj examples/scenes/cornell.obj %s", k ? "bf" : "ff",
-            k ? "--error 8% --power 2 --evaluations 7" : "--error 4% --power 8 --evaluations 9");
+            k ? "--error 8% --power 2 --evaluations 7" : "--error 10% --power 8 --evaluations 9");
         check_holds(t);
         json_decref(t);
     }
