@@ -400,6 +400,10 @@ static int check_together(struct options *o)
                      o->out ? "--product writes columns: it does not go with %s"
                             : "--product needs the name of what it writes: -o FILE%.0s",
                      o->sensor ? "--sensor" : "--format");
+    if ((o->sensor || o->product) && o->out && factor_format_of(o->out) != FACTOR_CSV)
+        return wrong(c->name,
+                     "%s writes a table as text, and the name %s says matrix: name it .csv",
+                     o->sensor ? "--sensor" : "--product", o->out);
     if ((o->sensor || o->product) && (o->by != BY_FACE || o->losses))
         return wrong(c->name, "%s writes no matrix: it does not go with %s",
                      o->sensor ? "--sensor" : "--product", o->losses ? "--sky" : "--by");

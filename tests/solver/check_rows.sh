@@ -125,6 +125,13 @@ count=$((count + 1))
 "$radiosity" viewfactors cube.obj -q --product seven -o w >out 2>err
 [ $? = 1 ] && grep -q "7 lines of numbers, but the scene has 6 faces" err && [ ! -e w ] || failed "a line too many"
 
+# ---- columns and sensors are text: a name that says matrix is refused, and nothing is written
+for name in y.npz y.mtx y.idf; do
+    count=$((count + 1))
+    "$radiosity" viewfactors cube.obj -q --product two -o $name >out 2>err
+    [ $? = 2 ] && grep -q "error: --product writes a table as text, and the name $name says matrix" err && [ ! -e $name ] || failed "a product as $name"
+done
+
 # ---- what cannot be written is told before the work, not after it: nothing says what the scene lacks
 count=$((count + 1))
 "$radiosity" viewfactors none.obj -q --format npz -o /dev/null >out 2>err

@@ -406,8 +406,8 @@ START_TEST(tables_are_those_of_single_solves)
 END_TEST
 
 /* Of two scenes, the fit without one is the fit to the other alone: and so are its numbers. A
- * furnace asks for few links and no rays, cornell for many, so that the two differ; 10 % since a fit
- * to a scene that any threshold solves has to do for the other, too. */
+ * furnace asks for few links and no rays, cornell for many, so that the two differ. 10 %: a fit to
+ * the furnace, which any threshold solves, has to do for cornell, too. */
 START_TEST(what_is_left_out_is_not_seen)
 {
     const char *how = "--error 10% --power 8 --evaluations 9";
