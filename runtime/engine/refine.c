@@ -4,8 +4,9 @@
  * ways round, which only reads the hierarchy; so the pairs of a round run in parallel. Then, in
  * their order, links are appended, elements split, and the children's pairs queued. Invariant:
  * links, their order and the element indices depend on the scene, the oracle and its parameters
- * alone, never on threads, timing or release. Taking from the end keeps the queue short: a few
- * rounds' worth, not the square of the faces.
+ * alone, never on threads, timing or release; nor, once refinement_settle has put them in order, on
+ * the order in which pairs were discussed. Taking from the end keeps the queue short: a few rounds'
+ * worth, not the square of the faces.
  *
  * Marks that a discussion gives its elements are seen by the rounds to come (mark_elements).
  *
@@ -418,6 +419,52 @@ static void place_links(const void *sorting, size_t from, size_t to)
         s->sorted[at[s->r->links[i].receiver]++] = s->r->links[i];
 }
 
+static int by_emitter(const void *a, const void *b)
+{
+    const struct link *x = a, *y = b;
+    return (x->emitter > y->emitter) - (x->emitter < y->emitter);
+}
+
+/* Few links are put in order faster one by one. */
+static void sort_few(struct link *links, size_t count)
+{
+    for (size_t i = 1; i < count; i++) {
+        const struct link l = links[i];
+        size_t k = i;
+        for (; k > 0 && links[k - 1].emitter > l.emitter; k--)
+            links[k] = links[k - 1];
+        links[k] = l;
+    }
+}
+
+static void sort_emitters(const void *refinement, size_t from, size_t to)
+{
+    enum { FEW = 24 };
+    const struct refinement *r = refinement;
+    for (size_t e = from; e < to; e++) {
+        struct link *links = r->links + r->first_link[e];
+        const size_t count = r->first_link[e + 1] - r->first_link[e];
+        if (count <= FEW)
+            sort_few(links, count);
+        else
+            qsort(links, count, sizeof *links, by_emitter);
+    }
+}
+
+int refinement_settle(struct refinement *r, uint32_t first)
+{
+    const uint32_t count = r->hierarchy->count;
+    uint32_t *place = malloc((size_t)count * sizeof *place);
+    int result = place ? hierarchy_settle(r->hierarchy, first, place) : -1;
+    for (size_t i = 0; i < r->link_count && result == 0; i++) {
+        struct link *l = &r->links[i];
+        l->receiver = place[l->receiver];
+        l->emitter = place[l->emitter];
+    }
+    free(place);
+    return result < 0 ? -1 : refinement_sort(r);
+}
+
 int refinement_sort(struct refinement *r)
 {
     uint64_t marked[SORT_SHARES][LINK_MARKS] = {{0}};
@@ -454,6 +501,7 @@ int refinement_sort(struct refinement *r)
     r->links = s.sorted;
     r->link_capacity = r->link_count + 1;
     r->first_link = first;
+    thread_pool_run(r->threads, s.elements, 1024, sort_emitters, r);
     return 0;
 }
 

@@ -114,7 +114,11 @@ int refinement_resume(struct refinement *r);
  * below it. Returns how many links changed, or -1 as refinement_start does. */
 int64_t refinement_again(struct refinement *r, const unsigned char *changed);
 
-/* Sort the links by receiver, keeping their order otherwise. Returns 0 or -1. */
+/* Give the elements that have been split off since there were `first`, and the links, the order
+ * that elements and links alone decide, not the order in which they were made. Returns 0 or -1. */
+int refinement_settle(struct refinement *r, uint32_t first);
+
+/* Sort the links by receiver, those of one by emitter. Returns 0 or -1. */
 int refinement_sort(struct refinement *r);
 
 void refinement_close(struct refinement *r);

@@ -277,8 +277,8 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.trace = s->trace;
     if (s->trace)
         s->trace->pass = 1;
-    if (refinement_start(&s->refinement) < 0 || refinement_sort(&s->refinement) < 0
-        || solve_make_room(s) < 0)
+    if (refinement_start(&s->refinement) < 0
+        || refinement_settle(&s->refinement, s->hierarchy.built) < 0 || solve_make_room(s) < 0)
         return fail(s, refining, cause);
     if (collocation_update(&s->operator) < 0)
         return fail(s, "out of memory", cause);
@@ -355,7 +355,8 @@ static int64_t refine_again(struct solve *s)
     int64_t changed = refinement_again(&s->refinement, s->inputs.changed);
     if (changed < 0
         || (changed > 0
-            && (refinement_sort(&s->refinement) < 0 || collocation_update(&s->operator) < 0))
+            && (refinement_settle(&s->refinement, first) < 0
+                || collocation_update(&s->operator) < 0))
         || solve_make_room(s) < 0)
         return -1;
     solve_measure_contact(s, first, 0);

@@ -2,8 +2,9 @@
  *
  * The tree is a strategy's (bvh.h); here its nodes become elements, in the same places, with boxes,
  * areas and cones of normals. Cones are as tight as the faces allow: each cluster looks at all its
- * faces, not at its children's cones. Invariant: indices depend on the order of splits, identities
- * (`id`) only on the path from the root, and those of faces and their parts on the face alone.
+ * faces, not at its children's cones. Invariant: indices depend on the order of splits, until
+ * hierarchy_settle makes them depend on what is split alone; identities (`id`) only on the path
+ * from the root, and those of faces and their parts on the face alone.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -223,6 +224,44 @@ void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place)
         e->parent = parent;
     }
     h->count = kept;
+}
+
+int hierarchy_settle(struct hierarchy *h, uint32_t first, uint32_t *place)
+{
+    const uint32_t made = h->count - first;
+    uint32_t *from = malloc((made + 1) * sizeof *from), n = 0; /* [new index - first]: the old one */
+    struct element *moved = malloc((made + 1) * sizeof *moved);
+    if (!from || !moved) {
+        free(from);
+        free(moved);
+        return -1;
+    }
+    for (uint32_t i = 0; i < first; i++) {
+        struct element *e = &h->elements[i];
+        place[i] = i;
+        if (e->child < first || !e->children)
+            continue;
+        const uint32_t child = e->child;
+        e->child = first + n;
+        for (uint32_t c = 0; c < e->children; c++)
+            from[n++] = child + c;
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        const struct element *e = &h->elements[from[k]];
+        place[from[k]] = first + k;
+        for (uint32_t c = 0; c < e->children; c++)
+            from[n++] = e->child + c;
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        struct element *e = &moved[k];
+        *e = h->elements[from[k]];
+        e->parent = place[e->parent];
+        e->child = e->children ? place[e->child] : e->child;
+    }
+    memcpy(&h->elements[first], moved, n * sizeof *moved);
+    free(from);
+    free(moved);
+    return 0;
 }
 
 void hierarchy_free(struct hierarchy *h)

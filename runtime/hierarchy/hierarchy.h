@@ -64,6 +64,11 @@ void hierarchy_drop(struct hierarchy *h, uint32_t count);
  * out. place[]: [count]: the index each has from now on, 0 for those that are gone. */
 void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place);
 
+/* Give the elements from `first` on, which splits have made in any order, the places that what is
+ * split alone decides: level by level, in the order of their parents. place[]: [count]: the index
+ * each has from now on. Returns 0, or -1 when out of memory; then nothing has changed. */
+int hierarchy_settle(struct hierarchy *h, uint32_t first, uint32_t *place);
+
 void hierarchy_free(struct hierarchy *h);
 
 /* The part of `order` below an element; of a part of a face the face's. */

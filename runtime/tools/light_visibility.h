@@ -17,11 +17,13 @@
 #include "kernel/surface_point.h"
 #include "terms/visibility.h"
 
-/* The part of e that u in [0, 1) chooses; what is left of u goes back to it. */
+/* The part of e that u in [0, 1) chooses; what is left of u goes back to it. Where light is even
+ * nothing is gone down, and so parts that this very pass has split off are not seen, whoever came
+ * first. */
 static inline const struct element *light_visibility_part(const struct element *e,
                                                           const struct element *all, double *u)
 {
-    while (e->children && all) {
+    while (e->children && e->spread > 0 && all) {
         const struct element *child = &all[e->child];
         double sum = 0;
         int c = 0;
