@@ -325,7 +325,7 @@ static int gather_all(struct causes *c)
                                     .irradiance = c->gathered,
                                     .source = s->problem.exitance,
                                     .reflectance = s->problem.reflectance};
-        transport_sweep(op, &x, 1, change);
+        transport_sweep(op, &x, 1, change, NULL);
     }
     free(value);
     free(change);

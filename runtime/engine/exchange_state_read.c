@@ -150,7 +150,7 @@ static int read_queue(struct exchange_state *s, struct refinement *r)
         if (array_reserve(&r->queue, r->queue_count + 1, &r->queue_capacity, sizeof *r->queue) < 0)
             return -1;
         if (p.list == next) {
-            if (next >= UINT32_MAX / 2
+            if (next >= PAIR_LISTS
                 || array_reserve(&r->pool, (size_t)next + 1, &r->pool_capacity, sizeof *r->pool)
                        < 0)
                 return -1;
@@ -159,7 +159,7 @@ static int read_queue(struct exchange_state *s, struct refinement *r)
                 return -1;
         }
         r->queue[r->queue_count++] =
-            (struct pair){p.receiver, p.emitter, p.both & 1u, p.list & 0x7fffffffu};
+            (struct pair){p.receiver, p.emitter, p.both & 1u, p.list % PAIR_LISTS, 0};
         if (p.list)
             r->pool[p.list].references++;
     }

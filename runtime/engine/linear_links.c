@@ -77,18 +77,23 @@ static double carried(const struct hierarchy *h, const struct link *l)
 }
 
 /* What carries less (W) is LINEAR_FAINT of all at most, to the octave. */
-static double faintest(const struct hierarchy *h, const struct refinement *r)
+static double faintest(const struct light_operator *op)
 {
     enum { OCTAVES = 64 };
+    const struct hierarchy *h = op->hierarchy;
+    const struct refinement *r = op->refinement;
     double all = 0, octave[OCTAVES] = {0}, below = 0, least = 0;
     for (size_t i = 0; i < r->link_count; i++)
         all += between_surfaces(h, &r->links[i]) ? carried(h, &r->links[i]) : 0;
+    ranks_add(op->shares.ranks, RANKS_VALUES, &all, 1);
+    all = (double)(float)all; /* which last bit it has decides nothing */
     for (size_t i = 0; i < r->link_count && all > 0; i++)
         if (between_surfaces(h, &r->links[i])) {
             double share = carried(h, &r->links[i]) / all;
             int exponent = share > 0x1p-64 ? -ilogb(share) : OCTAVES;
             octave[exponent < OCTAVES ? exponent : OCTAVES - 1] += share;
         }
+    ranks_add(op->shares.ranks, RANKS_VALUES, octave, OCTAVES);
     for (int i = OCTAVES - 1; i > 0 && (below += octave[i]) <= LINEAR_FAINT; i--)
         least = ldexp(all, 1 - i); /* octave[i]: shares from 2^-i on */
     return least;
@@ -128,11 +133,11 @@ int linear_links_open(struct linear_links *l, const struct light_operator *op)
     l->moment = calloc(r->link_count + 1, sizeof *l->moment);
     l->nonnegative = calloc(r->link_count + 1, sizeof *l->nonnegative);
     l->row = calloc(h->count, sizeof *l->row);
-    if (!l->basis || !l->moment || !l->nonnegative || !l->row) {
+    if (ranks_any(op->shares.ranks, !l->basis || !l->moment || !l->nonnegative || !l->row)) {
         linear_links_close(l);
         return -1;
     }
-    l->faint = faintest(h, r);
+    l->faint = faintest(op);
     thread_pool_run(threads, h->count, 256, make_bases, l);
     thread_pool_run(threads, r->link_count, 256, make_couplings, l);
     return 0;
@@ -172,7 +177,9 @@ size_t linear_links_limit(struct linear_links *l, const unsigned char *receivers
     l->limited |= !receivers;
     thread_pool_run(l->of->problem->options.threads, l->of->refinement->link_count, 256,
                     limit_links, &m);
-    return made;
+    uint64_t all = made; /* by all ranks */
+    ranks_add_counts(l->of->shares.ranks, RANKS_VALUES, &all, 1);
+    return all;
 }
 
 void linear_links_gather(const struct linear_links *l, const struct light_operator *op,

@@ -76,17 +76,21 @@ static int64_t limit_negative(struct linear_links *l, const struct light_operato
     const struct element *elements = op->hierarchy->elements;
     unsigned char *marked = calloc(op->hierarchy->count, sizeof *marked);
     int any = 0;
-    if (!marked)
+    if (ranks_any(op->shares.ranks, !marked)) {
+        free(marked);
         return -1;
+    }
     for (uint32_t i = 0; i < op->hierarchy->count; i++)
-        for (uint32_t k = 0; elements[i].vertices && !elements[i].children && k < x->bands; k++)
+        for (uint32_t k = 0; elements[i].vertices && !elements[i].children && k < x->bands
+                             && shares_mine(&op->shares, i);
+             k++)
             if (x->irradiance[(size_t)i * x->bands + k] < 0) {
                 any = 1;
                 marked[i] = 1;
                 for (uint32_t up = i; elements[up].depth > 0; up = elements[up].parent)
                     marked[elements[up].parent] = 1;
             }
-    size_t made = any ? linear_links_limit(l, marked) : 0;
+    size_t made = ranks_any(op->shares.ranks, any) ? linear_links_limit(l, marked) : 0;
     free(marked);
     return (int64_t)made;
 }
@@ -132,11 +136,19 @@ int linear_solution_solve(struct linear_solution *s, struct light_operator *op, 
     struct linear_transport linear = {.means = x,
                                       .value = calloc(3 * values, sizeof *linear.value),
                                       .irradiance = calloc(2 * values, sizeof *linear.irradiance)};
-    int result = linear.value && linear.irradiance ? linear_links_open(&links, op) : -1;
+    int result = ranks_any(op->shares.ranks, !linear.value || !linear.irradiance)
+                     ? -1
+                     : linear_links_open(&links, op);
     linear_solution_free(s);
     if (result == 0) {
         op->linear = &links;
         result = solve_links(s, op, &links, &linear, rows);
+        if (result == 0)
+            result = shares_complete(&op->shares, linear.value, 3 * (size_t)x->bands);
+        if (result == 0)
+            result = shares_complete(&op->shares, x->value, x->bands);
+        if (result == 0)
+            result = shares_complete(&op->shares, x->irradiance, x->bands);
         if (result == 0) {
             transport_average(op, x);
             linear_transport_start(op, &links, &linear);

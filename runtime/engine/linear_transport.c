@@ -21,7 +21,7 @@
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
-enum { BLOCKS = 16, LINKS_WORTH_THREADS = 1 << 16 };
+enum { LINKS_WORTH_THREADS = 1 << 16 };
 
 /* A function over a surface in each band. */
 struct piece {
@@ -208,15 +208,15 @@ static void pull(const struct sweep *s, uint32_t e, const double spare[3], struc
 /* Of one block. */
 struct block {
     const struct sweep *sweep;
-    struct change *change;   /* [face of the block] */
-    const uint32_t *element; /* [face of the block] */
+    struct change *change; /* [face] */
+    const uint32_t *face;  /* [of the block] */
 };
 
 static void gather_faces(const void *block, size_t from, size_t to)
 {
     const struct block *b = block;
     for (size_t i = from; i < to; i++)
-        gather_below(b->sweep, b->element[i]);
+        gather_below(b->sweep, b->sweep->op->hierarchy->face_element[b->face[i]]);
 }
 
 static void update_faces(const void *block, size_t from, size_t to)
@@ -224,49 +224,70 @@ static void update_faces(const void *block, size_t from, size_t to)
     const struct block *b = block;
     static const struct piece nothing;
     for (size_t i = from; i < to; i++) {
+        const uint32_t face = b->face[i], e = b->sweep->op->hierarchy->face_element[face];
         double spare[3] = {0, 0, 0};
-        push(b->sweep, b->element[i], &nothing, spare);
-        b->change[i] = (struct change){0};
-        pull(b->sweep, b->element[i], spare, &b->change[i]);
+        push(b->sweep, e, &nothing, spare);
+        b->change[face] = (struct change){0};
+        pull(b->sweep, e, spare, &b->change[face]);
     }
 }
 
-/* One sweep over all faces. change: [face]. */
-static void sweep(const struct sweep *s, struct change *change)
+/* Tell of what a block has become: slopes and what goes with them, and the means, of which groups
+ * take light. */
+static void tell_block(const struct sweep *s, uint32_t block, double *room)
 {
     const struct light_operator *op = s->op;
+    shares_tell_block(&op->shares, block, s->x->value, 3 * (size_t)s->bands, room);
+    shares_tell_block(&op->shares, block, s->x->means->value, s->bands, room);
+}
+
+/* One sweep over all faces. change: [face]. */
+static void sweep(const struct sweep *s, struct change *change, double *room)
+{
+    const struct light_operator *op = s->op;
+    const struct shares *shares = &op->shares;
     const struct solve_options *o = &op->problem->options;
-    uint32_t faces = op->hierarchy->face_count;
     int threads = op->refinement->link_count > LINKS_WORTH_THREADS ? o->threads : 1;
-    uint32_t blocks = o->solver == RAD_SOLVER_JACOBI ? 1 : faces < BLOCKS ? faces : BLOCKS;
+    const int jacobi = o->solver == RAD_SOLVER_JACOBI;
     separable_links_send(&op->separable, (int)s->bands, s->x->means->value);
-    for (uint32_t i = 0; i < blocks; i++) {
-        uint32_t from = (uint32_t)((uint64_t)faces * i / blocks),
-                 to = (uint32_t)((uint64_t)faces * (i + 1) / blocks);
-        const struct block b = {s, change + from, op->hierarchy->face_element + from};
+    for (uint32_t i = 0; i < SWEEP_BLOCKS; i++) {
+        const uint32_t from = shares->own_first[i],
+                       to = shares->own_first[jacobi ? SWEEP_BLOCKS : i + 1];
+        const struct block b = {s, change, shares->own + from};
         thread_pool_run(threads, to - from, 8, gather_faces, &b);
         thread_pool_run(threads, to - from, 64, update_faces, &b);
+        if (jacobi)
+            break;
+        tell_block(s, i, room);
     }
+    for (uint32_t i = 0; jacobi && i < SWEEP_BLOCKS; i++)
+        tell_block(s, i, room);
 }
 
 /* Residual and estimate after a sweep; rho: the largest reflectance. */
 static void measure(const struct sweep *s, const struct change *change, double rho)
 {
     const struct hierarchy *h = s->op->hierarchy;
+    const struct shares *shares = &s->op->shares;
     struct transport *m = s->x->means;
-    struct change all = {0};
-    double power = 0, area = 0;
+    enum { MEAN, SQUARE, AREA, POWER, SUMS };
+    double all[SUMS] = {0};
     for (uint32_t i = 0; i < h->face_count; i++) {
         uint32_t e = h->face_element[i];
         double bare = h->elements[e].area * s->op->uncovered[e];
-        all.mean += change[i].mean;
-        all.square += change[i].square;
-        area += bare;
+        if (!shares_mine(shares, e))
+            continue;
+        all[MEAN] += change[i].mean;
+        all[SQUARE] += change[i].square;
+        all[AREA] += bare;
         for (uint32_t k = 0; k < s->bands; k++)
-            power += bare * m->value[(size_t)e * s->bands + k];
+            all[POWER] += bare * m->value[(size_t)e * s->bands + k];
     }
-    m->residual = power > 0 ? all.mean / power : 0;
-    m->bound = power > 0 ? rho / (1 - rho) * sqrt(all.square * area) / power : 0;
+    ranks_add(shares->ranks, RANKS_SWEEPS, all, SUMS);
+    m->residual = all[POWER] > 0 ? all[MEAN] / all[POWER] : 0;
+    m->bound = all[POWER] > 0
+                   ? rho / (1 - rho) * sqrt(all[SQUARE] * all[AREA]) / all[POWER]
+                   : 0;
 }
 
 void linear_transport_start(const struct light_operator *op, const struct linear_links *l,
@@ -288,16 +309,20 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
     struct transport *m = x->means;
     const struct sweep s = {op, l, x, m->bands};
     struct change *change = malloc(op->hierarchy->face_count * sizeof *change);
+    double *room = malloc((shares_room(&op->shares) * 3 * m->bands + 1) * sizeof *room);
     double rho = 0, least = INFINITY;
     int stopped = 0, grows = 0;
-    if (!change)
+    if (ranks_any(op->shares.ranks, !change || !room)) {
+        free(change);
+        free(room);
         return -1;
+    }
     for (size_t i = 0; i < (size_t)op->hierarchy->face_count * m->bands; i++)
         rho = fmax(rho, m->reflectance[i]);
     m->converged = 0;
     for (m->sweeps = 0;
          m->sweeps < op->problem->options.iterations && !m->converged && !stopped && !grows;) {
-        sweep(&s, change);
+        sweep(&s, change, room);
         measure(&s, change, rho);
         m->sweeps++;
         m->converged = m->bound <= m->tolerance;
@@ -305,6 +330,7 @@ int linear_transport_solve(const struct light_operator *op, const struct linear_
         stopped = m->watch && m->watch(m->watch_context, m);
         grows = !l->limited && !(m->bound <= LINEAR_GROWS * least);
     }
+    free(room);
     free(change);
     return stopped ? -1 : grows;
 }

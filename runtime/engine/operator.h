@@ -10,6 +10,7 @@
 #include "engine/problem.h"
 #include "engine/refine.h"
 #include "engine/separable_links.h"
+#include "engine/shares.h"
 
 struct linear_links;
 
@@ -17,6 +18,7 @@ struct light_operator {
     const struct problem *problem;
     const struct hierarchy *hierarchy;
     const struct refinement *refinement; /* its links, sorted by receiver */
+    struct shares shares;                /* which faces sweeps go over here */
     /* [link]: by collocation, F from the receiver's centre (collocation.c); NULL: the links' own,
      * the mean over the receiver */
     float *collocated;

@@ -11,6 +11,7 @@
 #include "engine/limits.h"
 #include "hierarchy/scene.h"
 #include "radiosity.h"
+#include "util/ranks.h"
 #include "visibility/rays.h"
 
 struct solve;
@@ -31,6 +32,7 @@ struct solve_options {
     int linear; /* 1: once links are final, solve for functions linear over each element */
     int unit;   /* ignore the materials: every face has B = 1 and stays so (view factors) */
     struct limits limits; /* of refinement */
+    struct ranks *ranks;  /* processes that solve it together, all with these options; NULL: one */
     /* NULL: none; nonzero cancels */
     int (*progress)(void *context, const struct solve *solve, const char *phase);
     void *context; /* of progress */

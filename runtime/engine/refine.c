@@ -15,12 +15,16 @@
  * retain and release it. A pair whose discussion made none hands on what it was given; a list that
  * overflowed, or is not good for the pairs below, is released. Lists spare work and change no
  * answer (kernel/shaft.h).
+ *
+ * Where several ranks refine, each goes on only with the pairs that fall to it (shares_say), and
+ * what is said of a pair depends on the pair alone: so they need no messages before the end.
  * [Hanrahan et al. 1991, section 4, for the recursion; Haines & Wallace 1994 for inherited
  * candidates; rounds: derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "engine/discuss.h"
+#include "engine/shares.h"
 #include "engine/trace.h"
 #include "oracle/statistics.h"
 #include "util/array.h"
@@ -102,7 +106,7 @@ static uint32_t pool_list(struct refinement *r, const struct blockers *list)
         r->pool_free = r->pool[at].next;
     } else {
         at = r->pool_count ? r->pool_count : 1;
-        if (at >= UINT32_MAX / 2
+        if (at >= PAIR_LISTS
             || array_reserve(&r->pool, (size_t)at + 1, &r->pool_capacity, sizeof *r->pool) < 0)
             return 0;
         r->pool_count = at + 1;
@@ -163,10 +167,25 @@ static int split_element(struct refinement *r, uint32_t element)
     return 0;
 }
 
+/* Write the pair behind the queue, unless it is for others. `together`: it comes of one that several
+ * ranks have. Returns where the queue ends. */
+static struct pair *queue_pair(const struct refinement *r, struct pair *end, struct pair pair,
+                               int together)
+{
+    if (together) {
+        const enum shares_say say = shares_say(r->shares, &pair);
+        if (say == SHARES_OTHERS)
+            return end;
+        pair.together = say == SHARES_TOGETHER;
+    }
+    *end = pair;
+    return end + 1;
+}
+
 /* Queue the pairs that come of splitting one element of a pair, or both. An element paired with
  * itself gives the pairs of its children with each other and themselves. They retain `list`. */
 static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, int split, int both,
-                     uint32_t list)
+                     uint32_t list, int together)
 {
     struct hierarchy *h = r->hierarchy;
     uint32_t from_i = receiver, to_i = receiver + 1, from_j = emitter, to_j = emitter + 1;
@@ -194,12 +213,14 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
     for (uint32_t i = from_i; i < to_i; i++) {
         if (receiver != emitter) {
             for (uint32_t j = from_j; j < to_j; j++)
-                *q++ = (struct pair){i, j, (uint32_t)both & 1u, list & 0x7fffffffu};
+                q = queue_pair(r, q,
+                               (struct pair){i, j, (uint32_t)both & 1u, list % PAIR_LISTS, 0},
+                               together);
             continue;
         }
-        *q++ = (struct pair){i, i, 0, list & 0x7fffffffu};
+        q = queue_pair(r, q, (struct pair){i, i, 0, list % PAIR_LISTS, 0}, together);
         for (uint32_t j = from_j; j < i; j++)
-            *q++ = (struct pair){i, j, 1, list & 0x7fffffffu};
+            q = queue_pair(r, q, (struct pair){i, j, 1, list % PAIR_LISTS, 0}, together);
     }
     retain_list(r, list, (uint32_t)((size_t)(q - r->queue) - r->queue_count));
     r->queue_count = (size_t)(q - r->queue);
@@ -225,15 +246,24 @@ static int splits(enum decision decision, int turned)
     return 0;
 }
 
+/* Count a decision; of several ranks that have taken it one does. */
+static void count(struct refinement *r, uint32_t receiver, enum decision decision, int together)
+{
+    if (together && !shares_counts(r->shares, receiver))
+        return;
+    r->decided[decision]++;
+    r->pairs++;
+}
+
 /* Carry out one decision about (receiver, emitter). */
 static int carry_out(struct refinement *r, const struct link *link, enum decision decision,
-                     uint32_t list)
+                     uint32_t list, int together)
 {
     int split = splits(decision, 0);
-    r->decided[decision]++;
+    count(r, link->receiver, decision, together);
     if (split)
-        return subdivide(r, link->receiver, link->emitter, split, 0, list);
-    if (decision == DECISION_STOP)
+        return subdivide(r, link->receiver, link->emitter, split, 0, list, together);
+    if (decision == DECISION_STOP || (together && !shares_keeps(r->shares, link->receiver)))
         return 0;
     if (array_reserve(&r->links, r->link_count + 1, &r->link_capacity, sizeof *link) < 0)
         return -1;
@@ -243,18 +273,19 @@ static int carry_out(struct refinement *r, const struct link *link, enum decisio
 
 /* Carry out both decisions about a pair; when both split the same elements, the children stay
  * paired both ways. */
-static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_t list)
+static int carry_out_both(struct refinement *r, const struct outcome *o, uint32_t list,
+                          int together)
 {
     enum decision there = (enum decision)o->decision[0], back = (enum decision)o->decision[1];
     int split = splits(there, 0);
     if (!split || split != splits(back, 1))
-        return carry_out(r, &o->link[0], there, list) < 0
-                       || carry_out(r, &o->link[1], back, list) < 0
+        return carry_out(r, &o->link[0], there, list, together) < 0
+                       || carry_out(r, &o->link[1], back, list, together) < 0
                    ? -1
                    : 0;
-    r->decided[there]++;
-    r->decided[back]++;
-    return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list);
+    count(r, o->link[0].receiver, there, together);
+    count(r, o->link[1].receiver, back, together);
+    return subdivide(r, o->link[0].receiver, o->link[0].emitter, split, 1, list, together);
 }
 
 /* Tell whoever traces of the round's discussions. Returns 0, or -1: no more. */
@@ -323,11 +354,10 @@ static int drain(struct refinement *r)
         mark_elements(r, count);
         for (int i = 0; i < count; i++) {
             const struct outcome *o = &r->outcomes[i];
-            int both = (int)r->round[i].both;
+            int both = (int)r->round[i].both, together = (int)r->round[i].together;
             uint32_t list = hand_on(r, i, r->round[i].list);
-            r->pairs += both ? 2 : 1;
-            if ((both ? carry_out_both(r, o, list)
-                      : carry_out(r, &o->link[0], (enum decision)o->decision[0], list))
+            if ((both ? carry_out_both(r, o, list, together)
+                      : carry_out(r, &o->link[0], (enum decision)o->decision[0], list, together))
                 < 0)
                 return -1;
             release_list(r, list);
@@ -343,7 +373,7 @@ static int drain(struct refinement *r)
 
 int refinement_start(struct refinement *r)
 {
-    struct pair root = {0, 0, 0, 0};
+    struct pair root = {0, 0, 0, 0, r->shares != NULL};
     if (array_reserve(&r->queue, 1, &r->queue_capacity, sizeof root) < 0)
         return -1;
     r->queue[r->queue_count++] = root;
@@ -375,11 +405,12 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
                 r->links[r->link_count++] = o->link[0];
                 continue;
             }
-            r->pairs++;
-            moved += !decision_links((enum decision)o->decision[0])
-                     || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0;
+            int moves = !decision_links((enum decision)o->decision[0])
+                        || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0,
+                together = r->shares && shares_owner(r->shares, o->link[0].receiver) == SHARED;
+            moved += moves && !(together && !shares_counts(r->shares, o->link[0].receiver));
             uint32_t list = hand_on(r, i, 0);
-            if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list) < 0)
+            if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list, together) < 0)
                 return -1;
             release_list(r, list);
             if (go_on(r, i) < 0)
@@ -462,7 +493,7 @@ int refinement_settle(struct refinement *r, uint32_t first)
         l->emitter = place[l->emitter];
     }
     free(place);
-    return result < 0 ? -1 : refinement_sort(r);
+    return result;
 }
 
 int refinement_sort(struct refinement *r)

@@ -29,8 +29,12 @@ enum { LINK_GUARDED = 1 };
 struct pair {
     uint32_t receiver, emitter;
     uint32_t both : 1;  /* 1: discuss it the other way round too */
-    uint32_t list : 31; /* in the pool: candidates of a pair that holds this one; 0: none */
+    uint32_t list : 30; /* in the pool: candidates of a pair that holds this one; 0: none */
+    /* 1: other ranks discuss it, too: of its links each keeps its own (shares.h) */
+    uint32_t together : 1;
 };
+
+enum { PAIR_LISTS = 1 << 30 };
 
 /* What came of a pair, or of a link discussed again: [0] as it stands, [1] the other way round. */
 struct outcome {
@@ -50,6 +54,7 @@ struct pooled {
 };
 
 struct refinement;
+struct shares;
 struct trace;
 
 /* Called after each round, from the calling thread; nonzero stops. */
@@ -65,6 +70,8 @@ struct refinement {
     /* who is told of each discussion, with room for REFINEMENT_ROUND pairs; NULL: nobody. Borrowed
      */
     struct trace *trace;
+    /* who else refines, and whom links are for; NULL: this process alone. Borrowed */
+    const struct shares *shares;
 
     struct link *links; /* [link_count]; sorted by receiver after refinement_sort */
     size_t link_count, link_capacity;
@@ -114,8 +121,8 @@ int refinement_resume(struct refinement *r);
  * below it. Returns how many links changed, or -1 as refinement_start does. */
 int64_t refinement_again(struct refinement *r, const unsigned char *changed);
 
-/* Give the elements that have been split off since there were `first`, and the links, the order
- * that elements and links alone decide, not the order in which they were made. Returns 0 or -1. */
+/* Give the elements that have been split off since there were `first` the indices that what is
+ * split alone decides, not the order in which it was; links follow. Returns 0 or -1. */
 int refinement_settle(struct refinement *r, uint32_t first);
 
 /* Sort the links by receiver, those of one by emitter. Returns 0 or -1. */

@@ -139,7 +139,9 @@ static void sum_faces(const void *operator, size_t from, size_t to)
     static const double nothing[3] = {0, 0, 0};
     const struct light_operator *op = operator;
     for (size_t i = from; i < to; i++)
-        if (op->linear)
+        if (!shares_mine(&op->shares, op->hierarchy->face_element[i]))
+            continue;
+        else if (op->linear)
             linear_links_rows(op->linear, op, op->hierarchy->face_element[i], nothing);
         else
             sum_links(op, op->hierarchy->face_element[i], 0);
@@ -155,6 +157,8 @@ static void scale_faces(const void *all_rows, size_t from, size_t to)
         uint32_t e = op->hierarchy->face_element[i];
         double most = 1 + ROW_EXCESS * (1 - p->whitest[i]);
         struct face_rows rows = {.cap = 1, .op = op, .report = &run->report};
+        if (!shares_mine(&op->shares, e))
+            continue;
         visit_leaves(&rows, e, measure_row);
         run->uncovered += rows.area;
         if (p->options.closure == CLOSURE_ROWS) {
@@ -167,6 +171,25 @@ static void scale_faces(const void *all_rows, size_t from, size_t to)
         }
         run->report.moved += rows.excess / rays_host(p->rays)->area;
     }
+}
+
+/* The report of all ranks' faces. */
+static void add_up(struct ranks *ranks, struct row_report *r, double *uncovered)
+{
+    double sums[] = {r->defect_mean, r->blind_area, r->moved, *uncovered},
+           most[] = {-r->low, r->high, r->defect_most};
+    uint64_t leaves = r->leaves;
+    ranks_add(ranks, RANKS_VALUES, sums, 4);
+    ranks_most(ranks, RANKS_VALUES, most, 3);
+    ranks_add_counts(ranks, RANKS_VALUES, &leaves, 1);
+    r->defect_mean = sums[0];
+    r->blind_area = sums[1];
+    r->moved = sums[2];
+    *uncovered = sums[3];
+    r->low = -most[0];
+    r->high = most[1];
+    r->defect_most = most[2];
+    r->leaves = (uint32_t)leaves;
 }
 
 static void scale_rows(const struct light_operator *op, struct row_report *report)
@@ -192,6 +215,7 @@ static void scale_rows(const struct light_operator *op, struct row_report *repor
         report->blind_area += run->blind_area;
         report->moved += run->moved;
     }
+    add_up(op->shares.ranks, report, &uncovered);
     report->defect_mean = uncovered > 0 ? report->defect_mean / uncovered : 0;
 }
 
@@ -199,10 +223,12 @@ int row_sums_renew(struct light_operator *op, struct row_report *report)
 {
     const struct problem *p = op->problem;
     separable_links_close(&op->separable);
-    if (separable_links_open(&op->separable, op->hierarchy, op->refinement, (int)p->bands,
-                             p->options.threads,
-                             p->options.projection == RAD_PROJECTION_COLLOCATION)
-        < 0)
+    if (ranks_any(op->shares.ranks,
+                  separable_links_open(&op->separable, op->hierarchy, op->refinement,
+                                       (int)p->bands, p->options.threads,
+                                       p->options.projection == RAD_PROJECTION_COLLOCATION,
+                                       shares_here(&op->shares))
+                      < 0))
         return -1;
     scale_rows(op, report);
     return 0;

@@ -142,6 +142,8 @@ static void receive_faces(const void *exchanged, size_t from, size_t to)
 {
     const struct exchanged *x = exchanged;
     const struct separable_links *c = x->links;
+    from += c->here.from;
+    to += c->here.from;
     for (int k = 0; k < x->bands; k++)
         memset(&c->received[(size_t)k * c->hierarchy->face_count + from], 0,
                (to - from) * sizeof *c->received);
@@ -150,7 +152,8 @@ static void receive_faces(const void *exchanged, size_t from, size_t to)
 
 static void receive_all(const struct exchanged *x)
 {
-    thread_pool_run(x->links->threads, x->links->hierarchy->face_count, CHUNK, receive_faces, x);
+    const struct face_range here = x->links->here;
+    thread_pool_run(x->links->threads, here.to - here.from, CHUNK, receive_faces, x);
 }
 
 /* A power of two that is at least the scene's extent. */
@@ -209,7 +212,8 @@ static void separate_links(const void *separating, size_t begin, size_t end)
 }
 
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
-                         const struct refinement *r, int bands, int threads, int centres)
+                         const struct refinement *r, int bands, int threads, int centres,
+                         struct face_range here)
 {
     const struct separating s = {c, r};
     size_t n, faces = h->face_count;
@@ -218,6 +222,7 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h,
     c->bands = bands;
     c->threads = threads;
     c->centres = centres;
+    c->here = here;
     c->unit = unit_of(h);
     c->elements = h->count;
     c->first = calloc((size_t)h->count + 1, sizeof *c->first);

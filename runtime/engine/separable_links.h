@@ -40,6 +40,7 @@ struct separable_links {
     const struct hierarchy *hierarchy;
     int bands, threads;           /* bands: the most that `arrives` and `received` have room for */
     int centres;                  /* 1: a surface takes light at its centre (collocation) */
+    struct face_range here;       /* in the tree's order, the faces that light is received for */
     double unit;                  /* m; a power of two */
     struct separable_link *links; /* [count], by receiver */
     size_t count;
@@ -56,9 +57,11 @@ struct separable_links {
 
 /* Take the links that have a cluster at one end from a sorted refinement. Pivots weigh faces by the
  * radiosities that the oracles see. `centres`: what a surface gathers is taken at its centre, not
- * the mean over it. Returns 0, or -1 when out of memory. */
+ * the mean over it. `here`: the faces, in the tree's order, of which anybody asks what they receive.
+ * Returns 0, or -1 when out of memory. */
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
-                         const struct refinement *r, int bands, int threads, int centres);
+                         const struct refinement *r, int bands, int threads, int centres,
+                         struct face_range here);
 
 /* Set J of each link, with the radiosities [elements * bands] as they are. */
 void separable_links_send(const struct separable_links *c, int bands, const double *radiosity);

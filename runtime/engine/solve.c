@@ -22,6 +22,7 @@
 #include "engine/transport.h"
 #include "engine/variation.h"
 #include "kernel/constants.h"
+#include "kernel/hash.h"
 #include "util/array.h"
 #include "util/clock.h"
 #include "util/thread_pool.h"
@@ -69,7 +70,7 @@ int solve_make_room(struct solve *s)
     return 0;
 }
 
-/* New elements. */
+/* New elements, so many from a first one on. */
 struct contacts {
     const struct hierarchy *h;
     const struct rays *rays;
@@ -94,8 +95,12 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
     const struct problem *p = &s->problem;
     const struct element *elements = h->elements;
     double *uncovered = s->operator.uncovered;
-    const struct contacts contacts = {h, p->rays, uncovered, first, known};
-    thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
+    struct ranks *ranks = p->options.ranks;
+    const size_t count = h->count - first, from = ranks_part(ranks, count, ranks_number(ranks)),
+                 to = ranks_part(ranks, count, ranks_number(ranks) + 1);
+    const struct contacts contacts = {h, p->rays, uncovered, first + (uint32_t)from, known};
+    thread_pool_run(p->options.threads, to - from, 64, measure_leaves, &contacts);
+    ranks_complete_parts(ranks, RANKS_VALUES, uncovered + first, sizeof *uncovered, count);
     for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
         if (!elements[i].children)
             continue;
@@ -167,15 +172,18 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     }
     p->bands = options->unit ? 1 : scene->bands;
     s->operator=(struct light_operator){.problem = p, .hierarchy = h, .refinement = &s->refinement};
-    if (hierarchy_build_by(h, scene->faces, scene->face_count,
-                           options->clusters ? (enum clustering)(options->clusters - 1)
-                                             : CLUSTERING_DEFAULT,
-                           options->threads)
-        < 0)
-        return -1;
+    if (ranks_any(options->ranks,
+                  hierarchy_build_by(h, scene->faces, scene->face_count,
+                                     options->clusters ? (enum clustering)(options->clusters - 1)
+                                                       : CLUSTERING_DEFAULT,
+                                     options->threads)
+                      < 0))
+        goto fail;
     s->report.seconds.clusters = seconds() - start;
+    if (shares_open(&s->operator.shares, options->ranks, h) < 0)
+        goto fail;
     brightest = malloc(scene->face_count * sizeof *brightest);
-    if (!brightest || read_materials(p) < 0 || solve_make_room(s) < 0)
+    if (ranks_any(options->ranks, !brightest || read_materials(p) < 0 || solve_make_room(s) < 0))
         goto fail;
     /* What emits nothing now or later may be left out of a row only while nobody asks what a row
      * sums to. */
@@ -192,7 +200,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     transport_average(&s->operator, & x);
     oracle_inputs_update(&s->inputs, &s->operator, s->state.radiosity, h);
     p->rays = rays_open(h, brightest, p->whitest, options->threads, cause);
-    if (!p->rays)
+    if (ranks_any(options->ranks, !p->rays))
         goto fail;
     oracle_inputs_guess(p, h);
     if (options->closure != CLOSURE_NONE)
@@ -248,6 +256,33 @@ static int fail(const struct solve *s, const char *memory, const char **cause)
 
 /* ---- passes */
 
+/* What all ranks have come to. */
+static void sum_counts(struct solve *s)
+{
+    const struct refinement *r = &s->refinement;
+    struct ranks *ranks = s->problem.options.ranks;
+    struct pass_counts *c = &s->report.counts;
+    double rounds = (double)r->rounds;
+    *c = (struct pass_counts){.pairs = r->pairs, .rays = rays_count(s->problem.rays).rays};
+    memcpy(c->decided, r->decided, sizeof c->decided);
+    for (size_t i = 0; i < r->link_count; i++) {
+        const struct link *l = &r->links[i];
+        if (!shares_counts(&s->operator.shares, l->receiver))
+            continue;
+        uint64_t bits = 0;
+        memcpy(&bits, &l->form_factor, sizeof l->form_factor);
+        bits |= (uint64_t)l->visibility << 32 | (uint64_t)l->levels << 48
+                | (uint64_t)l->mark << 56;
+        c->links++;
+        c->marked[l->mark]++;
+        c->fingerprint += hash64(s->hierarchy.elements[l->receiver].id
+                                 + hash64(s->hierarchy.elements[l->emitter].id + hash64(bits)));
+    }
+    ranks_add_counts(ranks, RANKS_VALUES, (uint64_t *)c, sizeof *c / sizeof(uint64_t));
+    ranks_most(ranks, RANKS_VALUES, &rounds, 1);
+    s->report.rounds = (uint64_t)rounds;
+}
+
 static const char refining[] =
     "out of memory while refining; a coarser oracle parameter needs less";
 
@@ -275,12 +310,15 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.watch = watch_refinement;
     s->refinement.watch_context = s;
     s->refinement.trace = s->trace;
+    s->refinement.shares = ranks_count(p->options.ranks) > 1 ? &s->operator.shares : NULL;
     if (s->trace)
         s->trace->pass = 1;
-    if (refinement_start(&s->refinement) < 0
-        || refinement_settle(&s->refinement, s->hierarchy.built) < 0 || solve_make_room(s) < 0)
+    if (ranks_any(p->options.ranks, refinement_start(&s->refinement) < 0)
+        || shares_settle(&s->operator.shares, &s->refinement, s->hierarchy.built) < 0
+        || ranks_any(p->options.ranks, solve_make_room(s) < 0))
         return fail(s, refining, cause);
-    if (collocation_update(&s->operator) < 0)
+    sum_counts(s);
+    if (ranks_any(p->options.ranks, collocation_update(&s->operator) < 0))
         return fail(s, "out of memory", cause);
     if (!p->options.unit)
         solve_measure_contact(s, 0, 0);
@@ -302,7 +340,8 @@ static int iterate(struct solve *s, double tolerance, int rough)
         return -1;
     x.watch = watch_light;
     x.watch_context = s;
-    if (transport_solve(op, &x) < 0)
+    if (transport_solve(op, &x) < 0 || shares_complete(&op->shares, x.value, x.bands) < 0
+        || shares_complete(&op->shares, x.irradiance, x.bands) < 0)
         return -1;
     s->report.converged = x.converged;
     s->report.tolerance = x.held;
@@ -321,7 +360,9 @@ static int iterate(struct solve *s, double tolerance, int rough)
         return -1;
     carried.watch = watch_importance;
     carried.watch_context = s;
-    if (transport_solve(op, &carried) < 0)
+    if (transport_solve(op, &carried) < 0
+        || shares_complete(&op->shares, carried.value, carried.bands) < 0
+        || shares_complete(&op->shares, carried.irradiance, carried.bands) < 0)
         return -1;
     s->importance.sweeps += carried.sweeps;
     s->report.converged &= carried.converged;
@@ -352,15 +393,21 @@ void solve_sum_power(struct solve *s)
 static int64_t refine_again(struct solve *s)
 {
     uint32_t first = s->hierarchy.count;
+    struct ranks *ranks = s->problem.options.ranks;
     int64_t changed = refinement_again(&s->refinement, s->inputs.changed);
-    if (changed < 0
-        || (changed > 0
-            && (refinement_settle(&s->refinement, first) < 0
-                || collocation_update(&s->operator) < 0))
-        || solve_make_room(s) < 0)
+    uint64_t all = changed > 0 ? (uint64_t)changed : 0;
+    if (ranks_any(ranks, changed < 0))
         return -1;
+    ranks_add_counts(ranks, RANKS_VALUES, &all, 1);
+    if (all > 0
+        && (shares_settle(&s->operator.shares, &s->refinement, first) < 0
+            || ranks_any(ranks, collocation_update(&s->operator) < 0)))
+        return -1;
+    if (ranks_any(ranks, solve_make_room(s) < 0))
+        return -1;
+    sum_counts(s);
     solve_measure_contact(s, first, 0);
-    return changed;
+    return (int64_t)all;
 }
 
 /* Under error control: lower error tolerances until some link changes for it, or nothing is left to
@@ -418,8 +465,8 @@ int solve_step(struct solve *s, const char **cause)
     int fixed = s->error.target > 0 && !(p->options.tolerance > 0);
     double start = seconds(), tolerance = fixed ? SOLVE_TOLERANCE : p->options.tolerance;
     solve_forget_mended(s);
-    int rough = !(s->error.target > 0) && s->refinement.decided[DECISION_LINK_CLUSTERS] > 0;
-    int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->refinement.link_count;
+    int rough = !(s->error.target > 0) && s->report.counts.decided[DECISION_LINK_CLUSTERS] > 0;
+    int settled = s->report.passes > 0 && s->report.changing * SETTLED <= s->report.counts.links;
     rough = rough && !settled && tolerance < ROUGH_TOLERANCE;
     if (iterate(s, rough ? ROUGH_TOLERANCE : tolerance, rough) < 0)
         return fail(s, "out of memory", cause);
@@ -434,7 +481,7 @@ int solve_step(struct solve *s, const char **cause)
         return fail(s, refining, cause);
     s->report.passes++;
     s->report.changing = (uint64_t)changed;
-    int few = (uint64_t)changed * SETTLED <= s->refinement.link_count,
+    int few = (uint64_t)changed * SETTLED <= s->report.counts.links,
         linear = p->options.linear && !(s->error.target > 0) && !s->ranking.asked,
         done = linear ? few : changed == 0 && !rough;
     s->report.converged = (s->report.converged || rough) && done;
@@ -492,6 +539,7 @@ void solve_close(struct solve *s)
     solve_forget_mended(s);
     refinement_close(&s->refinement);
     separable_links_close(&s->operator.separable);
+    shares_close(&s->operator.shares);
     rays_close(s->problem.rays);
     hierarchy_free(&s->hierarchy);
     importance_free(&s->importance);

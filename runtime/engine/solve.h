@@ -19,13 +19,22 @@ struct state {
     double *radiosity, *irradiance; /* B, H (W/m2) */
 };
 
-/* What became of it, for people; nothing is computed from it. */
+/* What refinement has come to so far, on all ranks together; of nothing but numbers of 64 bits. */
+struct pass_counts {
+    uint64_t links, pairs, rays, decided[8], marked[LINK_MARKS];
+    /* a sum over the links, each by what it links and what it says of it: equal where all are */
+    uint64_t fingerprint;
+};
+
+/* What became of it, for people; nothing is computed from it but from its counts. */
 struct report {
     int passes, sweeps; /* solves, and sweeps of all of them */
     /* the last solve reached the tolerance, and no link changes any more; with linear elements few
      * do (SETTLED) */
     int converged;
     uint64_t changing; /* links that the last pass changed */
+    struct pass_counts counts;
+    uint64_t rounds; /* of the rank that took the most */
     /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
     double residual;
     /* of the last solve: the bound on what iteration left, relative; the tolerance it was held

@@ -2,8 +2,10 @@
  *
  * A sweep gathers H_r += F V x_s over the links of every element, pushes it down to the leaves,
  * where x = source + rho H, and pulls area means up (push_pull.c). A sweep goes through the faces
- * in blocks; within a block all gather first and are updated then, so the result is the same for
- * any number of threads. One block is Jacobi's method, many are Gauss-Seidel's. Southwell's shoots
+ * in blocks, every sixteenth face in one; within a block all gather first and are updated then, so
+ * the result is the same for any number of threads, and of ranks, each of which has its own faces
+ * of every block and tells the others of them then (shares.h). One block is Jacobi's method, many
+ * are Gauss-Seidel's. Southwell's shoots
  * between Jacobi's sweeps (southwell.c), and LU solves a dense matrix before the first (dense.c):
  * whichever it is, a sweep says what is left, and all stop by the same bound.
  *
@@ -37,7 +39,7 @@
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
-enum { BLOCKS = 16, LINKS_WORTH_THREADS = 1 << 16 };
+enum { LINKS_WORTH_THREADS = 1 << 16 };
 
 void transport_average(const struct light_operator *op, struct transport *x)
 {
@@ -50,57 +52,68 @@ void transport_average(const struct light_operator *op, struct transport *x)
 struct block {
     const struct light_operator *op;
     const struct transport *x;
-    struct change *change;   /* [face of the block] */
-    const uint32_t *element; /* [face of the block] */
+    struct change *change; /* [face] */
+    const uint32_t *face;  /* [of the block] */
 };
 
 static void gather_faces(const void *block, size_t from, size_t to)
 {
     const struct block *b = block;
     for (size_t i = from; i < to; i++)
-        face_gather(b->op, b->x, b->element[i]);
+        face_gather(b->op, b->x, b->op->hierarchy->face_element[b->face[i]]);
 }
 
 static void update_faces(const void *block, size_t from, size_t to)
 {
     const struct block *b = block;
     for (size_t i = from; i < to; i++)
-        face_update(b->op, b->x, b->element[i], &b->change[i]);
+        face_update(b->op, b->x, b->op->hierarchy->face_element[b->face[i]],
+                    &b->change[b->face[i]]);
 }
 
-void transport_sweep(const struct light_operator *op, const struct transport *x, uint32_t blocks,
-                     struct change *change)
+void transport_sweep(const struct light_operator *op, const struct transport *x, int jacobi,
+                     struct change *change, double *room)
 {
-    uint32_t faces = op->hierarchy->face_count;
+    const struct shares *s = &op->shares;
     int threads =
         op->refinement->link_count > LINKS_WORTH_THREADS ? op->problem->options.threads : 1;
     separable_links_send(&op->separable, (int)x->bands, x->value);
-    for (uint32_t i = 0; i < blocks; i++) {
-        uint32_t from = (uint32_t)((uint64_t)faces * i / blocks),
-                 to = (uint32_t)((uint64_t)faces * (i + 1) / blocks);
-        const struct block b = {op, x, change + from, op->hierarchy->face_element + from};
+    for (uint32_t i = 0; i < SWEEP_BLOCKS; i++) {
+        const uint32_t from = s->own_first[i], to = s->own_first[jacobi ? SWEEP_BLOCKS : i + 1];
+        const struct block b = {op, x, change, s->own + from};
         thread_pool_run(threads, to - from, 8, gather_faces, &b);
         thread_pool_run(threads, to - from, 64, update_faces, &b);
+        if (jacobi)
+            break;
+        shares_tell_block(s, i, x->value, x->bands, room);
     }
+    for (uint32_t i = 0; jacobi && i < SWEEP_BLOCKS; i++)
+        shares_tell_block(s, i, x->value, x->bands, room);
 }
 
 /* Residual and bound after a sweep. */
-static void measure(struct transport *x, const struct change *change, uint32_t faces)
+static void measure(const struct light_operator *op, struct transport *x,
+                    const struct change *change)
 {
-    struct change all = {0};
-    double power = 0, left = 0;
-    for (uint32_t i = 0; i < faces; i++) {
-        all.moved += change[i].moved;
+    const struct shares *s = &op->shares;
+    enum { MOVED, POWER, SUM, SUMS = SUM + 3 };
+    double sums[SUMS] = {0}, most[3] = {0, 0, 0}, left = 0;
+    for (uint32_t f = 0; f < op->hierarchy->face_count; f++) {
+        if (s->owner && s->owner[f] != ranks_number(s->ranks))
+            continue;
+        sums[MOVED] += change[f].moved;
         for (uint32_t k = 0; k < x->bands; k++) {
-            power += change[i].power[k];
-            all.most[k] = fmax(all.most[k], change[i].most[k]);
-            all.sum[k] += change[i].sum[k];
+            sums[POWER] += change[f].power[k];
+            sums[SUM + k] += change[f].sum[k];
+            most[k] = fmax(most[k], change[f].most[k]);
         }
     }
+    ranks_add(s->ranks, RANKS_SWEEPS, sums, SUMS);
+    ranks_most(s->ranks, RANKS_SWEEPS, most, 3);
     for (uint32_t k = 0; k < x->bands; k++)
-        left += all.most[k] > 0 && all.sum[k] > 0 ? all.most[k] * all.sum[k] : 0;
-    x->residual = power > 0 ? all.moved / power : 0;
-    x->bound = left > 0 ? left / power : 0;
+        left += most[k] > 0 && sums[SUM + k] > 0 ? most[k] * sums[SUM + k] : 0;
+    x->residual = sums[POWER] > 0 ? sums[MOVED] / sums[POWER] : 0;
+    x->bound = left > 0 ? left / sums[POWER] : 0;
 }
 
 /* By how much the estimate of a rough solve takes each reflection to weaken light. */
@@ -131,26 +144,18 @@ static double left_of(const struct light_operator *op, struct transport *x, doub
     return x->bound / x->held;
 }
 
-/* Of one sweep by the method that is asked for. */
-static uint32_t blocks_of(const struct light_operator *op)
-{
-    const enum RadSolver solver = op->problem->options.solver;
-    uint32_t faces = op->hierarchy->face_count;
-    int whole = solver == RAD_SOLVER_JACOBI || solver == RAD_SOLVER_SOUTHWELL;
-    return whole ? 1 : faces < BLOCKS ? faces : BLOCKS;
-}
-
 /* Sweeps, between which Southwell's method shoots. */
 static int iterate(const struct light_operator *op, struct transport *x, struct change *change,
-                   struct southwell *shooter)
+                   double *room, struct southwell *shooter)
 {
+    const int jacobi = op->problem->options.solver == RAD_SOLVER_JACOBI || shooter;
     const int most = op->problem->options.iterations;
     const double rho = reflects(op, x);
     while (x->sweeps < most && !x->converged) {
         if (shooter)
             southwell_keep(shooter, op, x);
-        transport_sweep(op, x, blocks_of(op), change);
-        measure(x, change, op->hierarchy->face_count);
+        transport_sweep(op, x, jacobi, change, room);
+        measure(op, x, change);
         x->sweeps++;
         double left = left_of(op, x, rho);
         x->converged = left <= 1;
@@ -168,14 +173,17 @@ int transport_solve(const struct light_operator *op, struct transport *x)
 {
     const enum RadSolver solver = op->problem->options.solver;
     struct change *change = malloc(op->hierarchy->face_count * sizeof *change);
+    double *room = malloc((shares_room(&op->shares) * x->bands + 1) * sizeof *room);
     struct southwell *shooter = solver == RAD_SOLVER_SOUTHWELL ? southwell_new(op, x) : NULL;
     int status = -1;
     x->sweeps = x->converged = 0;
     x->variation = 0;
-    if (change && (shooter || solver != RAD_SOLVER_SOUTHWELL)
+    if (!ranks_any(op->shares.ranks,
+                   !change || !room || (!shooter && solver == RAD_SOLVER_SOUTHWELL))
         && (solver != RAD_SOLVER_LU || x->rough || dense_solve(op, x) == 0))
-        status = iterate(op, x, change, shooter);
+        status = iterate(op, x, change, room, shooter);
     southwell_free(shooter);
+    free(room);
     free(change);
     return status;
 }

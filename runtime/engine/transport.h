@@ -40,10 +40,11 @@ struct transport {
  * `watch`. */
 int transport_solve(const struct light_operator *op, struct transport *x);
 
-/* One sweep over all faces, in so many blocks; 1 is Jacobi's, which takes all of `value` as it was.
- * change: [face], room for what it changes (push_pull.h). */
-void transport_sweep(const struct light_operator *op, const struct transport *x, uint32_t blocks,
-                     struct change *change);
+/* One sweep over all faces, in blocks; by Jacobi's method in one, which takes all of `value` as it
+ * was. change: [face], room for what it changes (push_pull.h); room: [shares_room * bands]. What
+ * other ranks have is right where links of this one take light from, if it was before. */
+void transport_sweep(const struct light_operator *op, const struct transport *x, int jacobi,
+                     struct change *change, double *room);
 
 /* Means of the clusters in value and irradiance, whose surfaces have theirs. */
 void transport_average(const struct light_operator *op, struct transport *x);

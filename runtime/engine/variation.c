@@ -23,7 +23,7 @@ double variation_of(const struct light_operator *op, const struct transport *x)
     for (uint32_t i = 0; i < h->count; i++) {
         const struct element *e = &h->elements[i];
         double leaves = 0;
-        if (!e->vertices)
+        if (!e->vertices || !shares_mine(&op->shares, i))
             continue;
         if (e->depth == 0)
             for (uint32_t k = 0; k < b; k++)
@@ -42,7 +42,9 @@ double variation_of(const struct light_operator *op, const struct transport *x)
             steps += leaves * most;
         }
     }
-    return power > 0 ? steps / power : 0;
+    double sums[] = {steps, power};
+    ranks_add(op->shares.ranks, RANKS_SWEEPS, sums, 2);
+    return sums[1] > 0 ? sums[0] / sums[1] : 0;
 }
 
 double variation_tolerance(double variation)
