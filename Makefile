@@ -36,9 +36,17 @@ LDFLAGS  = $(SANITIZE) -fopenmp
 # Which headers an object was made of.
 DEPEND   = $(if $(findstring tcc,$(CC)),-MD,-MMD -MP)
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
+# MPI=1: for runs over several processes (mpirun). Two objects ask: what they were made for stands in a file, so that another
+# answer makes them anew.
+MPI      =
+MPI_NAME = $(firstword $(foreach name,ompi mpi mpich,$(if $(shell pkg-config --exists $(name) && echo yes),$(name))))
+ifneq ($(filter-out 0 no,$(MPI)),)
+MPI_CFLAGS = -DRADIOSITY_MPI $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(MPI_NAME)))
+MPI_LIBS = $(shell pkg-config --libs $(MPI_NAME))
+endif
 # What the library is linked with, and what the command needs besides.
-ENGINE_LIBS = $(EMBREE) -llapacke -lpthread -ldl -lm
-LIBS     = $(EMBREE) -llapacke -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
+ENGINE_LIBS = $(EMBREE) -llapacke $(MPI_LIBS) -lpthread -ldl -lm
+LIBS     = $(EMBREE) -llapacke $(MPI_LIBS) -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
@@ -161,6 +169,13 @@ $(SHARED): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += -fvisibility=hidden
 # The library's threads are util/thread_pool.h's; of OpenMP it takes only what says that a loop may be a vector's.
 $(RUNTIME): PARALLEL = -fopenmp-simd
+
+ASK_MPI   = $(BUILD)/runtime/util/ranks.o $(BUILD)/solver/util/machines.o
+$(ASK_MPI): CPPFLAGS += $(MPI_CFLAGS)
+$(ASK_MPI): $(BUILD)/mpi
+.PHONY: FORCE
+$(BUILD)/mpi: FORCE
+	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(MPI_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(MPI_LIBS)" > $@
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)

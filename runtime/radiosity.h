@@ -85,6 +85,20 @@ typedef void (*RadMessageFunction)(void *user, enum RadError code, const char *m
 
 /* NULL options: the defaults. Returns NULL when out of memory. */
 RAD_API RadDevice radNewDevice(const struct RadDeviceOptions *options);
+/* A device over processes that work together: `communicator` is the address of an MPI_Comm, of
+ * which it makes its own; MPI_Init_thread(MPI_THREAD_FUNNELED) comes before, MPI_Finalize after the
+ * last release. Each process, a rank, makes the same calls with the same arguments, from one
+ * thread; each of radNewSolution, radRefine, radStep, radSolve, radMeasureError, radMeasurePlaces,
+ * radCorrect, radNewReference, radTraceReference and radGetRanks waits for all, and so does this
+ * call. Results are the same on all ranks, and the same as of one process: links and counts of
+ * particles to the bit. A rank keeps the links whose receivers it has: radGetLinks lends these. A
+ * progress function may not cancel. What looks at all links at once (Southwell's method, LU, error
+ * control, ranked links, enclosing solutions, accounts and causes of errors, traces, statistics,
+ * exchange areas) is refused with RAD_ERROR_UNSUPPORTED while there are several ranks.
+ * Returns NULL, and radGetDeviceError(NULL) says why: RAD_ERROR_UNSUPPORTED where the library was
+ * built without MPI. */
+RAD_API RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options,
+                                  const void *communicator);
 RAD_API void radRetainDevice(RadDevice device);
 RAD_API void radReleaseDevice(RadDevice device);
 RAD_API void radSetDeviceMessageFunction(RadDevice device, RadMessageFunction function, void *user);
@@ -501,6 +515,9 @@ struct RadReport {
     uint64_t marked[RAD_LINK_MARKS];     /* links with each mark; mark 1: a guard kept them whole */
     uint64_t marked_elements[RAD_LINK_MARKS]; /* elements with each mark, [0] without */
     uint64_t decided[8];                      /* how often each enum decision was taken */
+    /* a sum over all links, and over all counts of particles since the last radCorrect (0: none):
+     * equal where all of them are equal to the bit */
+    uint64_t link_fingerprint, particle_fingerprint;
     /* converged: iteration reached its tolerance, and no link changes any more; with linear
      * elements at most one in a thousand does */
     int passes, iterations, converged;
@@ -564,6 +581,25 @@ struct RadReport {
     } linear;
 };
 RAD_API void radGetReport(RadSolution solution, struct RadReport *report);
+
+/* What each rank has and has done (radNewDeviceMPI). Bytes are those sent: of what all are told, to
+ * each of the others. */
+enum RadTraffic {
+    RAD_TRAFFIC_SPLITS,    /* which elements passes have split */
+    RAD_TRAFFIC_LINKS,     /* links to the owners of their receivers, and who needs which emitter */
+    RAD_TRAFFIC_SWEEPS,    /* radiosities of emitters, while sweeps go on */
+    RAD_TRAFFIC_VALUES,    /* what all elements have, after a solve */
+    RAD_TRAFFIC_PARTICLES, /* counts of particles and paths */
+    RAD_TRAFFICS
+};
+struct RadRank {
+    uint64_t links, pairs, rays; /* kept; discussed; cast by these discussions */
+    uint64_t faces, ghosts;      /* owned; elements of others that its links take light from */
+    uint64_t sent[RAD_TRAFFICS]; /* bytes */
+    double memory;               /* the most that the process has held, bytes */
+};
+/* Into ranks[most], in their order. Returns how many there are; 0 on error. */
+RAD_API int radGetRanks(RadSolution solution, struct RadRank *ranks, int most);
 
 /* ---- how far from the truth */
 

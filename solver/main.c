@@ -12,6 +12,7 @@
 #include "hand.h"
 #include "study/study.h"
 #include "util/device.h"
+#include "util/machines.h"
 #include "util/report.h"
 #include "util/temporary.h"
 
@@ -45,11 +46,34 @@ static int run(const struct options *o)
                                   : o->command == COMMAND_VIEWFACTORS ? RAD_TURNED_FIND
                                                                       : RAD_TURNED_IGNORE;
     struct open_scene scene;
-    if (open_whole_scene(&scene, o->scene, &how, &o->copies, turned, o->threads) < 0)
-        return 1;
-    int status = commands[o->command](o, &scene);
-    close_scene(&scene);
+    int status =
+        open_whole_scene(&scene, o->scene, &how, &o->copies, turned, o->threads) < 0 ? 1 : 0;
+    const int others = machines_agree(status);
+    if (status == 0 && others == 0)
+        status = commands[o->command](o, &scene);
+    if (status == 0 || others == 0)
+        close_scene(&scene);
     return status;
+}
+
+/* May several processes run it together? Returns 0, or 2 after a message. */
+static int check_together(const struct options *o)
+{
+    if (machines_count() == 1 || o->command == COMMAND_SOLVE || o->command == COMMAND_REFERENCE)
+        return 0;
+    report_error("radiosity", 0,
+                 "of the commands only solve and reference run as several processes; start this one "
+                 "without mpirun");
+    return 2;
+}
+
+/* See that what shall be written can be, and run the command. */
+static int check_and_run(const struct options *o)
+{
+    int status = check_together(o);
+    if (status == 0 && machines_number() == 0)
+        status = check_outputs(o);
+    return machines_agree(status) ? status : run(o);
 }
 
 /* Standard output that is full or closed is an error like that of any file. */
@@ -76,17 +100,20 @@ int main(int count, char **arguments)
         ;
     if (stream >= 3)
         close(stream);
+    int status = machines_begin(&count, &arguments);
+    if (status)
+        return status;
     struct options o;
-    int status = options_parse(&o, count, arguments);
+    status = options_parse(&o, count, arguments);
     register_hand_releases(hand_releases);
     use_plugins(o.plugins, o.plugin_count);
     if (status < 0) {
         temporary_watch();
-        status = check_outputs(&o);
-        if (status == 0)
-            status = run(&o);
+        if (machines_number() > 0)
+            o.quiet = 1;
+        status = check_and_run(&o);
         temporary_end();
     }
     options_free(&o);
-    return flush_output(status);
+    return machines_end(flush_output(status));
 }

@@ -25,6 +25,7 @@ enum { MESSAGE_SIZE = 8192 };
 struct RadDeviceObject {
     atomic_int holders;
     int threads;
+    struct ranks *ranks; /* owned; NULL: this process alone */
     char *compiler, *temporary; /* of the options; NULL: none given */
     pthread_mutex_t lock;       /* of all that follows */
     enum RadError error;        /* the first since it was asked for */
@@ -108,6 +109,9 @@ struct refiner *api_interpret(RadOracle oracle);
 int api_give_up(RadSolution solution, const char *cause);
 /* Returns 0, or -1 with the device told that the solution can do no more. */
 int api_not_dead(RadSolution solution);
+
+/* Is this process alone? Returns 0, or -1 with the device told that `what` needs all links. */
+int api_alone(RadDevice device, const char *what);
 
 /* Is there light to be looked at? Returns 0, or -1 with the device told that `what` needs it. */
 int api_solved(RadSolution solution, const char *what);

@@ -52,6 +52,8 @@ int radAccountErrors(RadSolution solution, const struct RadAccountOptions *given
         return -1;
     RadDevice device = solution->scene->device;
     struct solve *s = &solution->solve;
+    if (api_alone(device, "radAccountErrors") < 0)
+        return -1;
     if (solution->dead || s->report.passes == 0)
         return api_fail(device, RAD_ERROR_INVALID_OPERATION,
                         "radAccountErrors needs a solution that was solved: radSolve comes first");

@@ -14,6 +14,8 @@ int radFindCauses(RadSolution solution, const struct RadCausesOptions *given,
         return -1;
     RadDevice device = solution->scene->device;
     struct solve *s = &solution->solve;
+    if (api_alone(device, "radFindCauses") < 0)
+        return -1;
     if (s->report.passes == 0)
         return api_fail(device, RAD_ERROR_INVALID_OPERATION,
                         "radFindCauses needs a solution: radSolve or radStep comes first");

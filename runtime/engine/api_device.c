@@ -51,6 +51,32 @@ RadDevice radNewDevice(const struct RadDeviceOptions *options)
     return device;
 }
 
+RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options, const void *communicator)
+{
+    const char *cause;
+    if (!communicator)
+        return refuse_device(RAD_ERROR_INVALID_ARGUMENT,
+                             "radNewDeviceMPI needs the address of an MPI_Comm");
+    struct ranks *ranks = ranks_open(communicator, &cause);
+    if (!ranks)
+        return refuse_device(RAD_ERROR_UNSUPPORTED, cause);
+    RadDevice device = radNewDevice(options);
+    if (device)
+        device->ranks = ranks;
+    else
+        ranks_close(ranks);
+    return device;
+}
+
+int api_alone(RadDevice device, const char *what)
+{
+    if (ranks_count(device->ranks) == 1)
+        return 0;
+    return api_fail(device, RAD_ERROR_UNSUPPORTED,
+                    "%s needs all links, of which each of the %d ranks has its own; run one process",
+                    what, ranks_count(device->ranks));
+}
+
 void radRetainDevice(RadDevice device)
 {
     if (device)
@@ -61,6 +87,7 @@ void radReleaseDevice(RadDevice device)
 {
     if (!device || atomic_fetch_sub(&device->holders, 1) != 1)
         return;
+    ranks_close(device->ranks);
     thread_pool_release();
     pthread_mutex_destroy(&device->lock);
     oracle_sources_free(&device->sources);

@@ -76,7 +76,7 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
         api_fail(device, RAD_ERROR_INVALID_OPERATION, "radCommitScene comes before radNewExchange");
         return NULL;
     }
-    if (check_options(device, o) < 0)
+    if (check_options(device, o) < 0 || api_alone(device, "radNewExchange") < 0)
         return NULL;
     if (o->rows > scene->scene.input_count) {
         api_fail(device, RAD_ERROR_INVALID_ARGUMENT,

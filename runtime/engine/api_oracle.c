@@ -332,7 +332,7 @@ void radAskOracles(RadOracle oracle, struct discussion *block, int count, enum d
 
 int radCountOracle(RadOracle oracle)
 {
-    if (!oracle)
+    if (!oracle || api_alone(oracle->device, "counting an oracle's discussions") < 0)
         return -1;
     if (refiner_count(oracle->refiner) < 0)
         return api_fail(oracle->device, RAD_ERROR_INVALID_OPERATION,

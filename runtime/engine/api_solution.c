@@ -109,6 +109,26 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
     return o->camera ? check_camera(device, o->camera) : 0;
 }
 
+/* What goes over the links of all, several ranks cannot do. */
+static int check_ranks(RadDevice device, RadOracle oracle, const struct RadSolveOptions *o)
+{
+    static const struct {
+        int fact;
+        const char *what;
+    } all[] = {{FACT_RECEIVER_TOLERANCE, "error control, which this oracle asks for,"},
+               {FACT_SCENE_RANK, "ranking links, which this oracle asks for,"},
+               {FACT_EMITTER_LOWER, "an enclosing solution, which this oracle asks for,"},
+               {FACT_EMITTER_GAP, "an enclosing solution, which this oracle asks for,"}};
+    if (o->solver == RAD_SOLVER_SOUTHWELL && api_alone(device, "Southwell's method") < 0)
+        return -1;
+    if (o->solver == RAD_SOLVER_LU && api_alone(device, "LU") < 0)
+        return -1;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (refiner_reads(oracle->refiner, all[i].fact) && api_alone(device, all[i].what) < 0)
+            return -1;
+    return 0;
+}
+
 static int watch(void *context, const struct solve *s, const char *phase)
 {
     const struct RadSolutionObject *solution = context;
@@ -140,6 +160,7 @@ static struct solve_options engine_options(RadSolution solution, const struct Ra
         .unit = o->unit != 0,
         .limits = {o->limits.depth, o->limits.elements, o->limits.links, o->limits.pairs,
                    o->limits.rounds, 0},
+        .ranks = solution->scene->device->ranks,
         .progress = watch,
         .context = solution};
     if (o->camera) {
@@ -173,7 +194,7 @@ RadSolution radNewSolution(RadScene scene, RadOracle oracle, const struct RadSol
                  "RAD_RELEASE_FLAT) makes one");
         return NULL;
     }
-    if (check_options(scene->device, o) < 0)
+    if (check_options(scene->device, o) < 0 || check_ranks(scene->device, oracle, o) < 0)
         return NULL;
     RadSolution solution = calloc(1, sizeof *solution);
     if (!solution) {
@@ -311,6 +332,8 @@ int radSolveWithFactors(RadSolution solution, const float *form_factors)
     if (api_not_dead(solution) < 0)
         return -1;
     RadDevice device = solution->scene->device;
+    if (api_alone(device, "radSolveWithFactors") < 0)
+        return -1;
     if (!is_refined(solution))
         return api_fail(device, RAD_ERROR_INVALID_OPERATION,
                         "radRefine or radSolve comes before radSolveWithFactors: there are no "
@@ -425,14 +448,17 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         return;
     const struct solve *s = &solution->solve;
     const struct row_report *rows = &s->report.rows;
+    const struct pass_counts *counts = &s->report.counts;
     *report = (struct RadReport){
         .elements = s->hierarchy.count,
         .leaves = count_leaves(&s->hierarchy),
         .bands = s->problem.bands,
-        .links = s->refinement.link_count,
-        .pairs = s->refinement.pairs,
-        .rounds = s->refinement.rounds,
-        .rays = rays_count(s->problem.rays).rays,
+        .links = counts->links,
+        .pairs = counts->pairs,
+        .rounds = s->report.rounds,
+        .rays = counts->rays,
+        .link_fingerprint = counts->fingerprint,
+        .particle_fingerprint = s->report.particles,
         .passes = s->report.passes,
         .iterations = s->report.sweeps,
         .converged = s->report.converged,
@@ -457,8 +483,8 @@ void radGetReport(RadSolution solution, struct RadReport *report)
                     s->report.seconds.in_rays, s->report.seconds.clusters},
         .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,
                    s->linear.seconds}};
-    memcpy(report->marked, s->refinement.marked, sizeof report->marked);
+    memcpy(report->marked, counts->marked, sizeof report->marked);
     for (uint32_t i = 0; i < s->hierarchy.count; i++)
         report->marked_elements[s->hierarchy.elements[i].mark % RAD_LINK_MARKS]++;
-    memcpy(report->decided, s->refinement.decided, sizeof report->decided);
+    memcpy(report->decided, counts->decided, sizeof report->decided);
 }

@@ -44,7 +44,8 @@ enum decision radAskOracleWay(RadOracle oracle, struct discussion *discussion, u
 
 int radTraceSolution(RadSolution solution, RadTraceFunction function, void *user)
 {
-    if (api_not_dead(solution) < 0 || (function && follow(solution->oracle) < 0))
+    if (api_not_dead(solution) < 0 || (function && follow(solution->oracle) < 0)
+        || (function && api_alone(solution->scene->device, "a trace") < 0))
         return -1;
     struct trace *t = &solution->trace;
     if (function && !t->pairs && !(t->pairs = malloc(REFINEMENT_ROUND * sizeof *t->pairs)))

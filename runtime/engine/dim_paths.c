@@ -14,6 +14,7 @@
 #include "kernel/leaf_at.h"
 #include "particles/paths.h"
 #include "particles/running_sums.h"
+#include "util/ranks_loop.h"
 
 enum { BLOCK = 64 };
 
@@ -126,7 +127,8 @@ int dim_paths_trace(struct dim_faces *d)
             block[next++] = (struct block){.polygon = j, .first = p->paths};
     struct watched_loop loop = {.watch = d->watch, .all = count};
     const struct blocks all = {d, block, &loop};
-    thread_pool_run(d->tracer->threads, count, 1, trace_blocks, &all);
+    ranks_loop_run(d->tracer->ranks, d->tracer->threads, count, 1, trace_blocks, &all, block,
+                   sizeof *block);
     for (size_t i = 0; i < count; i++) {
         struct dim_polygon *p = &d->polygon[block[i].polygon];
         p->rays += block[i].rays;

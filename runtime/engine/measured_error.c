@@ -16,6 +16,7 @@
 #include "engine/tail_error.h"
 #include "engine/transport.h"
 #include "kernel/constants.h"
+#include "kernel/hash.h"
 #include "util/clock.h"
 
 /* particles of each replicate in a first look, which tells how many rays one takes */
@@ -307,6 +308,19 @@ static double landings(const struct mending_goal *goal)
     return goal->places > 0 ? fmin(expected, (double)goal->most) : (double)goal->most;
 }
 
+/* What has been counted, as one number: a sum, so that no order shows. */
+static uint64_t fingerprint(const struct tally *tally)
+{
+    const size_t faces = (size_t)REPLICATES * tally->faces * tally->bands,
+                 elements = (size_t)tally->elements * tally->bands;
+    uint64_t sum = 0;
+    for (size_t i = 0; i < faces; i++)
+        sum += hash64(i + hash64((uint64_t)tally->face[i]));
+    for (size_t i = 0; tally->element && i < elements; i++)
+        sum += hash64(faces + i + hash64((uint64_t)tally->element[i]));
+    return sum;
+}
+
 int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct measured_error *alone,
                      const char **cause)
 {
@@ -323,6 +337,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
                  || (goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
                  || trace_for_faces(s, &t, &tally, goal) < 0 || measure_faces(s, &tally, alone) < 0
                  || mend(s, &t, &tally, &spent) < 0 || detail_merge(s, elements) < 0;
+    s->report.particles = failed ? 0 : fingerprint(&tally);
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

@@ -143,8 +143,13 @@ static void mark_element(struct refinement *r, uint32_t element, unsigned char m
  * is split, for parts are marked as what they are parts of. */
 static void mark_elements(struct refinement *r, int count)
 {
+    static const unsigned char unmarked[2][2];
     for (int i = 0; i < count; i++) {
-        const struct outcome *o = &r->outcomes[i];
+        struct outcome *o = &r->outcomes[i];
+        if (memcmp(o->marks, unmarked, sizeof unmarked) == 0)
+            continue;
+        if (r->shares) /* the next round would see them, and other ranks would not */
+            o->none = "it marks elements, which all pairs see; run it in one process";
         uint32_t receiver = o->link[0].receiver, emitter = o->link[0].emitter;
         mark_element(r, receiver, o->marks[0][0]);
         mark_element(r, emitter, o->marks[0][1]);

@@ -34,7 +34,8 @@ struct report {
     int converged;
     uint64_t changing; /* links that the last pass changed */
     struct pass_counts counts;
-    uint64_t rounds; /* of the rank that took the most */
+    uint64_t rounds;    /* of the rank that took the most */
+    uint64_t particles; /* a sum over what has been counted, as that of the links; 0: nothing */
     /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
     double residual;
     /* of the last solve: the bound on what iteration left, relative; the tolerance it was held

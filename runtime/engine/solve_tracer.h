@@ -14,7 +14,8 @@ static inline struct tracer solve_tracer(const struct solve *s)
                            .exitance = s->problem.exitance,
                            .reflectance = s->problem.reflectance,
                            .bands = s->problem.bands,
-                           .threads = s->problem.options.threads};
+                           .threads = s->problem.options.threads,
+                           .ranks = s->problem.options.ranks};
 }
 
 #endif

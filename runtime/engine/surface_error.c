@@ -16,7 +16,7 @@
 #include "engine/point_error.h"
 #include "engine/surface_error.h"
 #include "kernel/constants.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 
 /* Shares of the rays. Of the rest, 3 %, particles are made that show where light lands. */
 #define SHARE_PARTICLES 0.32
@@ -136,8 +136,11 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
     const struct watch part = {tell_part, m};
     struct watched_loop loop = {.watch = m->watch ? &part : NULL, .all = stage->count};
     const struct stage_points points = {m, stage, stream, &loop, &rays};
-    thread_pool_run(m->tracer->threads, stage->count, 16, measure_points, &points);
-    m->rays += rays;
+    ranks_loop_run(m->tracer->ranks, m->tracer->threads, stage->count, 16, measure_points, &points,
+                   stage->point, sizeof *stage->point);
+    uint64_t cast = rays;
+    ranks_add_counts(m->tracer->ranks, RANKS_PARTICLES, &cast, 1);
+    m->rays += cast;
     for (uint32_t i = 0; i < stage->count && !loop.stopped; i++)
         stage->area += stage->point[i].part;
     return loop.stopped ? -1 : 0;

@@ -17,7 +17,7 @@
 #include "kernel/leaf_at.h"
 #include "particles/area_line.h"
 #include "particles/paths.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 #include "visibility/contact_fraction.h"
 
 enum { POINTS = 4096, CANDIDATES = 48, TAIL = POINTS / 1000, BEYOND = 8, PATHS_MOST = 4096 };
@@ -100,8 +100,11 @@ static uint64_t measure_points(const struct tail *x, struct point *points, uint3
     _Atomic uint64_t rays = 0;
     struct watched_loop loop = {.watch = watch, .all = count};
     const struct stage_points all = {x, points, stage, paths, &loop, &rays};
-    thread_pool_run(x->tracer->threads, count, 16, measure_some, &all);
-    return loop.stopped ? UINT64_MAX : rays;
+    ranks_loop_run(x->tracer->ranks, x->tracer->threads, count, 16, measure_some, &all, points,
+                   sizeof *points);
+    uint64_t cast = rays;
+    ranks_add_counts(x->tracer->ranks, RANKS_PARTICLES, &cast, 1);
+    return loop.stopped ? UINT64_MAX : cast;
 }
 
 /* Lay points over the area. Returns the mean of the light that the solution reflects there, all

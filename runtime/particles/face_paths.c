@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "particles/face_paths.h"
 #include "particles/paths.h"
+#include "util/ranks_loop.h"
 
 enum { BLOCKS = 1 << 13 }; /* traced before their sums are added */
 
@@ -89,7 +90,8 @@ static int flush(struct face_paths *p, const struct tracer *t, struct block *blo
                  const struct watch *watch, double share)
 {
     const struct blocks all = {t, blocks, p->stream};
-    thread_pool_run(t->threads, (size_t)count, 16, trace_blocks, &all);
+    ranks_loop_run(t->ranks, t->threads, (size_t)count, 16, trace_blocks, &all, blocks,
+                   sizeof *blocks);
     for (int i = 0; i < count; i++)
         add(p, &blocks[i]);
     return watch && watch->tell(watch->context, share) ? -1 : 0;

@@ -1,6 +1,7 @@
 /* particles.c - see particles.h.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
+#include <string.h>
 #include "kernel/leaf_at.h"
 #include "particles/particles.h"
 #include "particles/sobol_sequence.h"
@@ -124,12 +125,13 @@ struct sums {
     _Atomic int64_t first[3], second[3];
 };
 
-/* Particles from .. to - 1 of every replicate, in batches, each of one replicate. */
+/* Particles from .. to - 1 of every replicate, in batches, each of one replicate; of these every
+ * `ranks`th from number `rank` on. */
 struct batches {
     struct tally *tally;
     const struct tracer *t;
     const struct sobol_sequence *sobol;
-    uint64_t from, to;
+    uint64_t from, to, rank, ranks;
     struct watched_loop *loop;
     struct sums *sums;
 };
@@ -137,7 +139,8 @@ struct batches {
 static void trace_batches(const void *batches, size_t begin, size_t end)
 {
     const struct batches *all = batches;
-    for (uint64_t b = begin; b < end; b++) {
+    for (uint64_t i = begin; i < end; i++) {
+        const uint64_t b = i * all->ranks + all->rank;
         struct batch batch = {.sobol = all->sobol, .replicate = (int)(b % REPLICATES)};
         uint64_t low = all->from + b / REPLICATES * BATCH,
                  high = low + BATCH < all->to ? low + BATCH : all->to,
@@ -146,8 +149,8 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
             continue;
         for (int d = 0; d < SOBOL_COORDINATES; d++)
             batch.shift[d] = (uint32_t)(hash64(set * SOBOL_COORDINATES + (uint64_t)d + 1) >> 32);
-        for (uint64_t i = low; i < high; i++)
-            trace(all->tally, all->t, i, &batch);
+        for (uint64_t k = low; k < high; k++)
+            trace(all->tally, all->t, k, &batch);
         all->sums->rays += batch.rays;
         for (int k = 0; k < 3; k++) {
             all->sums->first[k] += batch.first[k];
@@ -155,6 +158,40 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
         }
         watched_loop_tell(all->loop);
     }
+}
+
+/* Before all ranks trace their parts: what has been counted stays with the first; */
+static void part_counts(struct tally *tally, struct ranks *ranks)
+{
+    if (ranks_number(ranks) == 0)
+        return;
+    memset((void *)(uintptr_t)tally->face, 0,
+           (size_t)REPLICATES * tally->faces * tally->bands * sizeof *tally->face);
+    if (tally->element)
+        memset((void *)(uintptr_t)tally->element, 0,
+               (size_t)tally->elements * tally->bands * sizeof *tally->element);
+}
+
+/* after it all have what all have counted. Counts are integers: their sum has no order. */
+static void add_counts(struct tally *tally, struct ranks *ranks, struct sums *sums)
+{
+    _Static_assert(sizeof(_Atomic int64_t) == sizeof(uint64_t), "counts are sent as they stand");
+    uint64_t few[7] = {sums->rays};
+    for (int k = 0; k < 3; k++) {
+        few[1 + k] = (uint64_t)sums->first[k];
+        few[4 + k] = (uint64_t)sums->second[k];
+    }
+    ranks_add_counts(ranks, RANKS_PARTICLES, few, 7);
+    sums->rays = few[0];
+    for (int k = 0; k < 3; k++) {
+        sums->first[k] = (int64_t)few[1 + k];
+        sums->second[k] = (int64_t)few[4 + k];
+    }
+    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->face,
+                     (size_t)REPLICATES * tally->faces * tally->bands);
+    if (tally->element)
+        ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->element,
+                         (size_t)tally->elements * tally->bands);
 }
 
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
@@ -167,10 +204,14 @@ int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
         return 0;
     struct sobol_sequence sobol;
     sobol_sequence_open(&sobol);
-    struct watched_loop loop = {.watch = watch, .all = count};
+    const uint64_t rank = (uint64_t)ranks_number(t->ranks), ranks = (uint64_t)ranks_count(t->ranks),
+                   mine = (count + ranks - 1 - rank) / ranks;
+    struct watched_loop loop = {.watch = watch, .all = mine};
     struct sums sums = {0};
-    const struct batches all = {tally, t, &sobol, from, to, &loop, &sums};
-    thread_pool_run(t->threads, count, 1, trace_batches, &all);
+    const struct batches all = {tally, t, &sobol, from, to, rank, ranks, &loop, &sums};
+    part_counts(tally, t->ranks);
+    thread_pool_run(t->threads, mine, 1, trace_batches, &all);
+    add_counts(tally, t->ranks, &sums);
     tally->rays += sums.rays;
     for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
         tally->square[k] = sums.first[k] > 0 ? (double)sums.second[k] / (double)sums.first[k] : 0;

@@ -11,6 +11,7 @@
 #include "hierarchy/hierarchy.h"
 #include "kernel/hash.h"
 #include "particles/light_tree.h"
+#include "util/ranks.h"
 #include "visibility/rays.h"
 
 /* Faces that emit, to be chosen by the power they send. */
@@ -27,6 +28,7 @@ struct tracer {
     const double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
     uint32_t bands;                       /* 1 or 3 */
     int threads;
+    struct ranks *ranks; /* who trace together, each its part; NULL: one process */
     struct lights lights;         /* owned, as the next */
     struct light_tree light_tree; /* the same emitters, for paths */
 };

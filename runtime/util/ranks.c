@@ -39,14 +39,12 @@ struct ranks *ranks_open(const void *communicator, const char **cause)
     return NULL;
 }
 
+/* The communicator stays, until MPI ends: to free it waits for all, and a rank that has failed would
+ * wait for others that have not. */
 void ranks_close(struct ranks *r)
 {
-    int ended = 0;
     if (!r)
         return;
-    MPI_Finalized(&ended);
-    if (!ended)
-        MPI_Comm_free(&r->all);
     free(r->counts);
     free(r->places);
     free(r);

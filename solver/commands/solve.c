@@ -16,6 +16,7 @@
 #include "util/progress.h"
 #include "util/clock.h"
 #include "util/device.h"
+#include "util/machines.h"
 #include "util/report.h"
 
 /* Both pictures, of the error and of the light, through the same camera. */
@@ -63,14 +64,18 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
     return failed ? -1 : 0;
 }
 
-/* Write all that was asked for. Returns the exit status. */
+/* Write all that was asked for, which one of several ranks does. Returns the exit status. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct surfaces *surfaces, const struct solved *solved,
                          const struct coarse_first *coarse, const struct measured *measured,
                          const struct power_promise *promise, const struct accuracy *accuracy,
                          RadOracle oracle)
 {
+    struct RadRank ranks[MACHINES_MOST];
+    const int rank_count = radGetRanks(solved->solution, ranks, MACHINES_MOST);
     double start = seconds();
+    if (machines_number() > 0)
+        return 0;
     int status =
         write_solution(o, surfaces, scene->device, solved->solution, measured->measured) < 0;
     if (o->statistics && statistics_write(o->statistics, o->scene, oracle) < 0)
@@ -83,7 +88,9 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
                                     measured,
                                     promise,
                                     o->accuracy > 0 ? accuracy : NULL,
-                                    seconds() - start};
+                                    seconds() - start,
+                                    ranks,
+                                    rank_count < MACHINES_MOST ? rank_count : MACHINES_MOST};
     if (o->json && json_file_write(o->json, summary_json(&summary)) < 0)
         status = 1;
     if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)

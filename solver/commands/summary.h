@@ -22,6 +22,8 @@ struct summary {
     const struct power_promise *promise;
     const struct accuracy *accuracy; /* NULL: none was asked for */
     double output_seconds;
+    const struct RadRank *ranks; /* [rank_count]; of one process, which are not told of, 1 */
+    int rank_count;
 };
 
 void summary_print(const struct summary *summary);

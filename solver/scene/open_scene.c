@@ -3,15 +3,16 @@
 #include "scene/open_scene.h"
 
 #include "util/device.h"
+#include "util/machines.h"
 
 int open_whole_scene(struct open_scene *s, const char *path, const struct scene_options *options,
                      const struct copies *copies, enum RadTurned turned, int threads)
 {
     *s = (struct open_scene){.path = path};
-    if (scene_file_read(&s->file, path, options) < 0)
-        return -1;
+    int failed = scene_file_read(&s->file, path, options) < 0;
     s->originals = s->file.polygon_count;
-    if (copies && copies_add(&s->file, path, copies) < 0)
+    failed = failed || (copies && copies_add(&s->file, path, copies) < 0);
+    if (machines_agree(failed))
         return close_scene(s), -1;
     struct RadPolygons polygons = scene_file_polygons(&s->file);
     polygons.turned = turned;

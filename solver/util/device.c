@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "util/machines.h"
 #include "util/report.h"
 #include "util/temporary.h"
 
@@ -42,7 +43,7 @@ RadDevice open_device(const char *where, int threads)
     const char *folder = temporary_folder();
     const struct RadDeviceOptions options = {threads, from_environment("CC"),
                                              folder ? folder : from_environment("TMPDIR")};
-    RadDevice device = radNewDevice(&options);
+    RadDevice device = machines_device(&options);
     if (!device) {
         report_device(NULL, where ? where : "radiosity");
         return NULL;

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "util/machines.h"
 #include "util/temporary.h"
 
 static void report(const char *path, uint32_t line, const char *kind, const char *format,
@@ -18,10 +19,12 @@ static void report(const char *path, uint32_t line, const char *kind, const char
     for (char *c = text; *c; c++)
         if (((unsigned char)*c < ' ' && *c != '\n' && *c != '\t') || *c == 127)
             *c = '?';
+    char all[2048], at[16] = "";
     if (line)
-        fprintf(stderr, "%s:%u: %s: %s\n", path, (unsigned)line, kind, text);
-    else
-        fprintf(stderr, "%s: %s: %s\n", path, kind, text);
+        snprintf(at, sizeof at, ":%u", (unsigned)line);
+    snprintf(all, sizeof all, "%s%s: %s: %s\n", path, at, kind, text);
+    if (!machines_keep(all))
+        fputs(all, stderr);
 }
 
 int report_error(const char *path, uint32_t line, const char *format, ...)

@@ -1,0 +1,156 @@
+/* machines.c - see machines.h.
+ * SPDX-License-Identifier: MIT */
+#include "util/machines.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the launchers of MPI programs tell each process that there are. */
+static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"};
+
+static int launched(void)
+{
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const char *size = getenv(sizes[i]);
+        if (size && *size)
+            return atoi(size);
+    }
+    return 0;
+}
+
+#ifdef RADIOSITY_MPI
+
+#include <mpi.h>
+#include <time.h>
+
+enum { KEPT = 1 << 14, PATIENCE = 10 };
+
+static int begun, ranks = 1, rank;
+static char kept[KEPT];
+
+int machines_begin(int *count, char ***arguments)
+{
+    int given;
+    if (launched() < 1)
+        return 0;
+    MPI_Init_thread(count, arguments, MPI_THREAD_FUNNELED, &given);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    begun = 1;
+    if (rank > 0 && !freopen("/dev/null", "w", stdout))
+        return 2;
+    return 0;
+}
+
+int machines_count(void)
+{
+    return ranks;
+}
+
+int machines_number(void)
+{
+    return rank;
+}
+
+RadDevice machines_device(const struct RadDeviceOptions *options)
+{
+    const MPI_Comm all = MPI_COMM_WORLD;
+    return ranks > 1 ? radNewDeviceMPI(options, &all) : radNewDevice(options);
+}
+
+int machines_agree(int status)
+{
+    if (ranks > 1)
+        MPI_Allreduce(MPI_IN_PLACE, &status, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return status;
+}
+
+int machines_keep(const char *line)
+{
+    const size_t used = strlen(kept);
+    if (rank > 0)
+        snprintf(kept + used, KEPT - used, "%s", line);
+    return rank > 0;
+}
+
+/* Have all come to the end? A rank that has failed waits for others so long. */
+static int all_ended(int status, int *worst)
+{
+    int there = 0;
+    MPI_Request request;
+    const time_t start = time(NULL);
+    MPI_Iallreduce(&status, worst, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
+    while (!there && (status == 0 || time(NULL) - start < PATIENCE)) {
+        const struct timespec pause = {0, 2000000};
+        MPI_Test(&request, &there, MPI_STATUS_IGNORE);
+        if (!there)
+            nanosleep(&pause, NULL);
+    }
+    return there;
+}
+
+int machines_end(int status)
+{
+    int worst = status;
+    if (!begun)
+        return status;
+    if (!all_ended(status, &worst)) {
+        fprintf(stderr, "%srank %d of %d could not go on: the run ends\n", kept, rank, ranks);
+        fflush(stderr);
+        MPI_Abort(MPI_COMM_WORLD, status);
+    }
+    int spoken = rank == 0 && status != 0;
+    MPI_Bcast(&spoken, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    if (!spoken && status != 0 && rank > 0)
+        fprintf(stderr, "%srank %d of %d could not go on\n", kept, rank, ranks);
+    MPI_Finalize();
+    return worst;
+}
+
+#else
+
+int machines_begin(int *count, char ***arguments)
+{
+    (void)count;
+    (void)arguments;
+    if (launched() < 2)
+        return 0;
+    fprintf(stderr, "radiosity: error: started as one of %d processes, but built without MPI: "
+                    "build it by `make MPI=1`\n",
+            launched());
+    return 2;
+}
+
+int machines_count(void)
+{
+    return 1;
+}
+
+int machines_number(void)
+{
+    return 0;
+}
+
+RadDevice machines_device(const struct RadDeviceOptions *options)
+{
+    return radNewDevice(options);
+}
+
+int machines_agree(int status)
+{
+    return status;
+}
+
+int machines_keep(const char *line)
+{
+    (void)line;
+    return 0;
+}
+
+int machines_end(int status)
+{
+    return status;
+}
+
+#endif
