@@ -7,7 +7,7 @@
 /* A share of the rays that links have cast, and `more` besides, but no fewer than `least`. */
 static uint64_t share_of_rays(RadSolution solution, double share, double more, uint64_t least)
 {
-    double rays = share * (double)rays_count(solution->solve.problem.rays).rays + more;
+    double rays = share * (double)solution->solve.report.counts.rays + more;
     return rays > (double)least ? (uint64_t)rays : least;
 }
 
@@ -117,7 +117,7 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
     struct mending_goal goal = {.noise = noise, .most = o->rays};
     if (!o->rays) {
-        uint64_t cast = rays_count(solution->solve.problem.rays).rays;
+        uint64_t cast = solution->solve.report.counts.rays;
         goal.places = RAD_CORRECT_PLACES;
         goal.least = RAD_CORRECT_LEAST;
         goal.most = cast > RAD_CORRECT_MOST ? cast : RAD_CORRECT_MOST;

@@ -145,10 +145,18 @@ static void discuss_back(const struct refinement *r, struct block *b, size_t fro
     discuss(r, b);
 }
 
-static void discuss_pairs(const void *refinement, size_t from, size_t to)
+/* Pairs of the round, from a first one on. */
+struct pairs {
+    const struct refinement *refinement;
+    size_t first;
+};
+
+static void discuss_pairs(const void *some, size_t from, size_t to)
 {
-    const struct refinement *r = refinement;
-    const size_t pairs = (size_t)block_pairs(r);
+    const struct refinement *r = ((const struct pairs *)some)->refinement;
+    const size_t pairs = (size_t)block_pairs(r), first = ((const struct pairs *)some)->first;
+    from += first;
+    to += first;
     struct block b;
     b.count = 0;
     for (size_t end; from < to; from = end) {
@@ -164,9 +172,10 @@ static void discuss_pairs(const void *refinement, size_t from, size_t to)
     }
 }
 
-void discuss_round(const struct refinement *r)
+void discuss_round(const struct refinement *r, size_t from, size_t to)
 {
-    thread_pool_run(r->threads, (size_t)r->round_count, run_pairs(r), discuss_pairs, r);
+    const struct pairs some = {r, from};
+    thread_pool_run(r->threads, to - from, run_pairs(r), discuss_pairs, &some);
 }
 
 /* Links to be discussed again, as far as an end has changed. */

@@ -5,8 +5,9 @@
 
 #include "engine/refine.h"
 
-/* Discuss the pairs of the round, those that are to be both ways: into the outcomes. */
-void discuss_round(const struct refinement *r);
+/* Discuss the pairs from .. to - 1 of the round, those that are to be both ways: into the outcomes.
+ */
+void discuss_round(const struct refinement *r, size_t from, size_t to);
 
 /* The same of links[round_count], as far as changed[] marks an end (NULL: all): decision[1] of the
  * outcome says whether it was. */

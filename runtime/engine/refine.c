@@ -29,6 +29,7 @@
 #include "oracle/statistics.h"
 #include "util/array.h"
 #include "util/thread_pool.h"
+#include "visibility/rays.h"
 
 enum { ROUND = REFINEMENT_ROUND, SORT_SHARES = 8, LIMITS_EACH = 1024 };
 
@@ -251,10 +252,16 @@ static int splits(enum decision decision, int turned)
     return 0;
 }
 
+/* Is it another rank that counts what this one discusses of the receiver, too? */
+static int told_by_others(const struct refinement *r, uint32_t receiver, int together)
+{
+    return together && !shares_counts(r->shares, receiver);
+}
+
 /* Count a decision; of several ranks that have taken it one does. */
 static void count(struct refinement *r, uint32_t receiver, enum decision decision, int together)
 {
-    if (together && !shares_counts(r->shares, receiver))
+    if (told_by_others(r, receiver, together))
         return;
     r->decided[decision]++;
     r->pairs++;
@@ -345,6 +352,27 @@ static int end_round(struct refinement *r)
     return r->met || (r->watch && r->watch(r->watch_context, r)) ? -1 : 0;
 }
 
+static uint64_t rays_so_far(const struct refinement *r)
+{
+    return r->shares ? rays_count(r->rays).rays : 0;
+}
+
+/* The pairs that others count, too, come first: their rays are known apart. */
+static void discuss_all(struct refinement *r, int count)
+{
+    int n = 0;
+    for (int i = 0; i < count && r->shares; i++)
+        if (told_by_others(r, r->round[i].receiver, (int)r->round[i].together)) {
+            const struct pair p = r->round[i];
+            r->round[i] = r->round[n];
+            r->round[n++] = p;
+        }
+    const uint64_t before = rays_so_far(r);
+    discuss_round(r, 0, (size_t)n);
+    r->common += rays_so_far(r) - before;
+    discuss_round(r, (size_t)n, (size_t)count);
+}
+
 /* Rounds until the queue is empty. */
 static int drain(struct refinement *r)
 {
@@ -353,7 +381,7 @@ static int drain(struct refinement *r)
         r->queue_count -= (size_t)count;
         r->round_count = count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
-        discuss_round(r);
+        discuss_all(r, count);
         if (tell_round(r, count) < 0)
             return -1;
         mark_elements(r, count);
@@ -390,17 +418,31 @@ int refinement_resume(struct refinement *r)
     return drain(r) < 0 ? -1 : statistics_end_pass(r->refiner);
 }
 
+/* The same of a link that stands. */
+static int of_others(const struct refinement *r, const struct link *l)
+{
+    return r->shares
+           && told_by_others(r, l->receiver, shares_owner(r->shares, l->receiver) == SHARED);
+}
+
 int64_t refinement_again(struct refinement *r, const unsigned char *changed)
 {
     size_t all = r->link_count;
     int64_t moved = 0;
     /* links that stay are written back at or before the place they were read from */
     r->link_count = 0;
-    for (size_t from = 0; from < all; from += ROUND) {
-        int count = (int)(all - from < ROUND ? all - from : ROUND);
-        r->round_count = count;
+    for (size_t from = 0, to; from < all; from = to) {
         const struct link *links = r->links + from;
+        to = all - from < ROUND ? all : from + ROUND;
+        const int others = of_others(r, links);
+        for (size_t i = from; i < to && r->shares; i++)
+            if (of_others(r, &r->links[i]) != others)
+                to = i;
+        int count = (int)(to - from);
+        r->round_count = count;
+        const uint64_t before = rays_so_far(r);
         discuss_again(r, links, changed);
+        r->common += others ? rays_so_far(r) - before : 0;
         if (tell_again(r, links, count) < 0)
             return -1;
         mark_elements(r, count);
@@ -413,7 +455,7 @@ int64_t refinement_again(struct refinement *r, const unsigned char *changed)
             int moves = !decision_links((enum decision)o->decision[0])
                         || memcmp(&o->link[0], &r->links[from + (size_t)i], sizeof o->link[0]) != 0,
                 together = r->shares && shares_owner(r->shares, o->link[0].receiver) == SHARED;
-            moved += moves && !(together && !shares_counts(r->shares, o->link[0].receiver));
+            moved += moves && !told_by_others(r, o->link[0].receiver, together);
             uint32_t list = hand_on(r, i, 0);
             if (carry_out(r, &o->link[0], (enum decision)o->decision[0], list, together) < 0)
                 return -1;

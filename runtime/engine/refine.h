@@ -72,6 +72,7 @@ struct refinement {
     struct trace *trace;
     /* who else refines, and whom links are for; NULL: this process alone. Borrowed */
     const struct shares *shares;
+    const struct rays *rays; /* with it: whose rays are counted, borrowed */
 
     struct link *links; /* [link_count]; sorted by receiver after refinement_sort */
     size_t link_count, link_capacity;
@@ -99,6 +100,7 @@ struct refinement {
     int deepest;    /* splits below a face, so far */
 
     uint64_t pairs, rounds;      /* discussions held, rounds gone */
+    uint64_t common;             /* rays of discussions that other ranks count, too, and tell of */
     uint64_t decided[8];         /* how often each decision was taken */
     uint64_t marked[LINK_MARKS]; /* links with each mark, [0] without; counted by refinement_sort */
     int failed;                  /* out of memory: the links are incomplete */

@@ -61,7 +61,7 @@ static void list_own(struct shares *s)
     s->own_first[SWEEP_BLOCKS] = n;
 }
 
-int shares_divide(struct shares *s, const double *work)
+void shares_divide(struct shares *s, const double *work)
 {
     const struct hierarchy *h = s->hierarchy;
     const int ranks = ranks_count(s->ranks);
@@ -79,7 +79,7 @@ int shares_divide(struct shares *s, const double *work)
     while (k <= ranks)
         s->stretch[k++] = h->face_count;
     list_own(s);
-    return 0;
+    s->elements = 0; /* the list of all is of other stretches */
 }
 
 int shares_open(struct shares *s, struct ranks *ranks, const struct hierarchy *h)
@@ -101,7 +101,8 @@ int shares_open(struct shares *s, struct ranks *ranks, const struct hierarchy *h
         shares_close(s);
         return -1;
     }
-    return shares_divide(s, NULL);
+    shares_divide(s, NULL);
+    return 0;
 }
 
 void shares_close(struct shares *s)

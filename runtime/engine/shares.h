@@ -52,8 +52,8 @@ struct shares {
 int shares_open(struct shares *s, struct ranks *ranks, const struct hierarchy *h);
 void shares_close(struct shares *s);
 
-/* Stretches of about the same work, work[face], the same on all ranks. Returns 0 or -1. */
-int shares_divide(struct shares *s, const double *work);
+/* Stretches of about the same work: work[face], the same on all ranks; NULL: as many faces. */
+void shares_divide(struct shares *s, const double *work);
 
 /* The rank that has an element; SHARED. */
 static inline int shares_owner(const struct shares *s, uint32_t element)

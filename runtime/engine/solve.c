@@ -263,7 +263,7 @@ static void sum_counts(struct solve *s)
     struct ranks *ranks = s->problem.options.ranks;
     struct pass_counts *c = &s->report.counts;
     double rounds = (double)r->rounds;
-    *c = (struct pass_counts){.pairs = r->pairs, .rays = rays_count(s->problem.rays).rays};
+    *c = (struct pass_counts){.pairs = r->pairs, .rays = rays_count(s->problem.rays).rays - r->common};
     memcpy(c->decided, r->decided, sizeof c->decided);
     for (size_t i = 0; i < r->link_count; i++) {
         const struct link *l = &r->links[i];
@@ -311,6 +311,7 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.watch_context = s;
     s->refinement.trace = s->trace;
     s->refinement.shares = ranks_count(p->options.ranks) > 1 ? &s->operator.shares : NULL;
+    s->refinement.rays = p->rays;
     if (s->trace)
         s->trace->pass = 1;
     if (ranks_any(p->options.ranks, refinement_start(&s->refinement) < 0)
