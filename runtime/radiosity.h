@@ -97,8 +97,7 @@ RAD_API RadDevice radNewDevice(const struct RadDeviceOptions *options);
  * exchange areas) is refused with RAD_ERROR_UNSUPPORTED while there are several ranks.
  * Returns NULL, and radGetDeviceError(NULL) says why: RAD_ERROR_UNSUPPORTED where the library was
  * built without MPI. */
-RAD_API RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options,
-                                  const void *communicator);
+RAD_API RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options, const void *communicator);
 RAD_API void radRetainDevice(RadDevice device);
 RAD_API void radReleaseDevice(RadDevice device);
 RAD_API void radSetDeviceMessageFunction(RadDevice device, RadMessageFunction function, void *user);
@@ -897,9 +896,11 @@ RAD_API enum decision radAskOracleWay(RadOracle oracle, struct discussion *discu
 
 /* One discussion of a refinement. */
 struct RadTraced {
-    int pass;                   /* 1: before the first solve */
-    uint64_t round;             /* from 1, over all passes */
-    uint32_t receiver, emitter; /* elements */
+    int pass;       /* 1: before the first solve */
+    uint64_t round; /* from 1, over all passes */
+    /* elements, as they are numbered until the pass ends: then those that it has split off are
+     * numbered anew, by what is split alone; element.id stays */
+    uint32_t receiver, emitter;
     /* The pair as the oracle saw it, with what was known already. Good until the function returns;
      * a copy of it and of what it points to can be held again by radExplain */
     const struct discussion *before;

@@ -61,9 +61,10 @@ static int check_together(const struct options *o)
 {
     if (machines_count() == 1 || o->command == COMMAND_SOLVE || o->command == COMMAND_REFERENCE)
         return 0;
-    report_error("radiosity", 0,
-                 "of the commands only solve and reference run as several processes; start this one "
-                 "without mpirun");
+    report_error(
+        "radiosity", 0,
+        "of the commands only solve and reference run as several processes; start this one "
+        "without mpirun");
     return 2;
 }
 

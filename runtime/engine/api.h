@@ -25,7 +25,7 @@ enum { MESSAGE_SIZE = 8192 };
 struct RadDeviceObject {
     atomic_int holders;
     int threads;
-    struct ranks *ranks; /* owned; NULL: this process alone */
+    struct ranks *ranks;        /* owned; NULL: this process alone */
     char *compiler, *temporary; /* of the options; NULL: none given */
     pthread_mutex_t lock;       /* of all that follows */
     enum RadError error;        /* the first since it was asked for */

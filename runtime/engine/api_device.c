@@ -72,9 +72,10 @@ int api_alone(RadDevice device, const char *what)
 {
     if (ranks_count(device->ranks) == 1)
         return 0;
-    return api_fail(device, RAD_ERROR_UNSUPPORTED,
-                    "%s needs all links, of which each of the %d ranks has its own; run one process",
-                    what, ranks_count(device->ranks));
+    return api_fail(
+        device, RAD_ERROR_UNSUPPORTED,
+        "%s needs all links, of which each of the %d ranks has its own; run one process", what,
+        ranks_count(device->ranks));
 }
 
 void radRetainDevice(RadDevice device)

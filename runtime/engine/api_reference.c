@@ -34,7 +34,10 @@ RadReference radNewReference(RadScene scene)
     }
     RadReference r = calloc(1, sizeof *r);
     const char *cause = "out of memory for a reference";
-    if (!r || reference_open(&r->reference, &scene->scene, scene->device->threads, &cause) < 0) {
+    if (!r
+        || reference_open(&r->reference, &scene->scene, scene->device->threads,
+                          scene->device->ranks, &cause)
+               < 0) {
         api_fail(scene->device, api_cause(cause), "%s", cause);
         free(r);
         return NULL;

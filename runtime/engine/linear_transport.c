@@ -285,9 +285,7 @@ static void measure(const struct sweep *s, const struct change *change, double r
     }
     ranks_add(shares->ranks, RANKS_SWEEPS, all, SUMS);
     m->residual = all[POWER] > 0 ? all[MEAN] / all[POWER] : 0;
-    m->bound = all[POWER] > 0
-                   ? rho / (1 - rho) * sqrt(all[SQUARE] * all[AREA]) / all[POWER]
-                   : 0;
+    m->bound = all[POWER] > 0 ? rho / (1 - rho) * sqrt(all[SQUARE] * all[AREA]) / all[POWER] : 0;
 }
 
 void linear_transport_start(const struct light_operator *op, const struct linear_links *l,

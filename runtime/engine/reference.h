@@ -24,7 +24,8 @@ struct reference {
     struct face_paths paths;
 };
 
-int reference_open(struct reference *r, const struct scene *scene, int threads, const char **cause);
+int reference_open(struct reference *r, const struct scene *scene, int threads, struct ranks *ranks,
+                   const char **cause);
 void reference_close(struct reference *r);
 
 /* Area means of irradiance over polygons, both sides of two-sided ones, in one band, and the

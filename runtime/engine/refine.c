@@ -173,8 +173,8 @@ static int split_element(struct refinement *r, uint32_t element)
     return 0;
 }
 
-/* Write the pair behind the queue, unless it is for others. `together`: it comes of one that several
- * ranks have. Returns where the queue ends. */
+/* Write the pair behind the queue, unless it is for others. `together`: it comes of one that
+ * several ranks have. Returns where the queue ends. */
 static struct pair *queue_pair(const struct refinement *r, struct pair *end, struct pair pair,
                                int together)
 {
@@ -219,8 +219,7 @@ static int subdivide(struct refinement *r, uint32_t receiver, uint32_t emitter, 
     for (uint32_t i = from_i; i < to_i; i++) {
         if (receiver != emitter) {
             for (uint32_t j = from_j; j < to_j; j++)
-                q = queue_pair(r, q,
-                               (struct pair){i, j, (uint32_t)both & 1u, list % PAIR_LISTS, 0},
+                q = queue_pair(r, q, (struct pair){i, j, (uint32_t)both & 1u, list % PAIR_LISTS, 0},
                                together);
             continue;
         }

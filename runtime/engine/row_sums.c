@@ -224,8 +224,8 @@ int row_sums_renew(struct light_operator *op, struct row_report *report)
     const struct problem *p = op->problem;
     separable_links_close(&op->separable);
     if (ranks_any(op->shares.ranks,
-                  separable_links_open(&op->separable, op->hierarchy, op->refinement,
-                                       (int)p->bands, p->options.threads,
+                  separable_links_open(&op->separable, op->hierarchy, op->refinement, (int)p->bands,
+                                       p->options.threads,
                                        p->options.projection == RAD_PROJECTION_COLLOCATION,
                                        shares_here(&op->shares))
                       < 0))

@@ -57,8 +57,8 @@ struct separable_links {
 
 /* Take the links that have a cluster at one end from a sorted refinement. Pivots weigh faces by the
  * radiosities that the oracles see. `centres`: what a surface gathers is taken at its centre, not
- * the mean over it. `here`: the faces, in the tree's order, of which anybody asks what they receive.
- * Returns 0, or -1 when out of memory. */
+ * the mean over it. `here`: the faces, in the tree's order, of which anybody asks what they
+ * receive. Returns 0, or -1 when out of memory. */
 int separable_links_open(struct separable_links *c, const struct hierarchy *h,
                          const struct refinement *r, int bands, int threads, int centres,
                          struct face_range here);

@@ -94,10 +94,10 @@ int shares_open(struct shares *s, struct ranks *ranks, const struct hierarchy *h
         s->here.count = calloc(SWEEP_BLOCKS * count, sizeof *s->here.count);
         s->there.count = calloc(SWEEP_BLOCKS * count, sizeof *s->there.count);
     }
-    if (ranks_any(ranks, !s->stretch || !s->own
-                             || (count > 1
-                                 && (!s->owner || !s->list_first || !s->here.count
-                                     || !s->there.count)))) {
+    if (ranks_any(ranks,
+                  !s->stretch || !s->own
+                      || (count > 1
+                          && (!s->owner || !s->list_first || !s->here.count || !s->there.count)))) {
         shares_close(s);
         return -1;
     }
@@ -266,8 +266,8 @@ size_t shares_room(const struct shares *s)
 {
     size_t most = 0;
     for (int b = 0; b < SWEEP_BLOCKS && s->owner; b++) {
-        const size_t n = s->here.first[b + 1] - s->here.first[b] + s->there.first[b + 1]
-                         - s->there.first[b];
+        const size_t n =
+            s->here.first[b + 1] - s->here.first[b] + s->there.first[b + 1] - s->there.first[b];
         most = n > most ? n : most;
     }
     return most;

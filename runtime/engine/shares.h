@@ -44,7 +44,7 @@ struct shares {
     /* [elements]: surfaces, with their parts, rank by rank: listed[list_first[k]] ..; of `elements`
      * elements. Only where there are several ranks, as what follows */
     uint32_t *listed, elements;
-    size_t *list_first; /* [ranks + 1] */
+    size_t *list_first;        /* [ranks + 1] */
     struct ghosts here, there; /* what this rank is told; what it tells */
 };
 

@@ -178,8 +178,9 @@ static int share_links(struct shares *s, struct refinement *r)
 {
     const int ranks = ranks_count(s->ranks);
     double *work = malloc(s->hierarchy->face_count * sizeof *work);
-    size_t *count = calloc(3 * (size_t)ranks + 1, sizeof *count), *place = count ? count + ranks : 0,
-           *came = count ? place + ranks : NULL, told = 0, all = 0;
+    size_t *count = calloc(3 * (size_t)ranks + 1, sizeof *count),
+           *place = count ? count + ranks : 0, *came = count ? place + ranks : NULL, told = 0,
+           all = 0;
     int failed = ranks_any(s->ranks, !work || !count) || measure_work(s, r, work) < 0;
     for (size_t i = 0; i < r->link_count && !failed; i++) /* by the old stretches */
         if (tells(s, &r->links[i]))
@@ -222,8 +223,7 @@ int shares_settle(struct shares *s, struct refinement *r, uint32_t first)
     const int several = ranks_count(s->ranks) > 1;
     if (several && share_splits(s, r->hierarchy, first) < 0)
         return -1;
-    if (ranks_any(s->ranks, refinement_settle(r, first) < 0)
-        || (several && share_links(s, r) < 0))
+    if (ranks_any(s->ranks, refinement_settle(r, first) < 0) || (several && share_links(s, r) < 0))
         return -1;
     return ranks_any(s->ranks, refinement_sort(r) < 0) || shares_find_ghosts(s, r) < 0 ? -1 : 0;
 }

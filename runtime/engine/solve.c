@@ -263,7 +263,8 @@ static void sum_counts(struct solve *s)
     struct ranks *ranks = s->problem.options.ranks;
     struct pass_counts *c = &s->report.counts;
     double rounds = (double)r->rounds;
-    *c = (struct pass_counts){.pairs = r->pairs, .rays = rays_count(s->problem.rays).rays - r->common};
+    *c = (struct pass_counts){.pairs = r->pairs,
+                              .rays = rays_count(s->problem.rays).rays - r->common};
     memcpy(c->decided, r->decided, sizeof c->decided);
     for (size_t i = 0; i < r->link_count; i++) {
         const struct link *l = &r->links[i];
@@ -271,8 +272,7 @@ static void sum_counts(struct solve *s)
             continue;
         uint64_t bits = 0;
         memcpy(&bits, &l->form_factor, sizeof l->form_factor);
-        bits |= (uint64_t)l->visibility << 32 | (uint64_t)l->levels << 48
-                | (uint64_t)l->mark << 56;
+        bits |= (uint64_t)l->visibility << 32 | (uint64_t)l->levels << 48 | (uint64_t)l->mark << 56;
         c->links++;
         c->marked[l->mark]++;
         c->fingerprint += hash64(s->hierarchy.elements[l->receiver].id

@@ -229,7 +229,8 @@ void hierarchy_close_up(struct hierarchy *h, uint32_t first, uint32_t *place)
 int hierarchy_settle(struct hierarchy *h, uint32_t first, uint32_t *place)
 {
     const uint32_t made = h->count - first;
-    uint32_t *from = malloc((made + 1) * sizeof *from), n = 0; /* [new index - first]: the old one */
+    uint32_t *from = malloc((made + 1) * sizeof *from),
+             n = 0; /* [new index - first]: the old one */
     struct element *moved = malloc((made + 1) * sizeof *moved);
     if (!from || !moved) {
         free(from);

@@ -45,8 +45,8 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
 void tally_close(struct tally *tally);
 
 /* Trace so many particles more in each replicate. Without emitters nothing is traced and all is
- * exactly 0. Where there are several ranks each traces its part, and all then have all. watch: NULL,
- * or asked. Returns 0, or -1 when it was stopped: then the tally is of no use. */
+ * exactly 0. Where there are several ranks each traces its part, and all then have all. watch:
+ * NULL, or asked. Returns 0, or -1 when it was stopped: then the tally is of no use. */
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
                 const struct watch *watch);
 

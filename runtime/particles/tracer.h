@@ -28,7 +28,7 @@ struct tracer {
     const double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
     uint32_t bands;                       /* 1 or 3 */
     int threads;
-    struct ranks *ranks; /* who trace together, each its part; NULL: one process */
+    struct ranks *ranks;          /* who trace together, each its part; NULL: one process */
     struct lights lights;         /* owned, as the next */
     struct light_tree light_tree; /* the same emitters, for paths */
 };

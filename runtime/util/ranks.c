@@ -39,8 +39,8 @@ struct ranks *ranks_open(const void *communicator, const char **cause)
     return NULL;
 }
 
-/* The communicator stays, until MPI ends: to free it waits for all, and a rank that has failed would
- * wait for others that have not. */
+/* The communicator stays, until MPI ends: to free it waits for all, and a rank that has failed
+ * would wait for others that have not. */
 void ranks_close(struct ranks *r)
 {
     if (!r)
@@ -160,7 +160,8 @@ void ranks_exchange_known(struct ranks *r, enum ranks_kind kind, const void *ite
         came += from[k];
         r->sent[kind] += k == r->number ? 0 : count[k] * size;
     }
-    MPI_Alltoallv(items, r->counts, r->places, type, to, r->counts + n, r->places + n, type, r->all);
+    MPI_Alltoallv(items, r->counts, r->places, type, to, r->counts + n, r->places + n, type,
+                  r->all);
     MPI_Type_free(&type);
 }
 

@@ -49,8 +49,8 @@ void ranks_most(struct ranks *r, enum ranks_kind kind, double *value, size_t cou
 /* Is it so (not 0) on any rank? */
 int ranks_any(struct ranks *r, int so);
 
-/* An array of items of `size` bytes, of which rank k has made first[k] .. first[k + 1] - 1: then all
- * ranks have all. */
+/* An array of items of `size` bytes, of which rank k has made first[k] .. first[k + 1] - 1: then
+ * all ranks have all. */
 void ranks_complete(struct ranks *r, enum ranks_kind kind, void *array, size_t size,
                     const size_t *first);
 

@@ -226,6 +226,8 @@ static int discuss_now(struct subject *s)
 static int choose(struct subject *s, struct watch *w)
 {
     const int by_points = s->options->at != NULL;
+    if (watch_settle(w) < 0)
+        return report_error(by_points ? "--at" : "--pair", 0, "out of memory");
     for (int i = 0; i < 2 && !by_points; i++)
         if (watch_element(w, i, &s->element[i]) < 0)
             return report_device(s->device, "--pair");

@@ -19,6 +19,7 @@
 #include "util/atomic_file.h"
 #include "util/clock.h"
 #include "util/device.h"
+#include "util/machines.h"
 #include "util/progress.h"
 #include "util/report.h"
 #include "util/stop_signal.h"
@@ -50,10 +51,12 @@ static double noise_of(const struct run *r)
 
 /* ---- the state beside the output */
 
-/* Returns 0, or -1 after a message. */
+/* One of several ranks does. Returns 0, or -1 after a message. */
 static int save(struct run *r)
 {
     double start = seconds();
+    if (machines_number() > 0)
+        return 0;
     size_t size = radSaveReference(r->reference, NULL, 0);
     unsigned char *bytes = malloc(size);
     struct atomic_file file;
@@ -190,10 +193,11 @@ static int trace(struct run *r, enum RadMethod method, uint64_t wanted)
             return report_device(r->scene->device, r->scene->path) ? 1 : 0;
         }
         r->report.traced[method] = next;
-        if (stop_signal_came() || seconds() - r->saved > fmax(SAVE_EVERY, 20 * r->save_for))
-            if (save(r) < 0)
-                return 1;
-        if (stop_signal_came())
+        const int stopped = machines_agree(stop_signal_came()),
+                  late = seconds() - r->saved > fmax(SAVE_EVERY, 20 * r->save_for);
+        if (machines_agree((stopped || late) && save(r) < 0))
+            return 1;
+        if (stopped)
             return STOPPED;
     }
     return 0;
@@ -326,6 +330,8 @@ static json_t *reference_json(const struct run *r)
 static int finish(struct run *r)
 {
     const struct options *o = r->options;
+    if (machines_number() > 0)
+        return 0;
     if (write_table(r) < 0) { /* what it took is not lost with it */
         (void)save(r);
         return 1;
@@ -347,7 +353,7 @@ static int finish(struct run *r)
 static int run(struct run *r)
 {
     char text[32];
-    if (load(r) < 0)
+    if (machines_agree(load(r) < 0))
         return 1;
     r->start = r->saved = seconds();
     int status = trace_all(r);
@@ -373,7 +379,7 @@ int command_reference(const struct options *o, const struct open_scene *scene)
     progress_start(&r.progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, show_progress, &r);
     stop_signal_watch();
-    if (atomic_check(r.state) == 0) {
+    if (machines_agree(machines_number() == 0 && atomic_check(r.state) < 0) == 0) {
         r.reference = radNewReference(scene->scene);
         status = r.reference ? run(&r) : report_device(scene->device, scene->path) < 0;
     }

@@ -121,17 +121,17 @@ static const char *const traffic_words[RAD_TRAFFICS] = {"splits", "links", "swee
 
 static json_t *ranks_json(const struct summary *s)
 {
-    json_t *all = json_array();
-    for (int i = 0; i < s->rank_count; i++) {
+    json_t *all = s->rank_count > 1 ? json_array() : json_null();
+    for (int i = 0; i < s->rank_count && s->rank_count > 1; i++) {
         const struct RadRank *r = &s->ranks[i];
         json_t *sent = json_object();
         for (int k = 0; k < RAD_TRAFFICS; k++)
             json_object_set_new(sent, traffic_words[k], json_integer((json_int_t)r->sent[k]));
-        json_array_append_new(
-            all, json_pack("{s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "links", (json_int_t)r->links,
-                           "pairs", (json_int_t)r->pairs, "rays", (json_int_t)r->rays, "faces",
-                           (json_int_t)r->faces, "ghosts", (json_int_t)r->ghosts, "memory_mb",
-                           r->memory / 1048576, "bytes_sent", sent));
+        json_array_append_new(all, json_pack("{s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "links",
+                                             (json_int_t)r->links, "pairs", (json_int_t)r->pairs,
+                                             "rays", (json_int_t)r->rays, "faces",
+                                             (json_int_t)r->faces, "ghosts", (json_int_t)r->ghosts,
+                                             "memory_mb", r->memory / 1048576, "bytes_sent", sent));
     }
     return all;
 }
@@ -297,10 +297,10 @@ static void print_ranks(const struct summary *s)
         memory = fmax(memory, s->ranks[i].memory);
     }
     if (s->rank_count > 1)
-        printf("ranks     %d: %.3g MB sent; the one with most has %.2f times the mean of the links, "
-               "%.2f of the discussions; at most %.0f MB each\n",
-               s->rank_count, sent / 1e6, imbalance_of(s, 0), imbalance_of(s, 1),
-               memory / 1048576);
+        printf(
+            "ranks     %d: %.3g MB sent; the one with most has %.2f times the mean of the links, "
+            "%.2f of the discussions; at most %.0f MB each\n",
+            s->rank_count, sent / 1e6, imbalance_of(s, 0), imbalance_of(s, 1), memory / 1048576);
 }
 
 void summary_print(const struct summary *s)

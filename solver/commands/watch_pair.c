@@ -109,6 +109,20 @@ static int extend(struct watched_end *end, const struct element *elements)
     }
 }
 
+/* A pass has ended: what it has split is numbered anew. Returns 0, or -1 when out of memory. */
+static int extend_anew(struct watch *w, const struct element *elements)
+{
+    for (int i = 0; i < 2; i++) {
+        struct watched_end *end = &w->end[i];
+        end->count = end->begun;
+        if (*end->name)
+            end->rest = end->name + strcspn(end->name, "/");
+        if (extend(end, elements) < 0)
+            return -1;
+    }
+    return 0;
+}
+
 static int is_on(const struct watched_end *end, uint32_t element)
 {
     for (size_t i = end->count; i-- > 0;)
@@ -121,8 +135,10 @@ static int note(void *user, const struct RadTraced *t)
 {
     struct watch *w = user;
     const struct element *elements = *t->before->host->elements;
-    if (extend(&w->end[0], elements) < 0 || extend(&w->end[1], elements) < 0)
+    if ((t->pass != w->pass && extend_anew(w, elements) < 0) || extend(&w->end[0], elements) < 0
+        || extend(&w->end[1], elements) < 0)
         return w->failed = 1;
+    w->pass = t->pass;
     if (!is_on(&w->end[0], t->receiver) || !is_on(&w->end[1], t->emitter))
         return 0;
     struct RadExplanation x;
@@ -196,6 +212,7 @@ static int begin_line(struct watch *w, struct watched_end *end)
             return 1;
     for (size_t i = above; i-- > 0;)
         end->line[i] = tree.elements[end->line[i + 1]].parent;
+    end->begun = end->count;
     return extend(end, tree.elements) < 0;
 }
 
@@ -250,6 +267,28 @@ int watch_open(struct watch *w, RadDevice device, RadSolution solution, RadOracl
     return 1;
 }
 
+static uint32_t on_line(const struct watched_end *end, const struct element *elements, uint64_t id)
+{
+    size_t i = end->count - 1;
+    while (i > 0 && elements[end->line[i]].id != id)
+        i--;
+    return end->line[i];
+}
+
+int watch_settle(struct watch *w)
+{
+    struct RadElements tree;
+    radGetElements(w->solution, &tree);
+    if (extend_anew(w, tree.elements) < 0)
+        return -1;
+    for (size_t i = 0; i < w->count; i++) {
+        struct occasion *o = w->occasions[i];
+        o->receiver = on_line(&w->end[0], tree.elements, o->elements[0].id);
+        o->emitter = on_line(&w->end[1], tree.elements, o->discussion.emitter->id);
+    }
+    return 0;
+}
+
 int watch_element(struct watch *w, int end, uint32_t *element)
 {
     struct watched_end *e = &w->end[end];
@@ -257,8 +296,6 @@ int watch_element(struct watch *w, int end, uint32_t *element)
     radGetElements(w->solution, &tree);
     if (*e->name)
         return radFindElement(w->solution, e->name, element);
-    if (extend(e, tree.elements) < 0)
-        return -1;
     *element = e->line[e->count - 1];
     return 0;
 }

@@ -18,6 +18,7 @@ struct watched_end {
     double point[3];
     uint32_t *line; /* [count], the root first */
     size_t count, capacity;
+    size_t begun; /* of them, so many were there before anything was split */
 };
 
 /* A discussion that was held, and all that it began with: `discussion` points into the rest. */
@@ -41,6 +42,7 @@ struct watch {
     struct watched_end end[2];   /* receiver, emitter */
     struct occasion **occasions; /* [count], in the order of time */
     size_t count, capacity;
+    int pass;   /* of the last */
     int failed; /* out of memory, or the library */
 };
 
@@ -50,7 +52,11 @@ int watch_open(struct watch *w, RadDevice device, RadSolution solution, RadOracl
                const char *pair, const char *at);
 void watch_close(struct watch *w);
 
-/* After the solve: the element at one end; of a point, the leaf. Returns 0, or -1 after an error of
+/* After the solve: the occasions' elements as they are numbered now. Returns 0, or -1 when out of
+ * memory. */
+int watch_settle(struct watch *w);
+
+/* After that: the element at one end; of a point, the leaf. Returns 0, or -1 after an error of
  * the device. */
 int watch_element(struct watch *w, int end, uint32_t *element);
 

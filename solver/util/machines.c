@@ -116,8 +116,9 @@ int machines_begin(int *count, char ***arguments)
     (void)arguments;
     if (launched() < 2)
         return 0;
-    fprintf(stderr, "radiosity: error: started as one of %d processes, but built without MPI: "
-                    "build it by `make MPI=1`\n",
+    fprintf(stderr,
+            "radiosity: error: started as one of %d processes, but built without MPI: "
+            "build it by `make MPI=1`\n",
             launched());
     return 2;
 }

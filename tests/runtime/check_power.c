@@ -241,8 +241,13 @@ static void lamp_make(struct lamp *l, double x, double y, double bright, uint64_
         if (!e->children)
             e->radiosity =
                 fabs(x - e->centre[0]) < half && fabs(y - e->centre[1]) < half ? bright : 1;
-        for (uint32_t c = e->child; c < e->child + e->children; c++)
+        double least = INFINITY, most = 0;
+        for (uint32_t c = e->child; c < e->child + e->children; c++) {
             e->radiosity += l->element[c].radiosity / 4;
+            least = fmin(least, l->element[c].radiosity);
+            most = fmax(most, l->element[c].radiosity);
+        }
+        e->spread = e->children ? most - least : 0;
         e->id = id + 1000 * i;
     }
     lamp_square(&l->receiver, 0, 0, -20, 1, 0);

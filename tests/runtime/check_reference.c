@@ -23,7 +23,7 @@ static void read_file(struct scene *scene, const char *path)
 static void open_reference(struct reference *r, const struct scene *scene, int threads)
 {
     const char *cause;
-    ck_assert_int_eq(reference_open(r, scene, threads, &cause), 0);
+    ck_assert_int_eq(reference_open(r, scene, threads, NULL, &cause), 0);
 }
 
 static void trace(struct reference *r, uint64_t particles, uint64_t paths)

@@ -167,7 +167,8 @@ static void link_gaps(uint32_t receivers, double *got, double *should, double *d
     }
     r.first_link[h.count] = r.link_count;
     struct separable_links light;
-    ck_assert_int_eq(separable_links_open(&light, &h, &r, 1, 1, 0, (struct face_range){0, h.face_count}), 0);
+    ck_assert_int_eq(
+        separable_links_open(&light, &h, &r, 1, 1, 0, (struct face_range){0, h.face_count}), 0);
     for (uint32_t i = 0; i < receivers; i++) {
         const struct element *x = &h.elements[h.face_element[i]];
         double row = x->area * separable_links_row(&light, h.face_element[i]), known = 0;
