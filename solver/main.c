@@ -57,21 +57,28 @@ static int run(const struct options *o)
 }
 
 /* May several processes run it together? Returns 0, or 2 after a message. */
-static int check_together(const struct options *o)
+static int check_several(const struct options *o)
 {
-    if (machines_count() == 1 || o->command == COMMAND_SOLVE || o->command == COMMAND_REFERENCE)
+    if (machines_count() == 1)
         return 0;
-    report_error(
-        "radiosity", 0,
-        "of the commands only solve and reference run as several processes; start this one "
-        "without mpirun");
-    return 2;
+    if (o->command != COMMAND_SOLVE && o->command != COMMAND_REFERENCE) {
+        report_error("radiosity", 0,
+                     "of the commands only solve and reference run as several processes; start "
+                     "this one without mpirun");
+        return 2;
+    }
+    if (o->limit_seconds) {
+        report_error("--limit-seconds", 0,
+                     "several processes have no clock in common; run one, or leave it out");
+        return 2;
+    }
+    return 0;
 }
 
 /* See that what shall be written can be, and run the command. */
 static int check_and_run(const struct options *o)
 {
-    int status = check_together(o);
+    int status = check_several(o);
     if (status == 0 && machines_number() == 0)
         status = check_outputs(o);
     return machines_agree(status) ? status : run(o);

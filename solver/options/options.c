@@ -14,6 +14,7 @@
 
 #include "options/option_table.h"
 #include "util/array.h"
+#include "util/machines.h"
 #include "util/report.h"
 
 /* what getopt_long returns: a letter, or one of these */
@@ -119,6 +120,8 @@ static int wrong(const char *command, const char *format, ...) PRINTF_LIKE(2, 3)
 static int wrong(const char *command, const char *format, ...)
 {
     va_list list;
+    if (machines_number() > 0) /* rank 0 has the same command line, and says it */
+        return 2;
     va_start(list, format);
     fprintf(stderr, "radiosity: error: ");
     vfprintf(stderr, format, list);

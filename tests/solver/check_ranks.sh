@@ -1,0 +1,135 @@
+#!/usr/bin/env bash
+# check_ranks.sh - several processes against one: the same links, decisions, rays and particles to the bit, radiosities to
+# 1e-12, on any number of ranks and threads; references to the byte; what several ranks cannot do is refused; a rank that is
+# killed, or that cannot go on, ends the run with a message and leaves no half of a file. Needs a command built by
+# `make MPI=1` and mpirun; else it says that it is skipped. THOROUGH: more scenes and more ranks.
+# SPDX-License-Identifier: MIT
+set -u
+cd "$(dirname "$0")/../.." || exit 2
+top=$PWD
+radiosity=$(realpath "${RADIOSITY:-build/bin/radiosity}")
+# As root, on a machine with fewer processors than ranks, beside other tests.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_rmaps_base_oversubscribe=1
+tmp=$(mktemp -d) || exit 2
+trap 'rm -rf "$tmp"' EXIT
+count=0 bad=0
+check() { # WHAT COMMAND...
+    count=$((count + 1))
+    local what=$1
+    shift
+    "$@" && return 0
+    bad=$((bad + 1))
+    echo "failed: $what"
+}
+command -v mpirun >/dev/null || { echo "skipped: no mpirun"; exit 0; }
+cd "$tmp" || exit 2
+several() { # N COMMAND...
+    timeout 300 mpirun -n "$@"
+}
+several 2 "$radiosity" --version >version 2>&1
+if grep -q 'built without MPI: build it by' version; then
+    check "a command without MPI said: $(cat version)" grep -q 'started as one of 2 processes' version
+    echo "skipped: the command was built without MPI (make MPI=1 builds it)"
+    [ "$bad" = 0 ]
+    exit
+fi
+
+# ---- the same answer
+scenes=$top/examples/scenes
+value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
+near() { # A B: to 1e-12
+    awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= 1e-12 * (a < 0 ? -a : a)) }'
+}
+same_faces() { # A B: all numbers of two tables, to their 12 digits
+    awk -F, 'NR == FNR { line[FNR] = $0; n = FNR; next }
+             FNR > 1 { k = split(line[FNR], other, ","); if (k != NF) exit 1
+                       for (i = 3; i <= NF; i++) { d = $i - other[i]; m = $i < 0 ? -$i : $i
+                                                   if (d < 0) d = -d; if (d > 2e-12 * m + 1e-300) exit 1 } }
+             END { exit FNR != n }' "$1" "$2"
+}
+compare_ranks() { # SCENE RANKS...: against one process
+    local scene=$1 name n
+    name=$(basename "$scene" .obj)
+    shift
+    "$radiosity" solve "$scene" -q --threads 2 --json one.json --faces one.csv || { check "$name alone" false; return; }
+    for n; do
+        several "$n" "$radiosity" solve "$scene" -q --threads $((n % 2 + 1)) --json several.json --faces several.csv >said 2>&1
+        check "$name on $n ranks: exit status $?: $(head -n 3 said)" [ -s several.json ]
+        for key in link_fingerprint particle_fingerprint links pairs rays elements passes iterations; do
+            check "$name on $n ranks: $key $(value several.json $key), alone $(value one.json $key)" \
+                [ "$(value several.json $key)" = "$(value one.json $key)" -a -n "$(value one.json $key)" ]
+        done
+        check "$name on $n ranks: other decisions" diff <(sed -n '/"decisions"/,/}/p' one.json) <(sed -n '/"decisions"/,/}/p' several.json)
+        check "$name on $n ranks: $(value several.json power_absorbed) W absorbed, alone $(value one.json power_absorbed)" \
+            near "$(value several.json power_absorbed)" "$(value one.json power_absorbed)"
+        check "$name on $n ranks: other light on faces" same_faces one.csv several.csv
+        check "$name: ranks are not told of" [ "$(grep -c '"ghosts"' several.json)" = "$((n > 1 ? n : 0))" ]
+        rm -f several.json several.csv
+    done
+}
+compare_ranks "$scenes/cornell.obj" 1 2 3 4
+compare_ranks "$scenes/room.obj" 2
+if [ -n "${THOROUGH:-}" ]; then
+    compare_ranks "$scenes/room.obj" 3 4 7
+    compare_ranks "$scenes/td.obj" 2 3 4
+    compare_ranks "$scenes/maze_16.obj" 3 7
+    compare_ranks "$scenes/sejour.obj" 2
+    grid=$top/../shared/scenes/gridroom_10000.obj
+    if [ -f "$grid" ]; then compare_ranks "$grid" 2 4; else echo "skipped: no gridroom"; fi
+fi
+# Other oracles, elements and solvers.
+for how in "--oracle bf_guarded" "--oracle ff --basis constant" "--oracle clusters" "--solver jacobi" "--closure rows" "--oracle relative --release dag" "--oracle power --release wave"; do
+    # shellcheck disable=SC2086 # words
+    "$radiosity" solve "$scenes/cornell.obj" $how -q --json one.json
+    # shellcheck disable=SC2086
+    several 3 "$radiosity" solve "$scenes/cornell.obj" $how -q --json several.json >said 2>&1
+    check "cornell, $how: $(value several.json link_fingerprint), alone $(value one.json link_fingerprint); $(head -n 3 said)" \
+        [ "$(value several.json link_fingerprint)" = "$(value one.json link_fingerprint)" ]
+    check "cornell, $how: other light" near "$(value several.json power_absorbed)" "$(value one.json power_absorbed)"
+done
+"$radiosity" reference "$scenes/cornell.obj" -o one.csv --accuracy 2% -q
+several 3 "$radiosity" reference "$scenes/cornell.obj" -o several.csv --accuracy 2% -q
+check "another reference" cmp one.csv several.csv
+
+# ---- what is refused, by one message
+refused() { # STATUS TEXT ARGUMENTS...
+    local status=$1 text=$2 found
+    shift 2
+    several 3 "$radiosity" "$@" >said 2>&1
+    found=$?
+    check "$*: status $found, not $status" [ "$found" = "$status" ]
+    check "$*: $(grep error said | head -n 3)" [ "$(grep -c -e "$text" said)" = 1 ]
+}
+cube=$scenes/furnace.obj
+refused 2 "only solve and reference run as several processes" viewfactors "$cube" -o f.csv
+refused 1 "LU needs all links" solve "$cube" --solver lu --basis constant
+refused 1 "a trace needs all links" solve "$cube" --trace t.csv
+refused 1 "counting an oracle's discussions needs all links" solve "$cube" --statistics t.csv
+refused 1 "ranking links, which this oracle asks for, needs all links" solve "$cube" --oracle ranked
+refused 1 "an enclosing solution, which this oracle asks for, needs all links" solve "$cube" --oracle bracket
+refused 1 "it marks elements" solve "$scenes/room.obj" --oracle masking
+refused 2 "limit-seconds" solve "$cube" --accuracy 1% --limit-seconds 3
+refused 1 "no_such.obj" solve no_such.obj
+refused 1 "cannot" solve "$cube" -o no/such/folder.ply
+check "something was written" [ -z "$(find . -name '*.ply*' -o -name 't.csv*')" ]
+
+# ---- a rank that is killed
+several 3 "$radiosity" solve "$scenes/td.obj" -q -o td.ply --json td.json >said 2>&1 &
+run=$!
+start=$SECONDS
+ranks() { pgrep -f "$radiosity solve $scenes/td.obj -q -o td.ply" | while read -r p; do
+    [ "$(tr '\0' '\n' <"/proc/$p/environ" 2>/dev/null | sed -n 's/^OMPI_COMM_WORLD_RANK=//p')" = "$1" ] && echo "$p"; done; }
+while [ -z "$(ranks 1)" ] && [ $((SECONDS - start)) -lt 60 ]; do sleep 0.1; done
+sleep 0.5
+# shellcheck disable=SC2046 # the process, and none other
+kill -KILL $(ranks 1)
+killed=$SECONDS
+wait $run
+status=$?
+check "a rank was killed: status $status" [ "$status" != 0 ]
+check "a rank was killed: the run went on for $((SECONDS - killed)) s" [ $((SECONDS - killed)) -lt 30 ]
+check "a rank was killed, and nobody said so: $(head -n 3 said)" grep -q -i 'signal 9\|killed' said
+check "a rank was killed: $(ls)" [ ! -e td.ply -a ! -e td.json -a -z "$(find . -name 'td.*')" ]
+
+echo "ranks: $count checks, $bad failed"
+[ "$bad" = 0 ]
