@@ -1,8 +1,10 @@
 # make          the commands dagc and radiosity in build/bin, build/libradiosity.a and .so
 # make dagc     dagc and libdagc.a alone, which need a C compiler and libc
 # make check    the tests
+# make check-again  those that may end otherwise when commands and library were made by another compiler, or with sanitizers
 # make stability  examples/stability.md: where methods fail, by how much, and the order in which errors fall
 # make check-accuracy  the long ones: all that make check leaves out, and solutions against traced particles
+# make check-all  all tests, those that have a long form in that form
 # make mutations  code broken on purpose, and which suite notices
 # make prove    1,000 random graphs: interpreter and compiled function on every path
 # make bench-size  seconds that graphs of 100, 1,000 and 10,000 nodes take to compile
@@ -83,7 +85,7 @@ OBJECTS   = $(call objects,$(wildcard dagc/*/)) $(RUNTIME) $(SOLVER) $(SUPPORT) 
 
 FUZZ_SECONDS = 60
 
-.PHONY: all check check-accuracy mutations prove bench-size fuzz demo packages bench clean
+.PHONY: all check check-again check-accuracy check-all mutations prove bench-size fuzz demo packages bench clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -190,21 +192,31 @@ packages:
 # Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
 # compute much themselves.
 COMPUTING = paths surface_error shaft separable_links viewfactors accuracy oracles flat_groups group_entries profiles
-$(TESTS:=.o): OPT = -O0
-$(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
+TRACED    = $(if $(SANITIZE),-g1)
+$(TESTS:=.o): override OPT = -O0 $(TRACED)
+$(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): override OPT = -O1 $(TRACED)
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
-check: all
+.PHONY: checked
+checked: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
+check: checked
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
+
+# Scripts that say so in their first comment are about text, or about what other compilers make of text. Sanitizers look on
+# where a command of ours takes ways there that it takes nowhere else.
+ONCE      = $(shell grep -l -e '^. Once is enough: ' $(if $(SANITIZE),,-e '^. Once is enough, and once with sanitizers: ') $(SCRIPTS))
+check-again: checked
+	@bash tests/run.sh $(BUILD) $(TESTS) $(filter-out $(ONCE),$(SCRIPTS))
 
 # The suites that do more when THOROUGH is set, and the accuracy of whole solutions.
 THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/check_*.sh tests/*/*.sh tests/*/check_*.c))
-check-accuracy: all
-	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
+check-accuracy: checked
 	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS)) $(filter $(THOROUGH),$(SCRIPTS))
+check-all: checked
+	@THOROUGH=1 bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
 
 # Code broken on purpose: does a suite near it fail?
 mutations:

@@ -3,6 +3,7 @@
 # folder above a third of the lines, headers that compile alone, files that name themselves and end their first comment
 # with the licence, lines to 100 columns, threads of the pool alone. With THOROUGH headers must compile alone, names of old
 # are gone (they are listed in build/architecture.txt), and clang-format 14 finds nothing to change.
+# Once is enough: it reads our text.
 # SPDX-License-Identifier: MIT
 set -u
 cd "$(dirname "$0")/.." || exit 2

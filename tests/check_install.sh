@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_install.sh - make install, and what it put there used from projects that know nothing of this folder.
 # DAGC names the command, in the build folder to install from. What a missing program does not let us try is said.
+# Once is enough: it is about what goes where, and about programs that are compiled there.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")

@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_prove.sh - dagc --prove notices each thing that could be wrong in what runs: a C compiler that changes one place
 # of what it is given stands for an emitter or an interpreter that errs there. DAGC names the command.
+# Once is enough: it is about programs that dagc writes, broken on purpose and compiled.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 

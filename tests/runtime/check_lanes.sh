@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_lanes.sh - form factors have the same bits whatever the width of the loops they are made of and of the vectors that the
 # compiler and the processor make of them: by gcc, with THOROUGH by clang, and without optimisation, too.
+# Once is enough: it compiles its program itself, by every compiler.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")

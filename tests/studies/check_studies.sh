@@ -2,6 +2,7 @@
 # check_studies.sh - studies: a run that was stopped goes on, and nothing runs twice; rows that are damaged are told; the
 # Pareto front, the sentences that follow from it and thresholds are right; what is missing is named. by_chance in the furnace.
 # cost_of ends what takes too long; closed forms of a cube sum to 1, and errors of matrices are those that were made.
+# Once is enough: it is about scripts, and arithmetic on their rows.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../solver/lib.sh"
 export BUILD RESULTS=$tmp/results PAGES=$tmp/pages RADIOSITY=$radiosity
