@@ -191,7 +191,8 @@ packages:
 
 # Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
 # compute much themselves.
-COMPUTING = paths surface_error shaft separable_links viewfactors accuracy oracles flat_groups group_entries profiles
+COMPUTING = paths surface_error shaft separable_links viewfactors accuracy oracles flat_groups group_entries profiles \
+            exchange_state terms form_factor_levels closed_forms
 TRACED    = $(if $(SANITIZE),-g1)
 $(TESTS:=.o): override OPT = -O0 $(TRACED)
 $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): override OPT = -O1 $(TRACED)
