@@ -95,6 +95,7 @@ END_TEST
 static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint64_t *rays,
                       double *root)
 {
+    struct dim_count dim;
     size_t size = s->hierarchy.count * sizeof(double);
     struct tracer t = solve_tracer(s);
     struct tally tally;
@@ -108,7 +109,8 @@ static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint
     ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
     double before = s->mended.irradiance[0];
     *rays = 0;
-    int changed = dim_faces_mend(s, &t, &tally, budget, NULL, rays);
+    int changed = dim_faces_mend(s, &t, &tally, budget, NULL, rays, &dim);
+    ck_assert_uint_ge(dim.large, dim.unsure);
     *root = s->mended.irradiance[0] / before;
     tally_close(&tally);
     tracer_close(&t);
