@@ -72,6 +72,8 @@ START_TEST(test_found)
     ck_assert_int_eq(
         measure_and_mend(&s, &(struct mending_goal){.noise = 1e-4, .most = 450000}, &alone, &cause),
         0);
+    ck_assert_uint_eq(alone.dim.large, WALL + 1); /* parts of the other dark walls are small */
+    ck_assert_uint_eq(alone.dim.unsure, 0);
     const struct hierarchy *h = &s.hierarchy;
     for (uint32_t f = 0; f < WALL; f++)
         ck_assert_double_eq_tol(of_face(&s, f), 1, 0.01);
@@ -147,6 +149,26 @@ START_TEST(test_same_bits)
 }
 END_TEST
 
+/* Too few rays to know the wall: so it is said. */
+START_TEST(test_unsure)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    two_furnaces(&s, &scene, DARK, 2);
+    spoil_wall(&s);
+    ck_assert_int_eq(
+        measure_and_mend(&s, &(struct mending_goal){.noise = 1e-4, .most = 2000}, &alone, &cause),
+        0);
+    ck_assert_uint_eq(alone.dim.large, WALL + 1);
+    ck_assert_uint_ge(alone.dim.unsure, 1);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* However much a first look might have taken: what is paid for is believed. */
 START_TEST(test_large_budget)
 {
@@ -184,6 +206,7 @@ int main(void)
     TCase *tests = tcase_create("");
     tcase_set_timeout(tests, 60);
     tcase_add_test(tests, test_found);
+    tcase_add_test(tests, test_unsure);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_bright);
