@@ -606,8 +606,8 @@ struct RadErrorReport {
      * share of what it reflects; RadSceneReport.polygons: none is, surely */
     uint32_t worst;
     double worst_share;
-    /* of radCorrect alone: polygons above a hundredth of the area that reflect, and how many of them
-     * are so dim that, mended, their light is not known to 5 % (two standard errors) */
+    /* of radCorrect alone: polygons above a hundredth of the area that reflect, and how many of
+     * them are so dim that, mended, their light is not known to 5 % (two standard errors) */
     uint32_t large, unsure;
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
     double seconds;

@@ -250,8 +250,8 @@ static double power_of(const struct dim_faces *d, uint32_t element, uint32_t ban
            * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
 }
 
-/* The share of paths that is believed. What a first look found says as little of its own noise as of
- * the light: it is not believed without more. */
+/* The share of paths that is believed. What a first look found says as little of its own noise as
+ * of the light: it is not believed without more. */
 static double belief(const struct dim_faces *d, const struct dim_polygon *p)
 {
     return p->paths >= ENOUGH * p->looked ? path_weight(d, p) : 0;
