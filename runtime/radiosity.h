@@ -637,10 +637,13 @@ struct RadErrorReport {
      * in what is mended with them */
     struct RadMeasure noise;
     double reflected; /* light reflected, as counted, all bands (W) */
-    /* of polygons that reflect a hundredth of all light or more, the one that is most surely wrong,
-     * and by which share of what it reflects; RadSceneReport.polygons: none is, surely */
+    /* of polygons above a hundredth of the area, the one that is most surely wrong, and by which
+     * share of what it reflects; RadSceneReport.polygons: none is, surely */
     uint32_t worst;
     double worst_share;
+    /* of radCorrect alone: polygons above a hundredth of the area that reflect, and how many of
+     * them are so dim that, mended, their light is not known to 5 % (two standard errors) */
+    uint32_t large, unsure;
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
     double seconds;
 };

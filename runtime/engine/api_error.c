@@ -29,6 +29,8 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                    .reflected = m->faces.reflected,
                                    .worst = m->faces.worst,
                                    .worst_share = m->faces.worst_share,
+                                   .large = m->dim.large,
+                                   .unsure = m->dim.unsure,
                                    .rays = m->rays,
                                    .particles = m->particles,
                                    .seconds = m->seconds};

@@ -250,11 +250,25 @@ static double power_of(const struct dim_faces *d, uint32_t element, uint32_t ban
            * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
 }
 
-/* The mean irradiance of a dim polygon in a band, by what is known of both (W/m2). What a first
- * look found says as little of its own noise as of the light: it is not believed without more. */
+/* The share of paths that is believed. What a first look found says as little of its own noise as
+ * of the light: it is not believed without more. */
+static double belief(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    return p->paths >= ENOUGH * p->looked ? path_weight(d, p) : 0;
+}
+
+/* Is its standard error, by both, no more than DIM_GOAL of its light? */
+static int is_sure(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    double weight = belief(d, p),
+           goal = DIM_GOAL * ((1 - weight) * p->light + weight * p->all / (double)p->paths);
+    return (1 - weight) * p->variance <= goal * goal;
+}
+
+/* The mean irradiance of a dim polygon in a band, by what is known of both (W/m2). */
 static double mean_of(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
 {
-    double weight = p->paths >= ENOUGH * p->looked ? path_weight(d, p) : 0;
+    double weight = belief(d, p);
     return (1 - weight) * p->mended[band] + weight * p->sum[band] / (double)p->paths;
 }
 
@@ -303,15 +317,18 @@ static void close_all(struct dim_faces *d)
 }
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   uint64_t budget, const struct watch *watch, uint64_t *rays)
+                   uint64_t budget, const struct watch *watch, uint64_t *rays,
+                   struct dim_count *count)
 {
     struct dim_faces d = {
         .solve = s, .tracer = t, .light = element_light_shown(s), .watch = watch, .rays = rays};
+    *count = (struct dim_count){0, 0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
     int failed = list_large(&d) < 0;
     if (!failed) {
         list_faces(&d);
+        count->large = d.count;
         keep_dim(&d, tally);
         for (uint32_t i = 0; i < t->hierarchy->face_count; i++)
             for (uint32_t k = 0; k < t->bands; k++)
@@ -322,6 +339,8 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
     }
     for (uint32_t k = 0; k < t->bands && !failed && d.count > 0; k++)
         change(&d, k, s->mended.irradiance);
+    for (uint32_t j = 0; j < d.count && !failed; j++)
+        count->unsure += !is_sure(&d, &d.polygon[j]);
     int changed = failed ? -1 : (int)d.count;
     close_all(&d);
     return changed;

@@ -7,13 +7,20 @@
 #include "particles/particles.h"
 #include "particles/watch.h"
 
+/* Polygons above DIM_LARGE of the area that reflect; and how many of them have a standard error
+ * above DIM_GOAL of their light, after all. */
+struct dim_count {
+    uint32_t large, unsure;
+};
+
 /* Irradiances of the mended solution s->mended, which `tally` has mended, are set anew: those of
  * polygons above DIM_LARGE of the area whose reflected light the tally knows to no better than
  * DIM_GOAL, by paths from their points; all others by one factor per band, so that the scene
  * receives what it did. Radiosities are the caller's to set. At most about `budget` rays are cast,
- * which *rays is raised by; without such polygons none. watch: NULL, or asked. Returns how many
- * polygons were changed, or -1 when out of memory or stopped. */
+ * which *rays is raised by; without such polygons none. watch: NULL, or asked. *count: what is
+ * known then. Returns how many polygons were changed, or -1 when out of memory or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   uint64_t budget, const struct watch *watch, uint64_t *rays);
+                   uint64_t budget, const struct watch *watch, uint64_t *rays,
+                   struct dim_count *count);
 
 #endif

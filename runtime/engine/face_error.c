@@ -390,8 +390,9 @@ static struct RadMeasure measure_power(struct counted *c)
                                value + T_QUANTILE * deviation};
 }
 
-/* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]. */
-static void show_polygons(struct face_error *f, const struct counted *c, const double *areas)
+/* Errors per polygon, and the worst. areas: of all sides (m2), [polygons]; all: of the scene. */
+static void show_polygons(struct face_error *f, const struct counted *c, const double *areas,
+                          double all)
 {
     double surest = 0;
     for (uint32_t i = 0; i < f->polygons; i++) {
@@ -404,7 +405,8 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
             variance += c->deviation[j] * c->deviation[j];
         }
         double sure = fabs(off) - FACE_ERROR_SURE * sqrt(variance);
-        if (reflected < FACE_ERROR_LARGE * f->reflected || !(sure > surest * reflected))
+        if (!(areas[i] > FACE_ERROR_LARGE * all) || !(reflected > 0)
+            || !(sure > surest * reflected))
             continue;
         surest = sure / reflected;
         f->worst = i;
@@ -491,7 +493,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
         f->power = measure_power(c);
         f->l1 = measure_l1(c);
     }
-    show_polygons(f, c, areas);
+    show_polygons(f, c, areas, h->elements[0].area);
     counted_close(c);
     free(areas);
     return 0;

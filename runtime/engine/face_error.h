@@ -15,7 +15,7 @@ struct face_error {
     struct RadMeasure power, l1; /* shares of the reflected light */
     struct RadMeasure noise;     /* the L1 error that chance makes of what is counted itself */
     double reflected;            /* light reflected, as counted, all bands (W) */
-    /* of polygons that reflect at least FACE_ERROR_LARGE of the light: the one that is most
+    /* of polygons above FACE_ERROR_LARGE of the area that light meets: the one that is most
      * surely wrong, and its error as a share of what it reflects; polygons: there is none */
     uint32_t worst;
     double worst_share;

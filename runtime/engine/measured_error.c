@@ -214,7 +214,7 @@ static int follow_irradiance(struct solve *s)
 /* Dim polygons, whose rays are added to *spent. Returns 0, or -1 when out of memory or cancelled.
  */
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
-                    uint64_t *spent)
+                    struct measured_error *alone, uint64_t *spent)
 {
     double budget = DIM_RAYS * (double)tally->rays;
     struct watched watched = {.solve = s,
@@ -222,11 +222,12 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                               .now = budget,
                               .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {tell, &watched};
-    int changed = dim_faces_mend(s, t, tally, (uint64_t)budget, &watch, spent);
+    int changed = dim_faces_mend(s, t, tally, (uint64_t)budget, &watch, spent, &alone->dim);
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 
-static int mend(struct solve *s, const struct tracer *t, const struct tally *tally, uint64_t *spent)
+static int mend(struct solve *s, const struct tracer *t, const struct tally *tally,
+                struct measured_error *alone, uint64_t *spent)
 {
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     struct state *m = &s->mended;
@@ -236,7 +237,7 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
     if (m->radiosity && m->irradiance) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
         if (mend_irradiance(&s->operator, tally, m->irradiance) == 0 && follow_irradiance(s) == 0
-            && mend_dim(s, t, tally, spent) == 0)
+            && mend_dim(s, t, tally, alone, spent) == 0)
             return 0;
     }
     solve_forget_mended(s);
@@ -336,7 +337,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
                  || tally_open(&tally, &t, MEND_STREAM, 1) < 0
                  || (goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
                  || trace_for_faces(s, &t, &tally, goal) < 0 || measure_faces(s, &tally, alone) < 0
-                 || mend(s, &t, &tally, &spent) < 0 || detail_merge(s, elements) < 0;
+                 || mend(s, &t, &tally, alone, &spent) < 0 || detail_merge(s, elements) < 0;
     s->report.particles = failed ? 0 : fingerprint(&tally);
     tally_close(&tally);
     tracer_close(&t);

@@ -4,6 +4,7 @@
 #ifndef MEASURED_ERROR_H
 #define MEASURED_ERROR_H
 
+#include "engine/dim_faces.h"
 #include "engine/ray_split.h"
 #include "engine/face_error.h"
 #include "engine/solve.h"
@@ -15,6 +16,7 @@ struct measured_error {
     /* [elements * bands]: B less the truth, as far as it stands out (W/m2); by measure_error alone
      */
     double *element;
+    struct dim_count dim; /* once mended, by measure_and_mend alone */
     uint64_t rays, particles;
     double seconds;
 };

@@ -87,6 +87,14 @@ double measured_seconds(const struct measured *m)
            + (m->accounted ? m->account_seconds : 0);
 }
 
+/* Large faces that too little light meets for it to be known. */
+static void print_unsure(const struct measured *m)
+{
+    if (m->mended && m->alone.unsure > 0)
+        printf("dim       %u of %u large faces are too dim for their light to be known to 5 %%\n",
+               (unsigned)m->alone.unsure, (unsigned)m->alone.large);
+}
+
 void measured_print(const struct measured *m, uint32_t polygons)
 {
     const struct RadErrorReport *e = &m->error;
@@ -112,6 +120,7 @@ void measured_print(const struct measured *m, uint32_t polygons)
                100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright");
     else
         printf("; no large face is surely wrong\n");
+    print_unsure(m);
     if (!(e->l2.high > 0))
         return;
     fputs("surfaces  root mean square off by ", stdout);
@@ -142,11 +151,21 @@ static json_t *report_json(const struct RadErrorReport *r)
                      (json_int_t)r->particles, "reflected", r->reflected, "seconds", r->seconds);
 }
 
-json_t *measured_json(const struct measured *m)
+/* The large face that is most surely wrong; null: none is. */
+static json_t *worst_json(const struct RadErrorReport *r, uint32_t polygons)
+{
+    if (r->worst >= polygons)
+        return json_null();
+    return json_pack("{s:I, s:f}", "face", (json_int_t)r->worst, "share", r->worst_share);
+}
+
+json_t *measured_json(const struct measured *m, uint32_t polygons)
 {
     if (!m->measured && !m->accounted)
         return json_null();
     json_t *all = m->measured ? report_json(&m->error) : json_object();
+    if (m->measured)
+        json_object_set_new(all, "worst", worst_json(&m->error, polygons));
     if (m->accounted)
         json_object_set_new(all, "account", account_json(&m->account));
     return all;
@@ -154,5 +173,10 @@ json_t *measured_json(const struct measured *m)
 
 json_t *mended_json(const struct measured *m)
 {
-    return m->mended ? report_json(&m->alone) : json_null();
+    if (!m->mended)
+        return json_null();
+    json_t *all = report_json(&m->alone);
+    json_object_set_new(all, "large_faces", json_integer(m->alone.large));
+    json_object_set_new(all, "large_faces_unsure", json_integer(m->alone.unsure));
+    return all;
 }

@@ -29,14 +29,15 @@ int measured_account(struct measured *m, const struct options *o, RadDevice devi
 /* Warn of a large error. */
 void measured_warn(const struct measured *m, const char *where);
 
-/* Two lines: what the links alone were off by, where that was mended, and what is left. */
+/* What the links alone were off by, where that was mended; what is left; and how many large faces
+ * are too dim to be sure of, if any. */
 void measured_print(const struct measured *m, uint32_t polygons);
 
 /* What mending and measuring took. */
 double measured_seconds(const struct measured *m);
 
 /* Object `error` of the JSON; null when nothing was measured. */
-json_t *measured_json(const struct measured *m);
+json_t *measured_json(const struct measured *m, uint32_t polygons);
 /* Object `correction`; null when nothing was mended. */
 json_t *mended_json(const struct measured *m);
 

@@ -182,9 +182,10 @@ json_t *summary_json(const struct summary *s)
         "defect_mean", r->rows.defect_mean, "defect_largest", r->rows.defect_most, "closure",
         closure_json(s->options, r), "importance", importance_json(r), "error_control",
         error_control_json(r), "bracket", bracket_json(r), "ranking", ranking_json(r), "scale",
-        s->coarse ? coarse_first_json(s->coarse) : json_null(), "error", measured_json(s->measured),
-        "correction", mended_json(s->measured), "promise", power_promise_json(s->promise),
-        "accuracy", s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null());
+        s->coarse ? coarse_first_json(s->coarse) : json_null(), "error",
+        measured_json(s->measured, scene->polygons), "correction", mended_json(s->measured),
+        "promise", power_promise_json(s->promise), "accuracy",
+        s->accuracy ? accuracy_json(s->accuracy, s->options) : json_null());
     json_t *cost = json_pack("{s:{s:f, s:f, s:f, s:f, s:f}, s:f}", "seconds", "build",
                              r->seconds.build, "refine", r->seconds.refine, "in_rays",
                              r->seconds.in_rays, "iterate", r->seconds.iterate, "output",

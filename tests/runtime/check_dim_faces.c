@@ -72,6 +72,8 @@ START_TEST(test_found)
     ck_assert_int_eq(
         measure_and_mend(&s, &(struct mending_goal){.noise = 1e-4, .most = 450000}, &alone, &cause),
         0);
+    ck_assert_uint_eq(alone.dim.large, WALL + 1); /* parts of the other dark walls are small */
+    ck_assert_uint_eq(alone.dim.unsure, 0);
     const struct hierarchy *h = &s.hierarchy;
     for (uint32_t f = 0; f < WALL; f++)
         ck_assert_double_eq_tol(of_face(&s, f), 1, 0.01);
@@ -95,6 +97,7 @@ END_TEST
 static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint64_t *rays,
                       double *root)
 {
+    struct dim_count dim;
     size_t size = s->hierarchy.count * sizeof(double);
     struct tracer t = solve_tracer(s);
     struct tally tally;
@@ -108,7 +111,8 @@ static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint
     ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
     double before = s->mended.irradiance[0];
     *rays = 0;
-    int changed = dim_faces_mend(s, &t, &tally, budget, NULL, rays);
+    int changed = dim_faces_mend(s, &t, &tally, budget, NULL, rays, &dim);
+    ck_assert_uint_ge(dim.large, dim.unsure);
     *root = s->mended.irradiance[0] / before;
     tally_close(&tally);
     tracer_close(&t);
@@ -142,6 +146,26 @@ START_TEST(test_same_bits)
         made_close(&scene);
     }
     free(first);
+}
+END_TEST
+
+/* Too few rays to know the wall: so it is said. */
+START_TEST(test_unsure)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    two_furnaces(&s, &scene, DARK, 2);
+    spoil_wall(&s);
+    ck_assert_int_eq(
+        measure_and_mend(&s, &(struct mending_goal){.noise = 1e-4, .most = 2000}, &alone, &cause),
+        0);
+    ck_assert_uint_eq(alone.dim.large, WALL + 1);
+    ck_assert_uint_ge(alone.dim.unsure, 1);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
 }
 END_TEST
 
@@ -182,6 +206,7 @@ int main(void)
     TCase *tests = tcase_create("");
     tcase_set_timeout(tests, 60);
     tcase_add_test(tests, test_found);
+    tcase_add_test(tests, test_unsure);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_bright);
