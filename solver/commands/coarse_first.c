@@ -22,8 +22,9 @@
 static const double COARSE = 16;
 static const double FINER = 5.4; /* the least of x / (x^.4 - 1), at x = 3.6 */
 
-static int solve_at(struct coarse_first *c, struct solved *s, RadDevice device, RadScene scene, const struct thresholds *t, double scale,
-                    const struct RadSolveOptions *how, struct checkpoint *point)
+static int solve_at(struct coarse_first *c, struct solved *s, RadDevice device, RadScene scene,
+                    const struct thresholds *t, double scale, const struct RadSolveOptions *how,
+                    struct checkpoint *point)
 {
     thresholds_scale(t, scale);
     c->scale = point->scale = scale;

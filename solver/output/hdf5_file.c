@@ -29,14 +29,21 @@ int hdf5_built(void)
     return 1;
 }
 
+/* What fails is told here, and what could not be written is not tried again at exit. */
+static void be_quiet(void)
+{
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
 /* ---- writing */
 
 void hdf5_discard(struct hdf5_file *f)
 {
     if (!f)
         return;
-    if (f->id >= 0)
-        H5Fclose(f->id);
+    /* the file of HDF5 stays open: to close it is to write what could not be written, which 1.10
+     * does not survive */
     if (f->named) {
         temporary_lock();
         unlink(f->temporary);
@@ -69,6 +76,8 @@ static int all_did(const struct hdf5_file *f, int failed, int cause)
     if (failed && cause)
         snprintf(text, sizeof text, "%s", strerror(cause));
     else if (failed)
+        snprintf(text, sizeof text, "HDF5 could not");
+    if (failed && !cause)
         H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_cause, text);
     if (!agree(f, failed != 0))
         return 0;
@@ -93,7 +102,7 @@ struct hdf5_file *hdf5_create(const char *path, int together)
     struct hdf5_file *f = calloc(1, sizeof *f);
     struct stat status;
     const size_t size = strlen(path) + 8;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    be_quiet();
     if (f) {
         *f = (struct hdf5_file){.path = strdup(path), .id = -1, .together = together};
         f->target = stat(path, &status) == 0 ? realpath(path, NULL) : strdup(path);
@@ -264,7 +273,7 @@ struct hdf5_file *hdf5_open(const char *path, const char **cause)
 {
     struct hdf5_file *f = calloc(1, sizeof *f);
     struct stat status;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    be_quiet();
     *cause = "out of memory";
     if (f)
         f->id = -1;
