@@ -46,9 +46,20 @@ ifneq ($(filter-out 0 no,$(MPI)),)
 MPI_CFLAGS = -DRADIOSITY_MPI $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(MPI_NAME)))
 MPI_LIBS = $(shell pkg-config --libs $(MPI_NAME))
 endif
+# HDF5=1, or MPI=1 where there is the parallel one: for checkpoints and .xdmf, of which one object of the command knows.
+HDF5      = $(if $(MPI_LIBS),yes)
+HDF5_NAME = $(firstword $(foreach name,$(if $(MPI_LIBS),hdf5-openmpi hdf5-mpich hdf5-mpi,hdf5-serial hdf5 hdf5-openmpi hdf5-mpich),$(if $(shell pkg-config --exists $(name) && echo yes),$(name))))
+ifneq ($(filter-out 0 no,$(HDF5)),)
+ifneq ($(HDF5_NAME),)
+HDF5_CFLAGS = -DRADIOSITY_HDF5 $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(HDF5_NAME)))
+HDF5_LIBS = $(shell pkg-config --libs $(HDF5_NAME))
+else ifeq ($(MPI_LIBS),)
+$(error HDF5=1: pkg-config finds no hdf5-serial, hdf5 or hdf5-openmpi; package libhdf5-dev)
+endif
+endif
 # What the library is linked with, and what the command needs besides.
 ENGINE_LIBS = $(EMBREE) -llapacke $(MPI_LIBS) -lpthread -ldl -lm
-LIBS     = $(EMBREE) -llapacke $(MPI_LIBS) -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
+LIBS     = $(EMBREE) -llapacke $(HDF5_LIBS) $(MPI_LIBS) -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
@@ -175,7 +186,12 @@ $(RUNTIME): PARALLEL = -fopenmp-simd
 ASK_MPI   = $(BUILD)/runtime/util/ranks.o $(BUILD)/solver/util/machines.o
 $(ASK_MPI): CPPFLAGS += $(MPI_CFLAGS)
 $(ASK_MPI): $(BUILD)/mpi
+ASK_HDF5  = $(BUILD)/solver/output/hdf5_file.o
+$(ASK_HDF5): CPPFLAGS += $(MPI_CFLAGS) $(HDF5_CFLAGS)
+$(ASK_HDF5): $(BUILD)/hdf5
 .PHONY: FORCE
+$(BUILD)/hdf5: FORCE
+	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS)" > $@
 $(BUILD)/mpi: FORCE
 	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(MPI_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(MPI_LIBS)" > $@
 

@@ -600,6 +600,51 @@ struct RadRank {
 /* Into ranks[most], in their order. Returns how many there are; 0 on error. */
 RAD_API int radGetRanks(RadSolution solution, struct RadRank *ranks, int most);
 
+/* ---- solutions put down between two passes */
+
+/* What it takes to go on with a solve another day: parts, each a table of `rows` by `columns`. What
+ * goes on from them ends with the same bits as what was never put down, on any number of threads
+ * and ranks, whatever number made them. They are of one scene, oracle with its parameters, and
+ * options but limits; of this version of the library, and of machines with this one's order of bytes. */
+enum {
+    RAD_STATE_HEAD, /* counts, and hashes of all */
+    RAD_STATE_SPLIT,
+    RAD_STATE_MARK,
+    RAD_STATE_SEEN,
+    RAD_STATE_UNCOVERED,
+    RAD_STATE_RADIOSITY,
+    RAD_STATE_IRRADIANCE,
+    RAD_STATE_LINK, /* of several ranks each has rows of its own; the other parts all have alike */
+    RAD_STATE_PARTS
+};
+enum RadStateType {
+    RAD_STATE_OF_LONGS,   /* uint64_t */
+    RAD_STATE_OF_WORDS,   /* uint32_t */
+    RAD_STATE_OF_NUMBERS, /* double */
+    RAD_STATE_OF_LINKS    /* struct RadLink */
+};
+struct RadStatePart {
+    const char *name; /* a word of small letters */
+    enum RadStateType type;
+    uint64_t rows, columns;
+    const void *data;
+};
+/* Lent until the solution goes on or is released. Between two passes: from a RadPassFunction, or
+ * after radRefine or a radStep that says that there is more to do. Of oracles that read importance
+ * or tolerance, rank links or enclose the solution there is none (RAD_ERROR_UNSUPPORTED). By all
+ * ranks. Returns 0, or -1. */
+RAD_API int radGetSolutionState(RadSolution solution, struct RadStatePart part[RAD_STATE_PARTS]);
+/* Bring a new solution there, before anything else; radStep and radSolve go on. The parts are the
+ * caller's; of several ranks each gives all of them but links, of which each gives some. Returns 0,
+ * or -1: RAD_ERROR_INVALID_ARGUMENT where they are damaged or of other work; the message says why,
+ * as in "it is damaged". Then the solution may only be released. */
+RAD_API int radSetSolutionState(RadSolution solution,
+                                const struct RadStatePart part[RAD_STATE_PARTS]);
+/* Called by radSolve when a pass is over and another follows, from the thread that called in.
+ * Return 0 to go on, anything else to cancel: radSolve fails with RAD_ERROR_CANCELLED. */
+typedef int (*RadPassFunction)(void *user, RadSolution solution);
+RAD_API void radSetSolutionPassFunction(RadSolution solution, RadPassFunction function, void *user);
+
 /* ---- how far from the truth */
 
 /* A share of the reflected light (0.021: 2.1 %), and its 95 % interval. */

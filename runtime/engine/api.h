@@ -11,6 +11,7 @@
 #include <stdatomic.h>
 #include "engine/measured_error.h"
 #include "engine/point_view.h"
+#include "engine/solve_state.h"
 #include "engine/trace.h"
 #include "hierarchy/scene.h"
 #include "oracle/explain.h"
@@ -78,6 +79,9 @@ struct RadSolutionObject {
     struct measured_error measured; /* .element NULL: nothing has been, or not what is shown */
     struct trace trace;             /* of radTraceSolution */
     uint32_t *part;                 /* per face: see engine/element_names.h; NULL: not yet asked */
+    struct solve_state state;       /* of radGetSolutionState */
+    RadPassFunction between;        /* of radSetSolutionPassFunction; NULL: none */
+    void *between_user;
     int done;                       /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };

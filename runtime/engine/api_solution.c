@@ -227,6 +227,7 @@ void radReleaseSolution(RadSolution solution)
     if (!solution || atomic_fetch_sub(&solution->holders, 1) != 1)
         return;
     measured_error_free(&solution->measured);
+    solve_state_free(&solution->state);
     free(solution->trace.pairs);
     free(solution->part);
     solve_close(&solution->solve);

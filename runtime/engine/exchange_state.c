@@ -5,37 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/state_identity.h"
+
 static const char NAME[8] = "radvf1";
 static const uint64_t ORDER = 0x0102030405060708u;
-
-static uint64_t hash_scene(const struct hierarchy *h)
-{
-    uint64_t hash = state_mix(h->face_count, &h->built, sizeof h->built);
-    for (uint32_t i = 0; i < h->face_count; i++) {
-        const struct face *f = &h->faces[i];
-        const uint32_t facts[4] = {f->vertices, f->input, f->back, f->black};
-        hash = state_mix(hash, facts, sizeof facts);
-        hash = state_mix(hash, f->vertex, f->vertices * sizeof *f->vertex);
-    }
-    return hash;
-}
-
-static uint64_t hash_text(uint64_t hash, const char *text)
-{
-    return text ? state_mix(hash + 1, text, strlen(text)) : hash;
-}
-
-static uint64_t hash_oracle(const struct refiner *refiner)
-{
-    uint64_t hash = hash_text(RUNTIME_ABI, refiner->oracle);
-    hash = hash_text(hash, refiner->fingerprint);
-    for (int i = 0; i < refiner->parameter_count; i++) {
-        const double value = refiner_get(refiner, i);
-        hash = hash_text(hash, refiner->parameters[i].name);
-        hash = state_mix(hash, &value, sizeof value);
-    }
-    return hash;
-}
 
 void exchange_state_open(struct exchange_state *s, const struct RadExchangeState *host,
                          const struct exchange_tree *tree, const struct refinement *refinement,
@@ -51,8 +24,8 @@ void exchange_state_open(struct exchange_state *s, const struct RadExchangeState
     memcpy(h->name, NAME, sizeof h->name);
     strncpy(h->version, RADIOSITY_VERSION, sizeof h->version - 1);
     h->order = ORDER;
-    h->scene = hash_scene(&tree->h);
-    h->oracle = hash_oracle(refinement->refiner);
+    h->scene = state_identity_faces(&tree->h);
+    h->oracle = state_identity_oracle(refinement->refiner);
     h->tolerance = aim->tolerance;
     h->rows = aim->rows;
     h->stream = aim->stream != 0;

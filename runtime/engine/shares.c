@@ -82,6 +82,18 @@ void shares_divide(struct shares *s, const double *work)
     s->elements = 0; /* the list of all is of other stretches */
 }
 
+void shares_take_all(struct shares *s)
+{
+    const uint32_t faces = s->hierarchy->face_count;
+    if (!s->owner)
+        return;
+    for (int k = 1; k <= ranks_count(s->ranks); k++)
+        s->stretch[k] = faces;
+    memset(s->owner, 0, faces * sizeof *s->owner);
+    list_own(s);
+    s->elements = 0;
+}
+
 int shares_open(struct shares *s, struct ranks *ranks, const struct hierarchy *h)
 {
     const size_t count = (size_t)ranks_count(ranks);

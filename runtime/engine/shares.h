@@ -55,6 +55,9 @@ void shares_close(struct shares *s);
 /* Stretches of about the same work: work[face], the same on all ranks; NULL: as many faces. */
 void shares_divide(struct shares *s, const double *work);
 
+/* All is rank 0's: until they are divided again each rank may tell of any links. */
+void shares_take_all(struct shares *s);
+
 /* The rank that has an element; SHARED. */
 static inline int shares_owner(const struct shares *s, uint32_t element)
 {

@@ -286,10 +286,10 @@ static void sum_counts(struct solve *s)
 static const char refining[] =
     "out of memory while refining; a coarser oracle parameter needs less";
 
-int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause)
+int solve_begin(struct solve *s, const struct refiner *refiner, const char **cause)
 {
     const struct problem *p = &s->problem;
-    double start = seconds(), error = error_control_target(refiner, rays_host(p->rays));
+    double error = error_control_target(refiner, rays_host(p->rays));
     int impact = refiner_reads(refiner, FACT_RECEIVER_IMPACT),
         bracket =
             refiner_reads(refiner, FACT_EMITTER_LOWER) || refiner_reads(refiner, FACT_EMITTER_GAP);
@@ -312,14 +312,28 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
     s->refinement.trace = s->trace;
     s->refinement.shares = ranks_count(p->options.ranks) > 1 ? &s->operator.shares : NULL;
     s->refinement.rays = p->rays;
+    return 0;
+}
+
+int solve_recount(struct solve *s)
+{
+    sum_counts(s);
+    return ranks_any(s->problem.options.ranks, collocation_update(&s->operator) < 0) ? -1 : 0;
+}
+
+int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause)
+{
+    const struct problem *p = &s->problem;
+    const double start = seconds();
+    if (solve_begin(s, refiner, cause) < 0)
+        return -1;
     if (s->trace)
         s->trace->pass = 1;
     if (ranks_any(p->options.ranks, refinement_start(&s->refinement) < 0)
         || shares_settle(&s->operator.shares, &s->refinement, s->hierarchy.built) < 0
         || ranks_any(p->options.ranks, solve_make_room(s) < 0))
         return fail(s, refining, cause);
-    sum_counts(s);
-    if (ranks_any(p->options.ranks, collocation_update(&s->operator) < 0))
+    if (solve_recount(s) < 0)
         return fail(s, "out of memory", cause);
     if (!p->options.unit)
         solve_measure_contact(s, 0, 0);
@@ -519,8 +533,13 @@ int solve_run(struct solve *s, const struct refiner *refiner, const char **cause
     if (!s->refinement.hierarchy && solve_refine(s, refiner, cause) < 0)
         return -1;
     const int most = s->error.target > 0 || s->ranking.asked ? PASSES_IN_STEPS : PASSES;
-    while (more > 0 && s->report.passes < most)
+    while (more > 0 && s->report.passes < most) {
+        if (s->between && s->between(s->between_context)) {
+            s->report.cancelled = 1;
+            return fail(s, "", cause);
+        }
         more = solve_step(s, cause);
+    }
     if (more > 0 && s->problem.options.linear)
         more = solve_linear(s, cause);
     return more < 0 ? -1 : 0;

@@ -76,6 +76,9 @@ struct solve {
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
     struct trace *trace;             /* whoever is told of discussions, borrowed; NULL: nobody */
+    /* called by solve_run before each pass but the first refinement; nonzero cancels; NULL: none */
+    int (*between)(void *context);
+    void *between_context;
     const struct counting *counting; /* NULL: no particles are traced now */
     double told;                     /* the most rays that counting has told of */
     /* elements that the arrays have place for, and whose radiosity has a value */
@@ -88,6 +91,13 @@ struct solve {
  * and nothing to free. */
 int solve_open(struct solve *s, const struct scene *scene, const struct solve_options *options,
                const char **cause);
+
+/* What comes before the first refinement. Returns 0, or -1 with *cause set. */
+int solve_begin(struct solve *s, const struct refiner *refiner, const char **cause);
+
+/* What follows from links that are new: counts, and form factors by collocation. Returns 0 or -1.
+ */
+int solve_recount(struct solve *s);
 
 /* Refine with `refiner` from the root, without solving. Returns 0, or -1 with *cause set. */
 int solve_refine(struct solve *s, const struct refiner *refiner, const char **cause);

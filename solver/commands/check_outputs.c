@@ -207,6 +207,10 @@ static int add_inputs(struct named_files *f, const struct options *o)
                   {o->params, "the file of parameters"},
                   {o->sensor, "the file of sensors"},
                   {o->product, "the file of columns"},
+                  {o->checkpoint && o->restart && same_file(o->checkpoint, o->restart)
+                       ? NULL
+                       : o->restart,
+                   "the checkpoint to go on from"},
                   {o->command == COMMAND_DRAW || o->command == COMMAND_PANEL ? o->statistics : NULL,
                    "the file of statistics"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)

@@ -12,21 +12,24 @@
  * here]
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
+#include "commands/checkpoint.h"
 #include "commands/coarse_first.h"
 #include "commands/thresholds.h"
 #include "util/clock.h"
 #include "util/device.h"
+#include "util/report.h"
 
 static const double COARSE = 16;
 static const double FINER = 5.4; /* the least of x / (x^.4 - 1), at x = 3.6 */
 
-static int solve_at(struct coarse_first *c, struct solved *s, const struct options *o,
-                    RadDevice device, RadScene scene, const struct thresholds *t, double scale,
-                    const struct RadSolveOptions *how)
+static int solve_at(struct coarse_first *c, struct solved *s, RadDevice device, RadScene scene,
+                    const struct thresholds *t, double scale, const struct RadSolveOptions *how,
+                    struct checkpoint *point)
 {
     thresholds_scale(t, scale);
-    c->scale = scale;
-    return solved_open(s, device, o->scene, scene, t->oracle, how);
+    c->scale = point->scale = scale;
+    point->rays = (double)c->rays;
+    return checkpoint_solve(point, s, device, scene, t->oracle, how);
 }
 
 /* Do finer links pay? Returns 0 or 1, or -1 after a message. */
@@ -45,22 +48,40 @@ int coarse_first_solve(struct coarse_first *c, struct solved *s, const struct op
                        const struct RadSolveOptions *how)
 {
     struct thresholds t;
+    struct checkpoint point;
     double start = seconds();
     thresholds_open(&t, oracle);
     *c = (struct coarse_first){.scale = o->scale > 0 ? o->scale : 1};
-    if (o->scale > 0 || !o->choose_scale || t.count == 0)
-        return solve_at(c, s, o, device, scene, &t, c->scale, how);
-    if (solve_at(c, s, o, device, scene, &t, COARSE, how) < 0)
+    const int chosen = !(o->scale > 0) && o->choose_scale && t.count > 0;
+    if (checkpoint_open(&point, o) < 0)
         return -1;
-    double solved = seconds();
-    int more = finer_pay(c, s, device, o->scene);
+    if (point.from && (point.chosen != chosen || (!chosen && point.scale != c->scale)))
+        return report_error(point.from, 0,
+                            "cannot go on from it: it is of thresholds times %g%s; leave --restart "
+                            "out to start anew",
+                            point.scale, point.chosen ? ", as measured" : "");
+    point.chosen = chosen;
+    if (!chosen)
+        return solve_at(c, s, device, scene, &t, c->scale, how, &point);
+    double solved = start;
+    int more = 1;
+    if (!point.from || point.scale > 1) {
+        if (solve_at(c, s, device, scene, &t, COARSE, how, &point) < 0)
+            return -1;
+        solved = seconds();
+        more = finer_pay(c, s, device, o->scene);
+    } else {
+        c->rays = (uint64_t)point.rays;
+    }
     c->chosen = 1;
     c->seconds = seconds() - (more ? start : solved);
     if (more == 0)
         return 0;
-    c->rays += s->report.rays;
-    solved_close(s);
-    return more < 0 ? -1 : solve_at(c, s, o, device, scene, &t, 1, how);
+    if (s->solution) {
+        c->rays += s->report.rays;
+        solved_close(s);
+    }
+    return more < 0 ? -1 : solve_at(c, s, device, scene, &t, 1, how, &point);
 }
 
 void coarse_first_print(const struct coarse_first *c)

@@ -182,7 +182,7 @@ static int solve_by(const struct options *o, const struct open_scene *scene, Rad
     struct progress progress;
     progress_start(&progress, o->quiet);
     radSetDeviceProgressFunction(scene->device, progress_show, &progress);
-    struct solved s;
+    struct solved s = {0};
     struct measured measured;
     struct power_promise promise = {0};
     struct accuracy accuracy = {.reached = 1};

@@ -527,6 +527,7 @@ static const char *const costs[] = {"rays", "links", "time", NULL}; /* enum tune
 static const char *const formats[] = {"csv",    "coo",        "mtx",      "npz",
                                       "view3d", "energyplus", "openfoam", NULL};
 const char *const by_words[] = {"face", "material", "group", "object", NULL};
+static const char *const checkpoints[] = {".h5", NULL};
 static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
@@ -690,6 +691,10 @@ const struct option_row option_rows[] = {
     {"names", "FILE", FACTORS, NULL, "a name for each row; .csv: its area, too", OUTPUT(names)},
     {"resume", "FILE", FACTORS, NULL, "stopped, it goes on from there another time",
      OUTPUT(resume)},
+    {"checkpoint", "FILE.h5", SOLVE, NULL, "where the work stands, after every pass",
+     NAMED(checkpoint, checkpoints), .rare = 1},
+    {"restart", "FILE.h5", SOLVE, NULL, "go on from there: the same bits", TEXT(restart),
+     .rare = 1},
     {"image", "FILE.png", SOLVE, NULL, "a picture, exposed for what it shows",
      NAMED(image, pictures)},
     {"size", "WxH", SOLVE, "1024x768", "its size in pixels", "WxH, each 1 to 16384",

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "options/option_table.h"
+#include "output/hdf5_file.h"
 #include "util/array.h"
 #include "util/machines.h"
 #include "util/report.h"
@@ -374,6 +375,14 @@ static int check_together(struct options *o)
                      "--trace is of one refinement, and nothing is counted meanwhile: it "
                      "does not go with %s",
                      o->statistics ? "--statistics" : "--accuracy");
+    const char *kept = o->checkpoint ? "--checkpoint" : o->restart ? "--restart" : NULL;
+    if (kept && (o->accuracy > 0 || o->trace || o->statistics))
+        return wrong(c->name, "%s does not go with %s", kept,
+                     o->trace        ? "--trace"
+                     : o->statistics ? "--statistics"
+                                     : "--accuracy");
+    if (kept && !hdf5_built())
+        return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev", kept);
     if (o->where && !o->trace)
         return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
     if (o->replacement_count && o->release == RAD_RELEASE_HAND)

@@ -100,6 +100,7 @@ struct options {
     int losses;                   /* viewfactors */
     const char *sensor, *product; /* viewfactors: rows of points, and products, instead */
     const char *resume;           /* viewfactors: where the work stands */
+    const char *checkpoint, *restart; /* solve: to be written after passes; to go on from */
     struct copies copies;         /* viewfactors: --mirror, --repeat */
     int width, height, mesh;      /* of the picture */
     int gather;                   /* rays per pixel; 0: none; -1, not given: at corners */

@@ -66,6 +66,18 @@ int machines_agree(int status)
     return status;
 }
 
+void machines_place(uint64_t count, uint64_t *first, uint64_t *all)
+{
+    *first = 0;
+    *all = count;
+    if (ranks == 1)
+        return;
+    MPI_Exscan(&count, first, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+    if (rank == 0)
+        *first = 0;
+    MPI_Allreduce(MPI_IN_PLACE, all, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+}
+
 int machines_keep(const char *line)
 {
     const size_t used = strlen(kept);
@@ -141,6 +153,12 @@ RadDevice machines_device(const struct RadDeviceOptions *options)
 int machines_agree(int status)
 {
     return status;
+}
+
+void machines_place(uint64_t count, uint64_t *first, uint64_t *all)
+{
+    *first = 0;
+    *all = count;
 }
 
 int machines_keep(const char *line)

@@ -24,6 +24,9 @@ RadDevice machines_device(const struct RadDeviceOptions *options);
 /* The worst of all ranks' exit statuses, which all then have. Waits for all. */
 int machines_agree(int status);
 
+/* Each rank has so many of something: where its own begin, and how many all have. Waits for all. */
+void machines_place(uint64_t count, uint64_t *first, uint64_t *all);
+
 /* Another rank's message: is it kept here, and not to be said? */
 int machines_keep(const char *line);
 

@@ -1,0 +1,36 @@
+/* state_identity.c - see state_identity.h.
+ * SPDX-License-Identifier: MIT */
+#include "engine/state_identity.h"
+
+#include <string.h>
+
+#include "engine/state_stream.h"
+
+uint64_t state_identity_faces(const struct hierarchy *h)
+{
+    uint64_t hash = state_mix(h->face_count, &h->built, sizeof h->built);
+    for (uint32_t i = 0; i < h->face_count; i++) {
+        const struct face *f = &h->faces[i];
+        const uint32_t facts[4] = {f->vertices, f->input, f->back, f->black};
+        hash = state_mix(hash, facts, sizeof facts);
+        hash = state_mix(hash, f->vertex, f->vertices * sizeof *f->vertex);
+    }
+    return hash;
+}
+
+uint64_t state_identity_text(uint64_t hash, const char *text)
+{
+    return text ? state_mix(hash + 1, text, strlen(text)) : hash;
+}
+
+uint64_t state_identity_oracle(const struct refiner *refiner)
+{
+    uint64_t hash = state_identity_text(RUNTIME_ABI, refiner->oracle);
+    hash = state_identity_text(hash, refiner->fingerprint);
+    for (int i = 0; i < refiner->parameter_count; i++) {
+        const double value = refiner_get(refiner, i);
+        hash = state_identity_text(hash, refiner->parameters[i].name);
+        hash = state_mix(hash, &value, sizeof value);
+    }
+    return hash;
+}

@@ -1,0 +1,18 @@
+/* state_identity.h - what a state is of, as numbers: equal where scene and oracle are equal.
+ * SPDX-License-Identifier: MIT */
+#ifndef STATE_IDENTITY_H
+#define STATE_IDENTITY_H
+
+#include "hierarchy/hierarchy.h"
+#include "oracle/refiner.h"
+
+/* Of faces, and of how many elements group them. */
+uint64_t state_identity_faces(const struct hierarchy *h);
+
+/* Of an oracle and the values of its parameters. */
+uint64_t state_identity_oracle(const struct refiner *refiner);
+
+/* The hash of a text behind another hash; NULL: the hash as it is. */
+uint64_t state_identity_text(uint64_t hash, const char *text);
+
+#endif

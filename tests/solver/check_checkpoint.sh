@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# check_checkpoint.sh - solve --checkpoint and --restart: the same bits after being killed at any time, on any number of threads and
+# of processes, whatever number wrote the file; a file that is damaged, cut short or of other work is refused and stays; a disk
+# that is full leaves the last good file.
+# SPDX-License-Identifier: MIT
+. "$(dirname "$0")/lib.sh"
+quietly=into_files
+scene=$scenes/room.obj
+if "$radiosity" solve "$scene" --restart none.h5 2>&1 | grep -q "built without HDF5"; then
+    check "without HDF5 it says how to have it" [ "$("$radiosity" solve "$scene" -q --checkpoint c.h5 2>&1 | grep -c "make HDF5=1, package libhdf5-dev")" = 1 ]
+    "$radiosity" solve "$scene" -q --checkpoint c.h5 >out 2>err
+    check "and ends with 2" [ $? = 2 ]
+    echo "checkpoint: skipped: built without HDF5 (make HDF5=1)"
+    finish checkpoint
+    exit
+fi
+value() { sed -n "s/.*\"$1\": \\([^,]*\\),*$/\\1/p" "$2" | tail -n 1; }
+same() { # NAME FILE.json: the answer is that of whole.json
+    for of in link_fingerprint particle_fingerprint power_absorbed passes; do
+        check "$1: the same $of" [ -n "$(value $of whole.json)" -a "$(value $of whole.json)" = "$(value $of "$2")" ]
+    done
+}
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+
+check "at one go" "$radiosity" solve "$scene" -q --json whole.json
+check "with a checkpoint" "$radiosity" solve "$scene" -q --threads 1 --checkpoint c.h5 --json a.json
+same "with a checkpoint" a.json
+check "it leaves nothing else" [ ! -e c.h5.tmp ]
+for threads in 1 3; do
+    check "it goes on" "$radiosity" solve "$scene" -q --threads $threads --restart c.h5 --json a.json
+    same "$threads threads" a.json
+done
+
+# ---- killed at any time
+kills=0
+for wait in .1 .2 .3 .45 .6 .8 1.1; do
+    rm -f k.h5 k.h5.tmp
+    "$radiosity" solve "$scene" -q --checkpoint k.h5 >out 2>err &
+    pid=$!
+    sleep $wait
+    kill -9 $pid 2>/dev/null
+    wait $pid 2>/dev/null
+    [ -e k.h5 ] || continue
+    kills=$((kills + 1))
+    check "killed after $wait s: it goes on" "$radiosity" solve "$scene" -q --restart k.h5 --checkpoint k.h5 --json a.json
+    same "killed after $wait s" a.json
+done
+check "some were killed after a checkpoint" [ $kills -gt 0 ]
+
+# ---- several processes
+if command -v mpirun >/dev/null && ldd "$radiosity" | grep -q libmpi; then
+    for n in 2 3; do
+        check "$n processes" mpirun --oversubscribe -n $n "$radiosity" solve "$scene" -q --threads 1 --checkpoint m$n.h5 --json a.json
+        same "$n processes" a.json
+        check "one goes on from $n" "$radiosity" solve "$scene" -q --restart m$n.h5 --json a.json
+        same "one from $n" a.json
+    done
+    check "2 go on from 3" mpirun --oversubscribe -n 2 "$radiosity" solve "$scene" -q --threads 1 --restart m3.h5 --json a.json
+    same "2 from 3" a.json
+    check "4 go on from 1" mpirun --oversubscribe -n 4 "$radiosity" solve "$scene" -q --threads 1 --restart c.h5 --json a.json
+    same "4 from 1" a.json
+else
+    echo "checkpoint: skipped: several processes (make MPI=1, mpirun)"
+fi
+
+# ---- what is no checkpoint of this work is refused, and stays as it is
+refused() { # TEXT ARGUMENT...: the run from the file x.h5 ends with 1 and this line
+    count=$((count + 1))
+    local text=$1
+    shift
+    cp x.h5 before
+    timeout 60 "$radiosity" solve "$@" -q --no-errors --restart x.h5 >out 2>err
+    local status=$?
+    if [ $status != 1 ] || [ "$(wc -l <err)" != 1 ] || ! cmp -s before x.h5 ||
+        ! grep -qE "^x.h5: error: cannot go on from it: ($text); leave --restart out to start anew$" err; then
+        failed "$text (status $status)"
+    fi
+}
+cp c.h5 x.h5
+refused "it is of another scene, .*" "$scenes/cornell.obj"
+refused "it is of another scene, .*" "$scene" --two-sided
+refused "it is of thresholds times .*" "$scene" --oracle bf
+refused "it is of thresholds times .*" "$scene" --scale 3
+refused "it is of a solve with other options" "$scene" --closure rows
+refused "it is of a solve with other options" "$scene" --solver jacobi
+size=$(stat -c %s c.h5)
+for part in 0 100 2000 $((size / 2)) $((size - 1)); do
+    head -c "$part" c.h5 >x.h5
+    refused "it is (no file of HDF5|damaged.*)" "$scene"
+done
+# one byte in each of many places; what is not read may be anything, and then the answer is the same
+at=0
+while [ $at -lt "$size" ]; do
+    cp c.h5 x.h5
+    old=$(od -An -tu1 -j $at -N 1 c.h5)
+    printf "%b" "\\$(printf %03o $((old ^ 65)))" | dd of=x.h5 bs=1 seek=$at conv=notrunc 2>/dev/null
+    timeout 60 "$radiosity" solve "$scene" -q --no-errors --restart x.h5 --json a.json >out 2>err
+    status=$?
+    count=$((count + 1))
+    if [ $status = 0 ]; then
+        [ "$(value link_fingerprint whole.json)" = "$(value link_fingerprint a.json)" ] || failed "byte $at changes the answer"
+    elif [ $status != 1 ] || ! grep -q "^x.h5: error: cannot go on from it" err; then
+        failed "byte $at: status $status"
+    fi
+    if [ $at -lt 64 ]; then at=$((at + 7)); else at=$((at + size / 23)); fi
+done
+cp "$scene" x.h5
+refused "it is no file of HDF5" "$scene"
+"$radiosity" solve "$scene" -q --restart none.h5 >out 2>said
+check "a file that is not there" [ $? = 1 ]
+check "it says so" grep -q "^none.h5: error: cannot go on from it: No such file" said
+"$radiosity" solve "$scene" -q --accuracy 1% --restart c.h5 >out 2>err
+check "with --accuracy: 2" [ $? = 2 ]
+
+# ---- a disk that is full: the last good file stays, the run ends with a message
+cp c.h5 full.h5
+(ulimit -f 200; trap '' XFSZ; exec timeout 60 "$radiosity" solve "$scene" -q --checkpoint full.h5 >out 2>said)
+check "a full disk: 1" [ $? = 1 ]
+check "it says so" grep -q "^full.h5: error: cannot write: " said
+check "the last good file stays" cmp c.h5 full.h5
+check "and nothing else" [ ! -e full.h5.tmp ]
+
+finish checkpoint
