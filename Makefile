@@ -135,7 +135,7 @@ $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
 BY_API    = $(BUILD)/tests/runtime/check_api
 $(BY_API): %: %.o $(ARCHIVE)
 	$(CC) $(LDFLAGS) -o $@ $^ $(ENGINE_LIBS) $$(pkg-config --libs check)
-$(filter-out $(BY_API),$(TESTS)): %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(filter-out $(BY_API),$(TESTS)) $(BUILD)/tests/runtime/width_rooms: %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
@@ -167,7 +167,7 @@ $(BUILD)/%.o: %.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(DEPEND) -c -o $@ $<
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(DEPEND) -c -o $@ $<
-$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o: $(BUILD)/gen/catalog.h
+$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/tests/runtime/width_rooms.o: $(BUILD)/gen/catalog.h
 
 packages:
 	@sh tests/packages.sh
@@ -180,7 +180,7 @@ $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): OPT = -O1
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
-CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/tests/runtime/width_rooms $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
 check: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
