@@ -14,7 +14,7 @@
 # make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
-# make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors: rows, charts and pages (STUDIES="NAME...": some)
+# make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors, waves: rows, charts and pages (STUDIES="NAME...": some)
 # make bench-threads  what two threads bring, and what they cost beside 8 busy loops
 # make bench-waves  what releases take of the same pairs, in blocks and one by one, over the bare Embree time of their rays
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
@@ -229,7 +229,7 @@ demo: all
 	@sh examples/demo.sh $(BUILD)
 
 # A study is tests/studies/NAME.sh; what has been run stays in BUILD/studies. BUDGET: processor seconds for each scene.
-STUDIES   = releases accuracy need growth limit bounds viewfactors
+STUDIES   = releases accuracy need growth limit bounds viewfactors waves
 bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
 	@set -e; for study in $(STUDIES); do \
 	    [ -f tests/studies/$$study.sh ] || { echo "make bench: error: there is no study $$study; there are: $(filter-out lib accuracy_page check_studies,$(notdir $(basename $(wildcard tests/studies/*.sh))))" >&2; exit 1; }; \

@@ -169,8 +169,8 @@ static int list_behind(const struct wave *wave, const struct node *node, int ans
                                            : wave->list[wave->dag->nodes[target->index].order];
 }
 
-/* static const enum decision decides[] = {DECISION_...}. Returns 0, and prints none, where no answer
- * decides. */
+/* static const enum decision decides[] = {DECISION_...}. Returns 0, and prints none, where no
+ * answer decides. */
 static int print_decides(const struct wave *wave, const struct node *node)
 {
     const struct dag *dag = wave->dag;
@@ -425,8 +425,7 @@ void dag_emit_wave(struct dag *dag, struct text *out, const struct oracle_graph 
                   oracle->name, dag->verb);
         return;
     }
-    dag_print(out,
-              "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n", wave.lists, PAIRS,
+    dag_print(out, "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n", wave.lists, PAIRS,
               wave.lists);
     if (asks_together(&wave))
         dag_print(out, "    unsigned char answers[%d];\n", PAIRS);

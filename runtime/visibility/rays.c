@@ -71,8 +71,8 @@ static uint64_t now(void)
     }
 static const struct RTCRay16 whole_segments = {.tfar = SIXTEEN(1), .mask = SIXTEEN(~0u)};
 
-/* Up to PACKET segments in Embree's coordinates, GROUP at a time; what lacks in the last group repeats
- * the first. Embree looks at no ray that is not valid. */
+/* Up to PACKET segments in Embree's coordinates, GROUP at a time; what lacks in the last group
+ * repeats the first. Embree looks at no ray that is not valid. */
 static void fill_packet(const struct rays *rays, int count, const struct segment *segments,
                         struct RTCRay16 *packet)
 {

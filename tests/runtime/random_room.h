@@ -1,5 +1,5 @@
-/* random_room.h - rooms with lamps and boards that stand askew, some black, some through each other,
- * so that pairs of one block go different ways; and solves of them by a refiner at hand.
+/* random_room.h - rooms with lamps and boards that stand askew, some black, some through each
+ * other, so that pairs of one block go different ways; and solves of them by a refiner at hand.
  * SPDX-License-Identifier: MIT */
 #ifndef RANDOM_ROOM_H
 #define RANDOM_ROOM_H
@@ -37,7 +37,7 @@ static inline void random_room(struct scene *s, unsigned seed)
 }
 
 static inline void solve_by(struct solve *s, const struct scene *scene, const struct refiner *r,
-                     int threads)
+                            int threads)
 {
     const struct solve_options options = {
         .tolerance = 1e-3, .iterations = 1000, .threads = threads};
@@ -46,14 +46,14 @@ static inline void solve_by(struct solve *s, const struct scene *scene, const st
     ck_assert_msg(solve_run(s, r, &cause) == 0, "%s", cause);
 }
 
-/* The same elements, links in the same order and radiosities, after as many discussions that decided
- * the same. */
+/* The same elements, links in the same order and radiosities, after as many discussions that
+ * decided the same. */
 static inline void same_solves(const struct solve *a, const struct solve *b)
 {
     same_links(a, b);
     ck_assert_uint_eq(a->refinement.pairs, b->refinement.pairs);
-    ck_assert(
-        memcmp(a->refinement.decided, b->refinement.decided, sizeof a->refinement.decided) == 0);
+    ck_assert(memcmp(a->refinement.decided, b->refinement.decided, sizeof a->refinement.decided)
+              == 0);
     ck_assert(memcmp(a->state.radiosity, b->state.radiosity, a->hierarchy.count * sizeof(double))
               == 0);
 }
