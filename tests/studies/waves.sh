@@ -39,7 +39,7 @@ count() { # SCENE ORACLE RELEASE SCALE
             if ($1 > most[name]) most[name] = $1 + 0
         }
         END {
-            for (name in most) if (name ~ /^polygon_factor(\.|$)/) factors += most[name]
+            for (name in most) if (name ~ /^polygon_factor(\.|$)/ && most[name] > factors) factors = most[name]
             casts = most["visibility_rays"] + most["light_visibility_rays"] + most["cluster_rays"]
             occluded = most["occluded"] > most["occluded.part.0"] ? most["occluded"] : most["occluded.part.0"]
             printf "all %.0f\nembree %.0f\npackets %.0f\n", all, most["rtcOccluded16"], occluded - most["rtcOccluded16"]
@@ -111,7 +111,7 @@ Rays' own time is another matter: \`make bench-waves\`."
             each[k, $3] = ($at["all"] - $at["embree"]) / $at["pairs"]
         }
         function ratio(a, b) { return a > 0 && b > 0 ? sprintf("%.2f", a / b) : "-" }
-        END { for (i = 1; i <= n; i++) { k = order[i]; split(k, name, SUBSEP); h = each[k, "hand"]; f = each[k, "flat"]; w = each[k, "wave"]
+        END { for (i = 1; i <= n; i++) { k = order[i]; split(k, name, SUBSEP); h = each[k, "hand"]; f = each[k, "flat"]; w = each[k, "wave"]; if (!w) continue
             printf "| %s | `%s` | %s | %s | %.0f | %.0f | %.0f | %s | %s | %s |\n", name[1], name[2], scale[k], count(pairs[k]), h, f, w, ratio(f, h), ratio(w, h), ratio(w, f) } }' "$pages/waves.csv"
     printf '\n## What the release in waves spends them on\n\n'
     echo "Shares of all instructions of refinement: Embree; packets for it; points that segments end at, and their weights; shafts between
@@ -125,7 +125,7 @@ elements; form factors of polygons; the rest, which is the graph, its other tool
             a = $at["all"] / 100
             rest = 100 - ($at["embree"] + $at["packets"] + $at["points"] + $at["shafts"] + $at["factors"]) / a
             printf "| %s | `%s` | %.1f | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %s |\n", $1, $2, $at["rays"] / $at["pairs"], $at["embree"] / a,
-                $at["packets"] / a, $at["points"] / a, $at["shafts"] / a, $at["factors"] / a, rest, $at["embree"] > 0 ? sprintf("%.1f", 100 * a / $at["embree"]) : "-"
+                $at["packets"] / a, $at["points"] / a, $at["shafts"] / a, $at["factors"] / a, rest, ($at["embree"] > 0 ? sprintf("%.1f", 100 * a / $at["embree"]) : "-")
         }' "$pages/waves.csv"
     printf '\n## How full the lists are\n\n'
     echo "Pairs in a list that is not empty, of at most 256, and the share of the lanes of vectors of eight that they fill; all nodes of a graph together."
