@@ -16,7 +16,7 @@
 # make picture-table  build/bin/picture_table, which holds what pictures show against the light at each pixel
 # make factor-rays  build/bin/factor_rays, which holds matrices of view factors against rays
 # make tables   the tables of README.md, examples/oracles/README.md and examples/clustering.md anew (TABLES="NAME...": some)
-# make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors: rows, charts and pages (STUDIES="NAME...": some)
+# make bench    the studies of examples/studies: releases, accuracy, need, growth, limit, bounds, viewfactors, waves: rows, charts and pages (STUDIES="NAME...": some)
 # make bench-threads  what two threads bring, and what they cost beside 8 busy loops
 # make bench-waves  what releases take of the same pairs, in blocks and one by one, over the bare Embree time of their rays
 # make install  commands, libraries and what their users need, to PREFIX (/usr/local) under DESTDIR; make uninstall
@@ -156,7 +156,7 @@ $(BUILD)/bin/radiosity: $(BUILD)/solver/main.o $(SOLVER) $(ARCHIVE)
 BY_API    = $(BUILD)/tests/runtime/check_api
 $(BY_API): %: %.o $(ARCHIVE)
 	$(CC) $(LDFLAGS) -o $@ $^ $(ENGINE_LIBS) $$(pkg-config --libs check)
-$(filter-out $(BY_API),$(TESTS)): %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
+$(filter-out $(BY_API),$(TESTS)) $(BUILD)/tests/runtime/width_rooms: %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
 
 $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
@@ -200,7 +200,7 @@ $(BUILD)/%.o: %.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(DEPEND) -c -o $@ $<
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(DEPEND) -c -o $@ $<
-$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o: $(BUILD)/gen/catalog.h
+$(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/tests/runtime/width_rooms.o: $(BUILD)/gen/catalog.h
 
 packages:
 	@sh tests/packages.sh
@@ -215,7 +215,7 @@ $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): override OPT = -O1 $(TRACED)
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
-CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/tests/runtime/width_rooms $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
 .PHONY: checked
 checked: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
@@ -273,7 +273,7 @@ demo: all
 	@sh examples/demo.sh $(BUILD)
 
 # A study is tests/studies/NAME.sh; what has been run stays in BUILD/studies. BUDGET: processor seconds for each scene.
-STUDIES   = releases accuracy need growth limit bounds viewfactors
+STUDIES   = releases accuracy need growth limit bounds viewfactors waves
 bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
 	@set -e; for study in $(STUDIES); do \
 	    [ -f tests/studies/$$study.sh ] || { echo "make bench: error: there is no study $$study; there are: $(filter-out lib accuracy_page check_studies,$(notdir $(basename $(wildcard tests/studies/*.sh))))" >&2; exit 1; }; \

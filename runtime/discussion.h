@@ -23,7 +23,7 @@
 #include "geometry.h"
 
 /* Raised whenever a structure below, or the meaning of a generated file's calls, changes. */
-#define RUNTIME_ABI 11
+#define RUNTIME_ABI 12
 
 #include "catalog.h" /* generated from catalog.dag: answers, levels, struct terms, decisions */
 
@@ -85,11 +85,12 @@ struct segment {
 enum { SEGMENTS_MAX = 64 }; /* the most that one call of `occluded` is given */
 
 /* The convex hull of two surfaces: what light between them may cross (kernel/shaft.h). */
-enum { SHAFT_PLANES = 28 };
+enum { SHAFT_PLANES = 28, SHAFT_ROOM = SHAFT_PLANES + 16 };
 struct shaft {
     int planes;
-    /* inside: normal . p <= offset, normals of length 1 */
-    double normal[SHAFT_PLANES][3], offset[SHAFT_PLANES];
+    /* inside: normal . p <= offset, normals of length 1, coordinate by coordinate. Behind the last
+     * is room for what a vector may read besides (kernel/shaft_planes.h) */
+    double normal[3][SHAFT_ROOM], offset[SHAFT_ROOM];
     double low[3], high[3]; /* box around it, `reach` included (m) */
     /* what is farther from it does not meet it, whatever the tolerances (m) */
     double reach;
@@ -107,6 +108,9 @@ struct blockers {
     unsigned char handed; /* own: good for the pairs below this one */
     /* own: no light can pass, one of the faces covers the shaft or they do not face each other */
     unsigned char covered;
+    /* asked for by a tool that had its answer without it: to be found for the pairs below, if
+     * there are any. Zero at first */
+    unsigned char wanted;
     uint32_t face[BLOCKERS_MAX];
 };
 

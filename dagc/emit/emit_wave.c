@@ -6,10 +6,11 @@
  * them in vectors, or send their rays together; and a processor sees one loop after the other in
  * place of branches that no two pairs take alike.
  *
- * Per tool there is one function over a list: the tool's own wave form (tools/NAME.wave.h, `wave`
- * in the catalog) or, here, its scalar form in a loop. Terms stay in each pair's discussion, so the
- * forms of tools depend on no graph. A list is used again when its node is done: there are as many
- * as nodes wait at a time.
+ * A tool's own wave form (tools/NAME.wave.h, `wave` in the catalog) is given the list, and loops
+ * behind it part what it answers. Of any other tool the scalar form stands in a loop that parts
+ * the pairs as they are answered: no answer is stored, and each pair is looked up once. Terms stay
+ * in each pair's discussion, so the forms of tools depend on no graph. A list is used again when
+ * its node is done: there are as many as nodes wait at a time.
  *
  * Invariant: what is done to a pair depends on no other pair; calls of one pair come in the order
  * of the flat release. So decisions and terms are those of NAME_refine, to the bit.
@@ -86,25 +87,6 @@ static const char *c_type(const struct dag *dag, const struct parameter *paramet
     return dag->types[parameter->type].base == BASE_INTEGER ? "int" : "double";
 }
 
-/* The tool over a list, by its scalar form. */
-static void print_loop(const struct dag *dag, struct text *out, const struct tool *tool)
-{
-    const struct parameter *parameters = &dag->parameters[tool->parameters.first];
-    dag_print(
-        out, "\nstatic void wave_%s(struct discussion *block, const uint16_t *at, int count,\n    ",
-        tool->name);
-    for (int i = 0; i < tool->parameters.count; i++)
-        dag_print(out, "const %s *%s_, ", c_type(dag, &parameters[i]), parameters[i].name);
-    dag_print(out,
-              "unsigned char *answers)\n{\n"
-              "    for (int k = 0; k < count; k++)\n"
-              "        answers[k] = (unsigned char)tool_%s(&block[at[k]]",
-              tool->name);
-    for (int i = 0; i < tool->parameters.count; i++)
-        dag_print(out, ", %s_[k]", parameters[i].name);
-    dag_print(out, ");\n}\n");
-}
-
 void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned char *reached)
 {
     const unsigned char *terms = dag_emit_reached_terms(dag);
@@ -116,17 +98,44 @@ void dag_emit_wave_headers(struct dag *dag, struct text *out, const unsigned cha
             dag_print(out, "#include \"%s\"\n", dag->terms[i].wave);
 }
 
-/* Does some answer lead to another node? */
+static int reaches_wave_form(const struct dag *dag, const unsigned char *reached)
+{
+    for (int i = 0; i < dag->tool_count; i++)
+        if (reached[i] && dag->tools[i].wave != NULL)
+            return 1;
+    return 0;
+}
+
+/* Does some answer of a tool that answers for a list lead to another node? */
 static int leads_on(const struct dag *dag)
 {
-    for (int i = 0; i < dag->oracle_count; i++)
-        if (dag->oracles[i].order.count > 1)
-            return 1;
+    for (int k = 0; k < dag->oracle_count; k++)
+        for (int i = 0; i < dag->oracles[k].order.count; i++) {
+            const struct node *node = dag_node_at(dag, &dag->oracles[k], i);
+            for (int a = 0; dag->tools[node->tool].wave != NULL && a < node->arcs.count; a++)
+                if (dag->arcs[node->arcs.first + a].target.kind == TARGET_NODE)
+                    return 1;
+        }
+    return 0;
+}
+
+/* Does some answer of such a tool decide? */
+static int decides_then(const struct dag *dag)
+{
+    for (int k = 0; k < dag->oracle_count; k++)
+        for (int i = 0; i < dag->oracles[k].order.count; i++) {
+            const struct node *node = dag_node_at(dag, &dag->oracles[k], i);
+            for (int a = 0; dag->tools[node->tool].wave != NULL && a < node->arcs.count; a++)
+                if (dag->arcs[node->arcs.first + a].target.kind == TARGET_DECISION)
+                    return 1;
+        }
     return 0;
 }
 
 void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char *reached)
 {
+    if (!reaches_wave_form(dag, reached))
+        return;
     if (leads_on(dag))
         dag_print(
             out,
@@ -141,17 +150,15 @@ void dag_emit_wave_calls(struct dag *dag, struct text *out, const unsigned char 
             "        to[waiting] = from[k];\n"
             "        waiting += leads[answers[k]];\n    }\n"
             "    return waiting;\n}\n");
-    dag_print(
-        out,
-        "\n/* What answers decide; where one leads on it is told later, and until then anything. "
-        "*/\n"
-        "static void lists_decide(const enum decision *decides, const unsigned char *answers,\n"
-        "    const uint16_t *from, int count, enum decision *decisions)\n{\n"
-        "    for (int k = 0; k < count; k++)\n"
-        "        decisions[from[k]] = decides[answers[k]];\n}\n");
-    for (int i = 0; i < dag->tool_count; i++)
-        if (reached[i] && dag->tools[i].wave == NULL)
-            print_loop(dag, out, &dag->tools[i]);
+    if (decides_then(dag))
+        dag_print(
+            out,
+            "\n/* What answers decide; where one leads on it is told later, and until then "
+            "anything. */\n"
+            "static void lists_decide(const enum decision *decides, const unsigned char *answers,\n"
+            "    const uint16_t *from, int count, enum decision *decisions)\n{\n"
+            "    for (int k = 0; k < count; k++)\n"
+            "        decisions[from[k]] = decides[answers[k]];\n}\n");
 }
 
 /* The list that an answer leads to. */
@@ -162,15 +169,16 @@ static int list_behind(const struct wave *wave, const struct node *node, int ans
                                            : wave->list[wave->dag->nodes[target->index].order];
 }
 
-/* static const enum decision decides[] = {DECISION_...} */
-static void print_decisions(const struct wave *wave, const struct node *node, int list)
+/* static const enum decision decides[] = {DECISION_...}. Returns 0, and prints none, where no
+ * answer decides. */
+static int print_decides(const struct wave *wave, const struct node *node)
 {
     const struct dag *dag = wave->dag;
     int any = 0;
     for (int a = 0; a < node->arcs.count; a++)
         any |= list_behind(wave, node, a) == NO_LIST;
     if (!any)
-        return;
+        return 0;
     dag_print(wave->out, "        static const enum decision decides[] = {");
     for (int a = 0; a < node->arcs.count; a++) {
         const struct target *target = &arc_of(wave, node, a)->target;
@@ -178,26 +186,43 @@ static void print_decisions(const struct wave *wave, const struct node *node, in
         dag_print_upper(wave->out,
                         dag->decisions[target->kind == TARGET_DECISION ? target->index : 0].name);
     }
-    dag_print(wave->out,
-              "};\n        lists_decide(decides, answers, at[%d], waiting[%d], decisions);\n", list,
-              list);
+    dag_print(wave->out, "};\n");
+    return 1;
 }
 
-/* One sweep for each list that answers lead to. */
+/* The list that answer `a` leads to, unless one before it did; else NO_LIST. */
+static int new_list(const struct wave *wave, const struct node *node, int a)
+{
+    const int to = list_behind(wave, node, a);
+    for (int k = 0; k < a; k++)
+        if (list_behind(wave, node, k) == to)
+            return NO_LIST;
+    return to;
+}
+
+/* static const unsigned char leads_2[] = {...}: 1 for each answer that leads to the list. */
+static void print_leads(const struct wave *wave, const struct node *node, int to)
+{
+    dag_print(wave->out, "        static const unsigned char leads_%d[] = {", to);
+    for (int k = 0; k < node->arcs.count; k++)
+        dag_print(wave->out, "%s%d", k > 0 ? ", " : "", list_behind(wave, node, k) == to);
+    dag_print(wave->out, "};\n");
+}
+
+/* What answers[] say of a list: decisions, and one sweep for each list that answers lead to. */
 static void print_ways(const struct wave *wave, const struct node *node, int list)
 {
-    for (int a = 0; a < node->arcs.count; a++) {
-        const int to = list_behind(wave, node, a);
-        int before = 0;
-        for (int k = 0; k < a; k++)
-            before |= list_behind(wave, node, k) == to;
-        if (before || to == NO_LIST)
-            continue;
-        dag_print(wave->out, "        static const unsigned char leads_%d[] = {", to);
-        for (int k = 0; k < node->arcs.count; k++)
-            dag_print(wave->out, "%s%d", k > 0 ? ", " : "", list_behind(wave, node, k) == to);
+    if (print_decides(wave, node))
         dag_print(wave->out,
-                  "};\n        waiting[%d] = lists_part(leads_%d, answers, at[%d], waiting[%d], "
+                  "        lists_decide(decides, answers, at[%d], waiting[%d], decisions);\n", list,
+                  list);
+    for (int a = 0; a < node->arcs.count; a++) {
+        const int to = new_list(wave, node, a);
+        if (to == NO_LIST)
+            continue;
+        print_leads(wave, node, to);
+        dag_print(wave->out,
+                  "        waiting[%d] = lists_part(leads_%d, answers, at[%d], waiting[%d], "
                   "at[%d], waiting[%d]);\n",
                   to, to, list, list, to, to);
     }
@@ -233,32 +258,113 @@ static void print_first_read(const struct wave *wave, const struct node *node, i
     dag_print(wave->out, ");\n");
 }
 
+/* An argument's C type and name, `given_1`. */
+static void print_given(const struct wave *wave, const struct node *node, int i)
+{
+    const struct dag *dag = wave->dag;
+    dag_print(wave->out, "%s given_%d",
+              c_type(dag, &dag->parameters[dag->arguments[node->arguments.first + i].parameter]),
+              i + 1);
+}
+
 /* The arguments of all pairs of the list, given_1[k] and so on. */
 static void print_arguments(const struct wave *wave, const struct node *node, int list)
 {
     const struct place place = {"d", "d", NULL};
-    const struct dag *dag = wave->dag;
     struct text *out = wave->out;
     int value = 0;
-    for (int i = 0; i < node->arguments.count; i++)
-        dag_print(
-            out, "        %s given_%d[%d];\n",
-            c_type(dag, &dag->parameters[dag->arguments[node->arguments.first + i].parameter]),
-            i + 1, PAIRS);
+    for (int i = 0; i < node->arguments.count; i++) {
+        dag_print(out, "        ");
+        print_given(wave, node, i);
+        dag_print(out, "[%d];\n", PAIRS);
+    }
     if (node->arguments.count == 0)
         return;
     print_first_read(wave, node, list);
     dag_print(out, "        for (int k = 0; k < waiting[%d]; k++) {\n", list);
-    if (looks_at_pair(dag, node))
+    if (looks_at_pair(wave->dag, node))
         dag_print(out, "            struct discussion *d = &block[at[%d][k]];\n", list);
     dag_emit_reads(wave->dag, out, node, &place);
     for (int i = 0; i < node->arguments.count; i++) {
         dag_print(out, "            given_%d[k] = ", i + 1);
-        dag_emit_expression(wave->dag, out, node, &dag->arguments[node->arguments.first + i],
+        dag_emit_expression(wave->dag, out, node, &wave->dag->arguments[node->arguments.first + i],
                             &place, &value);
         dag_print(out, ";\n");
     }
     dag_print(out, "        }\n");
+}
+
+/* A tool that answers for the whole list. */
+static void print_together(const struct wave *wave, const struct node *node, int list)
+{
+    struct text *out = wave->out;
+    print_arguments(wave, node, list);
+    dag_print(out, "        wave_%s(block, at[%d], waiting[%d]", wave->dag->tools[node->tool].name,
+              list, list);
+    for (int i = 0; i < node->arguments.count; i++)
+        dag_print(out, ", given_%d", i + 1);
+    dag_print(out, ", answers);\n");
+    print_ways(wave, node, list);
+}
+
+/* const int answer = (int)tool_NAME(d, ...); of one pair. */
+static void print_question(const struct wave *wave, const struct node *node)
+{
+    const struct place place = {"d", "d", NULL};
+    struct text *out = wave->out;
+    int value = 0;
+    dag_emit_reads(wave->dag, out, node, &place);
+    for (int i = 0; i < node->arguments.count; i++) {
+        dag_print(out, "            const ");
+        print_given(wave, node, i);
+        dag_print(out, " = ");
+        dag_emit_expression(wave->dag, out, node, &wave->dag->arguments[node->arguments.first + i],
+                            &place, &value);
+        dag_print(out, ";\n");
+    }
+    dag_print(out, "            const int answer = (int)tool_%s(d",
+              wave->dag->tools[node->tool].name);
+    for (int i = 0; i < node->arguments.count; i++)
+        dag_print(out, ", given_%d", i + 1);
+    dag_print(out, ");\n");
+}
+
+/* A tool that is asked pair by pair: each pair goes on to the end of its list. It is written to
+ * all that there are, and counted in its own: no branch, as in lists_part. */
+static void print_one_by_one(const struct wave *wave, const struct node *node, int list)
+{
+    struct text *out = wave->out;
+    const int decides = print_decides(wave, node);
+    for (int a = 0; a < node->arcs.count; a++) {
+        const int to = new_list(wave, node, a);
+        if (to == NO_LIST)
+            continue;
+        print_leads(wave, node, to);
+        dag_print(out, "        int to_%d = waiting[%d];\n", to, to);
+    }
+    print_first_read(wave, node, list);
+    dag_print(out,
+              "        for (int k = 0; k < waiting[%d]; k++) {\n"
+              "            const uint16_t pair = at[%d][k];\n"
+              "            struct discussion *d = &block[pair];\n",
+              list, list);
+    print_question(wave, node);
+    if (decides)
+        dag_print(out, "            decisions[pair] = decides[answer];\n");
+    for (int a = 0; a < node->arcs.count; a++) {
+        const int to = new_list(wave, node, a);
+        if (to != NO_LIST)
+            dag_print(out,
+                      "            at[%d][to_%d] = pair;\n"
+                      "            to_%d += leads_%d[answer];\n",
+                      to, to, to, to);
+    }
+    dag_print(out, "        }\n");
+    for (int a = 0; a < node->arcs.count; a++) {
+        const int to = new_list(wave, node, a);
+        if (to != NO_LIST)
+            dag_print(out, "        waiting[%d] = to_%d;\n", to, to);
+    }
 }
 
 static void print_node(const struct wave *wave, int place)
@@ -270,14 +376,10 @@ static void print_node(const struct wave *wave, int place)
     if (wave->options->directives)
         dag_line_at(wave->dag, out, node->where);
     dag_print(out, "        if (waiting[%d] > 0) {\n", list);
-    print_arguments(wave, node, list);
-    dag_print(out, "        wave_%s(block, at[%d], waiting[%d]", wave->dag->tools[node->tool].name,
-              list, list);
-    for (int i = 0; i < node->arguments.count; i++)
-        dag_print(out, ", given_%d", i + 1);
-    dag_print(out, ", answers);\n");
-    print_decisions(wave, node, list);
-    print_ways(wave, node, list);
+    if (wave->dag->tools[node->tool].wave != NULL)
+        print_together(wave, node, list);
+    else
+        print_one_by_one(wave, node, list);
     dag_print(out, "        waiting[%d] = 0;\n        }\n", list);
 }
 
@@ -300,6 +402,14 @@ static void print_begin(const struct wave *wave)
     dag_print(wave->out, "        }\n        waiting[1] = pairs;\n");
 }
 
+static int asks_together(const struct wave *wave)
+{
+    for (int i = 0; i < wave->oracle->order.count; i++)
+        if (wave->dag->tools[node_at(wave, i)->tool].wave != NULL)
+            return 1;
+    return 0;
+}
+
 void dag_emit_wave(struct dag *dag, struct text *out, const struct oracle_graph *oracle,
                    const struct emit_options *options)
 {
@@ -315,11 +425,14 @@ void dag_emit_wave(struct dag *dag, struct text *out, const struct oracle_graph 
                   oracle->name, dag->verb);
         return;
     }
+    dag_print(out, "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n", wave.lists, PAIRS,
+              wave.lists);
+    if (asks_together(&wave))
+        dag_print(out, "    unsigned char answers[%d];\n", PAIRS);
     dag_print(out,
-              "    uint16_t at[%d][%d];\n    int waiting[%d] = {0};\n"
-              "    unsigned char answers[%d];\n    (void)parameters;\n"
+              "    (void)parameters;\n"
               "    for (; count > 0; count -= %d, block += %d, decisions += %d) {\n",
-              wave.lists, PAIRS, wave.lists, PAIRS, PAIRS, PAIRS, PAIRS);
+              PAIRS, PAIRS, PAIRS);
     print_begin(&wave);
     for (int i = 0; i < oracle->order.count; i++)
         print_node(&wave, i);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include "engine/discuss.h"
 #include "engine/trace.h"
+#include "terms/blockers.h"
 #include "util/thread_pool.h"
 #include "wave.h"
 
@@ -93,9 +94,13 @@ static void discuss(const struct refinement *r, struct block *b)
 }
 
 /* After the discussions of pair i: keep the list for the pairs below, if there will be any. */
-static void note_list(const struct refinement *r, size_t i, const struct blockers *list,
-                      int divided)
+static void note_list(const struct refinement *r, size_t i, struct blockers *list, int divided)
 {
+    const struct element *elements = r->hierarchy->elements;
+    const struct link *link = &r->outcomes[i].link[0];
+    if (divided && list->wanted)
+        blockers_find(&elements[link->receiver], &elements[link->emitter], r->host, list);
+    list->wanted = 0;
     r->outcomes[i].listed = list->known == BLOCKERS_OWN && divided;
     if (r->outcomes[i].listed)
         r->found[i] = *list;
@@ -118,6 +123,7 @@ static void discuss_there(const struct refinement *r, struct block *b, size_t fr
         const struct pair *p = &r->round[i];
         struct blockers *list = &b->lists[i - from];
         list->known = BLOCKERS_UNKNOWN;
+        list->wanted = 0;
         if (p->list)
             *list = r->pool[p->list].list;
         (void)begin(r, i, &(struct link){p->receiver, p->emitter, 0, 0, 0, 0});
@@ -198,6 +204,7 @@ static void discuss_links(const void *again, size_t from, size_t to)
             const struct link *l = &a->links[i];
             struct outcome *o = begin(r, i, l);
             b.lists[i - from].known = BLOCKERS_UNKNOWN;
+            b.lists[i - from].wanted = 0;
             o->decision[0] = (unsigned char)DECISION_LINK;
             o->decision[1] = !a->changed || a->changed[l->receiver] || a->changed[l->emitter];
             if (o->decision[1])

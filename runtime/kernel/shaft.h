@@ -40,24 +40,9 @@
 #include "discussion.h"
 #include "kernel/constants.h"
 #include "kernel/cut.h"
+#include "kernel/shaft_planes.h"
 
 enum { SHAFT_DEPTHS = 48 }; /* splits below two faces (tools/can_split.h) */
-
-/* Adds the plane with normal n, of any length, at the farthest corner of both ends. */
-static inline void shaft_plane(struct shaft *shaft, const double n[3])
-{
-    double size = length3(n), *normal = shaft->normal[shaft->planes], most = -INFINITY;
-    if (!(size > 0) || shaft->planes == SHAFT_PLANES)
-        return;
-    for (int i = 0; i < 3; i++)
-        normal[i] = n[i] / size;
-    for (int end = 0; end < 2; end++)
-        for (int i = 0; i < shaft->points[end]; i++) {
-            double height = dot3(normal, shaft->end[end][i]);
-            most = height > most ? height : most;
-        }
-    shaft->offset[shaft->planes++] = most;
-}
 
 /* The planes about the edge from a to b of one end: through the outermost corner of the other end
  * in front of the end's own plane, and the outermost one behind it. */
@@ -92,7 +77,7 @@ static inline void shaft_edge(struct shaft *shaft, int end, const double a[3], c
         else
             cross3(normal, e, w);
         if (dot3(normal, normal) > SHAFT_LINE * dot3(e, e) * dot3(w, w))
-            shaft_plane(shaft, normal);
+            shaft_planes_add(shaft, normal);
     }
 }
 
@@ -173,17 +158,18 @@ static inline int shaft_open(struct shaft *shaft, const struct element *receiver
     for (int k = 0; k < 6; k++) {
         double axis[3] = {0, 0, 0};
         axis[k / 2] = k % 2 ? 1 : -1;
-        shaft_plane(shaft, axis);
+        shaft_planes_add(shaft, axis);
     }
     for (int end = 0; end < 2; end++) {
         double back[3];
         for (int k = 0; k < 3; k++)
             back[k] = -shaft->facing[end][k];
-        shaft_plane(shaft, back);
+        shaft_planes_add(shaft, back);
         for (int i = 0; i < shaft->points[end]; i++)
             shaft_edge(shaft, end, shaft->end[end][i],
                        shaft->end[end][i + 1 < shaft->points[end] ? i + 1 : 0]);
     }
+    shaft_planes_place(lanes_width(), shaft);
     return 1;
 }
 
@@ -194,14 +180,7 @@ static inline int shaft_misses_box(const struct shaft *shaft, const double low[3
     for (int k = 0; k < 3; k++)
         if (low[k] > shaft->high[k] || high[k] < shaft->low[k])
             return 1;
-    for (int i = 0; i < shaft->planes; i++) {
-        const double *n = shaft->normal[i];
-        double nearest = n[0] * (n[0] > 0 ? low[0] : high[0]) + n[1] * (n[1] > 0 ? low[1] : high[1])
-                         + n[2] * (n[2] > 0 ? low[2] : high[2]);
-        if (nearest > shaft->offset[i] + shaft->reach)
-            return 1;
-    }
-    return 0;
+    return shaft_planes_miss(lanes_width(), shaft, low, high);
 }
 
 /* Unit normal of a face with 3 or 4 corners. Returns 0 when it has no area. */
@@ -311,9 +290,11 @@ static inline int shaft_inside(const struct shaft *shaft, uint64_t planes, const
         for (int k = 0; k < 3; k++)
             part[0].v[i][k] = whole->v[i][k] + up * normal[k];
     for (int i = 0; i < shaft->planes && part[now].n > 0; i++)
-        if (planes >> i & 1)
-            now ^= !cut_below(&part[now ^ 1], &part[now], origin, shaft->normal[i],
+        if (planes >> i & 1) {
+            const double plane[3] = {shaft->normal[0][i], shaft->normal[1][i], shaft->normal[2][i]};
+            now ^= !cut_below(&part[now ^ 1], &part[now], origin, plane,
                               shaft->offset[i] + shaft->slack);
+        }
     if (inside)
         *inside = part[now];
     return part[now].n > 0;
@@ -325,20 +306,8 @@ static inline int shaft_cutting(const struct shaft *shaft, const struct cut *who
                                 uint64_t *planes)
 {
     const double reach = shaft->grow * 1.001; /* more than rounding */
-    *planes = 0;
-    for (int i = 0; i < shaft->planes; i++) {
-        const double *n = shaft->normal[i], limit = shaft->offset[i] + shaft->slack;
-        double low = INFINITY, high = -INFINITY;
-        for (int c = 0; c < whole->n; c++) {
-            double h = dot3(whole->v[c], n);
-            low = h < low ? h : low;
-            high = h > high ? h : high;
-        }
-        if (low > limit + reach)
-            return 0;
-        *planes |= (uint64_t)(high > limit - reach) << i;
-    }
-    return 1;
+    return shaft_planes_cut(lanes_width(), shaft, shaft->slack, reach,
+                            (const double(*)[3])whole->v, whole->n, planes);
 }
 
 /* Does one of the planes have all of a polygon outside? Most polygons are, which saves the
@@ -346,15 +315,28 @@ static inline int shaft_cutting(const struct shaft *shaft, const struct cut *who
  * reach. */
 static inline int shaft_far(const struct shaft *shaft, const double (*v)[3], int n)
 {
-    for (int i = 0; i < shaft->planes; i++) {
-        const double limit = shaft->offset[i] + 4 * shaft->reach;
-        int outside = 0;
-        while (outside < n && dot3(v[outside], shaft->normal[i]) > limit)
-            outside++;
-        if (outside == n)
-            return 1;
+    return shaft_planes_far(lanes_width(), shaft, 4 * shaft->reach, v, n);
+}
+
+/* The same as shaft_meets of a flat polygon, whose unit normal is given. */
+static inline int shaft_meets_flat(const struct shaft *shaft, const double (*v)[3], int n,
+                                   const double normal[3], struct cut *inside)
+{
+    struct cut large;
+    uint64_t planes;
+    const int side = shaft_side(shaft, v, n, normal);
+    if (side > 0)
+        return 0;
+    shaft_enlarge(&large, v, n, normal, shaft->grow);
+    if (side < 0) {
+        if (inside)
+            *inside = large;
+        return 1;
     }
-    return 0;
+    return shaft_cutting(shaft, &large, &planes)
+           && (shaft_inside(shaft, planes, &large, normal, 0, inside)
+               || shaft_inside(shaft, planes, &large, normal, shaft->grow, inside)
+               || shaft_inside(shaft, planes, &large, normal, -shaft->grow, inside));
 }
 
 /* May a face with 3 or 4 corners stop a ray? 0 is precise. What of it may is put in *inside,
@@ -362,41 +344,18 @@ static inline int shaft_far(const struct shaft *shaft, const double (*v)[3], int
 static inline int shaft_meets(const struct shaft *shaft, const double (*v)[3], int n,
                               struct cut *inside)
 {
-    double part[2][4][3], normal[3];
-    int parts = 1;
+    double part[3][3], normal[3];
     if (shaft_far(shaft, v, n) || !shaft_normal(v, n, normal))
         return 0;
-    for (int i = 0; i < n; i++)
+    if (!shaft_bent(shaft, v, n, normal))
+        return shaft_meets_flat(shaft, v, n, normal, inside);
+    for (int i = 0; i < 2; i++) { /* as a ray caster splits it: 0 1 3 and 2 3 1 */
+        const int corner[3] = {i ? 2 : 0, i ? 3 : 1, i ? 1 : 3};
         for (int k = 0; k < 3; k++)
-            part[0][i][k] = v[i][k];
-    if (shaft_bent(shaft, v, n, normal)) { /* as a ray caster splits it */
-        for (int k = 0; k < 3; k++) {
-            part[0][2][k] = part[1][1][k] = v[3][k];
-            part[1][0][k] = v[2][k];
-            part[1][2][k] = v[1][k];
-        }
-        parts = 2;
-        n = 3;
-    }
-    for (int i = 0; i < parts; i++) {
-        const double(*p)[3] = (const double(*)[3])part[i];
-        if (!shaft_normal(p, n, normal))
-            continue;
-        int side = shaft_side(shaft, p, n, normal);
-        if (side > 0)
-            continue;
-        struct cut large;
-        shaft_enlarge(&large, p, n, normal, shaft->grow);
-        if (side < 0) {
-            if (inside)
-                *inside = large;
-            return 1;
-        }
-        uint64_t planes;
-        if (shaft_cutting(shaft, &large, &planes)
-            && (shaft_inside(shaft, planes, &large, normal, 0, inside)
-                || shaft_inside(shaft, planes, &large, normal, shaft->grow, inside)
-                || shaft_inside(shaft, planes, &large, normal, -shaft->grow, inside)))
+            for (int c = 0; c < 3; c++)
+                part[c][k] = v[corner[c]][k];
+        if (shaft_normal((const double(*)[3])part, 3, normal)
+            && shaft_meets_flat(shaft, (const double(*)[3])part, 3, normal, inside))
             return 1;
     }
     return 0;

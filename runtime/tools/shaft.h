@@ -6,7 +6,7 @@
  * uncertain: some face stands at the shaft's edge or in it, and several together may hide all.
  * too_complex: more than 8 do, or the elements are clusters, or the host has no candidates.
  * Whatever the answer, tools/visibility.h may follow: it finds what is known and casts only what is
- * not.
+ * not. What is known exactly needs no list: that of the pairs below is found when there are any.
  * [Haines & Wallace 1994; Teller & Hanrahan 1993 for "visible" and "invisible"]
  * SPDX-License-Identifier: MIT */
 #ifndef TOOL_SHAFT_H
@@ -18,12 +18,13 @@
 TOOL enum shaft_answer tool_shaft(struct discussion *d)
 {
     struct blockers own;
-    int known = d->terms.visibility_level == VISIBILITY_EXACT
-                && (d->terms.visibility <= 0 || d->terms.visibility >= 1);
-    /* pairs below may want the list, whatever is known of this one */
-    const struct blockers *list = known && !d->blockers ? NULL : blockers_list(d, &own);
-    if (known)
+    if (d->terms.visibility_level == VISIBILITY_EXACT
+        && (d->terms.visibility <= 0 || d->terms.visibility >= 1)) {
+        if (d->blockers)
+            d->blockers->wanted = 1;
         return d->terms.visibility > 0 ? SHAFT_VISIBLE : SHAFT_INVISIBLE;
+    }
+    const struct blockers *list = blockers_list(d, &own);
     if (list->count > BLOCKERS_MAX)
         return SHAFT_TOO_COMPLEX;
     if (list->count > 0 && !list->covered)

@@ -39,8 +39,8 @@ int hidden_edge(const struct shaft *shaft, const double a[3], const double b[3])
     const double out = shaft->slack + shaft->grow;
     double from = 0, to = 1;
     for (int i = 0; i < shaft->planes; i++) {
-        double g = dot3(a, shaft->normal[i]) - shaft->offset[i] - out,
-               h = dot3(b, shaft->normal[i]) - shaft->offset[i] - out;
+        const double n[3] = {shaft->normal[0][i], shaft->normal[1][i], shaft->normal[2][i]};
+        double g = dot3(a, n) - shaft->offset[i] - out, h = dot3(b, n) - shaft->offset[i] - out;
         if (g > 0 && h > 0)
             return 0;
         if (g > 0)

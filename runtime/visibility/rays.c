@@ -32,8 +32,8 @@
  * clock that is read twice a packet takes a tenth of what Embree does. */
 enum { PACKET = 16, TIMED = 512 };
 
-/* A segment is six numbers; those of four fill whole vectors. */
-enum { NUMBERS = 6, STEP = 4 * NUMBERS };
+/* A segment is six numbers; those of a group fill whole vectors. */
+enum { GROUP = 4, NUMBERS = 6, STEP = GROUP * NUMBERS };
 
 /* Counters of a thread, alone on their cache lines. A thread that a program brings itself may have
  * any number, so threads may share a tally; they add to it one at a time. */
@@ -71,30 +71,35 @@ static uint64_t now(void)
     }
 static const struct RTCRay16 whole_segments = {.tfar = SIXTEEN(1), .mask = SIXTEEN(~0u)};
 
-/* Up to PACKET segments in Embree's coordinates; what lacks repeats the first. */
+/* Up to PACKET segments in Embree's coordinates, GROUP at a time; what lacks in the last group
+ * repeats the first. Embree looks at no ray that is not valid. */
 static void fill_packet(const struct rays *rays, int count, const struct segment *segments,
                         struct RTCRay16 *packet)
 {
     _Static_assert(sizeof *segments == NUMBERS * sizeof(double), "a segment is its numbers");
-    struct segment few[PACKET];
-    float moved[PACKET * NUMBERS];
-    const double scale = rays->scale, *number = (const double *)(const void *)segments;
-    if (count < PACKET) {
-        for (int i = 0; i < PACKET; i++)
-            few[i] = segments[i < count ? i : 0];
-        number = (const double *)(const void *)few;
-    }
-    for (int i = 0; i < PACKET * NUMBERS; i += STEP)
+    _Static_assert(STEP == GROUP * NUMBERS && PACKET % GROUP == 0, "groups fill a packet");
+    struct segment few[GROUP];
+    float moved[STEP];
+    const double scale = rays->scale;
+    for (int first = 0; first < count; first += GROUP) {
+        const struct segment *group = &segments[first];
+        if (count - first < GROUP) {
+            for (int i = 0; i < GROUP; i++)
+                few[i] = segments[first + i < count ? first + i : 0];
+            group = few;
+        }
+        const double *number = (const double *)(const void *)group;
         for (int j = 0; j < STEP; j++)
-            moved[i + j] = (float)((number[i + j] - rays->origins[j]) * scale);
-    for (int i = 0; i < PACKET; i++) {
-        const float *from = &moved[NUMBERS * i], *to = from + 3;
-        packet->org_x[i] = from[0];
-        packet->org_y[i] = from[1];
-        packet->org_z[i] = from[2];
-        packet->dir_x[i] = to[0] - from[0];
-        packet->dir_y[i] = to[1] - from[1];
-        packet->dir_z[i] = to[2] - from[2];
+            moved[j] = (float)((number[j] - rays->origins[j]) * scale);
+        for (int i = 0; i < GROUP; i++) {
+            const float *from = &moved[NUMBERS * i], *to = from + 3;
+            packet->org_x[first + i] = from[0];
+            packet->org_y[first + i] = from[1];
+            packet->org_z[first + i] = from[2];
+            packet->dir_x[first + i] = to[0] - from[0];
+            packet->dir_y[first + i] = to[1] - from[1];
+            packet->dir_z[first + i] = to[2] - from[2];
+        }
     }
 }
 

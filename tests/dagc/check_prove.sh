@@ -59,12 +59,12 @@ oracles.c|s/discussion->terms.size_level = d.terms.size_level;//|small_refine di
 oracles.c|s/size_level >= SIZE_FINE/size_level > SIZE_FINE/|differs in what it takes for known
 oracles.c|s/counters->calls\[node\]++/counters->calls[0]++/|small_refine_counted differs in what was counted
 oracles.c|/refine_traced(/,$s/trace(context, &d, 0,/(void)(context, \&d, 0,/|small_refine_traced differs in what was counted
-*oracles.c|s/to\[waiting\] = from\[k\];/to[waiting] = from[0];/|small_refine_wave differs in
-oracles.c|s/decides\[answers\[k\]\];/decides[answers[0]];/|small_refine_wave differs in
-oracles.c|s/leads\[answers\[k\]\];/leads[answers[0]];/|small_refine_wave differs in
+*oracles.c|s/uint16_t pair = at\[\([0-9]*\)\]\[k\];/uint16_t pair = at[\1][0];/|small_refine_wave differs in
+oracles.c|s/decides\[answer\];/decides[0];/|small_refine_wave differs in
+oracles.c|s/\(leads_[0-9]*\)\[answer\];/\1[0];/|small_refine_wave differs in
 oracles.c|s/waiting\[[0-9]*\] = 0;//|small_refine_wave differs in
-oracles.c|s/tool_weigh(\&block\[at\[k\]\]/tool_weigh(\&block[k]/|small_refine_wave differs in
-*oracles.c|s/discussion \*d = \&block\[at\[[0-9]*\]\[k\]\];/discussion *d = \&block[k];/|small_refine_wave differs in the calls
+oracles.c|s/tool_weigh(d, given/tool_weigh(\&block[k], given/|small_refine_wave differs in
+*oracles.c|s/discussion \*d = \&block\[pair\];/discussion *d = \&block[k];/|small_refine_wave differs in the calls
 oracles.c|s/at\[1\]\[k\] = (uint16_t)k;/& block[k].terms.size_level = 0;/|small_refine_wave differs in what is known
 *oracles.c|s/parameters->most = 1.5/parameters->most = 7.0/|the compiled oracle differs in the default that is filled in of parameter most
 *oracles.c|s/^     1.5, 0.5, INFINITY/     7.0, 0.5, INFINITY/|the compiled oracle differs in the default of parameter most

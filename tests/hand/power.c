@@ -137,9 +137,10 @@ static void cast_at_light(struct pair *p, int rays)
 static enum sight look_between(struct pair *p)
 {
     int sure = p->seen_level == VISIBILITY_EXACT && (p->seen <= 0 || p->seen >= 1);
-    if (!sure || p->list != &p->own) /* pairs below may want the list */
+    if (sure) {
+        p->list->wanted = 1; /* by pairs below */
+    } else {
         blockers_find(p->r, p->s, p->host, p->list);
-    if (!sure) {
         if (p->list->count > BLOCKERS_MAX)
             return CROWDED;
         if (p->list->count > 0 && !p->list->covered)

@@ -2,9 +2,11 @@
  * linear, noise, and groups taken for points; against closed forms and on scenes with lamps close
  * under a ceiling.
  * SPDX-License-Identifier: MIT */
+#include <stdatomic.h>
 #include <stdio.h>
 #include "runtime/make_pair.h"
 #include "runtime/make_solve.h"
+#include "runtime/random_room.h"
 #include "kernel/constants.h"
 #include "scene/read_scene.h"
 #include "suite.h"
@@ -629,6 +631,47 @@ START_TEST(test_under_ceiling)
 }
 END_TEST
 
+/* Finds at once the lists that tools leave for when pairs below want them. */
+static atomic_long found_at_once;
+static enum decision refine_eagerly(const void *state, struct discussion *d)
+{
+    const struct refiner *r = *(const struct refiner *const *)state;
+    const enum decision decision = r->refine(r->state, d);
+    if (d->blockers && d->blockers->wanted) {
+        blockers_find(d->receiver, d->emitter, d->host, d->blockers);
+        atomic_fetch_add(&found_at_once, 1);
+    }
+    return decision;
+}
+
+/* A list that is found when pairs below want it is the one that would have been found before: of
+ * links that are discussed again and split, too. */
+START_TEST(test_lists_wanted)
+{
+    for (unsigned seed = 1; seed <= 4; seed++) {
+        struct scene scene;
+        struct solve lazy, eager;
+        struct refiner *r = oracles_open("power", RELEASE_FLAT), asking;
+        ck_assert_ptr_nonnull(r);
+        asking = *r;
+        asking.refine = refine_eagerly;
+        asking.wave = NULL;
+        asking.state = &r;
+        random_room(&scene, seed);
+        solve_by(&lazy, &scene, r, 1);
+        solve_by(&eager, &scene, &asking, 2);
+        same_solves(&lazy, &eager);
+        solve_close(&lazy);
+        solve_close(&eager);
+        made_close(&scene);
+        refiner_close(r);
+    }
+    printf("%ld lists that were left for later, found at once: the same links\n",
+           (long)found_at_once);
+    ck_assert_int_gt(found_at_once, 100);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("power");
@@ -646,6 +689,7 @@ int main(void)
     tcase_add_test(c, test_empty);
     tcase_add_test(c, test_panels);
     tcase_add_test(c, test_under_ceiling);
+    tcase_add_test(c, test_lists_wanted);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }

@@ -343,6 +343,13 @@ static enum shaft_answer ask(const struct world *w, const uint32_t pair[2], stru
         ck_assert(tool_visibility(&d, 1024)
                   == (answer == SHAFT_VISIBLE ? VISIBILITY_ALL : VISIBILITY_NONE));
         ck_assert(term_visibility_error(&d) == 0);
+        /* known so well, it needs no list, but for the pairs below */
+        struct blockers none = {0};
+        d.blockers = &none;
+        ck_assert_int_eq(tool_shaft(&d), answer);
+        ck_assert_int_eq(none.known, BLOCKERS_UNKNOWN);
+        ck_assert_int_eq(none.wanted, 1);
+        ck_assert(!list || !list->wanted);
     } else {
         ck_assert_int_eq(d.terms.visibility_level, VISIBILITY_ABSENT);
     }

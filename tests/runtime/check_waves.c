@@ -3,20 +3,19 @@
  *
  * Random rooms, each solved by every built-in oracle: compiled for one pair on one thread, then in
  * waves of 1, 7 and 256 pairs on 1, 2 and 3 threads. Links, their order, elements and radiosities
- * must be the same. Rooms hold lamps and boards that stand askew, some black, some through each
- * other, so that pairs of one block go different ways.
+ * must be the same. (check_widths.sh: whatever the width of vectors, too.)
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include "engine/solve.h"
-#include "make_pair.h"
 #include "make_solve.h"
+#include "random_room.h"
 #include "oracle/builtin.h"
 #include "suite.h"
 #include "wave.h"
 
-enum { BOARDS = 7, SCENES = 14 };
+enum { SCENES = 14 };
 
 static const int lengths[] = {1, 7, WAVE_PAIRS};
 
@@ -37,43 +36,6 @@ static void cut_wave(const void *state, struct discussion *block, int count,
         cut->refiner->wave(cut->refiner->state, block + from,
                            count - from < cut->length ? count - from : cut->length,
                            decisions + from);
-}
-
-static void random_board(struct scene *s, uint32_t material, unsigned *state)
-{
-    double o[3], a[3], b[3];
-    for (int k = 0; k < 3; k++) {
-        o[k] = 0.8 + (k == 2 ? 1.2 : 2.2) * random_unit(state);
-        a[k] = 1.4 * (random_unit(state) - 0.5);
-        b[k] = 1.4 * (random_unit(state) - 0.5);
-    }
-    made_quad(s, material, o[0], o[1], o[2], a[0], a[1], a[2], b[0], b[1], b[2]);
-    made_quad(s, material, o[0], o[1], o[2], b[0], b[1], b[2], a[0], a[1], a[2]);
-}
-
-static void random_room(struct scene *s, unsigned seed)
-{
-    unsigned state = seed;
-    uint32_t m[6];
-    ck_assert_int_eq(made_open(s), 0);
-    const uint32_t grey = made_material(s, 0.3 + 0.5 * random_unit(&state), 0),
-                   lamp = made_material(s, 0.2, 10), black = made_material(s, 0, 0),
-                   dim = made_material(s, 0.5, 0.3 * random_unit(&state));
-    for (int i = 0; i < 6; i++)
-        m[i] = i == 5 ? dim : grey;
-    made_room(s, m, 4, 5, 3);
-    for (int i = 0; i < BOARDS; i++)
-        random_board(s, i == 0 ? lamp : i == 1 ? black : i == 2 ? dim : grey, &state);
-}
-
-static void solve_by(struct solve *s, const struct scene *scene, const struct refiner *r,
-                     int threads)
-{
-    const struct solve_options options = {
-        .tolerance = 1e-3, .iterations = 1000, .threads = threads};
-    const char *cause = "";
-    ck_assert_msg(solve_open(s, scene, &options, &cause) == 0, "%s", cause);
-    ck_assert_msg(solve_run(s, r, &cause) == 0, "%s", cause);
 }
 
 static struct refiner *open_release(const char *oracle, enum release release)
@@ -100,14 +62,7 @@ static uint64_t compare_waves(const char *oracle, const struct scene *scene)
         asking.wave = cut_wave;
         asking.state = &at;
         solve_by(&other, scene, &asking, 1 + i);
-        same_links(&one, &other);
-        ck_assert_uint_eq(one.refinement.pairs, other.refinement.pairs);
-        ck_assert(
-            memcmp(one.refinement.decided, other.refinement.decided, sizeof one.refinement.decided)
-            == 0);
-        ck_assert(
-            memcmp(one.state.radiosity, other.state.radiosity, one.hierarchy.count * sizeof(double))
-            == 0);
+        same_solves(&one, &other);
         ck_assert_int_eq(cut.pairs, (long)other.refinement.pairs);
         ck_assert_int_gt(cut.together, cut.pairs / 2);
         solve_close(&other);
