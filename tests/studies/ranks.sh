@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# ranks.sh - what several processes have and tell each other: room_of_boxes.awk from 10,000 faces to LARGEST (100000), as
+# `radiosity solve` does it without options, on 1, 2, 4, 8 and 16 ranks of one machine. Time says little where ranks share a
+# processor, so work, traffic and memory are counted. From these: a model of more faces on more machines (LogP: Culler et al.
+# 1993), with what it assumes. LIMIT: seconds for one run (3600). Needs a command made by `make MPI=1`.
+# SPDX-License-Identifier: MIT
+. "$(dirname "$0")/lib.sh"
+export LIMIT=${LIMIT:-3600}
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_rmaps_base_oversubscribe=1
+command -v mpirun >/dev/null || fail "mpirun is missing: apt-get install openmpi-bin"
+! mpirun -n 2 "$radiosity" --version 2>&1 | grep -q 'built without MPI' || fail "$radiosity was built without MPI: make MPI=1"
+rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes,links_most,pairs_most,ghosts_most,memory_mb,splits,link_bytes,sweep_bytes,values,particles,fingerprint
+
+solve() { # FACES RANKS
+    [ -s "$tmp/$1.obj" ] || awk -v FACES="$1" -v MATERIALS="$tmp/$1.mtl" -f "$studies/room_of_boxes.awk" >"$tmp/$1.obj"
+    timeout "$LIMIT" mpirun -n "$2" "$radiosity" solve "$tmp/$1.obj" -q --threads 1 --json "$tmp/json" >"$tmp/said" 2>&1 || return
+    awk -f "$tables/json.awk" "$tmp/json" | awk -v ranks="$2" '
+        function most(name) { return v["ranks.." name] + 0 }
+        /^ranks\./ { if ($2 + 0 > v[$1] + 0) v[$1] = $2; next }
+        { v[$1] = $2 }
+        END {
+            split("faces elements links pairs rays", all, " ")
+            for (i = 1; i in all; i++) print all[i], v[all[i]]
+            print "sweeps", v["iterations"]; print "passes", v["passes"]
+            print "links_most", ranks > 1 ? most("links") : v["links"]; print "pairs_most", ranks > 1 ? most("pairs") : v["pairs"]
+            print "ghosts_most", most("ghosts"); print "memory_mb", ranks > 1 ? most("memory_mb") : v["peak_memory_mb"]
+            print "splits", most("bytes_sent.splits"); print "link_bytes", most("bytes_sent.links"); print "sweep_bytes", most("bytes_sent.sweeps")
+            print "values", most("bytes_sent.values"); print "particles", most("bytes_sent.particles")
+            # of 64 bits the lower 48, which a number holds: equal, or the run is wrong
+            hex = substr(v["link_fingerprint"], 5); n = 0
+            for (i = 1; i <= length(hex); i++) n = 16 * n + index("0123456789abcdef", substr(hex, i, 1)) - 1
+            printf "fingerprint %.0f\n", n
+        }'
+}
+for faces in 10000 31623 100000 316228 1000000; do
+    [ $faces -le "${LARGEST:-100000}" ] || continue
+    for ranks in 1 2 4 8 16; do
+        measure "boxes_$faces,$ranks,$binary" solve $faces $ranks
+    done
+    rm -f "$tmp/$faces.obj" "$tmp/$faces.mtl"
+done
+rows_of_binary "$pages/ranks.csv"
+
+# ---- the page
+{
+    page_head "Ranks" "What do several processes have, and what do they tell each other? One room, half of its faces in walls and half in boxes
+(\`tests/studies/room_of_boxes.awk\`), \`mpirun -n N radiosity solve\` without options. The links of a scene are the same to the bit on any
+number of ranks. \"Most\" is the rank that has most, over the mean. Bytes are those that one rank, the busiest, has sent in the whole run;
+\"a sweep\" is what it sends while sweeps go on, over their number."
+    echo "| faces | ranks | links | most | discussions, most | MB held | elements of others, most | splits KB | links MB | a sweep KB | values MB | particles MB |"
+    echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
+    awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+        $at["faces"] == "-" { printf "| %s | %d | too long | | | | | | | | | |\n", substr($1, 7), $2; next }
+        { n = $at["ranks"]
+          if (!($1 in first)) first[$1] = $at["fingerprint"]
+          if (first[$1] != $at["fingerprint"]) { print "ranks.csv: " $1 ": other links on " n " ranks" >"/dev/stderr"; exit 1 }
+          printf "| %d | %d | %d | %.2f | %.2f | %.0f | %d | %.1f | %.2f | %.0f | %.1f | %.0f |\n", $at["faces"], n, $at["links"],
+              $at["links_most"] * n / $at["links"], $at["pairs_most"] * n / $at["pairs"], $at["memory_mb"], $at["ghosts_most"],
+              $at["splits"] / 1e3, $at["link_bytes"] / 1e6, $at["sweep_bytes"] / $at["sweeps"] / 1e3, $at["values"] / 1e6, $at["particles"] / 1e6 }' "$pages/ranks.csv"
+    cat <<'END'
+
+What follows.
+
+- **Links and discussions** are shared out. The first pass goes by numbers of faces, later ones by links.
+- **Memory hardly falls.** Every rank holds all elements (264 bytes each), Embree's structure over all faces, and, while particles are
+  counted, 16 sums for each face; links are the smaller part. Embree keeps pointers in its structure, so processes cannot share it: give a
+  machine one rank, with threads.
+- **A sweep tells of nearly every face**, not of the surface between parts: groups are linked far and wide, and what a group sends is
+  summed from its faces by whoever receives. So its bytes grow with the faces, and with the ranks that each is told to.
+- **Particles** cost most: counts of all faces are added up after each stretch of tracing.
+
+## More faces, more machines
+
+LogP: a message takes latency + 2 overheads (3 us together), a byte 1 / (12.5 GB/s), as a 100 Gb/s network is sold. Assumed: one rank a
+machine; per face as many elements, links, passes, sweeps and bytes as in the last row of one rank and of two above; counts of particles and values of
+elements in a ring (each rank sends and receives all once), a sweep in 16 exchanges with every other rank.
+END
+    echo
+    echo "| faces | machines | GB of elements and counts a machine | a sweep: s to send | its messages: s | values and counts: s | fits in 256 GB |"
+    echo "|---|---|---|---|---|---|---|"
+    awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+        $at["faces"] != "-" && $at["ranks"] == 1 { elements = $at["elements"] / $at["faces"] }
+        $at["faces"] != "-" && $at["ranks"] == 2 { sweep = $at["sweep_bytes"] / $at["sweeps"] / $at["faces"] * 2; particles = $at["particles"] / $at["faces"]; values = $at["values"] / $at["faces"] * 2 }
+        END { for (f = 1e8; f <= 1e9; f *= 10) for (n = 64; n <= 1024; n *= 16) {
+            held = f * (elements * 264 + 16 * 3 * 8 + elements * 3 * 8) / 1e9
+            printf "| %.0e | %d | %.0f | %.1f | %.3f | %.1f | %s |\n", f, n, held, sweep * f * (n - 1) / n / 12.5e9, 16 * (n - 1) * 3e-6, (2 * particles + values) * f / 12.5e9, held < 256 ? "yes" : "no" } }' "$pages/ranks.csv"
+    cat <<'END'
+
+It stops where one machine no longer holds all elements: at some 1e8 faces. Before that, a sweep's bytes do not fall with more machines,
+since each is told of nearly all faces. Both have one cure: elements by stretches, as links are, with those of others only where a link
+needs them, and groups' sums made by the owners of their faces. Links, decisions and numbers do not stand in the way: refinement
+asks nobody, indices depend on what is split alone, and random numbers on a path's index.
+END
+} >"$tmp/page.md"
+mv "$tmp/page.md" "$pages/ranks.md"
+say "$pages/ranks.md"
