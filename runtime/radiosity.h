@@ -605,7 +605,8 @@ RAD_API int radGetRanks(RadSolution solution, struct RadRank *ranks, int most);
 /* What it takes to go on with a solve another day: parts, each a table of `rows` by `columns`. What
  * goes on from them ends with the same bits as what was never put down, on any number of threads
  * and ranks, whatever number made them. They are of one scene, oracle with its parameters, and
- * options but limits; of this version of the library, and of machines with this one's order of bytes. */
+ * options but limits; of this version of the library, and of machines with this one's order of
+ * bytes. */
 enum {
     RAD_STATE_HEAD, /* counts, and hashes of all */
     RAD_STATE_SPLIT,

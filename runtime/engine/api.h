@@ -82,7 +82,7 @@ struct RadSolutionObject {
     struct solve_state state;       /* of radGetSolutionState */
     RadPassFunction between;        /* of radSetSolutionPassFunction; NULL: none */
     void *between_user;
-    int done;                       /* the last step said so */
+    int done; /* the last step said so */
     int dead; /* a call has failed: what there is is incomplete, and may only be released */
 };
 

@@ -75,7 +75,7 @@ struct solve {
     struct ranking ranking;
     struct linear_solution linear; /* with options.linear, once the solve is done */
     struct report report;
-    struct trace *trace;             /* whoever is told of discussions, borrowed; NULL: nobody */
+    struct trace *trace; /* whoever is told of discussions, borrowed; NULL: nobody */
     /* called by solve_run before each pass but the first refinement; nonzero cancels; NULL: none */
     int (*between)(void *context);
     void *between_context;

@@ -38,8 +38,9 @@ static uint64_t hash_oracle(const struct refiner *refiner)
 /* Those that change the answer; whose picture counts does so only where nothing is kept. */
 static uint64_t hash_options(const struct solve_options *o)
 {
-    const int words[] = {o->iterations,   (int)o->solver, (int)o->projection, (int)o->closure,
-                         o->clusters,     o->linear,      o->unit};
+    const int words[] = {o->iterations,   (int)o->solver, (int)o->projection,
+                         (int)o->closure, o->clusters,    o->linear,
+                         o->unit};
     const uint64_t hash = state_mix(0, &o->tolerance, sizeof o->tolerance);
     return state_mix(hash, words, sizeof words);
 }

@@ -306,8 +306,8 @@ static inline int shaft_cutting(const struct shaft *shaft, const struct cut *who
                                 uint64_t *planes)
 {
     const double reach = shaft->grow * 1.001; /* more than rounding */
-    return shaft_planes_cut(lanes_width(), shaft, shaft->slack, reach,
-                            (const double(*)[3])whole->v, whole->n, planes);
+    return shaft_planes_cut(lanes_width(), shaft, shaft->slack, reach, (const double(*)[3])whole->v,
+                            whole->n, planes);
 }
 
 /* Does one of the planes have all of a polygon outside? Most polygons are, which saves the

@@ -190,8 +190,8 @@ OUTLINE int shaft_planes_miss(int width, const struct shaft *shaft, const double
                      (shaft, low, high));
 }
 
-OUTLINE int shaft_planes_far(int width, const struct shaft *shaft, double out,
-                             const double (*v)[3], int n)
+OUTLINE int shaft_planes_far(int width, const struct shaft *shaft, double out, const double (*v)[3],
+                             int n)
 {
     return LANES_RUN(width, shaft_planes_far_8, shaft_planes_far_4, shaft_planes_far_body,
                      (shaft, out, v, n));

@@ -203,16 +203,15 @@ static int add_inputs(struct named_files *f, const struct options *o)
             return -1;
     const struct {
         const char *path, *what;
-    } others[] = {{o->reference, "the reference"},
-                  {o->params, "the file of parameters"},
-                  {o->sensor, "the file of sensors"},
-                  {o->product, "the file of columns"},
-                  {o->checkpoint && o->restart && same_file(o->checkpoint, o->restart)
-                       ? NULL
-                       : o->restart,
-                   "the checkpoint to go on from"},
-                  {o->command == COMMAND_DRAW || o->command == COMMAND_PANEL ? o->statistics : NULL,
-                   "the file of statistics"}};
+    } others[] = {
+        {o->reference, "the reference"},
+        {o->params, "the file of parameters"},
+        {o->sensor, "the file of sensors"},
+        {o->product, "the file of columns"},
+        {o->checkpoint && o->restart && same_file(o->checkpoint, o->restart) ? NULL : o->restart,
+         "the checkpoint to go on from"},
+        {o->command == COMMAND_DRAW || o->command == COMMAND_PANEL ? o->statistics : NULL,
+         "the file of statistics"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].path && add_input(f, strdup(others[i].path), others[i].what))
             return -1;

@@ -20,8 +20,7 @@ static int write_checkpoint(struct checkpoint *c, const struct RadStatePart *par
     struct hdf5_file *f = hdf5_create(c->to, 1);
     if (!f)
         return -1;
-    int failed = hdf5_put_text(f, "format", FORMAT) < 0
-                 || hdf5_put_number(f, "scale", c->scale) < 0
+    int failed = hdf5_put_text(f, "format", FORMAT) < 0 || hdf5_put_number(f, "scale", c->scale) < 0
                  || hdf5_put_number(f, "chosen", c->chosen) < 0
                  || hdf5_put_number(f, "rays", c->rays) < 0;
     for (int i = 0; i < RAD_STATE_PARTS && !failed; i++)
@@ -67,15 +66,14 @@ static const char *read_parts(struct hdf5_file *f, struct parts *p)
     static const struct {
         const char *name;
         enum hdf5_type type;
-    } parts[RAD_STATE_PARTS] = {
-        [RAD_STATE_HEAD] = {"head", HDF5_LONGS},
-        [RAD_STATE_SPLIT] = {"split", HDF5_WORDS},
-        [RAD_STATE_MARK] = {"mark", HDF5_WORDS},
-        [RAD_STATE_SEEN] = {"seen", HDF5_NUMBERS},
-        [RAD_STATE_UNCOVERED] = {"uncovered", HDF5_NUMBERS},
-        [RAD_STATE_RADIOSITY] = {"radiosity", HDF5_NUMBERS},
-        [RAD_STATE_IRRADIANCE] = {"irradiance", HDF5_NUMBERS},
-        [RAD_STATE_LINK] = {"links", HDF5_LINKS}};
+    } parts[RAD_STATE_PARTS] = {[RAD_STATE_HEAD] = {"head", HDF5_LONGS},
+                                [RAD_STATE_SPLIT] = {"split", HDF5_WORDS},
+                                [RAD_STATE_MARK] = {"mark", HDF5_WORDS},
+                                [RAD_STATE_SEEN] = {"seen", HDF5_NUMBERS},
+                                [RAD_STATE_UNCOVERED] = {"uncovered", HDF5_NUMBERS},
+                                [RAD_STATE_RADIOSITY] = {"radiosity", HDF5_NUMBERS},
+                                [RAD_STATE_IRRADIANCE] = {"irradiance", HDF5_NUMBERS},
+                                [RAD_STATE_LINK] = {"links", HDF5_LINKS}};
     static const uint64_t most = (uint64_t)1 << 40, wide = 16;
     for (int i = 0; i < RAD_STATE_PARTS; i++) {
         uint64_t rows, columns, first = 0;
@@ -106,8 +104,12 @@ static int refuse(const struct checkpoint *c, const char *cause)
 
 int checkpoint_open(struct checkpoint *c, const struct options *o)
 {
-    *c = (struct checkpoint){.to = o->checkpoint, .from = o->restart, .where = o->scene,
-                             .scale = 0, .passes = -1, .quiet = o->quiet};
+    *c = (struct checkpoint){.to = o->checkpoint,
+                             .from = o->restart,
+                             .where = o->scene,
+                             .scale = 0,
+                             .passes = -1,
+                             .quiet = o->quiet};
     if (!c->from)
         return 0;
     const char *cause;

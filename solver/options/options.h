@@ -96,14 +96,14 @@ struct options {
     const char *image_error, *out, *csv, *faces, *json, *statistics, *names, *chart, *image;
     enum factor_format format;
     int format_given;
-    enum factor_rows by;          /* viewfactors */
-    int losses;                   /* viewfactors */
-    const char *sensor, *product; /* viewfactors: rows of points, and products, instead */
-    const char *resume;           /* viewfactors: where the work stands */
+    enum factor_rows by;              /* viewfactors */
+    int losses;                       /* viewfactors */
+    const char *sensor, *product;     /* viewfactors: rows of points, and products, instead */
+    const char *resume;               /* viewfactors: where the work stands */
     const char *checkpoint, *restart; /* solve: to be written after passes; to go on from */
-    struct copies copies;         /* viewfactors: --mirror, --repeat */
-    int width, height, mesh;      /* of the picture */
-    int gather;                   /* rays per pixel; 0: none; -1, not given: at corners */
+    struct copies copies;             /* viewfactors: --mirror, --repeat */
+    int width, height, mesh;          /* of the picture */
+    int gather;                       /* rays per pixel; 0: none; -1, not given: at corners */
     struct view view;
     int view_given;
 

@@ -171,8 +171,7 @@ static int move_rows(hid_t set, hid_t type, uint64_t first, uint64_t count, uint
     if (count == 0)
         failed = failed || H5Sselect_none(file) < 0 || H5Sselect_none(memory) < 0;
     else
-        failed = failed
-                 || H5Sselect_hyperslab(file, H5S_SELECT_SET, start, NULL, size, NULL) < 0;
+        failed = failed || H5Sselect_hyperslab(file, H5S_SELECT_SET, start, NULL, size, NULL) < 0;
     if (!failed)
         failed = (to ? H5Dread(set, type, memory, file, H5P_DEFAULT, to)
                      : H5Dwrite(set, type, memory, file, H5P_DEFAULT, from))
@@ -208,8 +207,8 @@ int hdf5_put(struct hdf5_file *f, const char *name, enum hdf5_type type, uint64_
 int hdf5_put_number(struct hdf5_file *f, const char *name, double value)
 {
     const hid_t space = H5Screate(H5S_SCALAR),
-                attribute = H5Acreate2(f->id, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                                       H5P_DEFAULT);
+                attribute =
+                    H5Acreate2(f->id, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT);
     const int failed = attribute < 0 || H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) < 0;
     const int result = all_did(f, failed, 0);
     if (attribute >= 0)
@@ -354,10 +353,9 @@ int hdf5_has_text(struct hdf5_file *f, const char *name, const char *text)
     if (attribute < 0)
         return 0;
     const hid_t kind = H5Aget_type(attribute);
-    const int same = kind >= 0 && H5Tget_class(kind) == H5T_STRING
-                     && H5Tis_variable_str(kind) == 0 && H5Tget_size(kind) == strlen(text) + 1
-                     && H5Tget_size(kind) < sizeof is && H5Aread(attribute, kind, is) >= 0
-                     && strcmp(is, text) == 0;
+    const int same = kind >= 0 && H5Tget_class(kind) == H5T_STRING && H5Tis_variable_str(kind) == 0
+                     && H5Tget_size(kind) == strlen(text) + 1 && H5Tget_size(kind) < sizeof is
+                     && H5Aread(attribute, kind, is) >= 0 && strcmp(is, text) == 0;
     if (kind >= 0)
         H5Tclose(kind);
     H5Aclose(attribute);
