@@ -329,8 +329,8 @@
 
 /* ---- measured error (engine) */
 
-/* of the reflected light. A polygon that reflects so much is a large face to a reader of the
- * summary; chosen: there can be a hundred of them at most */
+/* of the scene's area. A polygon above is a large face to a reader of the summary, however dim;
+ * chosen: there can be a hundred of them at most */
 #define REFINER_FACE_ERROR_LARGE 0.01
 /* standard errors. A large face is surely wrong beyond this: 97.5 % of Student's t with 15 degrees
  * of freedom for the worst of a hundred */

@@ -79,8 +79,8 @@ static inline double refiner_height3(const double p[3], const double on[3], cons
  * to both; either may be NULL. Returns how many corners are above, and below in *n_below. Each has
  * room for `most`; rounding may make a bent polygon cross more than twice, then corners are left
  * out. [Sutherland and Hodgman 1974] */
-static inline int refiner_polygon_divide(const double *v, int n, int size, const double *h,
-                                         int most, double *above, double *below, int *n_below)
+static inline int refiner_polygon_divide(const double *v, int n, int size, const double *h, int most,
+                                 double *above, double *below, int *n_below)
 {
     int i, j, up = 0, down = 0;
     for (i = 0, j = n - 1; i < n; j = i++) {
@@ -122,7 +122,7 @@ struct refiner_polygon {
 
 /* The part of the convex polygon v[n], n <= 4, in front of the plane. */
 static inline void refiner_polygon_clip(struct refiner_polygon *out, const double (*v)[3], int n,
-                                        const double on[3], const double normal[3])
+                                const double on[3], const double normal[3])
 {
     double h[REFINER_POLYGON_MAX];
     int front = 0;
@@ -132,8 +132,7 @@ static inline void refiner_polygon_clip(struct refiner_polygon *out, const doubl
     }
     out->n = n;
     if (front < n)
-        out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL,
-                                        NULL);
+        out->n = refiner_polygon_divide(&v[0][0], n, 3, h, REFINER_POLYGON_MAX, &out->v[0][0], NULL, NULL);
     else /* most planes cut nothing */
         for (int i = 0; i < n; i++)
             for (int k = 0; k < 3; k++)
@@ -158,7 +157,7 @@ static inline double refiner_polygon_area(const struct refiner_polygon *p, const
 
 /* Distance from p to the convex polygon v[n] with unit normal `normal` (m). */
 static inline double refiner_polygon_distance(const double p[3], const double (*v)[3], int n,
-                                              const double normal[3])
+                                      const double normal[3])
 {
     double best = INFINITY;
     int inside = 1;
@@ -196,67 +195,62 @@ static inline double refiner_polygon_distance(const double p[3], const double (*
 
 /* The leaves of every graph. */
 enum refiner_decision {
-    REFINER_DECISION_LINK,               /* Let the emitter light the receiver at this level. */
-    REFINER_DECISION_STOP,               /* The pair exchanges no light worth keeping. */
+    REFINER_DECISION_LINK, /* Let the emitter light the receiver at this level. */
+    REFINER_DECISION_STOP, /* The pair exchanges no light worth keeping. */
     REFINER_DECISION_SUBDIVIDE_RECEIVER, /* Ask again for each child of the receiver. */
-    REFINER_DECISION_SUBDIVIDE_EMITTER,  /* Ask again for each child of the emitter. */
-    REFINER_DECISION_SUBDIVIDE_BOTH, /* Ask again for each child of the one with each child of the
-                                        other. */
-    REFINER_DECISION_LINK_CLUSTERS /* Let the emitter light the receiver, one of which is a cluster,
-                                      each face by its own orientation. */
+    REFINER_DECISION_SUBDIVIDE_EMITTER, /* Ask again for each child of the emitter. */
+    REFINER_DECISION_SUBDIVIDE_BOTH, /* Ask again for each child of the one with each child of the other. */
+    REFINER_DECISION_LINK_CLUSTERS /* Let the emitter light the receiver, one of which is a cluster, each face by its own orientation. */
 };
 #define REFINER_DECISIONS 6
 
-/* Are both elements surfaces? If not: do they exchange no light (apart), or which of the two is to
- * be opened? */
+/* Are both elements surfaces? If not: do they exchange no light (apart), or which of the two is to be opened? */
 enum refiner_clusters_answer {
     REFINER_CLUSTERS_SURFACES, /* precise */
-    REFINER_CLUSTERS_APART,    /* precise */
+    REFINER_CLUSTERS_APART, /* precise */
     REFINER_CLUSTERS_RECEIVER, /* precise */
-    REFINER_CLUSTERS_EMITTER   /* precise */
+    REFINER_CLUSTERS_EMITTER /* precise */
 };
 #define REFINER_CLUSTERS_ANSWERS 4
 
 /* How do two surfaces lie to each other's support planes? When both cross, the larger is named. */
 enum refiner_support_planes_answer {
-    REFINER_SUPPORT_PLANES_TOWARD,           /* precise */
-    REFINER_SUPPORT_PLANES_AWAY,             /* precise */
+    REFINER_SUPPORT_PLANES_TOWARD, /* precise */
+    REFINER_SUPPORT_PLANES_AWAY, /* precise */
     REFINER_SUPPORT_PLANES_RECEIVER_CROSSES, /* precise */
-    REFINER_SUPPORT_PLANES_EMITTER_CROSSES   /* precise */
+    REFINER_SUPPORT_PLANES_EMITTER_CROSSES /* precise */
 };
 #define REFINER_SUPPORT_PLANES_ANSWERS 4
 
-/* May the emitter's radiosity times F_rs exceed the larger of `absolute` and `relative` times the
- * scene's mean irradiance? dark: this emitter never sends light. */
+/* May the emitter's radiosity times F_rs exceed the larger of `absolute` and `relative` times the scene's mean irradiance? dark: this emitter never sends light. */
 enum refiner_transfer_answer {
-    REFINER_TRANSFER_DARK,  /* precise */
+    REFINER_TRANSFER_DARK, /* precise */
     REFINER_TRANSFER_BELOW, /* approximate */
-    REFINER_TRANSFER_ABOVE  /* approximate */
+    REFINER_TRANSFER_ABOVE /* approximate */
 };
 #define REFINER_TRANSFER_ANSWERS 3
 
-/* Which of the two stay at or above `min_area`, and above `min_share` of the scene's area, when
- * split? */
+/* Which of the two stay at or above `min_area`, and above `min_share` of the scene's area, when split? */
 enum refiner_can_split_answer {
-    REFINER_CAN_SPLIT_BOTH,     /* precise */
+    REFINER_CAN_SPLIT_BOTH, /* precise */
     REFINER_CAN_SPLIT_RECEIVER, /* precise */
-    REFINER_CAN_SPLIT_EMITTER,  /* precise */
-    REFINER_CAN_SPLIT_NEITHER   /* precise */
+    REFINER_CAN_SPLIT_EMITTER, /* precise */
+    REFINER_CAN_SPLIT_NEITHER /* precise */
 };
 #define REFINER_CAN_SPLIT_ANSWERS 4
 
 /* Which element has the larger area? Its own form factor is the smaller: A_r F_rs = A_s F_sr. */
 enum refiner_larger_answer {
     REFINER_LARGER_RECEIVER, /* precise */
-    REFINER_LARGER_EMITTER   /* precise */
+    REFINER_LARGER_EMITTER /* precise */
 };
 #define REFINER_LARGER_ANSWERS 2
 
 /* Cast at least `rays` rays (1, 4, 16, 64, 256 or 1024) between the elements: how many arrive? */
 enum refiner_visibility_answer {
-    REFINER_VISIBILITY_NONE,    /* approximate */
+    REFINER_VISIBILITY_NONE, /* approximate */
     REFINER_VISIBILITY_PARTIAL, /* precise */
-    REFINER_VISIBILITY_ALL      /* approximate */
+    REFINER_VISIBILITY_ALL /* approximate */
 };
 #define REFINER_VISIBILITY_ANSWERS 3
 
@@ -266,8 +260,7 @@ enum refiner_form_factor_answer {
 };
 #define REFINER_FORM_FACTOR_ANSWERS 1
 
-/* Mark the pair; links are counted by their marks. 1: a link that could not be split though it
- * should. */
+/* Mark the pair; links are counted by their marks. 1: a link that could not be split though it should. */
 enum refiner_mark_answer {
     REFINER_MARK_DONE /* other */
 };
@@ -277,30 +270,10 @@ enum refiner_mark_answer {
 enum refiner_axis_level { REFINER_AXIS_ABSENT, REFINER_AXIS_PRESENT };
 
 /* F_rs, the unoccluded fraction of what leaves the receiver that would meet the emitter */
-enum refiner_form_factor_level {
-    REFINER_FORM_FACTOR_ABSENT,
-    REFINER_FORM_FACTOR_INVERSE_SQUARE,
-    REFINER_FORM_FACTOR_DISC,
-    REFINER_FORM_FACTOR_HEMICUBE,
-    REFINER_FORM_FACTOR_POINT,
-    REFINER_FORM_FACTOR_RAYS,
-    REFINER_FORM_FACTOR_POLYGON,
-    REFINER_FORM_FACTOR_CONTOUR
-};
+enum refiner_form_factor_level { REFINER_FORM_FACTOR_ABSENT, REFINER_FORM_FACTOR_INVERSE_SQUARE, REFINER_FORM_FACTOR_DISC, REFINER_FORM_FACTOR_HEMICUBE, REFINER_FORM_FACTOR_POINT, REFINER_FORM_FACTOR_RAYS, REFINER_FORM_FACTOR_POLYGON, REFINER_FORM_FACTOR_CONTOUR };
 
 /* visible fraction of segments between the two elements' mutually facing parts */
-enum refiner_visibility_level {
-    REFINER_VISIBILITY_ABSENT,
-    REFINER_VISIBILITY_PRESUMED,
-    REFINER_VISIBILITY_EXTINCTION,
-    REFINER_VISIBILITY_RAYS_1,
-    REFINER_VISIBILITY_RAYS_4,
-    REFINER_VISIBILITY_RAYS_16,
-    REFINER_VISIBILITY_RAYS_64,
-    REFINER_VISIBILITY_RAYS_256,
-    REFINER_VISIBILITY_RAYS_1024,
-    REFINER_VISIBILITY_EXACT
-};
+enum refiner_visibility_level { REFINER_VISIBILITY_ABSENT, REFINER_VISIBILITY_PRESUMED, REFINER_VISIBILITY_EXTINCTION, REFINER_VISIBILITY_RAYS_1, REFINER_VISIBILITY_RAYS_4, REFINER_VISIBILITY_RAYS_16, REFINER_VISIBILITY_RAYS_64, REFINER_VISIBILITY_RAYS_256, REFINER_VISIBILITY_RAYS_1024, REFINER_VISIBILITY_EXACT };
 
 /* faces that may stand between the two; 9: too many to list */
 enum refiner_blockers_level { REFINER_BLOCKERS_ABSENT, REFINER_BLOCKERS_PRESENT };
@@ -310,16 +283,16 @@ enum refiner_mark_level { REFINER_MARK_ABSENT, REFINER_MARK_PRESENT };
 
 /* The data manager: every term and the level it is known at. All zero: nothing is known. */
 struct refiner_terms {
-    double axis[3];                  /* m */
-    double form_factor;              /* a plain number */
-    double visibility;               /* a plain number */
-    int blockers;                    /* a plain number */
-    int mark;                        /* a plain number */
-    unsigned char axis_level;        /* enum axis_level */
+    double axis[3]; /* m */
+    double form_factor; /* a plain number */
+    double visibility; /* a plain number */
+    int blockers; /* a plain number */
+    int mark; /* a plain number */
+    unsigned char axis_level; /* enum axis_level */
     unsigned char form_factor_level; /* enum form_factor_level */
-    unsigned char visibility_level;  /* enum visibility_level */
-    unsigned char blockers_level;    /* enum blockers_level */
-    unsigned char mark_level;        /* enum mark_level */
+    unsigned char visibility_level; /* enum visibility_level */
+    unsigned char blockers_level; /* enum blockers_level */
+    unsigned char mark_level; /* enum mark_level */
 };
 
 #endif
@@ -417,8 +390,7 @@ enum { REFINER_HOST_HIDDEN = -1 }; /* what `candidates` says of a shaft that let
 struct refiner_host {
     /* Which of `count` (1 to SEGMENTS_MAX) segments meet a face, from either side? Bit i stands for
      * segment i; bits from count on are 0. Called from many threads at once. */
-    uint64_t (*occluded)(const struct refiner_host *host, int count,
-                         const struct refiner_segment *segments);
+    uint64_t (*occluded)(const struct refiner_host *host, int count, const struct refiner_segment *segments);
     double area;        /* of all faces, m2 */
     double extent;      /* longest side of the scene's box (m) */
     double exitance;    /* the largest E, W/m2 */
@@ -442,8 +414,7 @@ struct refiner_host {
     int (*candidates)(const struct refiner_host *host, const struct refiner_shaft *shaft, int most,
                       uint32_t *faces);
     /* The corners of a face that `candidates` listed. */
-    void (*corners)(const struct refiner_host *host, uint32_t face,
-                    struct refiner_polygon *polygon);
+    void (*corners)(const struct refiner_host *host, uint32_t face, struct refiner_polygon *polygon);
     /* Optical depth of the scene's clusters along a segment, sum of kappa l, but for those that
      * hold one of two faces (tools/extinction.h). NULL: 0. */
     double (*optical_depth)(const struct refiner_host *host, const struct refiner_segment *segment,
@@ -475,6 +446,7 @@ struct refiner_discussion {
 #ifndef REFINER_STANDALONE_H
 #define REFINER_STANDALONE_H
 
+
 /* The most segments that one call of `occluded` is given. */
 enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
 
@@ -484,10 +456,9 @@ enum { REFINER_HOST_SEGMENTS = REFINER_SEGMENTS_MAX };
  * something. To give them data of your own, let `host` be the first member of a structure of
  * yours. */
 static inline void refiner_host_open(struct refiner_host *host,
-                                     uint64_t (*occluded)(const struct refiner_host *host,
-                                                          int count,
-                                                          const struct refiner_segment *segments),
-                                     void (*totals)(struct refiner_host *host))
+                             uint64_t (*occluded)(const struct refiner_host *host, int count,
+                                                  const struct refiner_segment *segments),
+                             void (*totals)(struct refiner_host *host))
 {
     host->occluded = occluded;
     host->area = host->extent = host->exitance = host->reflectance = host->irradiance =
@@ -507,17 +478,16 @@ static inline void refiner_host_open(struct refiner_host *host,
 extern "C" {
 #endif
 
+
 /* bf_guarded: BF, split where support planes cut and where shadows fall */
 struct refiner_bf_guarded_parameters {
-    double epsilon;  /* W/m2: largest irradiance one link may bring; 0: only `relative` counts */
-    double relative; /* the same as a share of the scene's mean irradiance; the larger of the two
-                        holds */
-    double shadow;   /* the same for links in half shadow */
-    double faint;    /* links that bring less than this share get 4 rays */
+    double epsilon; /* W/m2: largest irradiance one link may bring; 0: only `relative` counts */
+    double relative; /* the same as a share of the scene's mean irradiance; the larger of the two holds */
+    double shadow; /* the same for links in half shadow */
+    double faint; /* links that bring less than this share get 4 rays */
     double min_area; /* m2: no element is split into parts smaller than this */
-    double
-        min_share; /* the same as a share of the scene's whole area; the larger of the two holds */
-    int rays;      /* rays that measure a link's visibility: 4, 16 or 64 */
+    double min_share; /* the same as a share of the scene's whole area; the larger of the two holds */
+    int rays; /* rays that measure a link's visibility: 4, 16 or 64 */
 };
 
 /* Fills in the defaults. */
@@ -526,8 +496,8 @@ void refiner_bf_guarded_defaults(struct refiner_bf_guarded_parameters *parameter
 /* Discusses and decides. Terms that some decision reads are taken from the
  * discussion: all zero when nothing is known yet. Afterwards it holds the terms that the
  * decision reads; the others are unspecified. */
-enum refiner_decision refiner_bf_guarded_refine(
-    const struct refiner_bf_guarded_parameters *parameters, struct refiner_discussion *discussion);
+enum refiner_decision refiner_bf_guarded_refine(const struct refiner_bf_guarded_parameters *parameters,
+    struct refiner_discussion *discussion);
 
 #ifdef __cplusplus
 }

@@ -22,8 +22,8 @@ solve() { # FACES RANKS
             split("faces elements links pairs rays", all, " ")
             for (i = 1; i in all; i++) print all[i], v[all[i]]
             print "sweeps", v["iterations"]; print "passes", v["passes"]
-            print "links_most", ranks > 1 ? most("links") : v["links"]; print "pairs_most", ranks > 1 ? most("pairs") : v["pairs"]
-            print "ghosts_most", most("ghosts"); print "memory_mb", ranks > 1 ? most("memory_mb") : v["peak_memory_mb"]
+            print "links_most", (ranks > 1 ? most("links") : v["links"]); print "pairs_most", (ranks > 1 ? most("pairs") : v["pairs"])
+            print "ghosts_most", most("ghosts"); print "memory_mb", (ranks > 1 ? most("memory_mb") : v["peak_memory_mb"])
             print "splits", most("bytes_sent.splits"); print "link_bytes", most("bytes_sent.links"); print "sweep_bytes", most("bytes_sent.sweeps")
             print "values", most("bytes_sent.values"); print "particles", most("bytes_sent.particles")
             # of 64 bits the lower 48, which a number holds: equal, or the run is wrong
@@ -86,7 +86,7 @@ END
             printf "| %.0e | %d | %.0f | %.1f | %.3f | %.1f | %s |\n", f, n, held, sweep * f * (n - 1) / n / 12.5e9, 16 * (n - 1) * 3e-6, (2 * particles + values) * f / 12.5e9, held < 256 ? "yes" : "no" } }' "$pages/ranks.csv"
     cat <<'END'
 
-It stops where one machine no longer holds all elements: at some 1e8 faces. Before that, a sweep's bytes do not fall with more machines,
+It stops where one machine no longer holds all elements, most of them quarters that particles are counted on. Before that, a sweep's bytes do not fall with more machines,
 since each is told of nearly all faces. Both have one cure: elements by stretches, as links are, with those of others only where a link
 needs them, and groups' sums made by the owners of their faces. Links, decisions and numbers do not stand in the way: refinement
 asks nobody, indices depend on what is split alone, and random numbers on a path's index.
