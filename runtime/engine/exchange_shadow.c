@@ -49,8 +49,8 @@ struct points {
 
 /* What one blocker hides from the corners. */
 struct cast {
-    int shadows, boundless;     /* from how many there is one; 1: not all of it is below them */
-    double middle[2], half[2];  /* the box around all */
+    int shadows, boundless;    /* from how many there is one; 1: not all of it is below them */
+    double middle[2], half[2]; /* the box around all */
     struct outline shadow[4];
 };
 
@@ -323,8 +323,8 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
             double *value = &values[(i - from.from) * step_i + j * step_j], all = *value,
                    least = fmin(e->area, screen.cells[j].whole.area), error;
             const struct shadow_sight *sight = &scratch->sights[j];
-            *value *= seen_share(sight, &screen.cells[j], &points, (swap ? s : r)->normal,
-                                 &screen.frame);
+            *value *=
+                seen_share(sight, &screen.cells[j], &points, (swap ? s : r)->normal, &screen.frame);
             error = all * doubt_of(sight, screen.cells[j].whole.area);
             if (!sight_enough(limits, error, *value, least))
                 *value = fmin(

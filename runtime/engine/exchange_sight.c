@@ -30,7 +30,7 @@ enum { QUARTERS = 4, MANY = SIGHT_LIST + 1 };
 
 struct sight_node {
     struct element piece;
-    double clear;                /* with nothing between (m2); where its points see nothing, by these */
+    double clear; /* with nothing between (m2); where its points see nothing, by these */
     double points, value, error; /* by its own points; by its quarters' (m2) */
     int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
     double seen[FACE_RULE], whole[FACE_RULE]; /* of the other face, by the points inside */
@@ -245,8 +245,8 @@ static void measure(struct looking *l, int at, const uint32_t *list, int count)
         memcpy(list_of(l, at), between->list, (size_t)node->count * sizeof *between->list);
         l->between_of = at;
         const struct mean m = by_points(l, &node->piece, 0, node->seen, node->whole);
-        node->clear = node->piece.area
-                      * (m.seen > 0 ? polygon_factor(&node->piece, l->to, 1) : m.whole);
+        node->clear =
+            node->piece.area * (m.seen > 0 ? polygon_factor(&node->piece, l->to, 1) : m.whole);
         node->points = node->value = node->clear * share(m);
     }
 }

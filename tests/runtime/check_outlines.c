@@ -123,8 +123,8 @@ START_TEST(test_both_ways)
         for (int i = 0; i < 40; i++) {
             const double x[3] = {chance(&state), chance(&state), 0};
             double clear[2],
-                by_outlines = sight_past(&sight, x, low->normal, t.host.ray_offset, &between,
-                                         &clear[0]),
+                by_outlines =
+                    sight_past(&sight, x, low->normal, t.host.ray_offset, &between, &clear[0]),
                 by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, count,
                                         &clear[1]),
                 past_none =
