@@ -191,7 +191,7 @@ TOOL void second_order_body(const struct exchange_faces *p, uint32_t i, const do
             rest_square(a, b, t, quad, trace, fabs(skew_i) + fabs(skew_j), own_square * square,
                         a * a * own_rise + b * b * rise, most * most);
         e = (front & (e > 0)) ? e < least ? e : least : 0;
-        double limit = tolerance * (e > SIGHT_FLOOR * least ? e : SIGHT_FLOOR * least);
+        double limit = tolerance / CLEAR_REST * (e > SIGHT_FLOOR * least ? e : SIGHT_FLOOR * least);
         out[j] = e;
         doubt[j] = front ? scale * scale * rest / (limit * limit) : INFINITY;
     }

@@ -2,9 +2,13 @@
  *
  * Each pair is seen from four points of its one face: from there the blockers cast shadows on the
  * plane of the other group, once for all its faces, and what is left of each face is cut out
- * exactly (kernel/outline.h). The points are on the side where a face's size matters less. How far
- * they may be off is estimated by how far they differ; a pair that this is too much for is
- * integrated by itself (exchange_sight.h).
+ * exactly (kernel/outline.h). The points are on the side where a face's size matters less. The
+ * face's corners look, too, and do not count: how far the points may be off is estimated by how far
+ * all of them differ; a pair that this is too much for is integrated by itself (exchange_sight.h).
+ * Invariant: what lies outside the box around a blocker's shadows from the corners is in none of
+ * its shadows from the face, since casting takes what is convex to what is convex; so a face of the
+ * group that lies outside of all boxes is clear, and one that one blocker hides from all corners is
+ * hidden.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
@@ -21,10 +25,11 @@ struct shadow_cell {
 };
 
 /* From how many of the points a face was wholly hidden and wholly seen, and what each point sees
- * of it. */
+ * of it; the least and the most that they or the corners see. */
 struct shadow_sight {
-    int hidden, clear;
+    int hidden, clear, proved;                    /* proved: that all of the face sees the same */
     double part[OUTLINE_FEW], at[OUTLINE_FEW][2]; /* of its area (m2); the centroid */
+    double low, high;                             /* of its area (m2) */
 };
 
 /* The group that shadows fall on. */
@@ -35,9 +40,18 @@ struct screen {
     double middle[2], half[2]; /* the box of them all */
 };
 
-/* The points of a face. */
+/* The points of a face, and its corners. */
 struct points {
     double x[OUTLINE_FEW][3], weight[OUTLINE_FEW];
+    double corner[4][3];
+    int corners;
+};
+
+/* What one blocker hides from the corners. */
+struct cast {
+    int shadows, boundless;    /* from how many there is one; 1: not all of it is below them */
+    double middle[2], half[2]; /* the box around all */
+    struct outline shadow[4];
 };
 
 int shadow_scratch_open(struct shadow_scratch *scratch, uint32_t most)
@@ -95,16 +109,17 @@ static void make_screen(struct screen *screen, const struct exchange_tree *t,
     }
 }
 
-/* What point k sees of a cell past the shadows, none of which covers all of the screen. */
-static void see_cell(const struct outline *shadows, int count, int k, const struct shadow_cell *c,
-                     struct shadow_sight *sight)
+/* What is seen of a cell past the shadows, none of which covers all of the screen: area (m2) and
+ * centroid. Returns 0: nothing, 1: a part, 2: all of it. */
+static int see_cell(const struct outline *shadows, int count, const struct shadow_cell *c,
+                    double *part, double at[2])
 {
     int touched = 0, side = -1;
     for (int s = 0; s < count && side < 1; s++) {
         side = outline_box(&shadows[s], c->middle, c->half);
         touched |= side == 0;
     }
-    sight->part[k] = side == 1 ? 0 : c->whole.area;
+    *part = side == 1 ? 0 : c->whole.area;
     side = side == 1 ? 0 : touched ? 1 : 2;
     if (side == 1) {
         struct outline_cell cell;
@@ -115,50 +130,116 @@ static void see_cell(const struct outline *shadows, int count, int k, const stru
         }
         struct outline_sum seen;
         side = outline_seen(shadows, count, &cell, &c->whole, &seen);
-        sight->part[k] = seen.area;
+        *part = seen.area;
         if (side == 1) {
-            sight->at[k][0] = seen.at[0] / seen.area;
-            sight->at[k][1] = seen.at[1] / seen.area;
-            return;
+            at[0] = seen.at[0] / seen.area;
+            at[1] = seen.at[1] / seen.area;
+            return side;
         }
     }
-    sight->hidden += side == 0;
-    sight->clear += side == 2;
-    sight->at[k][0] = c->whole.at[0] / c->whole.area;
-    sight->at[k][1] = c->whole.at[1] / c->whole.area;
+    at[0] = c->whole.at[0] / c->whole.area;
+    at[1] = c->whole.at[1] / c->whole.area;
+    return side;
 }
 
-/* What the points see of the screen's cells. Returns 1 when all see all of it; then sights are
- * not set. */
-static int see_screen(const struct screen *screen, const struct points *points,
-                      const struct polygon *blockers, int blocker_count,
-                      struct shadow_sight *sights)
+/* What one point sees of the screen's cells; k: which of the points that count, or -1. */
+static void look(const struct screen *screen, const double x[3], int k,
+                 const struct polygon *blockers, int blocker_count, struct shadow_sight *sights)
 {
-    int clear = 0;
+    struct outline shadows[BLOCKERS_MAX];
+    double height = height3(x, screen->frame.origin, screen->frame.n);
+    int count = 0, covered = 0;
+    for (int b = 0; b < blocker_count && !covered; b++)
+        if (outline_cast(&shadows[count], &screen->frame, x, height,
+                         (const double(*)[3])blockers[b].v, blockers[b].n)) {
+            int side = outline_box(&shadows[count], screen->middle, screen->half);
+            covered = side == 1;
+            count += side == 0;
+        }
+    for (uint32_t j = 0; j < screen->count; j++) {
+        struct shadow_sight *sight = &sights[j];
+        double part = 0, at[2] = {0, 0};
+        int side = covered ? 0 : see_cell(shadows, count, &screen->cells[j], &part, at);
+        sight->low = fmin(sight->low, part);
+        sight->high = fmax(sight->high, part);
+        if (k < 0)
+            continue;
+        sight->hidden += side == 0;
+        sight->clear += side == 2;
+        sight->part[k] = part;
+        sight->at[k][0] = at[0];
+        sight->at[k][1] = at[1];
+    }
+}
+
+/* The shadows of a blocker from all corners. A corner below some of it casts that nowhere. */
+static void cast_corners(const struct screen *screen, const struct points *points,
+                         const struct polygon *blocker, struct cast *cast)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, top = -INFINITY;
+    cast->shadows = cast->boundless = 0;
+    for (int v = 0; v < blocker->n; v++)
+        top = fmax(top, height3(blocker->v[v], screen->frame.origin, screen->frame.n));
+    for (int c = 0; c < points->corners && top > 0; c++) {
+        const double *x = points->corner[c];
+        double height = height3(x, screen->frame.origin, screen->frame.n);
+        struct outline *shadow = &cast->shadow[cast->shadows];
+        cast->boundless |= !(top < height * (1 - OUTLINE_BELOW_EYE));
+        if (!outline_cast(shadow, &screen->frame, x, height, (const double(*)[3])blocker->v,
+                          blocker->n))
+            continue;
+        cast->shadows++;
+        for (int v = 0; v < shadow->n; v++)
+            for (int k = 0; k < 2; k++) {
+                low[k] = fmin(low[k], shadow->p[v][k]);
+                high[k] = fmax(high[k], shadow->p[v][k]);
+            }
+    }
+    for (int k = 0; k < 2; k++) {
+        cast->middle[k] = 0.5 * (low[k] + high[k]);
+        cast->half[k] = 0.5 * (high[k] - low[k]);
+    }
+}
+
+/* Does all of the face see all of each cell, or nothing? */
+static void prove(const struct screen *screen, const struct points *points,
+                  const struct polygon *blockers, int blocker_count, struct shadow_sight *sights)
+{
     for (uint32_t j = 0; j < screen->count; j++)
-        sights[j].hidden = sights[j].clear = 0;
-    for (int k = 0; k < OUTLINE_FEW; k++) {
-        struct outline shadows[BLOCKERS_MAX];
-        double height = height3(points->x[k], screen->frame.origin, screen->frame.n);
-        int count = 0, covered = 0;
-        for (int b = 0; b < blocker_count && !covered; b++)
-            if (outline_cast(&shadows[count], &screen->frame, points->x[k], height,
-                             (const double(*)[3])blockers[b].v, blockers[b].n)) {
-                int side = outline_box(&shadows[count], screen->middle, screen->half);
-                covered = side == 1;
-                count += side == 0;
-            }
-        clear += !covered && count == 0;
+        sights[j].proved = 1;
+    for (int b = 0; b < blocker_count; b++) {
+        struct cast cast;
+        cast_corners(screen, points, &blockers[b], &cast);
+        if (!cast.boundless && cast.shadows == 0)
+            continue;
         for (uint32_t j = 0; j < screen->count; j++) {
-            if (covered) {
-                sights[j].hidden++;
-                sights[j].part[k] = sights[j].at[k][0] = sights[j].at[k][1] = 0;
-            } else {
-                see_cell(shadows, count, k, &screen->cells[j], &sights[j]);
-            }
+            const struct shadow_cell *c = &screen->cells[j];
+            int apart = !cast.boundless, hidden = cast.shadows == points->corners;
+            if (apart)
+                apart = fabs(c->middle[0] - cast.middle[0]) > c->half[0] + cast.half[0]
+                        || fabs(c->middle[1] - cast.middle[1]) > c->half[1] + cast.half[1];
+            for (int s = 0; s < cast.shadows && hidden; s++)
+                hidden = outline_box(&cast.shadow[s], c->middle, c->half) == 1;
+            if (hidden)
+                sights[j].proved = 2;
+            else if (!apart && sights[j].proved == 1)
+                sights[j].proved = 0;
         }
     }
-    return clear == OUTLINE_FEW;
+}
+
+/* What the points see of the screen's cells. */
+static void see_screen(const struct screen *screen, const struct points *points,
+                       const struct polygon *blockers, int blocker_count,
+                       struct shadow_sight *sights)
+{
+    for (uint32_t j = 0; j < screen->count; j++)
+        sights[j] = (struct shadow_sight){.low = INFINITY};
+    prove(screen, points, blockers, blocker_count, sights);
+    for (int k = 0; k < OUTLINE_FEW; k++)
+        look(screen, points->x[k], k, blockers, blocker_count, sights);
+    for (int c = 0; c < points->corners; c++)
+        look(screen, points->corner[c], -1, blockers, blocker_count, sights);
 }
 
 /* The seen share of what the points, normal n, exchange with a cell. */
@@ -197,20 +278,16 @@ static double seen_from(const struct element *e, struct face_range range,
     return sqrt(e->area / (range.to - range.from)) / (least + e->radius);
 }
 
-/* Which share of a pair the points may be wrong by. Where they differ: between neighbours the share
- * is taken for linear, and a kink or a step between them moves the mean by no more than half of
- * what a quarter of the face differs by. Where they agree, what stands between them is not seen: a
- * strip as wide as a quarter of the face. */
+/* Which share of a pair the points may be wrong by: of how far they and the corners differ, what a
+ * line that parts the face may be misjudged by. Where all agree, what stands between them is not
+ * seen: a strip as wide as a quarter of the face. */
 static double doubt_of(const struct shadow_sight *sight, double area)
 {
-    double low = INFINITY, high = 0;
-    if (!sight || sight->hidden == OUTLINE_FEW || sight->clear == OUTLINE_FEW)
+    if (sight->proved)
+        return 0;
+    if (!(sight->high > sight->low))
         return SHADOW_UNSEEN;
-    for (int k = 0; k < OUTLINE_FEW; k++) {
-        low = fmin(low, sight->part[k]);
-        high = fmax(high, sight->part[k]);
-    }
-    return fmax(SHADOW_BETWEEN * (high - low) / area, SHADOW_LEAST);
+    return fmax(SHADOW_BETWEEN * (sight->high - sight->low) / area, SHADOW_LEAST);
 }
 
 double shadow_block(const struct exchange_pair *pair, const struct blockers *list,
@@ -237,14 +314,17 @@ double shadow_block(const struct exchange_pair *pair, const struct blockers *lis
         struct points points;
         const struct element *e = exchange_tree_face(t, i);
         outline_points(e, t->host.ray_offset, OUTLINE_FEW, points.x, points.weight);
-        int clear = see_screen(&screen, &points, blockers, list->count, scratch->sights);
+        points.corners = e->vertices;
+        for (int v = 0; v < e->vertices; v++)
+            for (int k = 0; k < 3; k++)
+                points.corner[v][k] = e->vertex[v][k] + t->host.ray_offset * e->normal[k];
+        see_screen(&screen, &points, blockers, list->count, scratch->sights);
         for (uint32_t j = 0; j < screen.count; j++) {
             double *value = &values[(i - from.from) * step_i + j * step_j], all = *value,
                    least = fmin(e->area, screen.cells[j].whole.area), error;
-            const struct shadow_sight *sight = clear ? NULL : &scratch->sights[j];
-            if (sight)
-                *value *= seen_share(sight, &screen.cells[j], &points, (swap ? s : r)->normal,
-                                     &screen.frame);
+            const struct shadow_sight *sight = &scratch->sights[j];
+            *value *=
+                seen_share(sight, &screen.cells[j], &points, (swap ? s : r)->normal, &screen.frame);
             error = all * doubt_of(sight, screen.cells[j].whole.area);
             if (!sight_enough(limits, error, *value, least))
                 *value = fmin(

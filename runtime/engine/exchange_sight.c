@@ -3,14 +3,16 @@
  * Of each face only what lies in front of the other's plane takes part. The one on which a
  * blocker's shadow moves least from point to point is cut into pieces. From a piece nothing stands
  * between (then it has the exact factor), or all is hidden, both proved by a shaft; else a rule of
- * points, each of which sees the other face exactly (sight_pieces.c). A piece is held against its
- * four quarters; they count, and what the two differ by is its error. The piece with the largest
- * error is cut first, until the root of the sum of their squares is small enough or the pieces run
- * out: quarters are nearer than what they are held against, and errors of pieces have either sign.
- * Shades as of a sill are seen from a strip along the rim alone: so a rule with points there counts
- * too, by what it may differ by. Pieces with more in their shaft than a list holds have 64 rays
- * each, and are cut too. Invariant: pieces cover the part once; what is proved is not cut. Fails:
- * shades that meet no point of a piece, nor of its rim. [globally adaptive cubature: van Dooren &
+ * points, each of which sees the other face exactly (sight_pieces.c): it tells which share of what
+ * the piece would exchange with nothing between, which is exact, it does exchange. A piece is held
+ * against a rule with points along its rim, since shades as of a sill are seen from there alone,
+ * and against its four quarters; these count. Two rules may agree by chance; so what the best
+ * quadratic leaves of all points' values counts as well (face_rule.h): a shade's edge is none. The
+ * piece with the largest error is cut first, until the root of the sum of their squares is small
+ * enough or the pieces run out: errors of pieces have either sign. Pieces with more in their shaft
+ * than a list holds have 64 rays each, and are cut too. Invariant: pieces cover the part once; what
+ * is proved is not cut; none exchanges more than with nothing between. Fails: shades that meet no
+ * point of a piece, nor of its rim. [globally adaptive cubature: van Dooren &
  * de Ridder 1976; the rest derived here]
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
@@ -28,8 +30,10 @@ enum { QUARTERS = 4, MANY = SIGHT_LIST + 1 };
 
 struct sight_node {
     struct element piece;
+    double clear; /* with nothing between (m2); where its points see nothing, by these */
     double points, value, error; /* by its own points; by its quarters' (m2) */
     int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
+    double seen[FACE_RULE], whole[FACE_RULE]; /* of the other face, by the points inside */
 };
 
 /* A pair at work. */
@@ -41,6 +45,7 @@ struct looking {
     int nodes, heap;
     int between_of;       /* the node that scratch->between is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
+    double clear;         /* of the roots (m2) */
 };
 
 struct sight_limits sight_limits_for(double tolerance, uint32_t faces)
@@ -59,6 +64,8 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     scratch->lists = malloc((most * (size_t)limits->list + 1) * sizeof *scratch->lists);
     scratch->heap = malloc(most * sizeof *scratch->heap);
     scratch->between = malloc(sizeof *scratch->between);
+    for (int i = 0; i < 2; i++)
+        face_fit_open(&scratch->fit[i], 3 + i);
     return scratch->nodes && scratch->lists && scratch->heap && scratch->between ? 0 : -1;
 }
 
@@ -149,37 +156,48 @@ static void sort_list(uint32_t *list, int count)
 
 /* What a point sees past what stands between. Outlines save most where faces go on into each other;
  * faces by themselves, and bent ones, are cut out one by one. */
-static double past(const struct looking *l, const double x[3], const double n[3])
+static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
 {
     const struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
     return !b->bent && b->edges <= 2 * b->faces
-               ? sight_past(&l->sight, x, n, up, b)
-               : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces);
+               ? sight_past(&l->sight, x, n, up, b, whole)
+               : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
 }
 
-/* The exchange area of a piece by points within it; `rim`: on its rim, too. */
-static double by_points(const struct looking *l, const struct element *e, int rim)
+/* What the points within a piece see of the other face, and would; `rim`: those on its rim. Returns
+ * the means over the piece. */
+static struct mean {
+    double seen, whole;
+} by_points(const struct looking *l, const struct element *e, int rim, double *seen, double *whole)
 {
     struct face_rule rule;
-    double sum = 0;
+    struct mean sum = {0, 0};
     face_rule_of(&rule, e, rim);
     for (int i = 0; i < rule.count; i++) {
         const double x[3] = {rule.x[0][i], rule.x[1][i], rule.x[2][i]};
-        sum += rule.weight[i] * past(l, x, e->normal);
+        if (!(rim && e->vertices == 4 && i == FACE_RULE / 2)) /* the middle is seen already */
+            seen[i] = past(l, x, e->normal, &whole[i]);
+        sum.seen += rule.weight[i] * seen[i] / rule.all;
+        sum.whole += rule.weight[i] * whole[i] / rule.all;
     }
-    return sum * (e->area / rule.all);
+    return sum;
+}
+
+static double share(struct mean m)
+{
+    return m.seen > 0 ? fmin(m.seen / m.whole, 1) : 0;
 }
 
 /* A piece with more between than a list holds. */
 static void by_rays(const struct looking *l, struct sight_node *node)
 {
     int rays = visibility_rays_of(VISIBILITY_RAYS_64);
-    double clear = node->piece.area * polygon_factor(&node->piece, l->to, 1),
-           v = visibility_rays(&node->piece, l->to, &l->tree->host, rays);
+    double v = visibility_rays(&node->piece, l->to, &l->tree->host, rays);
     node->count = MANY;
-    node->points = node->value = clear * v;
-    node->error = clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
+    node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
+    node->points = node->value = node->clear * v;
+    node->error = node->clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
 }
 
 /* What stands between a piece and the other face, of the list or of the whole scene. Returns -1
@@ -211,7 +229,7 @@ static void measure(struct looking *l, int at, const uint32_t *list, int count)
     struct sight_node *node = &l->scratch->nodes[at];
     const struct sight_between *between = l->scratch->between;
     node->count = node->quarters = 0;
-    node->points = node->value = node->error = 0;
+    node->clear = node->points = node->value = node->error = 0;
     switch (find_between(l, &node->piece, list, count)) {
     case BETWEEN_ALL:
         return;
@@ -219,18 +237,45 @@ static void measure(struct looking *l, int at, const uint32_t *list, int count)
         by_rays(l, node);
         return;
     case BETWEEN_NOTHING:
-        node->points = node->value = node->piece.area * polygon_factor(&node->piece, l->to, 1);
+        node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
+        node->points = node->value = node->clear;
         return;
     case BETWEEN_SOME:
         node->count = between->faces;
         memcpy(list_of(l, at), between->list, (size_t)node->count * sizeof *between->list);
         l->between_of = at;
-        node->points = node->value = by_points(l, &node->piece, 0);
+        const struct mean m = by_points(l, &node->piece, 0, node->seen, node->whole);
+        node->clear =
+            node->piece.area * (m.seen > 0 ? polygon_factor(&node->piece, l->to, 1) : m.whole);
+        node->points = node->value = node->clear * share(m);
     }
 }
 
+/* How far a piece's points are from telling its exchange (m2): what the two rules differ by, or
+ * what the best quadratic leaves of what is hidden from their points. */
+static double rest_of(struct looking *l, struct sight_node *node, double *differ)
+{
+    const struct face_fit *fit = &l->scratch->fit[node->piece.vertices - 3];
+    const double mean_share = node->clear > 0 ? node->points / node->clear : 0;
+    double seen[2 * FACE_RULE], whole[2 * FACE_RULE], all = 0;
+    const int inside = node->piece.vertices == 3 ? 6 : FACE_RULE;
+    memcpy(seen, node->seen, sizeof node->seen);
+    memcpy(whole, node->whole, sizeof node->whole);
+    seen[inside + FACE_RULE / 2] = seen[FACE_RULE / 2];
+    whole[inside + FACE_RULE / 2] = whole[FACE_RULE / 2];
+    const struct mean rim = by_points(l, &node->piece, 1, seen + inside, whole + inside);
+    for (int i = 0; i < fit->count; i++) {
+        seen[i] -= mean_share * whole[i];
+        all += whole[i] / fit->count;
+    }
+    if (rim.seen > 0 && !(node->points > 0))
+        node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
+    *differ = fabs(node->points - node->clear * share(rim));
+    return all > 0 ? face_fit_rest(fit, seen) * node->clear / all : 0;
+}
+
 /* Hold a piece against its quarters; in scenes of many faces, whose entries are many, not where its
- * two rules agree to its share of what is aimed at, `aim` per area. */
+ * points tell it to its share of what is aimed at, `aim` per area. */
 static void compare(struct looking *l, int at, double aim)
 {
     struct sight_node *nodes = l->scratch->nodes, *node = &nodes[at];
@@ -241,12 +286,12 @@ static void compare(struct looking *l, int at, double aim)
             node->error = SIGHT_UNKNOWN * node->points;
         return;
     }
-    double noise = 0, rim = 0;
+    double noise = 0, rest = 0, differ;
     if (node->count < MANY) {
         if (l->between_of != at)
             (void)find_between(l, &node->piece, list_of(l, at), node->count);
-        rim = by_points(l, &node->piece, 1);
-        node->error = fabs(node->points - rim);
+        rest = rest_of(l, node, &differ);
+        node->error = SIGHT_REST * fmax(rest, differ);
         if (node->error <= aim * node->piece.area)
             return;
     }
@@ -264,7 +309,7 @@ static void compare(struct looking *l, int at, double aim)
         node->error = sqrt(noise); /* few rays agree by chance, and quarters may be new */
         return;
     }
-    node->error = fmax(fabs(node->value - node->points), SIGHT_RIM_SHARE * fabs(node->value - rim));
+    node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * rest);
 }
 
 /* The heap: the node with the largest error first. */
@@ -306,6 +351,7 @@ static void start(struct looking *l, const double (*v)[3], int n, const uint32_t
     struct sight_node *node = &l->scratch->nodes[l->nodes];
     make_piece(&node->piece, l->from, v, n);
     measure(l, l->nodes, list, count);
+    l->clear += node->clear;
     l->nodes++;
 }
 
@@ -423,7 +469,7 @@ double sight_pair(const struct element *r, const struct element *s, const struct
         return 0;
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
     double sum = integrate(&l, &part, own, many ? MANY : count, least, error);
-    if (!(sum > SIGHT_NEARLY_CLEAR * r->area * polygon_factor(r, s, 0)))
+    if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
         return sum;
     return fmin(sum, fmin(r->area * polygon_factor(r, s, 1), least));
 }

@@ -5,6 +5,7 @@
 #define EXCHANGE_SIGHT_H
 
 #include "engine/exchange_tree.h"
+#include "engine/face_rule.h"
 #include "engine/sight_pieces.h"
 
 /* How near to come: the error of F, of itself, or of `floor` where F is smaller; with at most so
@@ -13,7 +14,7 @@ struct sight_limits {
     double tolerance, floor;
     int pieces;
     int list; /* the most that can stand between */
-    int many; /* 1: rules that agree are believed */
+    int many; /* 1: rules that tell enough are believed */
 };
 
 /* One thread's room, for the pieces of a pair. */
@@ -22,6 +23,7 @@ struct sight_scratch {
     uint32_t *lists; /* limits.list for each node */
     int *heap;
     struct sight_between *between;
+    struct face_fit fit[2]; /* of triangles, of quads */
     struct sight_limits limits;
 };
 

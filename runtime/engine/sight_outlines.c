@@ -338,7 +338,7 @@ static void add_seen(const struct cutting *c, int k, const struct outline_cell *
 }
 
 double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,
-                  const struct sight_between *between)
+                  const struct sight_between *between, double *whole)
 {
     struct cutting c;
     struct sight_eye eye;
@@ -347,8 +347,10 @@ double sight_past(const struct sight *sight, const double x[3], const double n[3
         from[k] = x[k] + up * n[k];
     sight_eye_open(&eye, sight, x, n);
     in_plane(&sight->raised, from, c.from);
+    *whole = 0;
     if (!(eye.height > 0) || !(c.from[2] > 0))
         return 0;
+    *whole = sight_eye_whole(&eye, sight);
     c.eye = &eye;
     c.between = between;
     c.lines = 0;

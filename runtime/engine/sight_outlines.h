@@ -48,6 +48,6 @@ enum between sight_between_open(struct sight_between *between, const struct exch
 
 /* sight_factor past what stands between. */
 double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,
-                  const struct sight_between *between);
+                  const struct sight_between *between, double *whole);
 
 #endif

@@ -75,6 +75,14 @@ double sight_eye_factor(struct sight_eye *eye)
     return seen > 0 ? seen < 1 ? seen : 1 : 0;
 }
 
+double sight_eye_whole(struct sight_eye *eye, const struct sight *sight)
+{
+    sight_eye_add(eye, &sight->cell);
+    double whole = sight_eye_factor(eye);
+    eye->edges.sum = 0;
+    return whole;
+}
+
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
 {
     struct sight_edges *g = &eye->edges;
@@ -141,7 +149,8 @@ static void add_left(struct sight_eye *eye, const struct outline *shadows, int c
 }
 
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
-                    const struct exchange_tree *tree, const uint32_t *faces, int count)
+                    const struct exchange_tree *tree, const uint32_t *faces, int count,
+                    double *whole)
 {
     struct outline shadows[SIGHT_CUT];
     struct sight_eye eye;
@@ -151,8 +160,10 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
     for (int k = 0; k < 3; k++)
         from[k] = x[k] + up * n[k];
     double height = height3(from, sight->raised.origin, sight->raised.n);
+    *whole = 0;
     if (!(eye.height > 0) || !(height > 0))
         return 0;
+    *whole = sight_eye_whole(&eye, sight);
     for (int b = 0; b < count; b++) {
         const struct element *e = &tree->h.elements[faces[b]];
         cast += outline_cast(&shadows[cast], &sight->raised, from, height,

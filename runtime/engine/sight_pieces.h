@@ -42,10 +42,13 @@ void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const doub
 /* Of all cells of the plane that were added, Lambert's sum; in [0, 1]. */
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
 double sight_eye_factor(struct sight_eye *eye);
+/* Of all of the polygon, to an eye that has found nothing yet, nor has then. */
+double sight_eye_whole(struct sight_eye *eye, const struct sight *sight);
 
 /* The form factor from a point x with normal n, in front of whose plane all of the polygon lies, to
- * what it sees of the polygon past the faces, from `up` over x. In [0, 1]. */
+ * what it sees of the polygon past the faces, from `up` over x. In [0, 1]; *whole: to all of it. */
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
-                    const struct exchange_tree *tree, const uint32_t *faces, int count);
+                    const struct exchange_tree *tree, const uint32_t *faces, int count,
+                    double *whole);
 
 #endif

@@ -122,12 +122,17 @@ START_TEST(test_both_ways)
                          BETWEEN_SOME);
         for (int i = 0; i < 40; i++) {
             const double x[3] = {chance(&state), chance(&state), 0};
-            double by_outlines = sight_past(&sight, x, low->normal, t.host.ray_offset, &between),
-                   by_faces =
-                       sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, count),
-                   clear = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, 0);
+            double clear[2],
+                by_outlines =
+                    sight_past(&sight, x, low->normal, t.host.ray_offset, &between, &clear[0]),
+                by_faces = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, count,
+                                        &clear[1]),
+                past_none =
+                    sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list, 0, &clear[1]);
+            ck_assert_double_eq(clear[0], past_none);
+            ck_assert_double_eq(clear[1], past_none);
             most = fmax(most, fabs(by_outlines - by_faces));
-            partial += by_faces < 0.999 * clear;
+            partial += by_faces < 0.999 * past_none;
             points++;
         }
         exchange_tree_close(&t);
