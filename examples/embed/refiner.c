@@ -476,6 +476,9 @@
 /* of a row's sum. The default, and the tolerance that the limits of
  * examples/oracles/viewfactors.dag are made for: chosen */
 #define REFINER_EXCHANGE_TOLERANCE 3e-4
+/* what the second order leaves out may be so many times what is estimated: the most by which it
+ * was in 30,000 random pairs (exchange_clear.c) */
+#define REFINER_CLEAR_REST 3.0
 /* of distance squared: the variance of two faces' points together. Above it rules of points say
  * nothing; chosen: nearer, the series in size over distance need not converge */
 #define REFINER_CLEAR_RULES_NEAR 0.1
@@ -488,24 +491,29 @@
 /* pieces that a pair in half shadow may be cut into, in small scenes and in others; chosen */
 #define REFINER_SIGHT_PIECES 8192
 #define REFINER_SIGHT_PIECES_MANY 512
-/* of the tolerance: two rules that agree to so much are believed. Of a shade's edge both may be
- * wrong the same way; a sixth of a side is what the edge may lie off both, a quarter is chosen */
-#define REFINER_SIGHT_BELIEVED 0.25
+/* What the best quadratic leaves of the values at the points of a piece, or what its two rules
+ * differ by, if that is more: so much of it is the error of the rule inside, and so much of the
+ * former that of its four quarters. Of 20,000 random shades, products and unions of up to three
+ * ramps of .05 to 3 sides, on a triangle and a quad: where that is up to half of what may be wrong,
+ * of which half of them are, .03 and .05 % are wrong by more (where the two rules differ by a
+ * quarter of it alone, .3 and .1 to .8 %); of quarters, .06 % (.3 to .6) */
+#define REFINER_SIGHT_REST 0.5
+#define REFINER_SIGHT_REST_QUARTERS 0.125
+/* of the tolerance: pieces whose error is that much are believed; see SIGHT_REST */
+#define REFINER_SIGHT_BELIEVED 0.5
 /* of a side: how far within a piece points along its rim stand, so that none is in a corner that
  * touches; chosen */
 #define REFINER_SIGHT_RIM 1e-3
-/* of what the rule with points along the rim differs by: the error. A shade that no other point
- * meets is in a strip of .056 of the side, over which it fades; the rule has it for a sixth */
-#define REFINER_SIGHT_RIM_SHARE 0.1
-/* of what is exchanged with nothing between, by polygon_factor's fair way, right to 1e-5: what is
- * below that is below the exact one */
+/* of what is exchanged with nothing between, by pieces, where these see anything: what is below that
+ * is below the exact one */
 #define REFINER_SIGHT_NEARLY_CLEAR 0.999
 /* of a piece's exchange: its error when no pieces are left to hold it against; chosen */
 #define REFINER_SIGHT_UNKNOWN 0.1
-/* shares of a pair of groups in half shadow, seen from four points, that may be wrong: of how far
- * the points differ; the least of that; where they do not. chosen: half of a quarter, a tenth of
- * that, a strip of a quarter that fades */
-#define REFINER_SHADOW_BETWEEN 0.125
+/* shares of a pair of groups in half shadow, seen from four points, that may be wrong. Of how much
+ * more one point or corner sees than another: where a line parts a face, the points on one side of
+ * it stand for at most so much more or less of the face. The least of that; and where nothing that
+ * may hide is seen from any: chosen: a strip of a quarter that fades, and a tenth of it */
+#define REFINER_SHADOW_BETWEEN 0.31
 #define REFINER_SHADOW_LEAST 0.0125
 #define REFINER_SHADOW_UNSEEN 0.125
 /* of a row's sum: what reciprocal closure may leave. chosen: all twelve digits that are written */
