@@ -504,8 +504,8 @@
 /* of a side: how far within a piece points along its rim stand, so that none is in a corner that
  * touches; chosen */
 #define REFINER_SIGHT_RIM 1e-3
-/* of what is exchanged with nothing between, by pieces, where these see anything: what is below that
- * is below the exact one */
+/* of what is exchanged with nothing between, by pieces, where these see anything: what is below
+ * that is below the exact one */
 #define REFINER_SIGHT_NEARLY_CLEAR 0.999
 /* of a piece's exchange: its error when no pieces are left to hold it against; chosen */
 #define REFINER_SIGHT_UNKNOWN 0.1
