@@ -1,7 +1,7 @@
 #!/bin/sh
 # check_widths.sh - decisions and links do not depend on the width of vectors: oracles compiled for loops and vectors of 1, 4, 8
-# and 16 numbers refine random rooms as the library's do, pair by pair and in waves, on 1 to 3 threads. With THOROUGH all
-# oracles in 300 rooms, else two of them in a few.
+# and 16 numbers refine random rooms as the library's do, pair by pair and in waves, on 1 to 3 threads: two of the oracles, with
+# THOROUGH all, in ROOMS (6) rooms. ROOMS=300 THOROUGH=1 takes long.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")
@@ -14,10 +14,9 @@ compile() { # ORACLE WIDTH OPTION...
     ${CC:-cc} $flags $folders "$@" -fPIC -shared -o "$tmp/${oracle}_$width.so" "$build/gen/oracles/$oracle.c" -lm || return
     WIDTHS="$WIDTHS $oracle $width $tmp/${oracle}_$width.so"
 }
-oracles="power bf_guarded" rooms=6
+oracles="power bf_guarded" rooms=${ROOMS:-6}
 if [ -n "${THOROUGH-}" ]; then
     oracles=$(cd "$build/gen/oracles" && ls ./*.c | sed 's/^\.\///; s/\.c$//')
-    rooms=300
 fi
 WIDTHS=
 for one in $oracles; do
