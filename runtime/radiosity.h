@@ -89,12 +89,14 @@ RAD_API RadDevice radNewDevice(const struct RadDeviceOptions *options);
  * which it makes its own; MPI_Init_thread(MPI_THREAD_FUNNELED) comes before, MPI_Finalize after the
  * last release. Each process, a rank, makes the same calls with the same arguments, from one
  * thread; each of radNewSolution, radRefine, radStep, radSolve, radMeasureError, radMeasurePlaces,
- * radCorrect, radNewReference, radTraceReference and radGetRanks waits for all, and so does this
- * call. Results are the same on all ranks, and the same as of one process: links and counts of
- * particles to the bit. A rank keeps the links whose receivers it has: radGetLinks lends these. A
- * progress function may not cancel. What looks at all links at once (Southwell's method, LU, error
- * control, ranked links, enclosing solutions, accounts and causes of errors, traces, statistics,
- * exchange areas) is refused with RAD_ERROR_UNSUPPORTED while there are several ranks.
+ * radCorrect, radNewReference, radTraceReference, radNewExchange, radMultiplyExchange,
+ * radGetPointFactors, radGetRanks and radGetExchangeRanks waits for all, and so does this call.
+ * Results are the same on all ranks, and the same as of one process: links, counts of particles and
+ * view factors to the bit. A rank keeps the links whose receivers it has: radGetLinks lends these;
+ * of exchange areas all have all. A progress function may not cancel a solve. What looks at all
+ * links at once (Southwell's method, LU, error control, ranked links, enclosing solutions, accounts
+ * and causes of errors, traces, statistics) is refused with RAD_ERROR_UNSUPPORTED while there are
+ * several ranks.
  * Returns NULL, and radGetDeviceError(NULL) says why: RAD_ERROR_UNSUPPORTED where the library was
  * built without MPI. */
 RAD_API RadDevice radNewDeviceMPI(const struct RadDeviceOptions *options, const void *communicator);
@@ -587,8 +589,9 @@ enum RadTraffic {
     RAD_TRAFFIC_SPLITS,    /* which elements passes have split */
     RAD_TRAFFIC_LINKS,     /* links to the owners of their receivers, and who needs which emitter */
     RAD_TRAFFIC_SWEEPS,    /* radiosities of emitters, while sweeps go on */
-    RAD_TRAFFIC_VALUES,    /* what all elements have, after a solve */
+    RAD_TRAFFIC_VALUES,    /* what all elements have, after a solve; factors of pairs */
     RAD_TRAFFIC_PARTICLES, /* counts of particles and paths */
+    RAD_TRAFFIC_PAIRS,     /* what came of pairs that are dealt out, of view factors */
     RAD_TRAFFICS
 };
 struct RadRank {
@@ -596,9 +599,13 @@ struct RadRank {
     uint64_t faces, ghosts;      /* owned; elements of others that its links take light from */
     uint64_t sent[RAD_TRAFFICS]; /* bytes */
     double memory;               /* the most that the process has held, bytes */
+    double seconds;              /* of processors, that the process has taken */
 };
 /* Into ranks[most], in their order. Returns how many there are; 0 on error. */
 RAD_API int radGetRanks(RadSolution solution, struct RadRank *ranks, int most);
+/* The same of exchange areas (below): all ranks have all links; pairs, of polygons, and rays are
+ * those that the rank itself has worked out; there are no faces and ghosts. */
+RAD_API int radGetExchangeRanks(RadExchange exchange, struct RadRank *ranks, int most);
 
 /* ---- solutions put down between two passes */
 

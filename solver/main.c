@@ -61,10 +61,11 @@ static int check_several(const struct options *o)
 {
     if (machines_count() == 1)
         return 0;
-    if (o->command != COMMAND_SOLVE && o->command != COMMAND_REFERENCE) {
+    if (o->command != COMMAND_SOLVE && o->command != COMMAND_REFERENCE
+        && o->command != COMMAND_VIEWFACTORS) {
         report_error("radiosity", 0,
-                     "of the commands only solve and reference run as several processes; start "
-                     "this one without mpirun");
+                     "of the commands only solve, reference and viewfactors run as several "
+                     "processes; start this one without mpirun");
         return 2;
     }
     if (o->limit_seconds) {

@@ -9,6 +9,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include "engine/exchange.h"
 #include "engine/measured_error.h"
 #include "engine/point_view.h"
 #include "engine/solve_state.h"
@@ -49,6 +50,12 @@ struct RadSceneObject {
     struct scene scene; /* empty before the commit */
     struct RadSceneReport report;
     struct point_view points; /* of radGetPointFactors; .scene NULL: not yet asked */
+};
+
+struct RadExchangeObject {
+    atomic_int holders;
+    RadScene scene;
+    struct exchange exchange;
 };
 
 /* What an oracle was loaded from; path NULL: nobody knows, or it is somebody's C. */

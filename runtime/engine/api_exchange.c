@@ -3,14 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/api.h"
-#include "engine/exchange.h"
 #include "kernel/constants.h"
-
-struct RadExchangeObject {
-    atomic_int holders;
-    RadScene scene;
-    struct exchange exchange;
-};
 
 static int watch(void *context, const struct exchange *x, const char *phase)
 {
@@ -76,7 +69,7 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
         api_fail(device, RAD_ERROR_INVALID_OPERATION, "radCommitScene comes before radNewExchange");
         return NULL;
     }
-    if (check_options(device, o) < 0 || api_alone(device, "radNewExchange") < 0)
+    if (check_options(device, o) < 0)
         return NULL;
     if (o->rows > scene->scene.input_count) {
         api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
@@ -93,7 +86,8 @@ RadExchange radNewExchange(RadScene scene, RadOracle oracle, const struct RadExc
                                        .rows = o->rows,
                                        .stream = o->stream,
                                        .keep = o->keep,
-                                       .state = o->state};
+                                       .state = o->state,
+                                       .ranks = device->ranks};
     struct refiner *own = oracle ? NULL : default_oracle(options.tolerance);
     const struct refiner *refiner = oracle ? oracle->refiner : own;
     RadExchange x = refiner ? calloc(1, sizeof *x) : NULL;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include "engine/api.h"
 #include "geometry.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 
 /* Points that see; those of them that found no memory. */
 struct seeing {
@@ -53,9 +53,10 @@ int radGetPointFactors(RadScene scene, uint32_t count, const double *position, c
                 !scene->points.scene
                     && point_view_open(&scene->points, &scene->scene, device->threads) < 0);
     const struct seeing s = {&scene->points, position, normal, row, &failed};
-    if (!atomic_load(&failed))
-        thread_pool_run(device->threads, count, 1, see_points, &s);
-    return atomic_load(&failed)
+    if (!ranks_any(device->ranks, atomic_load(&failed)))
+        ranks_loop_run(device->ranks, RANKS_VALUES, device->threads, count, 1, see_points, &s, row,
+                       ((size_t)scene->scene.input_count + 2) * sizeof *row);
+    return ranks_any(device->ranks, atomic_load(&failed))
                ? api_fail(device, RAD_ERROR_OUT_OF_MEMORY, "out of memory for point view factors")
                : 0;
 }

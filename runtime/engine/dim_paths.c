@@ -127,8 +127,8 @@ int dim_paths_trace(struct dim_faces *d)
             block[next++] = (struct block){.polygon = j, .first = p->paths};
     struct watched_loop loop = {.watch = d->watch, .all = count};
     const struct blocks all = {d, block, &loop};
-    ranks_loop_run(d->tracer->ranks, d->tracer->threads, count, 1, trace_blocks, &all, block,
-                   sizeof *block);
+    ranks_loop_run(d->tracer->ranks, RANKS_PARTICLES, d->tracer->threads, count, 1, trace_blocks,
+                   &all, block, sizeof *block);
     for (size_t i = 0; i < count; i++) {
         struct dim_polygon *p = &d->polygon[block[i].polygon];
         p->rays += block[i].rays;

@@ -16,7 +16,7 @@
 #include "engine/exchange_product.h"
 #include "kernel/constants.h"
 #include "util/clock.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 #include "visibility/environment.h"
 
 /* Bytes of values that are kept though they could be made anew, where nobody says. */
@@ -41,8 +41,9 @@ static int tell(struct watcher *w, const char *phase)
 {
     const struct exchange_options *o = w->options;
     struct exchange *x = w->exchange;
-    if (o->progress && o->progress(o->context, x, x->resumed ? "resumed" : phase) != 0)
-        x->cancelled = 1;
+    const int no_more =
+        o->progress && o->progress(o->context, x, x->resumed ? "resumed" : phase) != 0;
+    x->cancelled = ranks_any(x->ranks, x->cancelled || no_more);
     x->resumed = 0;
     return x->cancelled;
 }
@@ -58,7 +59,9 @@ static int watch_round(void *context, const struct refinement *refinement)
 {
     struct watcher *w = context;
     (void)refinement;
-    return tell(w, "refine") != 0 || exchange_state_ask(&w->exchange->state, NULL, NULL, 0) != 0;
+    return tell(w, "refine") != 0
+           || (exchange_state_ask(&w->exchange->state)
+               && exchange_state_put(&w->exchange->state, NULL, NULL, 0));
 }
 
 /* From a state that waits, or from the start. */
@@ -71,8 +74,9 @@ static int refine(struct exchange *x, const struct refiner *refiner, struct watc
         return -1;
     x->refinement.watch = watch_round;
     x->refinement.watch_context = watcher;
+    x->refinement.deal = ranks_count(x->ranks) > 1 ? x->ranks : NULL;
     exchange_state_open(&x->state, watcher->options->state, &x->tree, &x->refinement, how);
-    if (!exchange_state_waits(&x->state))
+    if (!x->state.waits)
         return refinement_start(&x->refinement);
     if (exchange_state_read(&x->state, &x->refinement) < 0)
         return -1;
@@ -210,7 +214,8 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
         }
         const struct asking a = {x, o, share, x->losses};
-        thread_pool_run(o->threads, m->rows, 16, ask_rows, &a);
+        ranks_loop_run(x->ranks, RANKS_VALUES, o->threads, m->rows, 16, ask_rows, &a, x->losses,
+                       sizeof *x->losses);
         account(x, share, closed);
         status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, closed);
         if (status == 0)
@@ -233,7 +238,8 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
                                      .threads = o->threads,
                                      .tell = tell_share,
                                      .context = &watcher,
-                                     .state = &x->state};
+                                     .state = &x->state,
+                                     .ranks = x->ranks};
     double start = seconds();
     if (refine(x, refiner, &watcher, &how) < 0)
         return -1;
@@ -250,7 +256,9 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
     x->report.seconds.fill = seconds() - middle;
     x->report.links = x->areas.link_count;
     x->report.pairs = x->areas.value_count;
-    x->report.rays = x->state.rays + rays_count(x->tree.rays).rays;
+    x->rays = x->report.rays = rays_count(x->tree.rays).rays;
+    ranks_add_counts(x->ranks, RANKS_VALUES, &x->report.rays, 1);
+    x->report.rays += x->state.rays;
     x->report.closure_change = x->closure.change;
     x->report.closure_left = x->closure.left;
     return 0;
@@ -259,7 +267,7 @@ static int compute(struct exchange *x, const struct scene *scene, const struct r
 int exchange_open(struct exchange *x, const struct scene *scene, const struct refiner *refiner,
                   const struct exchange_options *options, const char **cause)
 {
-    *x = (struct exchange){.threads = options->threads};
+    *x = (struct exchange){.threads = options->threads, .ranks = options->ranks};
     if (exchange_tree_open(&x->tree, scene->faces, scene->face_count, options->threads, cause) < 0)
         return -1;
     if (compute(x, scene, refiner, options) == 0)

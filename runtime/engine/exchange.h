@@ -27,7 +27,9 @@ struct exchange_options {
      * rows, and closure is none or rows */
     int stream;
     size_t keep; /* bytes of values of groups in clear view, at the most; 0: 512 MiB */
-    const struct RadExchangeState *state; /* borrowed; NULL: none */
+    const struct RadExchangeState *state; /* borrowed; NULL: none; of several ranks, rank 0's */
+    /* who works on it together, each of whom then has all of it; borrowed, NULL: one process */
+    struct ranks *ranks;
 };
 
 struct exchange_report {
@@ -65,8 +67,10 @@ struct exchange {
     struct exchange_state state; /* while it is computed */
     double share;                /* done of the phase; 0: not known */
     int cancelled, threads;
-    int resumed; /* a run before this one has begun, and nobody has been told */
-    int refused; /* the state is no good, as *cause says */
+    struct ranks *ranks; /* borrowed */
+    uint64_t rays;       /* that this rank has cast */
+    int resumed;         /* a run before this one has begun, and nobody has been told */
+    int refused;         /* the state is no good, as *cause says */
 };
 
 /* Parameters of the oracle viewfactors whose defaults are made for EXCHANGE_TOLERANCE become what

@@ -5,32 +5,12 @@
  * Invariant: one value per pair serves both rows, so A_i F_ij = A_j F_ji to rounding.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_areas.h"
-#include "engine/exchange_state.h"
+#include "engine/exchange_fill.h"
 #include "engine/exchange_tiles.h"
 #include "util/array.h"
-#include "util/clock.h"
-#include "util/thread_pool.h"
-
-/* Somebody is told about so often (s), since he may want no more; at first after a few blocks for
- * each thread, then after twice as many, but for MOST. RUN: that a thread takes at a time. One
- * block takes from a microsecond to a second, so the clock is looked at before each. */
-enum { LEAST = 4, MOST = 1 << 20, RUN = 32 };
-static const double OFTEN = 0.5;
-
-/* What blocks are filled from. */
-struct filling {
-    const struct exchange_areas *areas;
-    const struct link **links;        /* [block] */
-    struct exchange_scratch *scratch; /* [thread] */
-    size_t from;                      /* the first block at hand */
-    size_t read;                      /* of the first so many the state has given most */
-    double late;                      /* s, when to begin no more of them, */
-    atomic_size_t *end;               /* and at which block that was; it is the first not filled */
-};
 
 static struct exchange_pair pair_of(const struct exchange_areas *m, const struct exchange_block *b,
                                     const struct link *link)
@@ -48,79 +28,6 @@ double exchange_tile_fill(const struct exchange_areas *m, const struct exchange_
 {
     const struct exchange_pair pair = pair_of(m, b, link);
     return exchange_block_fill(&m->shapes, &pair, link, scratch, values);
-}
-
-/* Is block i to be left for later? The first at hand never is, so that all come to an end. */
-static int is_late(const struct filling *f, size_t i)
-{
-    size_t end = atomic_load(f->end);
-    if (i >= end || i == f->from || seconds() < f->late)
-        return i >= end;
-    while (i < end && !atomic_compare_exchange_weak(f->end, &end, i))
-        ;
-    return 1;
-}
-
-static void fill_blocks(const void *filling, size_t from, size_t to)
-{
-    const struct filling *f = filling;
-    const struct exchange_areas *m = f->areas;
-    for (size_t i = f->from + from; i < f->from + to && !is_late(f, i); i++) {
-        struct exchange_block *b = &m->blocks[i]; /* no other thread's */
-        if (!b->anew && (i >= f->read || exchange_link_clear(m->tree, f->links[i])))
-            b->error = exchange_tile_fill(m, b, f->links[i], &f->scratch[thread_pool_number()],
-                                          m->values + b->at);
-    }
-}
-
-/* Somebody is told that the first f->from blocks are there. Returns nonzero: he wants no more. */
-static int tell(const struct filling *f, const struct exchange_aim *how)
-{
-    const struct exchange_areas *m = f->areas;
-    const size_t at = f->from < m->block_count ? m->blocks[f->from].at : m->kept;
-    return (how->tell && how->tell(how->context, (double)at / (double)(m->kept ? m->kept : 1)))
-           || (how->state && f->from > f->read
-               && exchange_state_ask(how->state, m, f->links, f->from));
-}
-
-/* Fill the next blocks, as far as that goes until `late`. Blocks behind one that was left may be
- * filled; they will be again. */
-static void fill_some(struct filling *f, size_t count, double late, int threads)
-{
-    const size_t run = count / 8 < RUN ? count / 8 : RUN;
-    atomic_size_t end;
-    atomic_init(&end, f->from + count);
-    f->late = late;
-    f->end = &end;
-    thread_pool_run(threads, count, run ? run : 1, fill_blocks, f);
-    f->from = atomic_load(&end);
-}
-
-static int fill(struct exchange_areas *m, const struct link **links, const struct exchange_aim *how)
-{
-    const int threads = how->threads;
-    struct exchange_scratch *scratch = calloc((size_t)threads, sizeof *scratch);
-    const int64_t read = how->state ? exchange_state_read_values(how->state, m, links) : 0;
-    struct filling f = {
-        .areas = m, .links = links, .scratch = scratch, .read = read > 0 ? (size_t)read : 0};
-    size_t next = LEAST * (size_t)threads;
-    int failed = !scratch || read < 0;
-    for (int t = 0; t < threads && !failed; t++)
-        failed = exchange_scratch_open(&scratch[t], &m->limits) < 0;
-    if (f.read && !failed) { /* those of groups in clear view */
-        fill_some(&f, f.read, INFINITY, threads);
-        failed = tell(&f, how);
-    }
-    while (f.from < m->block_count && !failed) {
-        const size_t left = m->block_count - f.from;
-        fill_some(&f, left < next ? left : next, seconds() + OFTEN, threads);
-        next = next < MOST ? 2 * next : next;
-        failed = tell(&f, how);
-    }
-    for (int t = 0; t < threads && scratch; t++)
-        exchange_scratch_close(&scratch[t]);
-    free(scratch);
-    return failed ? -1 : 0;
 }
 
 /* Which blocks hold a place. */
@@ -214,8 +121,9 @@ static int keep_values(struct exchange_areas *m, const struct refinement *refine
     if (links && m->blocks && m->block_count <= UINT32_MAX / 2
         && deal_out(m, refinement, how->keep, links) == 0) {
         m->values = malloc((m->kept + 1) * sizeof *m->values);
-        status = !m->values || make_index(m) < 0 ? -1 : fill(m, links, how);
+        status = !m->values || make_index(m) < 0 ? -1 : 0;
     }
+    status = ranks_any(m->ranks, status < 0) ? -1 : exchange_fill(m, links, how);
     free(links);
     return status;
 }
@@ -229,7 +137,8 @@ int exchange_areas_open(struct exchange_areas *m, const struct exchange_tree *tr
                                  .inputs = scene->input_count,
                                  .rows = how->rows ? how->rows : scene->input_count,
                                  .limits = sight_limits_for(how->tolerance, tree->h.face_count),
-                                 .refinement = how->stream ? refinement : NULL};
+                                 .refinement = how->stream ? refinement : NULL,
+                                 .ranks = how->ranks};
     if (find_inputs(m, scene) == 0 && exchange_faces_open(&m->shapes, tree) == 0) {
         struct exchange_tiles t = exchange_tiles(m, refinement);
         while (exchange_tiles_next(&t))
@@ -294,7 +203,10 @@ double exchange_areas_error(const struct exchange_areas *m)
 {
     double *sum = calloc(m->inputs + 1, sizeof *sum), most = 0;
     uint32_t *met = malloc((m->inputs + 1) * sizeof *met), count;
-    for (uint32_t i = 0; i < m->rows && m->blocks && sum && met; i++) {
+    const int me = ranks_number(m->ranks);
+    const uint32_t to = (uint32_t)ranks_part(m->ranks, m->rows, me + 1);
+    for (uint32_t i = (uint32_t)ranks_part(m->ranks, m->rows, me);
+         i < to && m->blocks && sum && met; i++) {
         count = 0;
         for (uint32_t p = m->first[i]; p != UINT32_MAX; p = m->next[p])
             for (size_t at = m->entry[p]; at < m->entry[p + 1]; at++) {
@@ -312,7 +224,9 @@ double exchange_areas_error(const struct exchange_areas *m)
             sum[met[count]] = 0;
         }
     }
-    most = sum && met ? most : -1;
+    most = sum && met ? most : INFINITY;
+    ranks_most(m->ranks, RANKS_VALUES, &most, 1);
+    most = isinf(most) ? -1 : most;
     free(sum);
     free(met);
     return most;

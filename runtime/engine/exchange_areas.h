@@ -11,6 +11,7 @@
 #include "engine/exchange_tree.h"
 #include "engine/refine.h"
 #include "hierarchy/scene.h"
+#include "util/ranks.h"
 
 struct exchange_state;
 
@@ -37,6 +38,7 @@ struct exchange_aim {
     /* What was done before this run is read from it, and it is asked wherever `tell` is, and at the
      * end (engine/exchange_state.h). NULL: there is none. */
     struct exchange_state *state;
+    struct ranks *ranks; /* who works on it together; borrowed, NULL: one process */
 };
 
 struct exchange_areas {
@@ -44,11 +46,13 @@ struct exchange_areas {
     uint32_t faces, inputs, rows;        /* rows: of the first so many inputs */
     struct sight_limits limits;          /* by its tolerance */
     const struct refinement *refinement; /* of a stream, borrowed; else NULL */
+    struct ranks *ranks;                 /* borrowed; NULL: one process */
     struct exchange_faces shapes;
     uint32_t *input;        /* [faces]: by place in the tree's order, the scene file's face */
     double *area;           /* [inputs]: all parts, both sides (m2) */
     uint32_t *first, *next; /* places of input i: first[i], next[that] ...; UINT32_MAX ends */
     size_t value_count, link_count; /* of so many links so many values */
+    size_t own_count;               /* of the kept ones, that this rank has filled */
     /* The rest is there unless it is a stream. */
     struct exchange_block *blocks; /* [block_count] */
     size_t block_count, kept;

@@ -1,14 +1,14 @@
 /* exchange_product.c - the matrix of exchange areas times columns.
  *
  * Tiles are dealt out to a fixed number of lanes, each with sums of its own, which are added up in
- * their order: so the result does not depend on who worked on what. Each tile serves both ways
- * round; one that is not kept is forgotten then.
+ * their order: so the result does not depend on who, of threads or of ranks, worked on what. Each
+ * tile serves both ways round; one that is not kept is forgotten then.
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_product.h"
 #include "engine/exchange_tiles.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 
 /* COLUMNS: at a time. DEAL: tiles that stand one after the other in a lane. */
 enum { LANES = 16, COLUMNS = 8, DEAL = 64 };
@@ -84,7 +84,8 @@ static void run(struct product *p, int threads, double *y)
 {
     const size_t inputs = p->areas->inputs, size = inputs * p->columns;
     memset(p->sums, 0, LANES * size * sizeof *p->sums);
-    thread_pool_run(threads, LANES, 1, add_lanes, p);
+    ranks_loop_run(p->areas->ranks, RANKS_VALUES, threads, LANES, 1, add_lanes, p, p->sums,
+                   size * sizeof *p->sums);
     for (size_t i = 0; i < inputs; i++)
         for (uint32_t c = 0; c < p->columns; c++) {
             double sum = 0;

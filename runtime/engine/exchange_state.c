@@ -18,7 +18,12 @@ void exchange_state_open(struct exchange_state *s, const struct RadExchangeState
     s->host = host;
     s->tree = tree;
     s->refinement = refinement;
-    if (!host)
+    s->ranks = aim->ranks;
+    s->waits = host && host->read;
+    s->asked = host && host->asked;
+    ranks_tell(s->ranks, RANKS_VALUES, &s->waits, sizeof s->waits);
+    ranks_tell(s->ranks, RANKS_VALUES, &s->asked, sizeof s->asked);
+    if (!s->waits && !s->asked)
         return;
     struct state_head *h = &s->head;
     memcpy(h->name, NAME, sizeof h->name);
@@ -110,7 +115,7 @@ static void put_values(struct state_out *out, const struct exchange_state *s,
 /* Write all of it. Without the memory for that the host hears of no end, as where it fails itself.
  */
 static void write_state(struct exchange_state *s, const struct exchange_areas *m,
-                        const struct link *const *links, size_t blocks)
+                        const struct link *const *links, size_t blocks, uint64_t rays)
 {
     const struct refinement *r = s->refinement;
     uint32_t *number = malloc((r->pool_count + (size_t)1) * sizeof *number);
@@ -129,7 +134,7 @@ static void write_state(struct exchange_state *s, const struct exchange_areas *m
                 exchange_state_keeps(s, links[i]) ? exchange_state_values(&m->blocks[i]) : 0;
         head.pairs = r->pairs;
         head.rounds = r->rounds;
-        head.rays = s->rays + rays_count(s->tree->rays).rays;
+        head.rays = s->rays + rays;
         memcpy(head.decided, r->decided, sizeof head.decided);
         state_put(out, &head, sizeof head);
         state_put_check(out);
@@ -146,14 +151,24 @@ static void write_state(struct exchange_state *s, const struct exchange_areas *m
     free(out);
 }
 
-int exchange_state_ask(struct exchange_state *s, const struct exchange_areas *m,
+int exchange_state_ask(struct exchange_state *s)
+{
+    s->wish = RAD_STATE_NONE;
+    if (!s->asked)
+        return 0;
+    if (ranks_number(s->ranks) == 0)
+        s->wish = s->host->asked(s->host->user);
+    ranks_tell(s->ranks, RANKS_VALUES, &s->wish, sizeof s->wish);
+    return s->wish != RAD_STATE_NONE;
+}
+
+int exchange_state_put(struct exchange_state *s, const struct exchange_areas *m,
                        const struct link *const *links, size_t blocks)
 {
-    if (!s->host || !s->host->asked)
-        return 0;
-    const enum RadStateWish wish = s->host->asked(s->host->user);
-    if (wish != RAD_STATE_NONE && s->host->write)
-        write_state(s, m, links, blocks);
-    s->stopped = s->stopped || wish == RAD_STATE_STOP;
+    uint64_t rays = rays_count(s->tree->rays).rays;
+    ranks_add_counts(s->ranks, RANKS_VALUES, &rays, 1);
+    if (ranks_number(s->ranks) == 0 && s->host->write)
+        write_state(s, m, links, blocks, rays);
+    s->stopped = s->wish == RAD_STATE_STOP;
     return s->stopped;
 }

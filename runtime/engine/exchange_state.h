@@ -42,8 +42,11 @@ _Static_assert(sizeof(struct link) == 16 && sizeof(struct state_head) % 8 == 0, 
 enum { STATE_CHUNK = 4096 }; /* splits, and marks, of a piece */
 
 struct exchange_state {
-    const struct RadExchangeState *host; /* borrowed; NULL: nobody wants any */
-    struct state_head head;              /* of this work; once it is read also of that */
+    const struct RadExchangeState *host; /* borrowed; NULL: nobody wants any, or rank 0 knows */
+    struct ranks *ranks;                 /* borrowed */
+    int waits, asked; /* on rank 0 there is one to go on from; somebody is to be asked */
+    enum RadStateWish wish;
+    struct state_head head; /* of this work; once it is read also of that */
     const struct exchange_tree *tree;
     const struct refinement *refinement;
     struct state_in in;
@@ -53,16 +56,11 @@ struct exchange_state {
                           memory that failed */
 };
 
-/* For work that this refinement begins, by these; `host` may be NULL. All are borrowed. */
+/* For work that this refinement begins, by these; `host` may be NULL. All are borrowed. Of several
+ * ranks rank 0's host is asked, and what it reads all are told. */
 void exchange_state_open(struct exchange_state *s, const struct RadExchangeState *host,
                          const struct exchange_tree *tree, const struct refinement *refinement,
                          const struct exchange_aim *aim);
-
-/* Is there one to go on from? */
-static inline int exchange_state_waits(const struct exchange_state *s)
-{
-    return s->host && s->host->read;
-}
 
 /* Read one into a refinement that has not begun. Returns 0, or -1: see `cause`. */
 int exchange_state_read(struct exchange_state *s, struct refinement *refinement);
@@ -72,9 +70,12 @@ int exchange_state_read(struct exchange_state *s, struct refinement *refinement)
 int64_t exchange_state_read_values(struct exchange_state *s, const struct exchange_areas *m,
                                    const struct link *const *links);
 
-/* Ask whether a state is wanted, and write it; m NULL: between two rounds, else the first blocks
- * are done. Returns nonzero when the work is to be put down. */
-int exchange_state_ask(struct exchange_state *s, const struct exchange_areas *m,
+/* Ask whether a state is wanted, which `wish` is then. Returns nonzero when one is. */
+int exchange_state_ask(struct exchange_state *s);
+
+/* Write what is wanted, which rank 0 does; m NULL: between two rounds, else the first blocks are
+ * done, and all ranks have them. Returns nonzero when the work is to be put down. */
+int exchange_state_put(struct exchange_state *s, const struct exchange_areas *m,
                        const struct link *const *links, size_t blocks);
 
 /* How many values a block has; and does a link's block leave them in a state? */

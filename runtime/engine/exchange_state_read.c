@@ -172,9 +172,19 @@ static int read_end(struct exchange_state *s)
     return judge(s, state_get_check(&s->in)) < 0 || judge(s, state_get_end(&s->in)) < 0 ? -1 : 0;
 }
 
+/* What rank 0 reads, all are told: the same pieces, so that all refuse it or none does. */
+static size_t read_told(void *state, void *bytes, size_t size)
+{
+    struct exchange_state *s = state;
+    uint64_t count = ranks_number(s->ranks) == 0 ? s->host->read(s->host->user, bytes, size) : 0;
+    ranks_tell(s->ranks, RANKS_VALUES, &count, sizeof count);
+    ranks_tell(s->ranks, RANKS_VALUES, bytes, (size_t)count);
+    return (size_t)count;
+}
+
 int exchange_state_read(struct exchange_state *s, struct refinement *r)
 {
-    s->in = (struct state_in){s->host->read, s->host->user, 0};
+    s->in = (struct state_in){read_told, s, 0};
     if (read_head(s) < 0 || read_elements(s, r) < 0 || read_links(s, r) < 0 || read_queue(s, r) < 0
         || judge(s, state_get_check(&s->in)) < 0 || (!s->head.blocks && read_end(s) < 0))
         return -1;

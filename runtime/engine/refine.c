@@ -23,6 +23,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
+#include "engine/deal.h"
 #include "engine/discuss.h"
 #include "engine/shares.h"
 #include "engine/trace.h"
@@ -356,10 +357,12 @@ static uint64_t rays_so_far(const struct refinement *r)
     return r->shares ? rays_count(r->rays).rays : 0;
 }
 
-/* The pairs that others count, too, come first: their rays are known apart. */
-static void discuss_all(struct refinement *r, int count)
+/* The pairs that others count, too, come first: their rays are known apart. Returns 0 or -1. */
+static int discuss_all(struct refinement *r, int count)
 {
     int n = 0;
+    if (r->deal)
+        return deal_round(r, (size_t)count);
     for (int i = 0; i < count && r->shares; i++)
         if (told_by_others(r, r->round[i].receiver, (int)r->round[i].together)) {
             const struct pair p = r->round[i];
@@ -370,6 +373,7 @@ static void discuss_all(struct refinement *r, int count)
     discuss_round(r, 0, (size_t)n);
     r->common += rays_so_far(r) - before;
     discuss_round(r, (size_t)n, (size_t)count);
+    return 0;
 }
 
 /* Rounds until the queue is empty. */
@@ -380,8 +384,7 @@ static int drain(struct refinement *r)
         r->queue_count -= (size_t)count;
         r->round_count = count;
         memcpy(r->round, r->queue + r->queue_count, (size_t)count * sizeof *r->round);
-        discuss_all(r, count);
-        if (tell_round(r, count) < 0)
+        if (discuss_all(r, count) < 0 || tell_round(r, count) < 0)
             return -1;
         mark_elements(r, count);
         for (int i = 0; i < count; i++) {

@@ -53,6 +53,7 @@ struct pooled {
     uint32_t next;       /* free: the next free one, 0: none */
 };
 
+struct ranks;
 struct refinement;
 struct shares;
 struct trace;
@@ -73,6 +74,9 @@ struct refinement {
     /* who else refines, and whom links are for; NULL: this process alone. Borrowed */
     const struct shares *shares;
     const struct rays *rays; /* with it: whose rays are counted, borrowed */
+    /* who shares the discussions of each round, while all have all links (deal.h); NULL: nobody.
+     * Borrowed, not with `shares` */
+    struct ranks *deal;
 
     struct link *links; /* [link_count]; sorted by receiver after refinement_sort */
     size_t link_count, link_capacity;

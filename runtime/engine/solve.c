@@ -25,7 +25,7 @@
 #include "kernel/hash.h"
 #include "util/array.h"
 #include "util/clock.h"
-#include "util/thread_pool.h"
+#include "util/ranks_loop.h"
 #include "visibility/contact_fraction.h"
 #include "visibility/enclosure.h"
 
@@ -95,12 +95,9 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
     const struct problem *p = &s->problem;
     const struct element *elements = h->elements;
     double *uncovered = s->operator.uncovered;
-    struct ranks *ranks = p->options.ranks;
-    const size_t count = h->count - first, from = ranks_part(ranks, count, ranks_number(ranks)),
-                 to = ranks_part(ranks, count, ranks_number(ranks) + 1);
-    const struct contacts contacts = {h, p->rays, uncovered, first + (uint32_t)from, known};
-    thread_pool_run(p->options.threads, to - from, 64, measure_leaves, &contacts);
-    ranks_complete_parts(ranks, RANKS_VALUES, uncovered + first, sizeof *uncovered, count);
+    const struct contacts contacts = {h, p->rays, uncovered, first, known};
+    ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
+                   measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
     for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
         if (!elements[i].children)
             continue;

@@ -136,8 +136,8 @@ static int measure_stage(struct measurement *m, struct stage *stage, double n,
     const struct watch part = {tell_part, m};
     struct watched_loop loop = {.watch = m->watch ? &part : NULL, .all = stage->count};
     const struct stage_points points = {m, stage, stream, &loop, &rays};
-    ranks_loop_run(m->tracer->ranks, m->tracer->threads, stage->count, 16, measure_points, &points,
-                   stage->point, sizeof *stage->point);
+    ranks_loop_run(m->tracer->ranks, RANKS_PARTICLES, m->tracer->threads, stage->count, 16,
+                   measure_points, &points, stage->point, sizeof *stage->point);
     uint64_t cast = rays;
     ranks_add_counts(m->tracer->ranks, RANKS_PARTICLES, &cast, 1);
     m->rays += cast;

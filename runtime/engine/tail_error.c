@@ -100,8 +100,8 @@ static uint64_t measure_points(const struct tail *x, struct point *points, uint3
     _Atomic uint64_t rays = 0;
     struct watched_loop loop = {.watch = watch, .all = count};
     const struct stage_points all = {x, points, stage, paths, &loop, &rays};
-    ranks_loop_run(x->tracer->ranks, x->tracer->threads, count, 16, measure_some, &all, points,
-                   sizeof *points);
+    ranks_loop_run(x->tracer->ranks, RANKS_PARTICLES, x->tracer->threads, count, 16, measure_some,
+                   &all, points, sizeof *points);
     uint64_t cast = rays;
     ranks_add_counts(x->tracer->ranks, RANKS_PARTICLES, &cast, 1);
     return loop.stopped ? UINT64_MAX : cast;

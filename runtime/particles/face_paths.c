@@ -90,8 +90,8 @@ static int flush(struct face_paths *p, const struct tracer *t, struct block *blo
                  const struct watch *watch, double share)
 {
     const struct blocks all = {t, blocks, p->stream};
-    ranks_loop_run(t->ranks, t->threads, (size_t)count, 16, trace_blocks, &all, blocks,
-                   sizeof *blocks);
+    ranks_loop_run(t->ranks, RANKS_PARTICLES, t->threads, (size_t)count, 16, trace_blocks, &all,
+                   blocks, sizeof *blocks);
     for (int i = 0; i < count; i++)
         add(p, &blocks[i]);
     return watch && watch->tell(watch->context, share) ? -1 : 0;

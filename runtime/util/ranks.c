@@ -187,7 +187,9 @@ void ranks_tell(struct ranks *r, enum ranks_kind kind, void *item, size_t size)
 {
     if (ranks_count(r) == 1)
         return;
-    MPI_Bcast(item, (int)size, MPI_BYTE, 0, r->all);
+    for (size_t from = 0; from < size; from += PIECE)
+        MPI_Bcast((char *)item + from, (int)(size - from < PIECE ? size - from : PIECE), MPI_BYTE,
+                  0, r->all);
     r->sent[kind] += r->number == 0 ? size * (uint64_t)(r->count - 1) : 0;
 }
 

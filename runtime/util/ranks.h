@@ -24,6 +24,7 @@ enum ranks_kind {
     RANKS_SWEEPS,    /* radiosities of emitters, while sweeps go on */
     RANKS_VALUES,    /* what elements have, to all */
     RANKS_PARTICLES, /* counts of particles and paths */
+    RANKS_PAIRS,     /* what came of pairs that are dealt out */
     RANKS_KINDS
 };
 
@@ -45,6 +46,14 @@ uint64_t ranks_sent(const struct ranks *r, enum ranks_kind kind);
 void ranks_add_counts(struct ranks *r, enum ranks_kind kind, uint64_t *value, size_t count);
 void ranks_add(struct ranks *r, enum ranks_kind kind, double *value, size_t count);
 void ranks_most(struct ranks *r, enum ranks_kind kind, double *value, size_t count);
+
+/* The least of all ranks' counts, below 2^53. */
+static inline size_t ranks_least(struct ranks *r, enum ranks_kind kind, size_t count)
+{
+    double least = -(double)count;
+    ranks_most(r, kind, &least, 1);
+    return (size_t)-least;
+}
 
 /* Is it so (not 0) on any rank? */
 int ranks_any(struct ranks *r, int so);

@@ -21,15 +21,15 @@ static inline void ranks_loop_work(const void *loop, size_t from, size_t to)
 
 /* As thread_pool_run, which it is where there is one process; item i writes nothing but
  * items[i] of `size` bytes, without pointers that others would read. */
-static inline void ranks_loop_run(struct ranks *ranks, int threads, size_t count, size_t run,
-                                  thread_pool_work *work, const void *context, void *items,
-                                  size_t size)
+static inline void ranks_loop_run(struct ranks *ranks, enum ranks_kind kind, int threads,
+                                  size_t count, size_t run, thread_pool_work *work,
+                                  const void *context, void *items, size_t size)
 {
     const int me = ranks_number(ranks);
     const size_t from = ranks_part(ranks, count, me), to = ranks_part(ranks, count, me + 1);
     const struct ranks_loop loop = {work, context, from};
     thread_pool_run(threads, to - from, run, ranks_loop_work, &loop);
-    ranks_complete_parts(ranks, RANKS_PARTICLES, items, size, count);
+    ranks_complete_parts(ranks, kind, items, size, count);
 }
 
 #endif

@@ -10,6 +10,7 @@
 
 #include "util/clock.h"
 #include "util/device.h"
+#include "util/machines.h"
 #include "util/report.h"
 #include "util/stop_signal.h"
 
@@ -65,6 +66,11 @@ int factor_state_open(struct factor_state *s, const struct options *o)
     progress_start(&s->progress, o->quiet);
     if (!s->path)
         return 0;
+    s->start = s->saved = seconds();
+    if (machines_number() > 0) { /* rank 0 has the file; no rank is to end before it is written */
+        stop_signal_watch();
+        return 0;
+    }
     struct stat status;
     if (stat(s->path, &status) == 0) {
         s->in = S_ISREG(status.st_mode) ? fopen(s->path, "rb") : NULL;
@@ -77,14 +83,13 @@ int factor_state_open(struct factor_state *s, const struct options *o)
     }
     s->host = (struct RadExchangeState){
         .read = s->in ? read_state : NULL, .asked = ask, .write = write_state, .user = s};
-    s->start = s->saved = seconds();
     stop_signal_watch();
     return 0;
 }
 
 const struct RadExchangeState *factor_state_host(const struct factor_state *s)
 {
-    return s->path ? &s->host : NULL;
+    return s->host.asked ? &s->host : NULL;
 }
 
 int factor_state_show(void *user, const struct RadProgress *at)
@@ -114,6 +119,8 @@ int factor_state_report(struct factor_state *s, RadDevice device, const char *sc
              s->unread ? "it cannot be read" : radGetDeviceErrorMessage(device));
     switch (radGetDeviceError(device)) {
     case RAD_ERROR_CANCELLED:
+        if (machines_number() > 0)
+            return 0;                /* rank 0 knows whether all is written */
         if (!s->whole && !s->failed) /* a failure has been told */
             report_error(s->path, 0, "out of memory for the state");
         if (s->whole && !s->quiet)
@@ -143,6 +150,6 @@ void factor_state_close(struct factor_state *s)
 
 void factor_state_remove(const struct factor_state *s)
 {
-    if (s->path)
+    if (s->path && machines_number() == 0)
         (void)unlink(s->path);
 }

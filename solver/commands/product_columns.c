@@ -12,6 +12,7 @@
 #include "util/array.h"
 #include "util/atomic_file.h"
 #include "util/device.h"
+#include "util/machines.h"
 #include "util/text_file.h"
 
 enum { COLUMNS_MOST = 4096 };
@@ -115,7 +116,7 @@ int columns_write_product(const struct columns *c, const char *path, RadExchange
     int status = radMultiplyExchange(exchange, c->count, x, y);
     if (status < 0)
         (void)report_device(scene->device, path);
-    else
+    else if (machines_number() == 0)
         status = write_rows(c, path, y);
     free(x);
     return status;

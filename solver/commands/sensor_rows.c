@@ -16,6 +16,7 @@
 #include "util/clock.h"
 #include "util/device.h"
 #include "util/fold.h"
+#include "util/machines.h"
 #include "util/text_file.h"
 
 /* VALUES: of rows in memory at a time. TOLD: sensors that the summary names. */
@@ -173,10 +174,11 @@ static int see(const struct options *o, const struct open_scene *scene, struct s
 static int write_rows(const struct options *o, const struct open_scene *scene, struct sensors *s)
 {
     struct atomic_file file = {0};
-    if (!o->out)
-        return see(o, scene, s, NULL);
-    if (atomic_open(&file, o->out) < 0)
+    const int writes = o->out && machines_number() == 0;
+    if (machines_agree(writes && atomic_open(&file, o->out) < 0))
         return -1;
+    if (!writes)
+        return see(o, scene, s, NULL);
     fprintf(file.stream, "name,sky,back");
     for (uint32_t j = 0; j < scene->originals; j++)
         fprintf(file.stream, ",%u", (unsigned)j);
@@ -220,13 +222,11 @@ int sensor_rows(const struct options *o, const struct open_scene *scene)
 {
     struct sensors s = {0};
     double start = seconds();
-    int status = read_sensors(&s, o->sensor);
-    if (status == 0)
-        status = write_rows(o, scene, &s);
+    int status = machines_agree(read_sensors(&s, o->sensor) < 0) ? -1 : write_rows(o, scene, &s);
     double time = seconds() - start;
     if (status == 0 && !o->quiet && !(o->json && strcmp(o->json, "-") == 0))
         print(scene, &s, time);
-    if (status == 0 && o->json)
+    if (status == 0 && o->json && machines_number() == 0)
         status = json_file_write(o->json, report_json(o, scene, &s, time));
     free_sensors(&s);
     return status < 0;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <sys/resource.h>
 #include "commands/account_summary.h"
+#include "commands/ranks_report.h"
 #include "commands/summary.h"
 #include "output/json_values.h"
 #include "util/decisions.h"
@@ -116,26 +117,6 @@ static json_t *decisions_json(const struct RadReport *r)
     return decisions;
 }
 
-static const char *const traffic_words[RAD_TRAFFICS] = {"splits", "links", "sweeps", "values",
-                                                        "particles"};
-
-static json_t *ranks_json(const struct summary *s)
-{
-    json_t *all = s->rank_count > 1 ? json_array() : json_null();
-    for (int i = 0; i < s->rank_count && s->rank_count > 1; i++) {
-        const struct RadRank *r = &s->ranks[i];
-        json_t *sent = json_object();
-        for (int k = 0; k < RAD_TRAFFICS; k++)
-            json_object_set_new(sent, traffic_words[k], json_integer((json_int_t)r->sent[k]));
-        json_array_append_new(all, json_pack("{s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "links",
-                                             (json_int_t)r->links, "pairs", (json_int_t)r->pairs,
-                                             "rays", (json_int_t)r->rays, "faces",
-                                             (json_int_t)r->faces, "ghosts", (json_int_t)r->ghosts,
-                                             "memory_mb", r->memory / 1048576, "bytes_sent", sent));
-    }
-    return all;
-}
-
 /* As people compare them. */
 static json_t *fingerprint_json(uint64_t value)
 {
@@ -162,7 +143,7 @@ json_t *summary_json(const struct summary *s)
         json_array_append_new(replaced, json_string(s->options->replacements[i]));
     json_object_set_new(all, "replaced", replaced);
     json_object_set_new(all, "element_marks", marks_json(r->marked_elements));
-    json_object_set_new(all, "ranks", ranks_json(s));
+    json_object_set_new(all, "ranks", ranks_json(s->ranks, s->rank_count));
     json_object_set_new(all, "link_fingerprint", fingerprint_json(r->link_fingerprint));
     json_object_set_new(all, "particle_fingerprint", fingerprint_json(r->particle_fingerprint));
     json_t *links =
@@ -278,32 +259,6 @@ static void print_aims(const struct options *o, const struct RadReport *r)
                r->tolerance.area > 0 ? ", which nothing more can split" : "");
 }
 
-static double imbalance_of(const struct summary *s, int rays)
-{
-    double all = 0, most = 0;
-    for (int i = 0; i < s->rank_count; i++) {
-        const double work = (double)(rays ? s->ranks[i].pairs : s->ranks[i].links);
-        all += work;
-        most = fmax(most, work);
-    }
-    return all > 0 ? most * s->rank_count / all : 1;
-}
-
-static void print_ranks(const struct summary *s)
-{
-    double sent = 0, memory = 0;
-    for (int i = 0; i < s->rank_count; i++) {
-        for (int k = 0; k < RAD_TRAFFICS; k++)
-            sent += (double)s->ranks[i].sent[k];
-        memory = fmax(memory, s->ranks[i].memory);
-    }
-    if (s->rank_count > 1)
-        printf(
-            "ranks     %d: %.3g MB sent; the one with most has %.2f times the mean of the links, "
-            "%.2f of the discussions; at most %.0f MB each\n",
-            s->rank_count, sent / 1e6, imbalance_of(s, 0), imbalance_of(s, 1), memory / 1048576);
-}
-
 void summary_print(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -347,7 +302,7 @@ void summary_print(const struct summary *s)
     power_promise_print(s->promise);
     if (s->accuracy)
         accuracy_print(s->accuracy, s->options);
-    print_ranks(s);
+    ranks_print(s->ranks, s->rank_count);
     double particles = measured_seconds(s->measured) + (s->coarse ? s->coarse->seconds : 0);
     printf("time      %.2f s: build %.2f, refine %.2f (%.0f %% in Embree), iterate %.2f, particles "
            "%.2f, output %.2f; %.0f MB\n",

@@ -8,6 +8,7 @@
 #include "commands/commands.h"
 #include "commands/factor_state.h"
 #include "commands/product_columns.h"
+#include "commands/ranks_report.h"
 #include "commands/sensor_rows.h"
 #include "output/factor_file.h"
 #include "output/factor_names.h"
@@ -15,6 +16,7 @@
 #include "output/json_values.h"
 #include "util/clock.h"
 #include "util/device.h"
+#include "util/machines.h"
 #include "util/open_oracle.h"
 #include "util/report.h"
 
@@ -102,6 +104,7 @@ static int write_matrix(const struct options *o, const struct open_scene *scene,
     struct surfaces surfaces =
         surfaces_of(scene->scene, scene->file.polygon_materials, scene->file.names);
     struct factor_table table;
+    const int speaks = machines_number() == 0;
     surfaces.polygon_count = scene->originals;
     int status = factor_table_open(&table, exchange, scene->report.polygons, o->scene, &surfaces,
                                    by, o->losses);
@@ -109,15 +112,15 @@ static int write_matrix(const struct options *o, const struct open_scene *scene,
     if (status < 0)
         report_error(o->scene, 0, "out of memory for the names of rows");
     else if ((o->product && columns_write_product(columns, o->out, exchange, scene) < 0)
-             || (o->out && !o->product
+             || (o->out && !o->product && speaks
                  && factor_file_write(o->out, o->format, &table, o->threads) < 0)
-             || (o->names && factor_names_write(o->names, &table) < 0))
+             || (o->names && speaks && factor_names_write(o->names, &table) < 0))
         status = -1;
     factor_table_close(&table);
     return status;
 }
 
-/* Write what was asked for. Returns 0, or -1 after a message. */
+/* Write what was asked for, which one of several ranks does. Returns 0, or -1 after a message. */
 static int write_outputs(const struct options *o, const struct open_scene *scene,
                          const struct factor_parts *by, RadExchange exchange,
                          const struct columns *columns)
@@ -129,8 +132,14 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     double write_seconds = seconds() - start;
     struct RadExchangeReport r;
     radGetExchangeReport(exchange, &r);
-    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0))
+    struct RadRank ranks[MACHINES_MOST];
+    const int rank_count = radGetExchangeRanks(exchange, ranks, MACHINES_MOST);
+    if (machines_number() > 0)
+        return 0;
+    if (!o->quiet && !(o->json && strcmp(o->json, "-") == 0)) {
         print(o, scene, rows, &r, write_seconds);
+        ranks_print(ranks, rank_count);
+    }
     if (!o->quiet && r.worst > o->tolerance)
         report_warning(o->scene, scene->file.lines[r.worst_row],
                        "a row sum is off by %.1e, that of face %u, above the tolerance %.1e; a "
@@ -141,6 +150,7 @@ static int write_outputs(const struct options *o, const struct open_scene *scene
     json_t *report = report_json(o, scene, &r, write_seconds);
     json_object_set_new(report, "by", json_string(by_words[o->by]));
     json_object_set_new(report, "rows", json_integer(rows));
+    json_object_set_new(report, "ranks", ranks_json(ranks, rank_count));
     return json_file_write(o->json, report);
 }
 
@@ -149,7 +159,7 @@ static int work(const struct options *o, const struct open_scene *scene,
                 const struct factor_parts *by, RadOracle oracle, const struct columns *columns)
 {
     struct factor_state state;
-    if (factor_state_open(&state, o) < 0)
+    if (machines_agree(factor_state_open(&state, o) < 0))
         return 1;
     const struct RadExchangeOptions how = {.tolerance = o->tolerance,
                                            .closure = o->closure,
@@ -191,7 +201,7 @@ int command_viewfactors(const struct options *o, const struct open_scene *scene)
     if (o->sensor)
         return sensor_rows(o, scene);
     int status = o->product && columns_read(&columns, o->product, scene->originals) < 0;
-    if (status == 0)
+    if (machines_agree(status) == 0)
         status = compute(o, scene, &columns);
     columns_free(&columns);
     return status;

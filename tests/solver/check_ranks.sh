@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check_ranks.sh - several processes against one: the same links, decisions, rays and particles to the bit, radiosities to
-# 1e-12, on any number of ranks and threads; references to the byte; what several ranks cannot do is refused; a rank that is
-# killed, or that cannot go on, ends the run with a message and leaves no half of a file. Needs a command built by
+# 1e-12, on any number of ranks and threads; references and view factors to the byte; what several ranks cannot do is refused; a
+# rank that is killed, or that cannot go on, ends the run with a message and leaves no half of a file. Needs a command built by
 # `make MPI=1` and mpirun; else it says that it is skipped. THOROUGH: more scenes and more ranks.
 # SPDX-License-Identifier: MIT
 set -u
@@ -33,6 +33,17 @@ if grep -q 'built without MPI: build it by' version; then
     [ "$bad" = 0 ]
     exit
 fi
+
+rank_of() { # COMMAND RANK: wait for the process, then $found is its number
+    local p
+    for _ in $(seq 300); do
+        for p in $(pgrep -f "^$radiosity $1 "); do
+            [ "$(tr '\0' '\n' <"/proc/$p/environ" 2>/dev/null | sed -n 's/^OMPI_COMM_WORLD_RANK=//p')" = "$2" ] && found=$p && return
+        done
+        sleep .1
+    done
+    return 1
+}
 
 # ---- the same answer
 scenes=$top/examples/scenes
@@ -91,6 +102,62 @@ done
 several 3 "$radiosity" reference "$scenes/cornell.obj" -o several.csv --accuracy 2% -q
 check "another reference" cmp one.csv several.csv
 
+# ---- view factors: all that is written has the bytes of one process
+same_factors() { # RANKS SCENE OUTPUT ARGUMENTS...
+    local n=$1 scene=$2 out=$3
+    shift 3
+    rm -f "one.$out" "several.$out"
+    "$radiosity" viewfactors "$scene" "$@" -q -o "one.$out" --json one.json || check "alone: $*" false
+    several "$n" "$radiosity" viewfactors "$scene" "$@" -q --threads $((n % 2 + 1)) -o "several.$out" --json several.json >said 2>&1
+    check "viewfactors, $out $* on $n ranks: exit status $?: $(head -n 3 said)" cmp "one.$out" "several.$out"
+    same_report "$n" "$*"
+}
+same_report() { # all that is said but times, and what each rank had
+    check "viewfactors $2 on $1 ranks: another report" diff \
+        <(grep -v '"seconds' one.json | sed '/"ranks"/,$d') <(grep -v '"seconds' several.json | sed '/"ranks"/,$d')
+    check "viewfactors: ranks are not told of" [ "$(grep -c '"ghosts"' several.json)" = "$(($1 > 1 ? $1 : 0))" ]
+}
+maze=$scenes/maze_8.obj
+for n in 1 2 4 7; do same_factors $n "$maze" csv --tolerance 3e-3 --closure reciprocal; done
+same_factors 3 "$scenes/cornell.obj" npz --by material --closure rows
+same_factors 2 "$scenes/furnace.obj" mtx --repeat x=9:1
+same_factors 3 "$scenes/cornell.obj" csv --sky
+for i in $(seq 21); do echo "$i,$((i * i % 7))"; done >columns.csv
+same_factors 3 "$scenes/cornell.obj" csv --product columns.csv
+for i in $(seq 9); do echo ".$i 1.2 .9 0 0 -1 point $i"; done >points.txt
+several 3 "$radiosity" viewfactors "$scenes/cornell.obj" --sensor points.txt -q -o several.csv >said 2>&1
+"$radiosity" viewfactors "$scenes/cornell.obj" --sensor points.txt -q -o one.csv
+check "sensors on 3 ranks: $(head -n 3 said)" cmp one.csv several.csv
+# Groups in a clear view, more than is kept; and faces in half shadow with them.
+if [ -n "${THOROUGH:-}" ]; then
+    for n in 2 3; do same_factors $n "$scenes/room.obj" csv; done
+    grid=$top/../shared/scenes/gridroom_1000.obj
+    if [ -f "$grid" ]; then same_factors 4 "$grid" csv --format coo; else echo "skipped: no gridroom"; fi
+fi
+# Put down by one number of ranks, gone on with by another.
+"$radiosity" viewfactors "$maze" -q -o one.csv --json one.json
+stops=0 later=.7
+for n in 3 2 4 2 3 2; do
+    mpirun -n $n "$radiosity" viewfactors "$maze" --threads 1 -o several.csv --json several.json --resume state >said 2>&1 &
+    run=$!
+    [ $stops -gt 1 ] || { rank_of viewfactors 0 && sleep $later && kill -TERM "$found"; }
+    wait $run
+    status=$?
+    [ $stops = 0 ] || check "$n ranks go on: $(head -n 3 said)" grep -q 'goes on from state: ' said
+    [ ! -s several.csv ] || break
+    if grep -q 'the same command goes on from state' said; then
+        check "$n ranks were stopped: status $status" [ $status = 130 ]
+        stops=$((stops + 1))
+    else # they had not begun
+        later=$(awk "BEGIN { print 2 * $later }")
+    fi
+done
+check "view factors were stopped, and ended: $stops times, status $status, $(head -n 3 said)" [ $stops -gt 0 -a $status = 0 ]
+check "view factors that were stopped" cmp one.csv several.csv
+check "the state is gone" [ ! -e state ]
+for of in links pairs rays; do check "the same $of" [ "$(value one.json $of)" = "$(value several.json $of)" ]; done
+head -c 5000 /dev/zero >state
+
 # ---- what is refused, by one message
 refused() { # STATUS TEXT ARGUMENTS...
     local status=$1 text=$2 found
@@ -101,7 +168,10 @@ refused() { # STATUS TEXT ARGUMENTS...
     check "$*: $(grep error said | head -n 3)" [ "$(grep -c -e "$text" said)" = 1 ]
 }
 cube=$scenes/furnace.obj
-refused 2 "only solve and reference run as several processes" viewfactors "$cube" -o f.csv
+refused 2 "only solve, reference and viewfactors run as several" error one.csv several.csv
+refused 1 "it is no state of view factors" viewfactors "$cube" -q -o f.csv --resume state
+refused 1 "no_such.csv: error: cannot read" viewfactors "$cube" -o f.csv --product no_such.csv
+refused 1 "points.csv: error: cannot read" viewfactors "$cube" -o f.csv --sensor points.csv
 refused 1 "LU needs all links" solve "$cube" --solver lu --basis constant
 refused 1 "a trace needs all links" solve "$cube" --trace t.csv
 refused 1 "counting an oracle's discussions needs all links" solve "$cube" --statistics t.csv
@@ -116,13 +186,7 @@ check "something was written" [ -z "$(find . -name '*.ply*' -o -name 't.csv*')" 
 # ---- a rank that is killed
 several 3 "$radiosity" solve "$scenes/td.obj" -q -o td.ply --json td.json >said 2>&1 &
 run=$!
-start=$SECONDS
-ranks() { pgrep -f "$radiosity solve $scenes/td.obj -q -o td.ply" | while read -r p; do
-    [ "$(tr '\0' '\n' <"/proc/$p/environ" 2>/dev/null | sed -n 's/^OMPI_COMM_WORLD_RANK=//p')" = "$1" ] && echo "$p"; done; }
-while [ -z "$(ranks 1)" ] && [ $((SECONDS - start)) -lt 60 ]; do sleep 0.1; done
-sleep 0.5
-# shellcheck disable=SC2046 # the process, and none other
-kill -KILL $(ranks 1)
+rank_of solve 1 && sleep .5 && kill -KILL "$found"
 killed=$SECONDS
 wait $run
 status=$?
