@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "output/export.h"
 #include "scene/materials_by_name.h"
 #include "scene/text_lines.h"
 #include "util/array.h"
@@ -249,6 +250,7 @@ static int add_outputs(struct named_files *f, const struct options *o)
     const char *beside = o->command != COMMAND_SOLVE || !o->out ? NULL
                          : ends_with(o->out, ".obj")            ? ".mtl"
                          : ends_with(o->out, ".gltf")           ? ".bin"
+                         : export_format(o->out) == EXPORT_XDMF ? ".h5"
                                                                 : NULL;
     return beside ? add_output(f, with_ending(o->out, beside), 1) : 0;
 }

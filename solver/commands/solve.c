@@ -52,7 +52,9 @@ static int write_solution(const struct options *o, const struct surfaces *surfac
                                                  : o->out,
                                 0, "out of memory");
         if (o->out)
-            failed |= export_write(o->out, &solution, &values) < 0;
+            failed |= export_write(o->out, &solution, &values,
+                                   measured ? radGetElementErrors(solved) : NULL)
+                      < 0;
         struct progress progress;
         progress_start(&progress, o->quiet);
         failed |= write_pictures(o, &solution, &values, device, solved, &progress);

@@ -528,7 +528,7 @@ static const char *const formats[] = {"csv",    "coo",        "mtx",      "npz",
                                       "view3d", "energyplus", "openfoam", NULL};
 const char *const by_words[] = {"face", "material", "group", "object", NULL};
 static const char *const checkpoints[] = {".h5", NULL};
-static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", NULL};
+static const char *const meshes[] = {".ply", ".gltf", ".glb", ".obj", ".xdmf", NULL};
 static const char *const tables[] = {".csv", ".md", NULL};
 static const char *const graphs[] = {".dag", NULL};
 static const char *const svg[] = {".svg", NULL};
@@ -662,7 +662,7 @@ const struct option_row option_rows[] = {
      FLAG(flip_closed)},
     {"threads", "N", THREADED, NULL, "all processors if not given; same result",
      "a whole number from 1 to 1024", WHOLE(threads, 1, 1024)},
-    {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply, .gltf, .glb or .obj", NAMED(out, meshes)},
+    {"o", "FILE", SOLVE, NULL, "the solved mesh: .ply .gltf .glb .obj .xdmf", NAMED(out, meshes)},
     {"o", "FILE", FACTORS, NULL, "the matrix; .mtx .npz .idf: in that format", OUTPUT(out)},
     {"o", "FILE", STABILITY | CLUSTERING | FORM_FACTORS, NULL, "the table, .csv or .md",
      NAMED(out, tables)},

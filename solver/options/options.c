@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "options/option_table.h"
+#include "output/export.h"
 #include "output/hdf5_file.h"
 #include "util/array.h"
 #include "util/machines.h"
@@ -383,6 +384,9 @@ static int check_together(struct options *o)
                                      : "--accuracy");
     if (kept && !hdf5_built())
         return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev", kept);
+    if (o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_XDMF
+        && !hdf5_built())
+        return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev", o->out);
     if (o->where && !o->trace)
         return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
     if (o->replacement_count && o->release == RAD_RELEASE_HAND)

@@ -11,6 +11,7 @@
 
 #include "util/atomic_file.h"
 #include "output/export_assimp.h"
+#include "output/export_xdmf.h"
 #include "output/exposure.h"
 #include "output/leaf_mesh.h"
 #include "util/report.h"
@@ -21,10 +22,8 @@ enum export_format export_format(const char *path)
         const char *extension;
         enum export_format format;
     } known[] = {
-        {".ply", EXPORT_PLY},
-        {".gltf", EXPORT_GLTF},
-        {".glb", EXPORT_GLB},
-        {".obj", EXPORT_OBJ},
+        {".ply", EXPORT_PLY}, {".gltf", EXPORT_GLTF}, {".glb", EXPORT_GLB},
+        {".obj", EXPORT_OBJ}, {".xdmf", EXPORT_XDMF},
     };
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
     for (size_t i = 0; dot && i < sizeof known / sizeof *known; i++)
@@ -116,13 +115,15 @@ static int write_format(const char *path, enum export_format format, const struc
         for (size_t i = 0; i < 3 * (size_t)v->count; i++)
             colour[i] = (float)srgb_byte((double)colour[i]) / 255;
         return export_assimp(path, "obj", s, m, v, colour);
+    case EXPORT_XDMF:
     case EXPORT_UNKNOWN:
         break;
     }
-    return report_error(path, 0, "unknown format; name it .ply, .gltf, .glb or .obj");
+    return report_error(path, 0, "unknown format; name it .ply, .gltf, .glb, .obj or .xdmf");
 }
 
-int export_write(const char *path, const struct solution *s, const struct vertex_values *v)
+int export_write(const char *path, const struct solution *s, const struct vertex_values *v,
+                 const double *error)
 {
     struct exposure exposure;
     struct leaf_mesh mesh = {0};
@@ -130,6 +131,8 @@ int export_write(const char *path, const struct solution *s, const struct vertex
     int result;
     if (!colour || measure(s, &exposure) || leaf_mesh_build(&mesh, s, v)) {
         result = report_error(path, 0, "out of memory for the mesh; use a coarser solution");
+    } else if (export_format(path) == EXPORT_XDMF) {
+        result = export_xdmf(path, s, &mesh, v, error);
     } else {
         for (uint32_t i = 0; i < v->count; i++) {
             double c[3];

@@ -207,7 +207,7 @@ START_TEST(test_meshes)
     stage_open(&s);
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         double floor = 0, all = 0;
-        ck_assert_int_eq(export_write(in_folder(names[n]), &s.solution, &s.values), 0);
+        ck_assert_int_eq(export_write(in_folder(names[n]), &s.solution, &s.values, NULL), 0);
         const struct aiScene *read = aiImportFile(in_folder(names[n]), 0);
         ck_assert_msg(read != NULL, "%s: %s", names[n], aiGetErrorString());
         for (unsigned m = 0; m < read->mNumMeshes; m++)

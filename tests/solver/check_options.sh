@@ -70,7 +70,7 @@ says 2 "--errors takes all, or no value, not x" solve "$scene" --errors=x
 says 2 "--errors takes all, or no value, not an empty value" solve "$scene" --errors=
 says 2 "for the account of error: add --errors=all" solve "$scene" --reflectance-error 2%
 says 2 "for the account of error: add --errors=all" solve "$scene" --errors --exitance-error 0.1
-says 2 "named .ply, .gltf, .glb or .obj, not x" solve "$scene" -o x
+says 2 "named .ply, .gltf, .glb, .obj or .xdmf, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag, hand or wave, not x" solve "$scene" --release x
 says 2 "--solver takes gauss-seidel, jacobi, southwell or lu, not x" solve "$scene" --solver x
 says 2 "--projection takes galerkin or collocation, not x" compare "$scene" --projection x

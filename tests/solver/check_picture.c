@@ -752,12 +752,12 @@ START_TEST(test_exports)
     static const char *const names[] = {"o.ply", "o.gltf", "o.glb", "o.obj"};
     struct stage *s = coloured_stage();
     for (int i = 0; i < 4; i++) {
-        ck_assert_int_eq(export_write(in_folder(names[i]), &s->solution, &s->values), 0);
+        ck_assert_int_eq(export_write(in_folder(names[i]), &s->solution, &s->values, NULL), 0);
         check_read_back(in_folder(names[i]), i == 1 || i == 2);
     }
-    ck_assert_int_eq(export_write(in_folder("o.stl"), &s->solution, &s->values), -1);
-    ck_assert_int_eq(export_write(in_folder("no/o.gltf"), &s->solution, &s->values), -1);
-    ck_assert_int_eq(export_write(in_folder("no/o.ply"), &s->solution, &s->values), -1);
+    ck_assert_int_eq(export_write(in_folder("o.stl"), &s->solution, &s->values, NULL), -1);
+    ck_assert_int_eq(export_write(in_folder("no/o.gltf"), &s->solution, &s->values, NULL), -1);
+    ck_assert_int_eq(export_write(in_folder("no/o.ply"), &s->solution, &s->values, NULL), -1);
     stage_free(s);
 }
 END_TEST
@@ -770,7 +770,7 @@ START_TEST(test_ply_bytes)
     stage_build(s);
     s->b[s->h.face_element[0]] = 12.5;
     stage_solve(s);
-    ck_assert_int_eq(export_write(in_folder("b.ply"), &s->solution, &s->values), 0);
+    ck_assert_int_eq(export_write(in_folder("b.ply"), &s->solution, &s->values, NULL), 0);
     FILE *f = fopen(in_folder("b.ply"), "rb");
     unsigned char bytes[2048];
     size_t size = fread(bytes, 1, sizeof bytes - 1, f);
