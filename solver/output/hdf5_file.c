@@ -43,7 +43,9 @@ void hdf5_discard(struct hdf5_file *f)
     if (!f)
         return;
     /* the file of HDF5 stays open: to close it is to write what could not be written, which 1.10
-     * does not survive */
+     * does not survive, nor when it does so itself as MPI ends */
+    if (f->id >= 0)
+        machines_leave_open();
     if (f->named) {
         temporary_lock();
         unlink(f->temporary);
@@ -246,7 +248,8 @@ static int settle(const char *path)
 int hdf5_commit(struct hdf5_file *f)
 {
     int failed = H5Fclose(f->id) < 0, cause = 0, result;
-    f->id = -1;
+    if (!failed)
+        f->id = -1;
     result = all_did(f, failed, 0);
     if (result == 0) {
         if (f->named) {

@@ -22,11 +22,12 @@ static int launched(void)
 #ifdef RADIOSITY_MPI
 
 #include <mpi.h>
+#include <signal.h>
 #include <time.h>
 
 enum { KEPT = 1 << 14, PATIENCE = 10 };
 
-static int begun, ranks = 1, rank;
+static int begun, ranks = 1, rank, left_open;
 static char kept[KEPT];
 
 int machines_begin(int *count, char ***arguments)
@@ -102,6 +103,11 @@ static int all_ended(int status, int *worst)
     return there;
 }
 
+void machines_leave_open(void)
+{
+    left_open = 1;
+}
+
 int machines_end(int status)
 {
     int worst = status;
@@ -116,6 +122,12 @@ int machines_end(int status)
     MPI_Bcast(&spoken, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!spoken && status != 0 && rank > 0)
         fprintf(stderr, "%srank %d of %d could not go on\n", kept, rank, ranks);
+    if (left_open) {
+        fflush(stderr);
+        signal(SIGTERM, SIG_DFL); /* by which the others are ended, and have nothing to say */
+        MPI_Barrier(MPI_COMM_WORLD);
+        MPI_Abort(MPI_COMM_WORLD, worst ? worst : 1);
+    }
     MPI_Finalize();
     return worst;
 }
@@ -165,6 +177,10 @@ int machines_keep(const char *line)
 {
     (void)line;
     return 0;
+}
+
+void machines_leave_open(void)
+{
 }
 
 int machines_end(int status)

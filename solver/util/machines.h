@@ -30,6 +30,10 @@ void machines_place(uint64_t count, uint64_t *first, uint64_t *all);
 /* Another rank's message: is it kept here, and not to be said? */
 int machines_keep(const char *line);
 
+/* Something is open that could not be written, and that a library would close when MPI ends, and
+ * fail: then the run ends without that. */
+void machines_leave_open(void);
+
 /* Last of all: returns the exit status of the run. Where one rank fails and others go on the whole
  * run is ended, with that rank's message. */
 int machines_end(int status);

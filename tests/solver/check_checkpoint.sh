@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check_checkpoint.sh - solve --checkpoint and --restart: the same bits after being killed at any time, on any number of threads and
 # of processes, whatever number wrote the file; a file that is damaged, cut short or of other work is refused and stays; a disk
-# that is full leaves the last good file.
+# that is full leaves the last good file, and so does a network that is cut between two processes (as root: in two namespaces).
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 quietly=into_files
@@ -119,5 +119,57 @@ check "a full disk: 1" [ $? = 1 ]
 check "it says so" grep -q "^full.h5: error: cannot write: " said
 check "the last good file stays" cmp c.h5 full.h5
 check "and nothing else" [ ! -e full.h5.tmp ]
+
+# ---- the same of several processes
+command -v mpirun >/dev/null && ldd "$radiosity" | grep -q libmpi || { finish checkpoint; exit; }
+ends() { # WHAT: within 30 s of $since, with something else than 0, in $status
+    check "$1: status $status" [ "$status" != 0 ]
+    check "$1: it took $((SECONDS - since)) s" [ $((SECONDS - since)) -lt 30 ]
+}
+for blocks in 100 800; do # of 1 KB: before the first pass is written, and behind it
+    rm -f full.h5
+    since=$SECONDS
+    # without memory that they share, whose files would be as large
+    mpirun --oversubscribe -n 3 --mca btl tcp,self sh -c "ulimit -f $blocks; trap '' XFSZ; exec timeout 60 $radiosity solve $scene -q --threads 1 --checkpoint full.h5 --json a.json" >out 2>said
+    status=$?
+    ends "a full disk, $blocks"
+    check "a full disk: one message: $(grep error: said)" [ "$(grep -c "^full.h5: error: cannot write: " said)" = 1 ]
+    check "a full disk: nothing else fails: $(grep -i -m 1 'signal' said)" [ "$(grep -ci 'signal' said)" = 0 ]
+    [ -e full.h5 ] || continue
+    check "a full disk: it goes on" mpirun --oversubscribe -n 2 "$radiosity" solve "$scene" -q --threads 1 --restart full.h5 --json a.json
+    same "behind a full disk" a.json
+done
+check "a full disk left the last good file" [ -e full.h5 ]
+
+near=rad$$n far=rad$$f
+if [ "$(id -u)" = 0 ] && ip netns add $near 2>/dev/null; then
+    trap 'for n in $near $far; do ip netns del $n 2>/dev/null; done; rm -rf "$tmp"' EXIT
+    # two machines: each its network and its name; ssh from one to the other is ip netns exec
+    ip netns add $far && ip link add v$$n netns $near type veth peer name v$$f netns $far
+    ip -n $near addr add 10.199.0.1/24 dev v$$n && ip -n $far addr add 10.199.0.2/24 dev v$$f
+    for n in $near $far; do ip -n $n link set lo up && ip -n $n link set v${n#rad} up; done
+    printf '%s\n' '#!/bin/sh' 'shift' "exec ip netns exec $far unshare --uts sh -c 'hostname far; eval \"\$*\"' sh \"\$*\"" >agent
+    chmod +x agent
+    rm -f k.h5 a.json
+    watched="--mca oob_tcp_keepalive_time 5 --mca oob_tcp_keepalive_intvl 2 --mca oob_tcp_keepalive_probes 3"
+    # shellcheck disable=SC2086 # words
+    ip netns exec $near unshare --uts sh -c 'hostname near; exec "$@"' sh timeout 120 mpirun --host 10.199.0.1:1,10.199.0.2:1 -n 2 \
+        --mca plm_rsh_agent "$tmp/agent" --mca btl tcp,self $watched "$radiosity" solve "$scene" -q --threads 1 --checkpoint k.h5 --json a.json >out 2>said &
+    pid=$!
+    for _ in $(seq 600); do [ -e k.h5 ] || kill -0 $pid 2>/dev/null && sleep .05; [ ! -e k.h5 ] || break; done
+    ip -n $far link set v$$f down
+    since=$SECONDS
+    wait $pid
+    status=$?
+    ends "a cut network"
+    check "a cut network: it says so: $(head -n 3 said)" grep -q 'lost communication' said
+    check "a cut network: nothing is written" [ ! -e a.json ]
+    for _ in $(seq 100); do [ -n "$(ip netns pids $far)" ] && sleep .1; done
+    check "a cut network: nobody is left beyond it" [ -z "$(ip netns pids $far)" ]
+    check "a cut network: it goes on" "$radiosity" solve "$scene" -q --restart k.h5 --json a.json
+    same "behind a cut network" a.json
+else
+    echo "checkpoint: skipped: a network that is cut (root, ip netns)"
+fi
 
 finish checkpoint
