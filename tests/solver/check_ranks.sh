@@ -136,6 +136,7 @@ if [ -n "${THOROUGH:-}" ]; then
 fi
 # Put down by one number of ranks, gone on with by another.
 "$radiosity" viewfactors "$maze" -q -o one.csv --json one.json
+rm -f several.csv several.json
 stops=0 later=.7
 for n in 3 2 4 2 3 2; do
     mpirun -n $n "$radiosity" viewfactors "$maze" --threads 1 -o several.csv --json several.json --resume state >said 2>&1 &
