@@ -215,7 +215,7 @@ $(COMPUTING:%=$(BUILD)/tests/runtime/check_%.o): override OPT = -O1 $(TRACED)
 $(TESTS): LDFLAGS += $(if $(shell command -v ld.gold),-fuse-ld=gold)
 # As many jobs as there are processors, unless the caller says how many.
 JOBS      = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
-CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/tests/runtime/width_rooms $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
+CHECKED   = $(TESTS) $(BUILD)/tests/runtime/embed_engine $(BUILD)/tests/runtime/width_rooms $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of $(BUILD)/bin/embree_bytes
 .PHONY: checked
 checked: all
 	@$(MAKE) $(JOBS) --no-print-directory $(CHECKED)
@@ -274,7 +274,7 @@ demo: all
 
 # A study is tests/studies/NAME.sh; what has been run stays in BUILD/studies. BUDGET: processor seconds for each scene.
 STUDIES   = releases accuracy need growth limit bounds viewfactors waves
-bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of
+bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of $(BUILD)/bin/embree_bytes
 	@set -e; for study in $(STUDIES); do \
 	    [ -f tests/studies/$$study.sh ] || { echo "make bench: error: there is no study $$study; there are: $(filter-out lib accuracy_page check_studies,$(notdir $(basename $(wildcard tests/studies/*.sh))))" >&2; exit 1; }; \
 	    BUILD=$(BUILD) bash tests/studies/$$study.sh; \
@@ -338,6 +338,9 @@ $(BUILD)/bin/by_chance: $(BUILD)/tests/studies/by_chance.o $(SOLVER) $(ARCHIVE)
 $(BUILD)/bin/cost_of: $(BUILD)/tests/studies/cost_of.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^
+$(BUILD)/bin/embree_bytes: $(BUILD)/tests/studies/embree_bytes.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ $(EMBREE)
 .PHONY: tables
 tables: commands $(BUILD)/bin/cell_error $(BUILD)/bin/factor_rays $(BUILD)/bin/cost_of
 	@sh tests/tables/make.sh $(BUILD) $(TABLES)

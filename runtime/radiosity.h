@@ -597,6 +597,7 @@ enum RadTraffic {
 struct RadRank {
     uint64_t links, pairs, rays; /* kept; discussed; cast by these discussions */
     uint64_t faces, ghosts;      /* owned; elements of others that its links take light from */
+    uint64_t named;              /* of what links name: elements of others, and clusters */
     uint64_t sent[RAD_TRAFFICS]; /* bytes */
     double memory;               /* the most that the process has held, bytes */
     double seconds;              /* of processors, that the process has taken */

@@ -186,10 +186,12 @@ static void need(const struct shares *s, unsigned char *needed, uint32_t element
         needed[element] = 1;
 }
 
-/* What the links of this rank take light from. */
-static void mark_needed(const struct shares *s, const struct refinement *r, unsigned char *needed)
+/* What the links of this rank take light from. Returns how many of it they name: elements of
+ * others, and clusters. */
+static size_t mark_needed(const struct shares *s, const struct refinement *r, unsigned char *needed)
 {
     const struct hierarchy *h = s->hierarchy;
+    size_t named = 0;
     for (size_t i = 0; i < r->link_count; i++) {
         const uint32_t e = r->links[i].emitter;
         if (h->elements[e].vertices)
@@ -197,10 +199,13 @@ static void mark_needed(const struct shares *s, const struct refinement *r, unsi
         else
             needed[e] = 1;
     }
+    for (uint32_t e = 0; e < h->count; e++)
+        named += needed[e];
     for (uint32_t e = 0; e < h->built; e++) /* a cluster's faces, once */
         if (needed[e] && !h->elements[e].vertices)
             for (uint32_t i = h->range[e].from; i < h->range[e].to; i++)
                 need(s, needed, h->face_element[h->order[i]]);
+    return named;
 }
 
 /* The elements that are needed, by block and owner. */
@@ -247,7 +252,7 @@ int shares_find_ghosts(struct shares *s, const struct refinement *r)
     free(s->there.element);
     s->there.element = NULL;
     if (!ranks_any(s->ranks, failed)) {
-        mark_needed(s, r, needed);
+        s->here.named = mark_needed(s, r, needed);
         list_needed(s, needed);
         size_t n = 0;
         for (uint32_t b = 0; b < SWEEP_BLOCKS && !failed; b++) {

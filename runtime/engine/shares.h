@@ -31,6 +31,7 @@ struct ghosts {
     uint32_t *element; /* [all]: by block, then by rank */
     /* [SWEEP_BLOCKS * ranks]: how many; [SWEEP_BLOCKS + 1]: where a block's begin in `element` */
     size_t *count, first[SWEEP_BLOCKS + 1];
+    size_t named; /* what links name: elements of others, and clusters as one each */
 };
 
 struct shares {

@@ -40,6 +40,9 @@ for faces in 10000 31623 100000 316228 1000000; do
     rm -f "$tmp/$faces.obj" "$tmp/$faces.mtl"
 done
 rows_of_binary "$pages/ranks.csv"
+for faces in 10000 100000 1000000; do # what Embree itself says that it takes
+    awk -v FACES=$faces -v MATERIALS="$tmp/mtl" -f "$studies/room_of_boxes.awk" | "$build/bin/embree_bytes" || fail "embree_bytes failed"
+done | paste -d ' ' - - - >"$tmp/embree"
 
 # ---- the page
 {
@@ -85,6 +88,46 @@ END
             held = f * (elements * 264 + 16 * 3 * 8 + elements * 3 * 8) / 1e9
             printf "| %.0e | %d | %.0f | %.1f | %.3f | %.1f | %s |\n", f, n, held, sweep * f * (n - 1) / n / 12.5e9, 16 * (n - 1) * 3e-6, (2 * particles + values) * f / 12.5e9, held < 256 ? "yes" : "no" } }' "$pages/ranks.csv"
     cat <<'END'
+
+## Where one machine does not hold it
+
+Geometry and Embree's structure stand once a machine when there is one rank on each, with threads for its processors. What a face takes:
+
+END
+    echo "| of a face | bytes | who has it now | who has to |"
+    echo "|---|---|---|---|"
+    awk -F , -v element=264 -v face=112 -v link=16 'FNR == NR { split($0, e, " "); held = e[4] / e[2]; most = e[6] / e[2]; next }
+        FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+        $at["faces"] != "-" && $at["ranks"] == 1 { n = $at["faces"]; elements = $at["elements"] / n; links = $at["links"] / n }
+        END { printf "| corners, material | %d | all | whoever casts rays at it |\n| Embree: held, while it is built | %.0f, %.0f | all | the same |\n", face, held, most
+              printf "| %.1f elements of %d bytes, most of them quarters that particles are counted on | %.0f | all | the owner of the face; of links, who names it |\n", elements, element, elements * element
+              printf "| radiosity and irradiance of them, three bands | %.0f | all | the same |\n| counts of particles, in 16 groups | %d | all | the owner |\n", elements * 48, 16 * 3 * 8
+              printf "| %.1f links | %.0f | the owner | the owner |\n", links, links * link }' "$tmp/embree" "$pages/ranks.csv"
+    echo
+    echo "Embree, by its own account (\`embree_bytes\`: the monitor of its device), over the same rooms:"
+    awk '{ printf "%s%d faces %.1f MB, %.1f while it is built", (NR > 1 ? "; " : ""), $2, $4 / 1e6, $6 / 1e6 } END { print "." }' "$tmp/embree"
+    cat <<'END'
+
+So the plan, in the order in which it pays:
+
+1. **Counts of particles by owner**: particles go by index, counts to the owner of the face in one exchange after each stretch of tracing (sums of
+   integers: the same bits), in place of a sum over all on every rank.
+2. **Elements by stretch**: a rank splits and keeps the faces that it owns, and of others those elements that its links name. Their path
+   is their name (`element.id`), so they are made without asking. Groups' sums are made by the owners of their faces and told as one value.
+3. **Geometry** stays whole on each machine as long as corners and Embree fit:
+END
+    awk '{ held = 112 + $4 / $2; most = 112 + $6 / $2 } END { printf "   %.0f bytes a face while it is built, %.0f after: 1e8 faces take %.0f GB, 1e9 %.0f GB.\n", most, held, most / 10, most }' "$tmp/embree"
+    cat <<'END'
+4. **Beyond that, rays go to the geometry**: each machine has Embree over its stretch, and over the boxes of the others' parts of the tree. A ray that
+   meets such a box goes to its owner, many in one message, 24 bytes there and a bit back.
+END
+    awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } $at["faces"] != "-" && $at["ranks"] == 1 { rays = $at["rays"] / $at["faces"] }
+        END { printf "   %.0f rays a face of links: 1e9 faces on 1024 machines are %.0f GB a machine for each stretch that a ray passes, %.1f s at 12.5 GB/s; none is needed\n   before 3.\n", rays, rays * 24 * 1e9 / 1024 / 1e9, rays * 24 * 1e9 / 1024 / 12.5e9 }' "$pages/ranks.csv"
+    cat <<'END'
+
+What limits it is how much links name. In a room of 10036 faces in which all sees all, with fine links (`--no-correct`, 176 a face), each of 2 ranks
+names 4341 and 4298 elements of others and clusters, each of 8 ranks 4128 to 4603 (`named` in `--json`): .43 of the faces, and no fewer with more
+ranks. Shut rooms side by side would name less; that is not measured.
 
 It stops where one machine no longer holds all elements, most of them quarters that particles are counted on. Before that, a sweep's bytes do not fall with more machines,
 since each is told of nearly all faces. Both have one cure: elements by stretches, as links are, with those of others only where a link
