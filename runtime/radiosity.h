@@ -1037,7 +1037,9 @@ RAD_API int radFindFaceAt(RadSolution solution, const double point[3], uint32_t 
  * and of machines with this one's order of bytes. It takes about 8 bytes per pair of polygons in
  * half shadow, 16 per link, and as much again while it is kept in a file that is replaced; no
  * memory. Answers that an oracle counts are those of the last run alone. All functions are called
- * from the calling thread and may not call this library's with handles of the same device. */
+ * from the calling thread and may not call this library's with handles of the same device. Of
+ * several ranks (radNewDeviceMPI) rank 0's are called, the others' may be NULL; the state is the
+ * same, and passes between any numbers of them. */
 enum RadStateWish {
     RAD_STATE_NONE, /* go on */
     RAD_STATE_SAVE, /* write the state, and go on */
