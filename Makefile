@@ -3,7 +3,7 @@
 # make check    the tests
 # make check-again  those that may end otherwise when commands and library were made by another compiler, or with sanitizers
 # make stability  examples/stability.md: where methods fail, by how much, and the order in which errors fall
-# make check-accuracy  the long ones: all that make check leaves out, and solutions against traced particles
+# make check-accuracy  the long suites: numbers that make check leaves out, and solutions against traced particles
 # make check-all  all tests, those that have a long form in that form
 # make mutations  code broken on purpose, and which suite notices
 # make prove    1,000 random graphs: interpreter and compiled function on every path
@@ -222,16 +222,16 @@ checked: all
 check: checked
 	@bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
 
-# Scripts that say so in their first comment are about text, or about what other compilers make of text. Sanitizers look on
-# where a command of ours takes ways there that it takes nowhere else.
-ONCE      = $(shell grep -l -e '^. Once is enough: ' $(if $(SANITIZE),,-e '^. Once is enough, and once with sanitizers: ') $(SCRIPTS))
+# What another compiler, or sanitizers, may change. Not what says of itself that once is enough; nor scripts, but where
+# sanitizers look on: there a command of ours takes ways that it takes nowhere else.
+ONCE      = $(shell grep -l '^ \* Once is enough: ' $(wildcard tests/*/check_*.c)) $(shell grep -l '^. Once is enough: ' $(SCRIPTS))
 check-again: checked
-	@bash tests/run.sh $(BUILD) $(TESTS) $(filter-out $(ONCE),$(SCRIPTS))
+	@bash tests/run.sh $(BUILD) $(filter-out $(patsubst tests/%.c,$(BUILD)/tests/%,$(ONCE)),$(TESTS)) $(if $(SANITIZE),$(filter-out $(ONCE),$(SCRIPTS)))
 
 # The suites that do more when THOROUGH is set, and the accuracy of whole solutions.
 THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/check_*.sh tests/*/*.sh tests/*/check_*.c))
 check-accuracy: checked
-	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS)) $(filter $(THOROUGH),$(SCRIPTS))
+	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS))
 check-all: checked
 	@THOROUGH=1 bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
 

@@ -289,7 +289,7 @@ if have c++; then
     done
 fi
 if have meson; then
-    mkdir meson && cp -r gate.dag net.dag net.h tools parts alone.cpp meson && cd meson || exit 2
+    mkdir meson && cp -r gate.dag net.dag net.h tools parts meson && sed 's/copy\.h/gate.h/' alone.cpp >meson/alone.cpp && cd meson || exit 2
     awk '/^\.Ss Meson/ { on = 1 } on && /^\.Bd/ { in_text = 1; next } /^\.Ed/ { on = in_text = 0 } in_text' "$prefix/share/man/man1/dagc.1" | sed 's/\\&//g; s/main\.cpp/alone.cpp/' >meson.build
     check "meson" meson setup out
     check "meson: build" meson compile -C out

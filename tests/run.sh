@@ -9,6 +9,7 @@ shift
 tmp=$(mktemp -d) || exit 2
 trap 'rm -rf "$tmp"' EXIT
 export DAGC="$build/bin/dagc" RADIOSITY="$build/bin/radiosity" RUN_TMP="$tmp"
+export CK_TIMEOUT_MULTIPLIER="${CK_TIMEOUT_MULTIPLIER:-10}" # suites end by themselves: what hangs is found, what waits is not
 export OMP_WAIT_POLICY=passive # threads that wait would keep the suite beside them from the processor
 # Oracles and plugins that suites have compiled decide the same unoptimised, to the bit, and are compiled several times as soon.
 if [ -z "${THOROUGH-}" ]; then

@@ -1,7 +1,6 @@
 #!/bin/sh
 # check_copies.sh - dagc --copies: the same decisions, terms and calls from every start as without, no
 # check of the data manager in a first discussion, and one in those that begin with what a decision left. DAGC names the command.
-# Once is enough, and once with sanitizers: it is about programs that dagc writes, some broken on purpose, and compiled.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 

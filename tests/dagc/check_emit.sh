@@ -1,7 +1,7 @@
 #!/bin/sh
 # check_emit.sh - what dagc emits beyond the plain function: proofs, differences, standalone text and the
 # program that ships it. DAGC names the command; a compiler that is missing is reported as skipped.
-# Once is enough, and once with sanitizers: it compiles what dagc writes, by every compiler there is; what dagc writes is held to its bytes elsewhere.
+# Once is enough: it compiles what dagc writes, by every compiler there is; what dagc writes is held to its bytes elsewhere.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 engine=$(dirname "$dagc")/../tests/runtime/embed_engine

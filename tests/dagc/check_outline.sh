@@ -1,7 +1,6 @@
 #!/bin/sh
 # check_outline.sh - dagc --outline: a graph used more than once is one function where that makes the text shorter, and nothing
 # else changes: the same decisions, terms and calls from every start. DAGC names the command.
-# Once is enough, and once with sanitizers: it is about programs that dagc writes, some broken on purpose, and compiled.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 

@@ -15,10 +15,11 @@ wrong() {
 
 # ---- a compiler that takes its time
 printf '#!/bin/sh\nsleep 0.6\nexec cc "$@"\n' >cc && chmod +x cc
+export CC=$tmp/cc
 for run in INT:130 TERM:143 HUP:129; do
     signal=${run%:*} status=${run#*:}
     count=$((count + 1))
-    CC=$tmp/cc timeout --preserve-status -s "$signal" 0.2 "$dagc" -Wno-all --prove "$oracle" >said 2>&1
+    stopped_by "$signal" 0.2 "$dagc" -Wno-all --prove "$oracle" >said 2>&1
     got=$?
     [ $got = "$status" ] || wrong "--prove by $signal: exit $got"
     left=$(ls -A scratch)
@@ -28,12 +29,14 @@ done
 
 # A signal that is ignored, as nohup has it, stays so.
 count=$((count + 1))
-(trap '' HUP && CC=$tmp/cc exec "$dagc" -Wno-all --prove "$oracle") >said 2>&1 &
+(trap '' HUP && exec "$dagc" -Wno-all --prove "$oracle") >said 2>&1 &
 job=$!
+catches $job
 sleep 0.2
 kill -HUP $job
 wait $job && grep -q "^bf: proved" said || wrong "--prove under nohup: $(tail -n 1 said)"
 [ -z "$(ls -A scratch)" ] || wrong "--prove under nohup left $(ls -A scratch)"
+unset CC
 
 # ---- -o, stopped at any moment
 set -- -Wno-all --instrument -o o/a.c --header o/a.h "$top/examples/oracles/power.dag"

@@ -2,7 +2,6 @@
 # check_skeleton.sh - dagc --emit=stub: what it makes of every form that a catalog's declarations have compiles as it is made,
 # runs, and goes on to do so with a graph that asks every tool, reads every term and fact, and has every answer given.
 # DAGC names the command; a compiler that is missing is reported as skipped.
-# Once is enough, and once with sanitizers: it compiles what dagc writes, by every compiler there is.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 warnings="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"

@@ -1,6 +1,7 @@
 /* check_closed_forms.c - the finest form factor against every closed form there is for two things
  * with nothing between, at random dimensions; and the coarse levels against the errors they are
  * known to make.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "study/closed_forms.h"

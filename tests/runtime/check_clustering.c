@@ -1,5 +1,6 @@
 /* check_clustering.c - the strategies that group faces into clusters: sound trees, right measures,
  * the same for any number of threads and any power of two, whatever the faces are.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

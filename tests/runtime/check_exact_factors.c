@@ -6,6 +6,7 @@
  * strips that run along z both integrals along z are closed,
  *     int_0^1 int_0^1 dz dz' / (d^2 + (z - z')^2)^2 = atan(1 / d) / d^3,
  * one across is closed, and what is left is smooth in an angle and integrated by tanh-sinh.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

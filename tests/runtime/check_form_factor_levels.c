@@ -1,5 +1,6 @@
 /* check_form_factor_levels.c - form factors by 1 / d^2, by rays and by hemicube: errors where the
  * answer is known, convergence, and the order of the levels.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "study/closed_forms.h"

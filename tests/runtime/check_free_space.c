@@ -1,5 +1,6 @@
 /* check_free_space.c - what passes without a ray is passed by no face, and in an empty convex room
  * that is all.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

@@ -3,6 +3,7 @@
  * Rooms of all shapes, walls of few faces and of many, by quads, triangles or both; with boxes, and
  * without. Where nothing stands between, every entry is within the tolerance, of itself or of 1e-4;
  * past something, of itself or of what the library says it works for.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "engine/exchange.h"

@@ -2,6 +2,7 @@
  * thermal keeps its promise. That releases decide alike, at every node: check_releases.c.
  *
  * References: closed forms where there are some, else path tracing (path_reference.h).
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

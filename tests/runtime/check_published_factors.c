@@ -7,6 +7,7 @@
  * that goes from the outer one inwards is the square of the ratio of the radii, which is what is
  * asked here; the ratio itself, which OpenViewFactor has, is that of cylinders without end.
  * [github.com/OpenViewFactor/verification-scripts; Walton, View3D user manual 3.3]
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

@@ -1,6 +1,7 @@
 /* check_terms.c - what tools say of a pair's geometry is true: no point of either element may prove
  * an enclosure or a precise answer wrong; derivatives agree with differences; and no value depends
  * on the unit of length.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "study/closed_forms.h"

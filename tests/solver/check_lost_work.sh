@@ -13,7 +13,7 @@ stopped() {
     signal=$1 wanted=$2 after=$3
     shift 3
     count=$((count + 1))
-    timeout --preserve-status -s "$signal" "$after" "$radiosity" "$@" >out 2>err
+    stopped_by "$signal" "$after" "$radiosity" "$@" >out 2>err
     got=$?
     [ $got = "$wanted" ] && [ "$(wc -l <err)" = 1 ] && grep -q "^radiosity: stopped by a signal; nothing was written$" err ||
         failed "$* by $signal: exit $got"

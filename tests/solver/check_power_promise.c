@@ -1,5 +1,6 @@
 /* check_power_promise.c - an oracle's tolerance in watts is kept, or it is told that it is not: in
  * a unit cube whose light is known.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

@@ -50,7 +50,7 @@ check "the state is gone" [ ! -e two.csv.state ]
 for i in 1 2 3 4 5 6 7 8; do
     "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% --threads 1 -o long.csv >out 2>err &
     pid=$!
-    [ $i -lt 4 ] && { sleep 0.4; kill -INT $pid 2>/dev/null || kill -TERM $pid 2>/dev/null; }
+    [ $i -lt 4 ] && { catches $pid; sleep 0.4; kill -INT $pid 2>/dev/null || kill -TERM $pid 2>/dev/null; }
     wait $pid
     status=$?
     echo $status >>long.csv.log

@@ -3,6 +3,7 @@
  * solver/study/stability_cases.c says. Which rows the default oracle fails is a list here: it must
  * neither grow nor keep what is mended. Then orders of convergence, the closed forms that the cases
  * rest on, against published values, and the command that prints the table.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>
