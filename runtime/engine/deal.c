@@ -1,9 +1,7 @@
 /* deal.c - see deal.h.
  * SPDX-License-Identifier: MIT */
-#include "engine/deal.h"
-
 #include <stdlib.h>
-
+#include "engine/deal.h"
 #include "engine/discuss.h"
 #include "util/ranks.h"
 

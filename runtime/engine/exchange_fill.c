@@ -4,13 +4,11 @@
  * told. Of several ranks each fills every so manieth block, and at the end, or when a state is
  * wanted, tells the others what came of it.
  * SPDX-License-Identifier: MIT */
-#include "engine/exchange_fill.h"
-
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-
+#include "engine/exchange_fill.h"
 #include "engine/exchange_state.h"
 #include "util/clock.h"
 #include "util/thread_pool.h"
