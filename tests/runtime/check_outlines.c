@@ -118,7 +118,7 @@ START_TEST(test_both_ways)
         ck_assert_int_le(count, SIGHT_CUT);
         qsort(list, (size_t)count, sizeof *list, compare_faces);
         sight_open(&sight, high, &whole, t.host.ray_offset);
-        ck_assert_int_eq(sight_between_open(&between, &t, &shaft, &sight, list, count),
+        ck_assert_int_eq(sight_between_open(&between, &t, &shaft, &sight, list, count, 0),
                          BETWEEN_SOME);
         for (int i = 0; i < 40; i++) {
             const double x[3] = {chance(&state), chance(&state), 0};
