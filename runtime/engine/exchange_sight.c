@@ -42,7 +42,6 @@ struct looking {
     const struct element *from, *to;
     struct sight sight;
     struct sight_scratch *scratch;
-    const struct shaft *shaft; /* of the two; its list holds none that is far */
     int nodes, heap;
     int between_of;       /* the node that scratch->between is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
@@ -201,28 +200,34 @@ static void by_rays(const struct looking *l, struct sight_node *node)
     node->error = node->clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
 }
 
-/* What stands between a piece, which may be all of the face, and the other face: of the list or of
- * the whole scene. */
+/* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
+ * face it is known. */
 static enum between find_between(struct looking *l, const struct element *piece, int all,
                                  const uint32_t *list, int count)
 {
     const struct host *host = &l->tree->host;
-    struct shaft own_shaft;
-    const struct shaft *shaft = all ? l->shaft : &own_shaft;
+    struct sight_between *between = l->scratch->between;
+    struct shaft shaft;
     uint32_t own[SIGHT_LIST];
+    enum between stands = BETWEEN_SOME;
     l->between_of = -1;
-    if (!(piece->area > 0) || (!all && !shaft_open(&own_shaft, piece, l->to, host)))
-        return BETWEEN_ALL;
-    if (count == MANY) {
-        count = host->candidates(host, shaft, SIGHT_LIST, own);
-        if (count == HOST_HIDDEN)
+    if (!all) {
+        if (!(piece->area > 0) || !shaft_open(&shaft, piece, l->to, host))
             return BETWEEN_ALL;
-        if (count > SIGHT_LIST)
-            return BETWEEN_MANY;
-        sort_list(own, count);
-        list = own;
+        if (count == MANY) {
+            count = host->candidates(host, &shaft, SIGHT_LIST, own);
+            if (count == HOST_HIDDEN)
+                return BETWEEN_ALL;
+            if (count > SIGHT_LIST)
+                return BETWEEN_MANY;
+            sort_list(own, count);
+            list = own;
+        }
+        stands = sight_between_find(between, l->tree, &shaft, list, count, 0);
     }
-    return sight_between_open(l->scratch->between, l->tree, shaft, &l->sight, list, count, all);
+    return stands == BETWEEN_SOME && sight_between_place(between, l->tree, &l->sight) < 0
+               ? BETWEEN_MANY
+               : stands;
 }
 
 /* What a piece sees, by its own points, past those of the list that stand in its shaft. */
@@ -466,16 +471,19 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
         sort_list(own, count);
+    const enum between stands =
+        many ? BETWEEN_MANY : sight_between_find(scratch->between, t, &shaft, own, count, 1);
+    if (stands == BETWEEN_ALL)
+        return 0;
+    if (stands == BETWEEN_NOTHING)
+        return fmin(r->area * polygon_factor(r, s, 1), least);
     double sway_r = many ? -r->radius : sway(r, t, own, count),
            sway_s = many ? -s->radius : sway(s, t, own, count);
     int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
-    struct looking l = {.tree = t,
-                        .from = from_r ? r : s,
-                        .to = from_r ? s : r,
-                        .scratch = scratch,
-                        .shaft = &shaft};
+    struct looking l = {
+        .tree = t, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
     struct polygon part, seen;
-    const int all = clip_front(&part, l.from, l.to, host->flat);
+    const int all = clip_front(&part, l.from, l.to, host->flat) && stands == BETWEEN_SOME;
     polygon_clip(&seen, (const double(*)[3])l.to->vertex, l.to->vertices, l.from->centre,
                  l.from->normal);
     if (part.n == 0 || seen.n == 0)
