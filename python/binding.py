@@ -84,7 +84,13 @@ struct RadCorrectOptions { double noise; uint64_t rays; ...; };
 int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,
                struct RadErrorReport *alone);
 
-struct RadExchangeOptions { double tolerance; enum RadClosure closure; ...; };
+enum RadStateWish { RAD_STATE_NONE, RAD_STATE_SAVE, RAD_STATE_STOP, ... };
+struct RadExchangeState { size_t (*read)(void *user, void *bytes, size_t size);
+                          enum RadStateWish (*asked)(void *user);
+                          int (*write)(void *user, const void *bytes, size_t size);
+                          void *user; ...; };
+struct RadExchangeOptions { double tolerance; enum RadClosure closure;
+                            const struct RadExchangeState *state; ...; };
 RadExchange radNewExchange(RadScene scene, RadOracle oracle,
                            const struct RadExchangeOptions *options);
 void radReleaseExchange(RadExchange exchange);
@@ -97,6 +103,9 @@ void radGetExchangeReport(RadExchange exchange, struct RadExchangeReport *report
 
 extern "Python" void radiosity_message(void *, enum RadError, const char *);
 extern "Python" int radiosity_progress(void *, const struct RadProgress *);
+extern "Python" size_t radiosity_state_read(void *, void *, size_t);
+extern "Python" enum RadStateWish radiosity_state_asked(void *);
+extern "Python" int radiosity_state_write(void *, const void *, size_t);
 """
 
 

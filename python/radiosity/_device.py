@@ -47,14 +47,19 @@ class _Told:
         self.progress = None
         self.failure = None
         self.warnings = []
+        self.state = None  # of a call that can be gone on with
 
 
 _running = threading.local()  # .told: of the call that this thread is in
 
 
 def _keep_failure(_kind, failure, _trace):
-    """An exception within a callback, or a signal before it began: to be raised once the engine has returned."""
+    """An exception within a callback, or a signal before it began: to be raised once the engine has returned.
+
+    Where the work is to be gone on with it ends when it can be put down, else at once.
+    """
     _running.told.failure = failure
+    return 0 if _running.told.state else 1
 
 
 @ffi.def_extern()
@@ -66,9 +71,32 @@ def radiosity_message(user, code, message):
 @ffi.def_extern(onerror=_keep_failure, error=1)
 def radiosity_progress(user, progress):
     told = ffi.from_handle(user)
-    if told.progress is None:
+    if told.progress is None or told.failure is not None or (told.state and told.state.stop):
         return 0
-    return 1 if told.progress(as_namespace(progress[0])) else 0
+    stop = bool(told.progress(as_namespace(progress[0])))
+    if told.state:
+        told.state.stop = stop
+        return 0
+    return int(stop)
+
+
+def _keep_in_state(_kind, failure, _trace):
+    _running.told.failure = failure
+
+
+@ffi.def_extern(onerror=_keep_in_state, error=0)
+def radiosity_state_read(user, room, size):
+    return ffi.from_handle(user).read(ffi.buffer(room, size))
+
+
+@ffi.def_extern(onerror=_keep_in_state, error=lib.RAD_STATE_STOP)
+def radiosity_state_asked(user):
+    return ffi.from_handle(user).asked()
+
+
+@ffi.def_extern(onerror=_keep_in_state, error=-1)
+def radiosity_state_write(user, data, size):
+    return ffi.from_handle(user).write(None if data == ffi.NULL else ffi.buffer(data, size))
 
 
 def as_namespace(value):
@@ -102,15 +130,20 @@ class Device:
         lib.radSetDeviceMessageFunction(self.handle, lib.radiosity_message, self._user)
         lib.radSetDeviceProgressFunction(self.handle, lib.radiosity_progress, self._user)
 
-    def call(self, function, *arguments, progress=None, release=None):
-        """function(*arguments), with its error as an exception; a handle is given up by `release`."""
+    def call(self, function, *arguments, progress=None, release=None, resume=None):
+        """function(*arguments), with its error as an exception; a handle is given up by `release`.
+
+        resume: the State that its work goes on from, or ends in.
+        """
         if self._owner == threading.get_ident():
             raise RadiosityError("a progress function cannot ask the scene whose work it is told of; "
                                  "return something true to end that work, and ask then")
         told = self._told
         with self._lock:
             self._owner = threading.get_ident()
-            told.progress, told.failure, told.warnings = progress, None, []
+            told.progress, told.failure, told.warnings, told.state = progress, None, [], resume
+            if resume:
+                resume.told = told
             _running.told = told
             try:
                 result = function(*arguments)
@@ -123,11 +156,13 @@ class Device:
                 code = lib.radGetDeviceError(self.handle)
                 failure, said = told.failure, told.warnings
             finally:
-                self._owner = _running.told = told.progress = told.failure = None
+                self._owner = _running.told = told.progress = told.failure = told.state = None
         for text in said:
             warnings.warn(text, RadiosityWarning, stacklevel=3)
         if failure is not None:
             raise failure
+        if failed and resume and resume.begun and code == lib.RAD_ERROR_INVALID_ARGUMENT:
+            raise InvalidInput(f"{resume.path}: {message}; remove it to start anew, or give another name")
         if failed:
             raise _CLASSES.get(code, RadiosityError)(message or "the engine failed and did not say why")
         return result

@@ -4,6 +4,7 @@ The engine writes a row at a time, with a place for each face; rows are filled b
 keeps what is not zero. So memory is that of the entries, not that of n^2.
 SPDX-License-Identifier: MIT
 """
+import contextlib
 import os
 from concurrent.futures import ThreadPoolExecutor
 
@@ -12,6 +13,7 @@ import scipy.sparse
 
 from ._device import InvalidInput, RadiosityError, as_namespace, choose
 from ._engine import ffi, lib
+from ._state import State
 
 CLOSURES = {"none": lib.RAD_CLOSURE_NONE, "rows": lib.RAD_CLOSURE_ROWS, "reciprocal": lib.RAD_CLOSURE_RECIPROCAL}
 ROWS = 64  # that a thread fills at a time
@@ -50,12 +52,14 @@ class ViewFactors:
         return ViewFactors(matrix, weights @ self.row_sums, areas, self.report, names)
 
 
-def compute_factors(scene, tolerance, closure, progress):
+def compute_factors(scene, tolerance, closure, progress, resume):
     options = ffi.new("struct RadExchangeOptions *")
     options.tolerance = tolerance
     options.closure = choose("closure", closure, CLOSURES)
-    exchange = scene._device.call(lib.radNewExchange, scene._handle, ffi.NULL, options, progress=progress,
-                                  release=lib.radReleaseExchange)
+    with State(resume) if resume is not None else contextlib.nullcontext() as state:
+        options.state = state.host if state else ffi.NULL
+        exchange = scene._device.call(lib.radNewExchange, scene._handle, ffi.NULL, options, progress=progress,
+                                      release=lib.radReleaseExchange, resume=state)
     count = len(scene)
 
     def fill(first):
@@ -85,4 +89,6 @@ def compute_factors(scene, tolerance, closure, progress):
     matrix = scipy.sparse.csr_matrix((data, indices, ends), shape=(count, count))
     report = ffi.new("struct RadExchangeReport *")
     lib.radGetExchangeReport(exchange, report)
+    if state:
+        state.remove()
     return ViewFactors(matrix, np.concatenate(sums), scene.areas, as_namespace(report[0]), groups=scene.groups)

@@ -89,14 +89,17 @@ class Scene:
     def __len__(self):
         return len(self.areas)
 
-    def view_factors(self, tolerance=0.0, closure="none", *, progress=None):
+    def view_factors(self, tolerance=0.0, closure="none", *, progress=None, resume=None):
         """View factors between all faces, as ViewFactors.
 
         tolerance: the error of a row's sum to work for; 0: 3e-4. closure: "none"; "rows", rows of a closed scene sum
         to 1; "reciprocal", they do, and A_i F_ij = A_j F_ji. progress: called with .phase, .share, .links and
-        others now and then; something true that it returns ends the work (Cancelled).
+        others now and then; something true that it returns ends the work (Cancelled). resume: the name of a file for
+        long work. What ends it, Ctrl-C and exceptions of progress among them, then waits until it can be put down,
+        about a second, and leaves it there, as does every 10 s; the same call goes on from it, to the same bits, on any
+        number of threads (closure may be another), and removes the file when the factors are done.
         """
-        return compute_factors(self, tolerance, closure, progress)
+        return compute_factors(self, tolerance, closure, progress, resume)
 
     def solve(self, oracle=None, *, parameters=None, basis="linear", closure="none", tolerance=0.0, correct=True,
               measure=True, progress=None):

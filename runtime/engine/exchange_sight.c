@@ -200,37 +200,44 @@ static void by_rays(const struct looking *l, struct sight_node *node)
     node->error = node->clear * sqrt((v * (1 - v) + 1.0 / rays) / rays);
 }
 
-/* What stands between a piece and the other face, of the list or of the whole scene. Returns -1
- * when that is more than a list holds. */
-static enum between find_between(struct looking *l, const struct element *piece,
+/* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
+ * face it is known. */
+static enum between find_between(struct looking *l, const struct element *piece, int all,
                                  const uint32_t *list, int count)
 {
     const struct host *host = &l->tree->host;
+    struct sight_between *between = l->scratch->between;
     struct shaft shaft;
     uint32_t own[SIGHT_LIST];
+    enum between stands = BETWEEN_SOME;
     l->between_of = -1;
-    if (!(piece->area > 0) || !shaft_open(&shaft, piece, l->to, host))
-        return BETWEEN_ALL;
-    if (count == MANY) {
-        count = host->candidates(host, &shaft, SIGHT_LIST, own);
-        if (count == HOST_HIDDEN)
+    if (!all) {
+        if (!(piece->area > 0) || !shaft_open(&shaft, piece, l->to, host))
             return BETWEEN_ALL;
-        if (count > SIGHT_LIST)
-            return BETWEEN_MANY;
-        sort_list(own, count);
-        list = own;
+        if (count == MANY) {
+            count = host->candidates(host, &shaft, SIGHT_LIST, own);
+            if (count == HOST_HIDDEN)
+                return BETWEEN_ALL;
+            if (count > SIGHT_LIST)
+                return BETWEEN_MANY;
+            sort_list(own, count);
+            list = own;
+        }
+        stands = sight_between_find(between, l->tree, &shaft, list, count, 0);
     }
-    return sight_between_open(l->scratch->between, l->tree, &shaft, &l->sight, list, count);
+    return stands == BETWEEN_SOME && sight_between_place(between, l->tree, &l->sight) < 0
+               ? BETWEEN_MANY
+               : stands;
 }
 
 /* What a piece sees, by its own points, past those of the list that stand in its shaft. */
-static void measure(struct looking *l, int at, const uint32_t *list, int count)
+static void measure(struct looking *l, int at, int all, const uint32_t *list, int count)
 {
     struct sight_node *node = &l->scratch->nodes[at];
     const struct sight_between *between = l->scratch->between;
     node->count = node->quarters = 0;
     node->clear = node->points = node->value = node->error = 0;
-    switch (find_between(l, &node->piece, list, count)) {
+    switch (find_between(l, &node->piece, all, list, count)) {
     case BETWEEN_ALL:
         return;
     case BETWEEN_MANY:
@@ -289,7 +296,7 @@ static void compare(struct looking *l, int at, double aim)
     double noise = 0, rest = 0, differ;
     if (node->count < MANY) {
         if (l->between_of != at)
-            (void)find_between(l, &node->piece, list_of(l, at), node->count);
+            (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
         rest = rest_of(l, node, &differ);
         node->error = SIGHT_REST * fmax(rest, differ);
         if (node->error <= aim * node->piece.area)
@@ -300,7 +307,7 @@ static void compare(struct looking *l, int at, double aim)
     for (int q = 0; q < QUARTERS; q++) {
         struct sight_node *quarter = &nodes[l->nodes++];
         make_quarter(&quarter->piece, &node->piece, q);
-        measure(l, l->nodes - 1, list_of(l, at), node->count);
+        measure(l, l->nodes - 1, 0, list_of(l, at), node->count);
         node->value += quarter->value;
         double of = quarter->count == MANY ? quarter->error : node->error;
         noise += of * of;
@@ -346,26 +353,27 @@ static void count_in(struct looking *l, int at)
         heap_in(l, at);
 }
 
-static void start(struct looking *l, const double (*v)[3], int n, const uint32_t *list, int count)
+static void start(struct looking *l, const double (*v)[3], int n, int all, const uint32_t *list,
+                  int count)
 {
     struct sight_node *node = &l->scratch->nodes[l->nodes];
     make_piece(&node->piece, l->from, v, n);
-    measure(l, l->nodes, list, count);
+    measure(l, l->nodes, all, list, count);
     l->clear += node->clear;
     l->nodes++;
 }
 
-static double integrate(struct looking *l, const struct polygon *part, const uint32_t *list,
-                        int count, double least, double *error)
+static double integrate(struct looking *l, const struct polygon *part, int all,
+                        const uint32_t *list, int count, double least, double *error)
 {
     const struct sight_limits *limits = &l->scratch->limits;
     struct sight_node *nodes = l->scratch->nodes;
     const double(*v)[3] = (const double(*)[3])part->v;
-    start(l, v, part->n < 4 ? part->n : 4, list, count);
+    start(l, v, part->n < 4 ? part->n : 4, all, list, count);
     if (part->n == 5) {
         const double rest[3][3] = {
             {v[0][0], v[0][1], v[0][2]}, {v[3][0], v[3][1], v[3][2]}, {v[4][0], v[4][1], v[4][2]}};
-        start(l, rest, 3, list, count);
+        start(l, rest, 3, 0, list, count);
     }
     double aim = limits->many ? SIGHT_BELIEVED * limits->tolerance
                                     * fmax(nodes[0].points + (l->nodes > 1 ? nodes[1].points : 0),
@@ -391,23 +399,26 @@ static double integrate(struct looking *l, const struct polygon *part, const uin
 }
 
 /* The part of e in front of a plane; corners within `flat` of it lie in it. Where rounding puts the
- * ends of a shared edge on either side, a clip at no distance would add a corner on the edge. */
-static void clip_front(struct polygon *out, const struct element *e, const struct element *plane,
-                       double flat)
+ * ends of a shared edge on either side, a clip at no distance would add a corner on the edge.
+ * Returns 1 when that is all of it. */
+static int clip_front(struct polygon *out, const struct element *e, const struct element *plane,
+                      double flat)
 {
     double h[4];
-    int front = 0;
+    int front = 0, behind = 0;
     for (int i = 0; i < e->vertices; i++) {
         h[i] = height3(e->vertex[i], plane->centre, plane->normal);
         if (fabs(h[i]) <= flat)
             h[i] = 0;
         front += h[i] > 0;
+        behind += h[i] < 0;
     }
     out->n = front ? polygon_divide(&e->vertex[0][0], e->vertices, 3, h, POLYGON_MAX, &out->v[0][0],
                                     NULL, NULL)
                    : 0;
     if (out->n < 3)
         out->n = 0;
+    return !behind;
 }
 
 /* How large e looks from the nearest of the faces: seen from another point of e, their shadows move
@@ -418,6 +429,10 @@ static double sway(const struct element *e, const struct exchange_tree *t, const
     double least = INFINITY;
     for (int i = 0; i < count; i++) {
         const struct element *face = &t->h.elements[list[i]];
+        double apart[3], most = least + face->radius;
+        sub3(apart, face->centre, e->centre);
+        if (dot3(apart, apart) > most * most) /* all of it is farther */
+            continue;
         least = fmin(least, polygon_distance(e->centre, (const double(*)[3])face->vertex,
                                              face->vertices, face->normal));
     }
@@ -456,19 +471,25 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
         sort_list(own, count);
+    const enum between stands =
+        many ? BETWEEN_MANY : sight_between_find(scratch->between, t, &shaft, own, count, 1);
+    if (stands == BETWEEN_ALL)
+        return 0;
+    if (stands == BETWEEN_NOTHING)
+        return fmin(r->area * polygon_factor(r, s, 1), least);
     double sway_r = many ? -r->radius : sway(r, t, own, count),
            sway_s = many ? -s->radius : sway(s, t, own, count);
     int from_r = sway_r < sway_s || (sway_r == sway_s && r->id < s->id);
     struct looking l = {
         .tree = t, .from = from_r ? r : s, .to = from_r ? s : r, .scratch = scratch};
     struct polygon part, seen;
-    clip_front(&part, l.from, l.to, host->flat);
+    const int all = clip_front(&part, l.from, l.to, host->flat) && stands == BETWEEN_SOME;
     polygon_clip(&seen, (const double(*)[3])l.to->vertex, l.to->vertices, l.from->centre,
                  l.from->normal);
     if (part.n == 0 || seen.n == 0)
         return 0;
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
-    double sum = integrate(&l, &part, own, many ? MANY : count, least, error);
+    double sum = integrate(&l, &part, all, own, many ? MANY : count, least, error);
     if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
         return sum;
     return fmin(sum, fmin(r->area * polygon_factor(r, s, 1), least));

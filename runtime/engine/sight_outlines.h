@@ -4,47 +4,7 @@
 #ifndef SIGHT_OUTLINES_H
 #define SIGHT_OUTLINES_H
 
-#include "engine/exchange_tree.h"
-#include "engine/sight_pieces.h"
-
-/* An edge across which the number of faces that a ray meets may change, in the coordinates of the
- * plane that shadows are cast on. Seen from where both faces at it turn the same side, it does not.
- */
-struct sight_edge {
-    double end[2][3];
-    double plane[2][4]; /* of the two faces: n . p - c */
-    int mates;          /* 0: it always may */
-};
-
-/* A face in the same coordinates. */
-struct sight_face {
-    double v[4][3], plane[4];
-    int n;
-};
-
-/* Around SIGHT_BOXED of them. */
-struct sight_box {
-    double low[3], high[3];
-};
-
-/* What stands between a piece and the polygon it looks at. */
-struct sight_between {
-    int faces, edges;
-    int bent;                  /* 1: a face is not in one plane, as outlines want them */
-    uint32_t list[SIGHT_LIST]; /* ascending */
-    struct sight_face face[SIGHT_LIST];
-    uint16_t place[SIGHT_PLACES]; /* 1 more than it, of the last face of the list; 0: of none */
-    struct sight_box box[SIGHT_LIST / SIGHT_BOXED];
-    struct sight_edge edge[SIGHT_EDGES];
-};
-
-enum between { BETWEEN_NOTHING, BETWEEN_ALL, BETWEEN_SOME, BETWEEN_MANY };
-
-/* Of the faces list[count], ascending, among which are all that meet the shaft: what stands in it;
- * all: it is proved that every ray is stopped. */
-enum between sight_between_open(struct sight_between *between, const struct exchange_tree *tree,
-                                const struct shaft *shaft, const struct sight *sight,
-                                const uint32_t *list, int count);
+#include "engine/sight_between.h"
 
 /* sight_factor past what stands between. */
 double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,

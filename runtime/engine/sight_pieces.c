@@ -41,9 +41,11 @@ static void edges_sum(struct sight_eye *eye)
     for (int k = g->count; k % LANES; k++)
         g->a[0][k] = g->a[1][k] = g->b[0][k] = g->b[1][k] = 0;
     LANES_RUN(lanes_width(), edges_8, edges_4, edges_body, (eye));
-    for (int k = 0; k < g->count; k++)
+    for (int k = 0; k < g->of_whole; k++)
+        g->whole += g->value[k];
+    for (int k = g->of_whole; k < g->count; k++)
         g->sum += g->value[k];
-    g->count = 0;
+    g->count = g->of_whole = 0;
 }
 
 void sight_open(struct sight *sight, const struct element *e, const struct polygon *part, double up)
@@ -63,24 +65,25 @@ void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const doub
     eye->normal[0] = dot3(n, f->u);
     eye->normal[1] = dot3(n, f->v);
     eye->normal[2] = dot3(n, f->n);
-    eye->edges.count = 0;
-    eye->edges.sum = 0;
+    eye->edges.count = eye->edges.of_whole = 0;
+    eye->edges.sum = eye->edges.whole = 0;
     outline_in(f, x, eye->at);
+    sight_eye_add(eye, &sight->cell);
+    eye->edges.of_whole = eye->edges.count;
 }
 
-double sight_eye_factor(struct sight_eye *eye)
+/* Of Lambert's sum over edges. */
+static double factor_of(double sum)
+{
+    double f = sum * (-0.5 / LAMBERT_PI);
+    return f > 0 ? f < 1 ? f : 1 : 0;
+}
+
+double sight_eye_factor(struct sight_eye *eye, double *whole)
 {
     edges_sum(eye);
-    double seen = eye->edges.sum * (-0.5 / LAMBERT_PI);
-    return seen > 0 ? seen < 1 ? seen : 1 : 0;
-}
-
-double sight_eye_whole(struct sight_eye *eye, const struct sight *sight)
-{
-    sight_eye_add(eye, &sight->cell);
-    double whole = sight_eye_factor(eye);
-    eye->edges.sum = 0;
-    return whole;
+    *whole = factor_of(eye->edges.whole);
+    return factor_of(eye->edges.sum);
 }
 
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
@@ -163,12 +166,11 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
     *whole = 0;
     if (!(eye.height > 0) || !(height > 0))
         return 0;
-    *whole = sight_eye_whole(&eye, sight);
     for (int b = 0; b < count; b++) {
         const struct element *e = &tree->h.elements[faces[b]];
         cast += outline_cast(&shadows[cast], &sight->raised, from, height,
                              (const double(*)[3])e->vertex, e->vertices);
     }
     add_left(&eye, shadows, cast, 0, &sight->cell);
-    return sight_eye_factor(&eye);
+    return sight_eye_factor(&eye, whole);
 }

@@ -7,8 +7,8 @@
 #include "kernel/outline.h"
 
 /* the most faces that may stand between, of a mesh; so many where each is cut out by itself; the
- * most edges and feet, which as many have; faces of one box (a power of two) */
-enum { SIGHT_LIST = 2048, SIGHT_CUT = 256, SIGHT_EDGES = 5 * SIGHT_CUT, SIGHT_BOXED = 8 };
+ * most edges and feet, which as many have */
+enum { SIGHT_LIST = 2048, SIGHT_CUT = 256, SIGHT_EDGES = 5 * SIGHT_CUT };
 /* faces of a list that is not worth being made shorter for each face of a group, nor an index; by
  * how many an index tells places apart, twice the longest list's */
 enum { SIGHT_SHORT = 16, SIGHT_PLACES = 2 * SIGHT_LIST };
@@ -20,11 +20,12 @@ struct sight {
     struct outline_cell cell;
 };
 
-/* Edges of pieces, from a to b as the eye sees them: summed as many at a time as there is room. */
+/* Edges of pieces, from a to b as the eye sees them: summed as many at a time as there is room. The
+ * first are those of all of the polygon, if there are so many still. */
 enum { SIGHT_EYE_EDGES = 96 };
 struct sight_edges {
-    int count;
-    double a[2][SIGHT_EYE_EDGES], b[2][SIGHT_EYE_EDGES], value[SIGHT_EYE_EDGES], sum;
+    int count, of_whole;
+    double a[2][SIGHT_EYE_EDGES], b[2][SIGHT_EYE_EDGES], value[SIGHT_EYE_EDGES], sum, whole;
 };
 
 /* A point over the plane, in the plane's coordinates, and what it has found. */
@@ -39,11 +40,10 @@ void sight_open(struct sight *sight, const struct element *e, const struct polyg
 
 void sight_eye_open(struct sight_eye *eye, const struct sight *sight, const double x[3],
                     const double n[3]);
-/* Of all cells of the plane that were added, Lambert's sum; in [0, 1]. */
 void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
-double sight_eye_factor(struct sight_eye *eye);
-/* Of all of the polygon, to an eye that has found nothing yet, nor has then. */
-double sight_eye_whole(struct sight_eye *eye, const struct sight *sight);
+/* Of all cells of the plane that were added, Lambert's sum, and of all of the polygon; in [0, 1].
+ */
+double sight_eye_factor(struct sight_eye *eye, double *whole);
 
 /* The form factor from a point x with normal n, in front of whose plane all of the polygon lies, to
  * what it sees of the polygon past the faces, from `up` over x. In [0, 1]; *whole: to all of it. */

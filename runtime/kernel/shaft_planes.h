@@ -99,6 +99,38 @@ TOOL int shaft_planes_far_body(const struct shaft *shaft, double out, const doub
     return 0;
 }
 
+/* Is a part of the segment from a to b no farther outside than `out`, for all planes at once? */
+TOOL int shaft_planes_reach_body(const struct shaft *shaft, double out, const double a[3],
+                                 const double b[3])
+{
+    const double a0 = a[0], a1 = a[1], a2 = a[2], b0 = b[0], b1 = b[1], b2 = b[2];
+    double from[LANES] = {0}, to[LANES], first = 0, last = 1;
+    for (int k = 0; k < LANES; k++)
+        to[k] = 1;
+    for (int i = 0; i < shaft->planes; i += LANES) {
+        const double *x = shaft->normal[0] + i, *y = shaft->normal[1] + i,
+                     *z = shaft->normal[2] + i, *offset = shaft->offset + i;
+        int64_t any = 0, outside[LANES];
+        for (int k = 0; k < LANES; k++) {
+            const double g = a0 * x[k] + a1 * y[k] + a2 * z[k] - offset[k] - out,
+                         h = b0 * x[k] + b1 * y[k] + b2 * z[k] - offset[k] - out, t = g / (g - h),
+                         enters = g > 0 ? t : 0, leaves = h > 0 ? t : 1;
+            outside[k] = (g > 0) & (h > 0);
+            from[k] = enters > from[k] ? enters : from[k];
+            to[k] = leaves < to[k] ? leaves : to[k];
+        }
+        for (int k = 0; k < LANES; k++)
+            any |= outside[k];
+        if (any)
+            return 0;
+    }
+    for (int k = 0; k < LANES; k++) {
+        first = from[k] > first ? from[k] : first;
+        last = to[k] < last ? to[k] : last;
+    }
+    return first <= last;
+}
+
 /* Which planes, a bit for each, have a corner higher than `slack` less `reach`? Returns 0 when one
  * has all of them higher than `slack` and `reach`. */
 TOOL int shaft_planes_cut_body(const struct shaft *shaft, double slack, double reach,
@@ -160,6 +192,16 @@ LANES_AVX2 int shaft_planes_far_4(const struct shaft *shaft, double out, const d
 {
     return shaft_planes_far_body(shaft, out, v, n);
 }
+LANES_AVX512 int shaft_planes_reach_8(const struct shaft *shaft, double out, const double a[3],
+                                      const double b[3])
+{
+    return shaft_planes_reach_body(shaft, out, a, b);
+}
+LANES_AVX2 int shaft_planes_reach_4(const struct shaft *shaft, double out, const double a[3],
+                                    const double b[3])
+{
+    return shaft_planes_reach_body(shaft, out, a, b);
+}
 LANES_AVX512 int shaft_planes_cut_8(const struct shaft *shaft, double slack, double reach,
                                     const double (*v)[3], int n, uint64_t *planes)
 {
@@ -195,6 +237,13 @@ OUTLINE int shaft_planes_far(int width, const struct shaft *shaft, double out, c
 {
     return LANES_RUN(width, shaft_planes_far_8, shaft_planes_far_4, shaft_planes_far_body,
                      (shaft, out, v, n));
+}
+
+OUTLINE int shaft_planes_reach(int width, const struct shaft *shaft, double out, const double a[3],
+                               const double b[3])
+{
+    return LANES_RUN(width, shaft_planes_reach_8, shaft_planes_reach_4, shaft_planes_reach_body,
+                     (shaft, out, a, b));
 }
 
 OUTLINE int shaft_planes_cut(int width, const struct shaft *shaft, double slack, double reach,

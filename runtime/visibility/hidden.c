@@ -36,21 +36,7 @@ int hidden_bent(const struct element *e, double flat)
 
 int hidden_edge(const struct shaft *shaft, const double a[3], const double b[3])
 {
-    const double out = shaft->slack + shaft->grow;
-    double from = 0, to = 1;
-    for (int i = 0; i < shaft->planes; i++) {
-        const double n[3] = {shaft->normal[0][i], shaft->normal[1][i], shaft->normal[2][i]};
-        double g = dot3(a, n) - shaft->offset[i] - out, h = dot3(b, n) - shaft->offset[i] - out;
-        if (g > 0 && h > 0)
-            return 0;
-        if (g > 0)
-            from = fmax(from, g / (g - h));
-        else if (h > 0)
-            to = fmin(to, g / (g - h));
-        if (from > to)
-            return 0;
-    }
-    return 1;
+    return shaft_planes_reach(lanes_width(), shaft, shaft->slack + shaft->grow, a, b);
 }
 
 void hidden_start(struct hidden *c, const struct hierarchy *h, const struct mates *mates,

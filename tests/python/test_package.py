@@ -9,6 +9,7 @@ import gc
 import os
 import signal
 import sys
+import tempfile
 import threading
 import time
 import types
@@ -230,6 +231,70 @@ def test_progress_and_signals():
     stop.set()
     beat.join()
     assert time.monotonic() - begun < 3 and len(beats) > 5, (time.monotonic() - begun, len(beats))
+
+
+def long_factors(threads):
+    """A second of half shadow: three boxes stand in a cube whose walls are of 8 x 8 squares."""
+    corners, faces = (half[:len(half) // 2] for half in plates(8))
+    vertices, squares = [], []
+    for axis in range(3):
+        for far in (0, 1):
+            squares.append((faces[:, ::-1] if far else faces) + len(corners) * len(vertices))
+            vertices.append(np.roll(corners + [0, 0, far], axis, axis=1))
+    for at in ((.2, .2), (.6, .3), (.35, .65)):
+        squares.append(CUBE[:, ::-1] + sum(map(len, vertices)))
+        vertices.append(CORNERS * [.2, .2, .5] + [*at, .1])
+    return radiosity.Scene.from_arrays(np.concatenate(vertices), np.concatenate(squares), threads=threads)
+
+
+def test_resume():
+    whole = long_factors(1).view_factors(closure="rows")
+    near(whole.row_sums, 1, 1e-6)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "state")
+        phases = []
+
+        def stop(progress):  # as soon as the first factors, or the next ones, are there
+            phases.append((progress.phase, progress.share))
+            return progress.phase == "factors" and progress.share > 0
+
+        def interrupt(progress):
+            if stop(progress):
+                os.kill(os.getpid(), signal.SIGINT)
+
+        def break_down(progress):
+            if stop(progress):
+                raise ZeroDivisionError
+        for kind, progress in ((radiosity.Cancelled, stop), (KeyboardInterrupt, interrupt),
+                               (ZeroDivisionError, break_down)):
+            raises(kind, "", long_factors(2).view_factors, progress=progress, resume=path)
+            assert os.listdir(folder) == ["state"]  # and nothing beside it
+        begun = [share for phase, share in phases if phase == "resumed"]
+        assert len(begun) == 2 and 0 < begun[0] <= begun[1], phases
+        raises(radiosity.InvalidInput, "state: it is of another scene", radiosity.Scene.from_arrays(
+            CORNERS, CUBE).view_factors, resume=path)
+        raises(radiosity.InvalidInput, "of another tolerance", long_factors(1).view_factors, .01, resume=path)
+        with open(path, "r+b") as file:
+            file.seek(200)
+            was = file.read(1)
+            file.seek(200)
+            file.write(bytes([was[0] ^ 1]))
+        raises(radiosity.InvalidInput, "remove it to start anew", long_factors(1).view_factors, resume=path)
+        with open(path, "r+b") as file:
+            file.seek(200)
+            file.write(was)
+        phases.clear()
+        factors = long_factors(1).view_factors(
+            closure="rows", progress=lambda p: phases.append((p.phase, p.share)), resume=path)
+        assert phases[0][0] == "resumed" and phases[0][1] > 0 and os.listdir(folder) == [], phases[0]
+        assert (factors.matrix != whole.matrix).nnz == 0 and (factors.row_sums == whole.row_sums).all()
+        raises(TypeError, "float", long_factors(1).view_factors, resume=3.5)
+        raises(IsADirectoryError, folder, long_factors(1).view_factors, resume=folder)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            raises(radiosity.Cancelled, "", long_factors(1).view_factors, progress=stop,
+                   resume=os.path.join(folder, "none", "state"))
+        assert len(said) == 1 and "cannot be written" in str(said[0].message), said
 
 
 def test_handles_are_released():

@@ -118,8 +118,8 @@ START_TEST(test_both_ways)
         ck_assert_int_le(count, SIGHT_CUT);
         qsort(list, (size_t)count, sizeof *list, compare_faces);
         sight_open(&sight, high, &whole, t.host.ray_offset);
-        ck_assert_int_eq(sight_between_open(&between, &t, &shaft, &sight, list, count),
-                         BETWEEN_SOME);
+        ck_assert_int_eq(sight_between_find(&between, &t, &shaft, list, count, 0), BETWEEN_SOME);
+        ck_assert_int_eq(sight_between_place(&between, &t, &sight), 0);
         for (int i = 0; i < 40; i++) {
             const double x[3] = {chance(&state), chance(&state), 0};
             double clear[2],
