@@ -216,7 +216,8 @@ static int follow_irradiance(struct solve *s)
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
                     struct measured_error *alone, uint64_t *spent)
 {
-    double budget = DIM_RAYS * (double)tally->rays;
+    double mending = (double)tally->rays, before = (double)s->report.counts.rays + mending,
+           budget = fmax(DIM_RAYS * mending, DIM_FEW - before);
     struct watched watched = {.solve = s,
                               .before = tally->rays + *spent,
                               .now = budget,
