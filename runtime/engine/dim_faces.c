@@ -227,6 +227,15 @@ static const struct dim_polygon *polygon_of(const struct dim_faces *d, uint32_t 
     return of != NOT_DIM && strongest(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
 }
 
+/* The power of two that is nearest. The last digits of a solution are other ones on several ranks:
+ * they are not to decide about particles. */
+static double near_power(double x)
+{
+    int exponent;
+    double half = frexp(x, &exponent);
+    return ldexp(1, 2 * half * half < 1 ? exponent - 1 : exponent);
+}
+
 /* What split particles are to carry: as much as there is light over the mean irradiance, and no
  * more than those that are not split. Of dim polygons, what is known by now. */
 static void set_windows(const struct dim_faces *d, float *window)
@@ -247,7 +256,7 @@ static void set_windows(const struct dim_faces *d, float *window)
         mean = e == 0 ? here : mean;
         if (p)
             here = before > 0 ? here * after / before : after;
-        window[e] = (float)fmin(fmax(here / mean, DIM_LEAST), 1);
+        window[e] = (float)near_power(fmin(fmax(here / mean, DIM_LEAST), 1));
     }
 }
 
