@@ -62,7 +62,7 @@ static double light_of_both(const struct dim_faces *d, const struct dim_polygon 
  * wrong so are they: these show it, as far as the two are farther apart than by their own noise. */
 static double split_weight(const struct dim_faces *d, const struct dim_polygon *p)
 {
-    double variance, apart = light_of_both(d, p, &variance) - p->split_light;
+    double variance, both = light_of_both(d, p, &variance), apart = both - p->split_light;
     if (!(p->split_variance > 0))
         return 0;
     if (apart * apart > MEND_EVIDENCE * MEND_EVIDENCE * (variance + p->split_variance))

@@ -14,9 +14,10 @@
  *
  * How many paths? So many that 1 / (1 / s^2 + n / v), v the variance of one, is the square of
  * DIM_GOAL of its light. Few tell first how noisy they are and how much light there is. Then
- * polygons get what they need, the cheapest first, as far as the rays allow.
+ * polygons get what they need, the cheapest first, so that few are left wrong; what remains makes
+ * the others equally sure.
  *
- * Those that would need more are behind a second door: what paths end in is as wrong there as the
+ * Those that are not sure then are behind a second door: what paths end in is as wrong there as the
  * polygon. For them particles are split (dim_split.c); and where these say otherwise than paths by
  * more than the noise of both, paths are thought to be off by that much.
  *
@@ -152,8 +153,9 @@ static double rays_for(const struct dim_faces *d, const struct dim_polygon *p, d
     return paths_for(d, p, share) * (double)p->rays / (double)p->paths;
 }
 
-/* Give those that reach DIM_GOAL what they need, the cheapest first, as far as the rays allow. */
-static void plan_cheap(struct dim_faces *d, double rays)
+/* Give those that reach DIM_GOAL what they need, the cheapest first, as far as the rays allow.
+ * Returns how many rays are left. */
+static double plan_cheap(struct dim_faces *d, double rays)
 {
     for (;;) {
         struct dim_polygon *cheapest = NULL;
@@ -167,22 +169,36 @@ static void plan_cheap(struct dim_faces *d, double rays)
             }
         }
         if (!cheapest)
-            return;
+            return rays;
         cheapest->planned = 1;
         cheapest->wanted = cheapest->paths + (uint64_t)paths_for(d, cheapest, DIM_GOAL);
         rays -= least;
     }
 }
 
-/* How many paths each is to have in the end, if so many rays are left: of those that do not come to
- * be sure none more. */
+static double rays_of_others(const struct dim_faces *d, double share)
+{
+    double sum = 0;
+    for (uint32_t j = 0; j < d->count; j++)
+        sum += d->polygon[j].planned ? 0 : rays_for(d, &d->polygon[j], share);
+    return sum;
+}
+
+/* How many paths each is to have in the end, if so many rays are left. The others: as the rest
+ * allows, all the same share of their light, in steps of a fiftieth. */
 static void plan(struct dim_faces *d, double rays)
 {
+    double share = DIM_GOAL;
     for (uint32_t j = 0; j < d->count; j++) {
         d->polygon[j].planned = 0;
         d->polygon[j].wanted = d->polygon[j].paths;
     }
-    plan_cheap(d, rays);
+    rays = plan_cheap(d, rays);
+    while (share < 1 && rays_of_others(d, share) > rays)
+        share *= 1.02;
+    for (uint32_t j = 0; j < d->count && share < 1; j++)
+        if (!d->polygon[j].planned)
+            d->polygon[j].wanted += (uint64_t)paths_for(d, &d->polygon[j], share);
 }
 
 /* A few paths of each; half of what is then planned; then all. */
@@ -260,19 +276,21 @@ static void set_windows(const struct dim_faces *d, float *window)
     }
 }
 
-/* By about so many rays of paths, and in all. */
-static int trace_all(struct dim_faces *d, double of_paths, double budget)
+/* Paths by so many rays, and where these leave some unsure split particles by what `both` has left;
+ * but these are not asked for fewer rays than mending took: they would know less. */
+static int trace_all(struct dim_faces *d, double paths, double both, double mending)
 {
     uint64_t before = *d->rays;
-    if (trace_paths(d, of_paths) < 0)
+    if (trace_paths(d, paths) < 0)
         return -1;
-    if (all_sure(d))
+    double rays = both - (double)(*d->rays - before);
+    if (rays < mending || all_sure(d))
         return 0;
     float *window = malloc(d->tracer->hierarchy->count * sizeof *window);
     if (!window)
         return -1;
     set_windows(d, window);
-    int status = dim_split_trace(d, window, budget - (double)(*d->rays - before), all_sure);
+    int status = dim_split_trace(d, window, rays, all_sure);
     free(window);
     return status;
 }
@@ -324,7 +342,7 @@ static void close_all(struct dim_faces *d)
 }
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   uint64_t budget, const struct watch *watch, uint64_t *rays,
+                   uint64_t paths, uint64_t both, const struct watch *watch, uint64_t *rays,
                    struct dim_count *count)
 {
     struct dim_faces d = {
@@ -342,8 +360,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        const double most = (double)budget;
-        failed = d.count > 0 && trace_all(&d, fmin((double)tally->rays, most), most) < 0;
+        failed = d.count > 0 && trace_all(&d, (double)paths, (double)both, (double)tally->rays) < 0;
     }
     for (uint32_t k = 0; k < t->bands && !failed && d.count > 0; k++)
         change(&d, k, s->mended.irradiance);

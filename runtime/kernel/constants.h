@@ -356,10 +356,11 @@
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define DIM_GOAL 0.0255
-/* of the rays of mending. So many may be spent on dim polygons at the most, all together: mending
- * then takes twice as many at worst; */
+/* of the rays of mending. So many may be spent on paths from dim polygons at the most, all together:
+ * mending then takes twice as many at worst */
 #define DIM_RAYS 1.0
-/* or as many as make so many rays of the whole solve, where that is more: chosen, half a second */
+/* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
+ * leave a dim polygon unsure: chosen, half a second */
 #define DIM_FEW 1.5e6
 /* of the mean irradiance. Particles are not split for what is dimmer than that by far: what links
  * say of it may be nothing at all, and all rays would go there */

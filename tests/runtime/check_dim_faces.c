@@ -113,7 +113,7 @@ static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint
     ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
     double before = s->mended.irradiance[0];
     *rays = 0;
-    int changed = dim_faces_mend(s, &t, &tally, budget, NULL, rays, &dim);
+    int changed = dim_faces_mend(s, &t, &tally, budget, budget, NULL, rays, &dim);
     ck_assert_uint_ge(dim.large, dim.unsure);
     unsure = dim.unsure;
     *root = s->mended.irradiance[0] / before;
