@@ -381,8 +381,8 @@
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define REFINER_DIM_GOAL 0.0255
-/* of the rays of mending. So many may be spent on paths from dim polygons at the most, all together:
- * mending then takes twice as many at worst */
+/* of the rays of mending. So many may be spent on paths from dim polygons at the most: mending then
+ * takes twice as many at worst */
 #define REFINER_DIM_RAYS 1.0
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */
