@@ -756,8 +756,9 @@ RAD_API int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlac
  * and radStep goes on from what they say. Leaves of a linear solution on which many particles are
  * to land are quartered, and stay so where that tells more than the leaf's own slope does
  * (engine/detail.c): what radGetElements gave before is no longer valid. The mean of polygons above
- * a hundredth of the area that too few particles meet is told by paths from them, too, by at most
- * as many rays besides (engine/dim_faces.c).
+ * a hundredth of the area that too few particles meet is told by paths from them, too, and where
+ * these do not know it either by particles that are split where light is dim: by at most as many
+ * rays besides, and by what is left of 1.5 million in all (engine/dim_faces.c).
  * *alone, which may be NULL: the error of the links alone, by the same particles; its rays are what
  * mending took. NULL options: the defaults. Returns 0, or -1. */
 RAD_API int radCorrect(RadSolution solution, const struct RadCorrectOptions *options,

@@ -17,6 +17,10 @@
  * polygons get what they need, the cheapest first, so that few are left wrong; what remains makes
  * the others equally sure.
  *
+ * Those that are not sure then are behind a second door: what paths end in is as wrong there as the
+ * polygon. For them particles are split (dim_split.c); and where these say otherwise than paths by
+ * more than the noise of both, paths are thought to be off by that much.
+ *
  * Below the polygon all elements keep their shares, and the power of the whole scene, which
  * particles know best, stays: what is added here all the others give in proportion.
  *
@@ -25,13 +29,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dim_faces.h"
-#include "engine/dim_paths.h"
+#include "engine/dim_split.h"
 #include "kernel/constants.h"
 
 enum {
     RAYS_OF_PATH = 4, /* about, before any is traced */
-    LOOK = 256,       /* paths of a first look at most: chosen, the variance is known to a tenth */
-    ENOUGH = 4        /* times the paths of the first look: chosen, its noise is then halved */
+    LOOK = 256        /* paths of a first look at most: chosen, the variance is known to a tenth */
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
 #define NOT_DIM UINT32_MAX
@@ -95,16 +98,8 @@ static void list_faces(struct dim_faces *d)
 static void weigh(const struct dim_faces *d, const struct tally *tally, struct dim_polygon *p)
 {
     const struct tracer *t = d->tracer;
-    double one = tally_power_of_one(tally) / p->area, mean = 0, square = 0;
-    for (int r = 0; r < REPLICATES; r++) {
-        double sum = 0;
-        for (uint32_t i = p->from; i < p->to; i++)
-            for (uint32_t k = 0; k < t->bands; k++)
-                sum += t->reflectance[(size_t)d->face[i] * t->bands + k]
-                       * tally_face(tally, r, d->face[i], k) / p->area;
-        mean += sum / REPLICATES;
-        square += sum * sum / REPLICATES;
-    }
+    double one = tally_power_of_one(tally) / p->area, noise,
+           counted = dim_count_light(d, tally, p, &noise);
     for (uint32_t i = p->from; i < p->to; i++)
         for (uint32_t k = 0; k < t->bands; k++) {
             size_t at = (size_t)t->hierarchy->face_element[d->face[i]] * t->bands + k;
@@ -113,8 +108,7 @@ static void weigh(const struct dim_faces *d, const struct tally *tally, struct d
             p->mended[k] += part;
             p->light += t->reflectance[(size_t)d->face[i] * t->bands + k] * part;
         }
-    p->variance = fmax(fmax(square - mean * mean, 0) / (REPLICATES - 1) + one * one,
-                       (p->light - mean) * (p->light - mean));
+    p->variance = fmax(noise + one * one, (p->light - counted) * (p->light - counted));
 }
 
 /* Those that are dim; the others are forgotten. */
@@ -136,35 +130,21 @@ static void keep_dim(struct dim_faces *d, const struct tally *tally)
 
 /* ---- how many, and what they say */
 
-/* The variance of one path. One thing unseen is allowed for, lest what is dark by chance seem
- * certain: one more path, which finds as much as an average place of the scene reflects. */
-static double path_variance(const struct dim_faces *d, const struct dim_polygon *p)
-{
-    double n = (double)p->paths, mean = p->all / n;
-    return fmax((p->square + d->unseen * d->unseen) / n - mean * mean, 0) * n / (n - 1);
-}
-
-/* The share of paths in the mean of both. */
-static double path_weight(const struct dim_faces *d, const struct dim_polygon *p)
-{
-    return p->variance / (p->variance + path_variance(d, p) / (double)p->paths);
-}
-
 /* Its light as far as is known by now, but no less than how uncertain that is (W/m2). */
 static double light_known(const struct dim_faces *d, const struct dim_polygon *p)
 {
-    double weight = p->paths > 0 ? path_weight(d, p) : 0,
+    double weight = p->paths > 0 ? dim_path_weight(d, p) : 0,
            found = p->paths > 0 ? p->all / (double)p->paths : 0;
     return fmax((1 - weight) * p->light + weight * found, sqrt((1 - weight) * p->variance));
 }
 
-/* How many paths more make its standard error that share of its light. No fewer than ENOUGH times
- * the first look in all: what fewer say is not taken. */
+/* How many paths more make its standard error that share of its light. No fewer than DIM_ENOUGH
+ * times the first look in all: what fewer say is not taken. */
 static double paths_for(const struct dim_faces *d, const struct dim_polygon *p, double share)
 {
     double goal = share * light_known(d, p),
-           all = path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0);
-    return fmax(fmax(all, (double)(ENOUGH * p->looked)) - (double)p->paths, 0);
+           all = dim_path_variance(d, p) * fmax(1 / (goal * goal) - 1 / p->variance, 0);
+    return fmax(fmax(all, (double)(DIM_ENOUGH * p->looked)) - (double)p->paths, 0);
 }
 
 /* rays that these take. */
@@ -222,7 +202,7 @@ static void plan(struct dim_faces *d, double rays)
 }
 
 /* A few paths of each; half of what is then planned; then all. */
-static int trace_all(struct dim_faces *d, double budget)
+static int trace_paths(struct dim_faces *d, double budget)
 {
     uint64_t before = *d->rays;
     double first = fmin(budget * FIRST / RAYS_OF_PATH / d->count, LOOK);
@@ -241,35 +221,19 @@ static int trace_all(struct dim_faces *d, double budget)
     return 0;
 }
 
-/* ---- what becomes of the solution */
+/* ---- those that are not sure by paths */
 
-/* What the element receives in a band (W). */
-static double power_of(const struct dim_faces *d, uint32_t element, uint32_t band)
+static uint32_t count_unsure(const struct dim_faces *d)
 {
-    return d->tracer->hierarchy->elements[element].area
-           * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
+    uint32_t unsure = 0;
+    for (uint32_t j = 0; j < d->count; j++)
+        unsure += !dim_is_sure(d, &d->polygon[j]);
+    return unsure;
 }
 
-/* The share of paths that is believed. What a first look found says as little of its own noise as
- * of the light: it is not believed without more. */
-static double belief(const struct dim_faces *d, const struct dim_polygon *p)
+static int all_sure(const struct dim_faces *d)
 {
-    return p->paths >= ENOUGH * p->looked ? path_weight(d, p) : 0;
-}
-
-/* Is its standard error, by both, no more than DIM_GOAL of its light? */
-static int is_sure(const struct dim_faces *d, const struct dim_polygon *p)
-{
-    double weight = belief(d, p),
-           goal = DIM_GOAL * ((1 - weight) * p->light + weight * p->all / (double)p->paths);
-    return (1 - weight) * p->variance <= goal * goal;
-}
-
-/* The mean irradiance of a dim polygon in a band, by what is known of both (W/m2). */
-static double mean_of(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
-{
-    double weight = belief(d, p);
-    return (1 - weight) * p->mended[band] + weight * p->sum[band] / (double)p->paths;
+    return count_unsure(d) == 0;
 }
 
 /* Which dim polygon the face is of, or NULL. */
@@ -277,6 +241,67 @@ static const struct dim_polygon *polygon_of(const struct dim_faces *d, uint32_t 
 {
     uint32_t of = d->of[d->tracer->hierarchy->faces[face].input];
     return of != NOT_DIM && strongest(d->tracer, face) > 0 ? &d->polygon[of] : NULL;
+}
+
+/* The power of two that is nearest. The last digits of a solution are other ones on several ranks:
+ * they are not to decide about particles. */
+static double near_power(double x)
+{
+    int exponent;
+    double half = frexp(x, &exponent);
+    return ldexp(1, 2 * half * half < 1 ? exponent - 1 : exponent);
+}
+
+/* What split particles are to carry: as much as there is light over the mean irradiance, and no
+ * more than those that are not split. Of dim polygons, what is known by now. */
+static void set_windows(const struct dim_faces *d, float *window)
+{
+    const struct hierarchy *h = d->tracer->hierarchy;
+    const double *irradiance = d->solve->mended.irradiance;
+    const uint32_t bands = d->tracer->bands;
+    double mean = 0;
+    for (uint32_t e = 0; e < h->count; e++) {
+        const struct element *at = &h->elements[e];
+        const struct dim_polygon *p = at->vertices ? polygon_of(d, at->face) : NULL;
+        double here = 0, before = 0, after = 0;
+        for (uint32_t k = 0; k < bands; k++) {
+            here += irradiance[(size_t)e * bands + k];
+            before += p ? p->mended[k] : 0;
+            after += p ? dim_mean(d, p, k) : 0;
+        }
+        mean = e == 0 ? here : mean;
+        if (p)
+            here = before > 0 ? here * after / before : after;
+        window[e] = (float)near_power(fmin(fmax(here / mean, DIM_LEAST), 1));
+    }
+}
+
+/* Paths by so many rays, and where these leave some unsure split particles by what `both` has left;
+ * but these are not asked for fewer rays than mending took: they would know less. */
+static int trace_all(struct dim_faces *d, double paths, double both, double mending)
+{
+    uint64_t before = *d->rays;
+    if (trace_paths(d, paths) < 0)
+        return -1;
+    double rays = both - (double)(*d->rays - before);
+    if (rays < mending || all_sure(d))
+        return 0;
+    float *window = malloc(d->tracer->hierarchy->count * sizeof *window);
+    if (!window)
+        return -1;
+    set_windows(d, window);
+    int status = dim_split_trace(d, window, rays, all_sure);
+    free(window);
+    return status;
+}
+
+/* ---- what becomes of the solution */
+
+/* What the element receives in a band (W). */
+static double power_of(const struct dim_faces *d, uint32_t element, uint32_t band)
+{
+    return d->tracer->hierarchy->elements[element].area
+           * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
 }
 
 /* Change them, and all others by one factor; then clusters as their children. */
@@ -287,14 +312,14 @@ static void change(const struct dim_faces *d, uint32_t band, double *irradiance)
     double before = 0, after = 0, whole = power_of(d, 0, band);
     for (uint32_t j = 0; j < d->count; j++) {
         before += d->polygon[j].mended[band] * d->polygon[j].area;
-        after += mean_of(d, &d->polygon[j], band) * d->polygon[j].area;
+        after += dim_mean(d, &d->polygon[j], band) * d->polygon[j].area;
     }
     double others = before < whole ? fmax(whole - after, 0) / (whole - before) : 1;
     for (uint32_t e = h->count; e-- > 0;) { /* children follow their parents */
         double *H = &irradiance[(size_t)e * bands + band];
         if (h->elements[e].vertices) {
             const struct dim_polygon *p = polygon_of(d, h->elements[e].face);
-            double mean = p ? mean_of(d, p, band) : 0;
+            double mean = p ? dim_mean(d, p, band) : 0;
             if (p && !(p->mended[band] > 0))
                 *H = mean; /* nothing is known of how it is spread */
             else
@@ -317,7 +342,7 @@ static void close_all(struct dim_faces *d)
 }
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   uint64_t budget, const struct watch *watch, uint64_t *rays,
+                   uint64_t paths, uint64_t both, const struct watch *watch, uint64_t *rays,
                    struct dim_count *count)
 {
     struct dim_faces d = {
@@ -335,12 +360,11 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed = d.count > 0 && trace_all(&d, (double)budget) < 0;
+        failed = d.count > 0 && trace_all(&d, (double)paths, (double)both, (double)tally->rays) < 0;
     }
     for (uint32_t k = 0; k < t->bands && !failed && d.count > 0; k++)
         change(&d, k, s->mended.irradiance);
-    for (uint32_t j = 0; j < d.count && !failed; j++)
-        count->unsure += !is_sure(&d, &d.polygon[j]);
+    count->unsure = failed ? 0 : count_unsure(&d);
     int changed = failed ? -1 : (int)d.count;
     close_all(&d);
     return changed;

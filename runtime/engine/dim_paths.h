@@ -21,6 +21,9 @@ struct dim_polygon {
     uint64_t paths, wanted, rays;
     double sum[3];      /* over paths: of what they find, H (W/m2); */
     double all, square; /* of rho H, all bands, and of its square */
+    /* by particles that are split (dim_split.h): light, its variance, 0 before there are any, and
+     * mean irradiance */
+    double split_light, split_variance, split[3];
 };
 
 struct dim_faces {

@@ -216,13 +216,16 @@ static int follow_irradiance(struct solve *s)
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
                     struct measured_error *alone, uint64_t *spent)
 {
-    double budget = DIM_RAYS * (double)tally->rays;
+    double mending = (double)tally->rays, paths = DIM_RAYS * mending,
+           both = fmax(DIM_FEW - (double)s->report.counts.rays - mending, 0),
+           budget = fmax(paths, both);
     struct watched watched = {.solve = s,
                               .before = tally->rays + *spent,
                               .now = budget,
                               .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {tell, &watched};
-    int changed = dim_faces_mend(s, t, tally, (uint64_t)budget, &watch, spent, &alone->dim);
+    int changed =
+        dim_faces_mend(s, t, tally, (uint64_t)paths, (uint64_t)both, &watch, spent, &alone->dim);
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 

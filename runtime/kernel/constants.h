@@ -356,10 +356,18 @@
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define DIM_GOAL 0.0255
-/* of the rays of mending. So many may be spent on dim polygons at the most, all together: mending
- * then takes twice as many at worst. DIM_GOAL takes none to three tenths on the scenes at hand but
- * panels, eight tenths */
+/* of the rays of mending. So many may be spent on paths from dim polygons at the most: mending then
+ * takes twice as many at worst */
 #define DIM_RAYS 1.0
+/* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
+ * leave a dim polygon unsure: chosen, half a second */
+#define DIM_FEW 1.5e6
+/* of the mean irradiance. Particles are not split for what is dimmer than that by far: what links
+ * say of it may be nothing at all, and all rays would go there */
+#define DIM_LEAST 1e-6
+/* times. What a particle carries may be so much more or less than what the window wants: chosen, as
+ * is usual for weight windows; at 2 copies are made where light has halved */
+#define SPLIT_WINDOW 2.0
 /* ---- account of error (engine) */
 
 /* of a winding number: so near to a whole one is whole. Chosen: coordinates that have been floats

@@ -1,12 +1,24 @@
 /* particles.c - see particles.h.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "kernel/constants.h"
 #include "kernel/leaf_at.h"
 #include "particles/particles.h"
+#include "particles/running_sums.h"
 #include "particles/sobol_sequence.h"
 
-enum { BATCH = 1024 };
+enum {
+    BATCH = 1024,
+    COPIES = 16, /* at most, of one particle at one place */
+    WAITING = 32 /* places on its way at most where copies wait; beyond, none are made */
+};
+
+/* Counts of one particle: room for 2^39 of them on a face; or for 2^31, and parts of a millionth.
+ */
+#define ONE_WHOLE 0x1p24
+#define ONE_SPLIT 0x1p32
 
 int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves)
 {
@@ -14,6 +26,7 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
                             .elements = t->hierarchy->count,
                             .bands = t->bands,
                             .stream = stream,
+                            .one = ONE_WHOLE,
                             .power = t->lights.power};
     size_t bands = t->bands;
     tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
@@ -39,7 +52,32 @@ void tally_close(struct tally *tally)
     free(tally->element);
     free(tally->first);
     free(tally->square);
+    free(tally->until);
+    free(tally->carried);
     *tally = (struct tally){0};
+}
+
+/* From an emitter one carries what the window wants of those that leave its place, but no less than
+ * the emitter's share of all power: what shines into the dark is not asked for more than others. */
+int tally_split(struct tally *tally, const struct tracer *t, const float *window)
+{
+    const struct lights *l = &t->lights;
+    double all = 0;
+    tally->window = window;
+    tally->one = ONE_SPLIT;
+    tally->until = malloc((l->count + 1) * sizeof *tally->until);
+    tally->carried = malloc((l->count + 1) * sizeof *tally->carried);
+    if (!tally->until || !tally->carried)
+        return -1;
+    for (uint32_t i = 0; i < l->count; i++) {
+        double share = (l->until[i] - (i > 0 ? l->until[i - 1] : 0)) / l->power,
+               wanted = (double)window[t->hierarchy->face_element[l->face[i]]];
+        tally->carried[i] = fmax(wanted, share);
+        tally->until[i] = all += share / tally->carried[i];
+    }
+    for (uint32_t i = 0; i < l->count; i++)
+        tally->carried[i] *= all;
+    return 0;
 }
 
 /* A run of particles of one replicate, and its sums that are no place's. */
@@ -51,26 +89,29 @@ struct batch {
     int64_t first[3], second[3]; /* sums of w and w^2, as counts */
 };
 
-static void count(struct tally *tally, const struct tracer *t, uint32_t face, const double at[3],
-                  const double share[3], struct batch *batch)
+/* Returns the leaf that is met, or 0 where leaves are not counted on. */
+static uint32_t count(struct tally *tally, const struct tracer *t, uint32_t face,
+                      const double at[3], const double share[3], struct batch *batch)
 {
+    uint32_t leaf = 0;
     _Atomic int64_t *to_face =
         &tally->face[((size_t)batch->replicate * tally->faces + face) * tally->bands];
     _Atomic int64_t *to_leaf = NULL;
     if (tally->element) {
         double weight[4];
-        uint32_t leaf = leaf_at_by(t->hierarchy->elements, tally->first,
-                                   t->hierarchy->face_element[face], at, weight);
+        leaf = leaf_at_by(t->hierarchy->elements, tally->first, t->hierarchy->face_element[face],
+                          at, weight);
         to_leaf = &tally->element[(size_t)leaf * tally->bands];
     }
     for (uint32_t k = 0; k < tally->bands; k++) {
-        int64_t w = (int64_t)(share[k] * PARTICLE_ONE + 0.5);
+        int64_t w = (int64_t)(share[k] * tally->one + 0.5);
         batch->first[k] += w;
-        batch->second[k] += (int64_t)(share[k] * share[k] * PARTICLE_ONE + 0.5);
+        batch->second[k] += (int64_t)(share[k] * share[k] * tally->one + 0.5);
         to_face[k] += w;
         if (to_leaf)
             to_leaf[k] += w;
     }
+    return leaf;
 }
 
 /* What decides next about a reflection, in [0, 1): a coordinate of the sequence as far as these go,
@@ -83,39 +124,87 @@ static double decide(const struct batch *batch, uint64_t index, struct dice *dic
     return sobol_sequence_at(batch->sobol, (uint32_t)index, d, batch->shift[d]);
 }
 
-static void trace(struct tally *tally, const struct tracer *t, uint64_t index, struct batch *batch)
+/* A particle, or several alike, about to leave a surface. */
+struct flight {
+    uint32_t face;
+    int used, copies; /* decisions of the sequence that are spent; how many are to leave */
+    double p[3], share[3];
+};
+
+/* The emitter that u[0] in [0, 1) stands for, the point on it, and what leaves there. */
+static struct flight emit(const struct tally *tally, const struct tracer *t, const double *u)
 {
-    struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
-    double u[SOBOL_DIMENSIONS], share[3] = {0, 0, 0}, whole = 0, p[3], at[3];
-    sobol_sequence_point(batch->sobol, (uint32_t)index, batch->shift, u);
-    uint32_t face = lights_choose(&t->lights, u[0]);
-    const double *exitance = &t->exitance[(size_t)face * t->bands];
+    const struct lights *l = &t->lights;
+    const double *until = tally->window ? tally->until : l->until;
+    uint32_t light = running_sums_find(until, l->count, u[0] * until[l->count - 1]);
+    struct flight f = {.face = l->face[light]};
+    const double *exitance = &t->exitance[(size_t)f.face * t->bands];
+    double whole = 0;
     for (uint32_t k = 0; k < t->bands; k++)
         whole += exitance[k];
     for (uint32_t k = 0; k < t->bands; k++)
-        share[k] = exitance[k] / whole;
-    tracer_point(t, face, u[1], u[2], p);
+        f.share[k] = exitance[k] / whole * (tally->window ? tally->carried[light] : 1);
+    tracer_point(t, f.face, u[1], u[2], f.p);
+    return f;
+}
+
+/* Set how many go on from the leaf that f has met, right in the mean by u in [0, 1), and with how
+ * much each: as before, or, where that is not within SPLIT_WINDOW of what the window wants, with
+ * that; but no more than `most` of them. */
+static void reflect(const struct tally *tally, const struct tracer *t, uint32_t leaf, double u,
+                    int most, struct flight *f)
+{
+    const double *rho = &t->reflectance[(size_t)f->face * t->bands];
+    double strongest = 0, left = 0, all = 0;
+    for (uint32_t k = 0; k < t->bands; k++) {
+        strongest = fmax(strongest, f->share[k]);
+        all += f->share[k];
+        f->share[k] *= rho[k];
+        left = fmax(left, f->share[k]);
+    }
+    if (tally->window) {
+        double wanted = (double)tally->window[leaf];
+        if (all > SPLIT_WINDOW * wanted || all * SPLIT_WINDOW < wanted)
+            strongest = fmax(strongest * wanted / all, left / most);
+    }
+    f->copies = left > 0 ? (int)(left / strongest) : 0;
+    f->copies += u * strongest < left - f->copies * strongest;
+    for (uint32_t k = 0; k < t->bands && f->copies > 0; k++)
+        f->share[k] *= strongest / left;
+}
+
+static void trace(struct tally *tally, const struct tracer *t, uint64_t index, struct batch *batch)
+{
+    struct dice dice = dice_of(tally->stream * REPLICATES + (uint64_t)batch->replicate, index);
+    struct flight waiting[WAITING];
+    int places = 0;
+    double u[SOBOL_DIMENSIONS], at[3];
+    sobol_sequence_point(batch->sobol, (uint32_t)index, batch->shift, u);
+    struct flight f = emit(tally, t, u);
     double s = u[3], v = u[4];
-    for (int used = 0;;) {
-        int64_t met = tracer_step(t, face, p, s, v, at);
+    for (;;) {
+        int64_t met = tracer_step(t, f.face, f.p, s, v, at);
         batch->rays++;
-        if (met < 0)
-            return;
-        face = (uint32_t)met;
-        count(tally, t, face, at, share, batch);
-        const double *rho = &t->reflectance[(size_t)face * t->bands];
-        double strongest = 0, left = 0;
-        for (uint32_t k = 0; k < t->bands; k++) {
-            strongest = share[k] > strongest ? share[k] : strongest;
-            share[k] *= rho[k];
-            left = share[k] > left ? share[k] : left;
+        f.copies = 0;
+        if (met >= 0) {
+            f.face = (uint32_t)met;
+            uint32_t leaf = count(tally, t, f.face, at, f.share, batch);
+            reflect(tally, t, leaf, decide(batch, index, &dice, &f.used),
+                    places < WAITING ? COPIES : 1, &f);
         }
-        if (!(decide(batch, index, &dice, &used) * strongest < left))
-            return;
-        for (uint32_t k = 0; k < t->bands; k++)
-            share[k] *= strongest / left;
-        s = decide(batch, index, &dice, &used);
-        v = decide(batch, index, &dice, &used);
+        if (f.copies > 1) {
+            f.copies--;
+            waiting[places] = f;
+            waiting[places++].used = SOBOL_COORDINATES; /* the sequence is the first copy's */
+        } else if (f.copies == 0) {
+            if (places == 0)
+                return;
+            f = waiting[places - 1];
+            if (--waiting[places - 1].copies == 0)
+                places--;
+        }
+        s = decide(batch, index, &dice, &f.used);
+        v = decide(batch, index, &dice, &f.used);
     }
 }
 

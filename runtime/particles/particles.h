@@ -13,6 +13,13 @@
  * far less noisy than by chance, smooth light most, and each set as free of bias. Of what goes on
  * beyond, a thirtieth where half is reflected, dice decide.
  *
+ * Splitting. Where a thousandth of the light comes, so do a thousandth of the particles, and of
+ * light behind a second door nearly nothing is seen. A particle that gets where light is dim may go
+ * on as several that carry less each, about what a window wants there; one that comes back to the
+ * bright goes on as one of the few that carry more. The mean stays what it is, dim places are met
+ * as often as others, and the window need only be about right. [Booth and Hendricks 1984, weight
+ * windows; Cooper and Larsen 2001, windows as the light itself]
+ *
  * Invariant: power is added in fixed point, so neither threads nor ranks nor their order show.
  * SPDX-License-Identifier: MIT */
 #ifndef PARTICLES_H
@@ -23,8 +30,7 @@
 
 enum { REPLICATES = 16 };
 
-/* What has been counted. A count of PARTICLE_ONE is one particle at its full power. */
-#define PARTICLE_ONE 0x1p24
+/* What has been counted. */
 
 struct tally {
     uint32_t faces, elements, bands;
@@ -32,17 +38,26 @@ struct tally {
     uint64_t particles;    /* of each replicate, so far */
     uint64_t rays;         /* cast for them */
     double power;          /* of all emitters (W), all bands */
+    double one;            /* a count of so much is one particle at its full power */
     _Atomic int64_t *face; /* [REPLICATES][faces * bands + band] */
     _Atomic int64_t
         *element;    /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
     uint32_t *first; /* [element]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
     double *square;  /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+    const float *window;     /* [elements]: NULL: particles are not split */
+    double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
 };
 
 /* Empty, over the elements of a hierarchy as it is now (leaves: 1: count on them, too). Returns 0,
  * or -1 when out of memory. */
 int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int leaves);
 void tally_close(struct tally *tally);
+
+/* Before any is traced: split particles. window[leaf]: what one should carry that leaves there, a
+ * share of the power of all over their number, > 0; borrowed. Emitters are chosen by it, too. The
+ * tally counts on leaves, and tally_chance does not hold for it: replicates tell its noise. Returns
+ * 0, or -1 when out of memory. */
+int tally_split(struct tally *tally, const struct tracer *t, const float *window);
 
 /* Trace so many particles more in each replicate. Without emitters nothing is traced and all is
  * exactly 0. Where there are several ranks each traces its part, and all then have all. watch:
@@ -53,7 +68,7 @@ int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
 /* W that one count of a replicate's stands for; of `element`, a REPLICATES-th of it. */
 static inline double tally_unit(const struct tally *tally)
 {
-    return tally->particles > 0 ? tally->power / ((double)tally->particles * PARTICLE_ONE) : 0;
+    return tally->particles > 0 ? tally->power / ((double)tally->particles * tally->one) : 0;
 }
 
 /* Power that the face receives in a band (W), by one replicate. */
@@ -74,7 +89,7 @@ static inline double tally_leaf(const struct tally *tally, uint32_t element, uin
 /* W that one particle of all replicates stands for. */
 static inline double tally_power_of_one(const struct tally *tally)
 {
-    return tally_unit(tally) * (PARTICLE_ONE / REPLICATES);
+    return tally_unit(tally) * (tally->one / REPLICATES);
 }
 
 /* The variance of a mean over all replicates (W2), if chance alone spread particles: of the power

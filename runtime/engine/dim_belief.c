@@ -1,0 +1,87 @@
+/* dim_belief.c - see dim_belief.h.
+ *
+ * Means are taken by the inverse of variances: of mending and paths, then of both and split
+ * particles. Paths end in the solution, and where that is wrong so are they, whatever their noise.
+ * Split particles have no such bias. So where the two are farther apart than MEND_EVIDENCE standard
+ * errors, the former are thought to be off by what noise does not explain.
+ *
+ * Fails: where the two agree by chance. [Derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include "engine/dim_belief.h"
+#include "kernel/constants.h"
+
+double dim_count_light(const struct dim_faces *d, const struct tally *tally,
+                       const struct dim_polygon *p, double *variance)
+{
+    const struct tracer *t = d->tracer;
+    double mean = 0, square = 0;
+    for (int r = 0; r < REPLICATES; r++) {
+        double sum = 0;
+        for (uint32_t i = p->from; i < p->to; i++)
+            for (uint32_t k = 0; k < t->bands; k++)
+                sum += t->reflectance[(size_t)d->face[i] * t->bands + k]
+                       * tally_face(tally, r, d->face[i], k) / p->area;
+        mean += sum / REPLICATES;
+        square += sum * sum / REPLICATES;
+    }
+    *variance = fmax(square - mean * mean, 0) / (REPLICATES - 1);
+    return mean;
+}
+
+/* One thing unseen is allowed for, lest what is dark by chance seem certain: one more path, which
+ * finds as much as an average place of the scene reflects. */
+double dim_path_variance(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    double n = (double)p->paths, mean = p->all / n;
+    return fmax((p->square + d->unseen * d->unseen) / n - mean * mean, 0) * n / (n - 1);
+}
+
+double dim_path_weight(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    return p->variance / (p->variance + dim_path_variance(d, p) / (double)p->paths);
+}
+
+/* The share of paths that is believed. What a first look found says as little of its own noise as
+ * of the light: it is not believed without more. */
+static double belief(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    return p->paths >= DIM_ENOUGH * p->looked ? dim_path_weight(d, p) : 0;
+}
+
+/* What mending and paths say of its light, and the variance of that. */
+static double light_of_both(const struct dim_faces *d, const struct dim_polygon *p,
+                            double *variance)
+{
+    double weight = belief(d, p);
+    *variance = (1 - weight) * p->variance;
+    return (1 - weight) * p->light + weight * p->all / (double)p->paths;
+}
+
+/* The share of split particles in the mean of all. Paths end in the solution, and where that is
+ * wrong so are they: these show it, as far as the two are farther apart than by their own noise. */
+static double split_weight(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    double variance, both = light_of_both(d, p, &variance), apart = both - p->split_light;
+    if (!(p->split_variance > 0))
+        return 0;
+    if (apart * apart > MEND_EVIDENCE * MEND_EVIDENCE * (variance + p->split_variance))
+        variance = apart * apart - p->split_variance;
+    return variance / (variance + p->split_variance);
+}
+
+int dim_is_sure(const struct dim_faces *d, const struct dim_polygon *p)
+{
+    double variance, both = light_of_both(d, p, &variance), weight = split_weight(d, p),
+                     goal = DIM_GOAL * ((1 - weight) * both + weight * p->split_light);
+    if (weight > 0)
+        variance = weight * p->split_variance;
+    return variance <= goal * goal;
+}
+
+double dim_mean(const struct dim_faces *d, const struct dim_polygon *p, uint32_t band)
+{
+    double weight = belief(d, p), split = split_weight(d, p),
+           both = (1 - weight) * p->mended[band] + weight * p->sum[band] / (double)p->paths;
+    return (1 - split) * both + split * p->split[band];
+}
