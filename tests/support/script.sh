@@ -21,14 +21,20 @@ catches() {
         sleep 0.05
     done
 }
-# SIGNAL SECONDS COMMAND...: it, and so many seconds after it catches signals the signal; returns its status
+# SIGNAL SECONDS COMMAND...: it, and so many seconds after it catches signals the signal; returns its status. It is killed if
+# that did not end it within a minute.
 stopped_by() {
     signal_of=$1 after_of=$2
     shift 2
-    env --default-signal=INT "$@" & # a shell's jobs ignore it
+    env --default-signal=INT,HUP "$@" & # a shell's jobs ignore the first, and under nohup all the second
     job_of=$!
     catches $job_of
     sleep "$after_of"
     kill -s "$signal_of" $job_of 2>/dev/null
+    for _ in $(seq 600); do
+        kill -0 $job_of 2>/dev/null || break
+        sleep 0.1
+    done
+    kill -KILL $job_of 2>/dev/null
     wait $job_of 2>/dev/null # a shell tells who was killed
 }
