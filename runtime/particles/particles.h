@@ -31,7 +31,6 @@
 enum { REPLICATES = 16 };
 
 /* What has been counted. */
-
 struct tally {
     uint32_t faces, elements, bands;
     uint64_t stream;       /* which random numbers: tallies of two streams are independent */
