@@ -3,7 +3,7 @@
 # make check    the tests
 # make check-again  those that may end otherwise when commands and library were made by another compiler, or with sanitizers
 # make stability  examples/stability.md: where methods fail, by how much, and the order in which errors fall
-# make check-accuracy  the long suites: numbers that make check leaves out, and solutions against traced particles
+# make check-accuracy  numbers against the truth in their long forms, whole solutions against traced particles among them
 # make check-all  all tests, those that have a long form in that form
 # make mutations  code broken on purpose, and which suite notices
 # make prove    1,000 random graphs: interpreter and compiled function on every path
@@ -228,10 +228,11 @@ ONCE      = $(shell grep -l '^ \* Once is enough: ' $(wildcard tests/*/check_*.c
 check-again: checked
 	@bash tests/run.sh $(BUILD) $(filter-out $(patsubst tests/%.c,$(BUILD)/tests/%,$(ONCE)),$(TESTS)) $(if $(SANITIZE),$(filter-out $(ONCE),$(SCRIPTS)))
 
-# The suites that do more when THOROUGH is set, and the accuracy of whole solutions.
-THOROUGH  = $(shell grep -l -e 'thorough()' -e '{THOROUGH' $(wildcard tests/check_*.sh tests/*/*.sh tests/*/check_*.c))
+# Suites that hold numbers against the truth, in their long forms, which they have when THOROUGH is set.
+ACCURACY  = accuracy bracket clusters group_entries linear measured_error oracles projection scale separable_links solve \
+            stability study_greedy surface_error terms viewfactors
 check-accuracy: checked
-	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(THOROUGH:tests/%.c=$(BUILD)/tests/%),$(TESTS))
+	@THOROUGH=1 bash tests/run.sh $(BUILD) $(filter $(ACCURACY:%=\%/check_%),$(TESTS))
 check-all: checked
 	@THOROUGH=1 bash tests/run.sh $(BUILD) $(TESTS) $(SCRIPTS)
 
