@@ -183,7 +183,9 @@ static const char *const copied[] = {"bf_guarded",
                                      "viewfactors",
                                      NULL};
 
-/* Copies leave a fifth of the checks, and the links as they are. */
+/* Copies leave a fifth of the checks, and the links as they are. Two of the long form stand as
+ * failing, by_reliability and viewfactors, with .21 and .24: since `shaft` makes its list only
+ * where it needs one, whether there is a list is not known behind it, and is looked at. */
 START_TEST(test_copies)
 {
     struct scene scene;
