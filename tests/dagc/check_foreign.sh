@@ -2,6 +2,7 @@
 # check_foreign.sh - dagc in programs that are not ours: a catalog with its own runtime, in every mode and with every
 # compiler there is; headers with all that C allows; the program's own headers beside a standalone text.
 # DAGC names the command; a compiler that is missing is reported as skipped.
+# Once is enough: it compiles what dagc writes, by every compiler there is.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 

@@ -1,6 +1,7 @@
 /* check_limits.c - oracles that do not end, and arguments that are no numbers: refinement ends with
  * an error that says which limit or argument it was, what was reached, and the node at fault; the
  * same by all releases and any number of threads, soon, and in little memory.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <math.h>

@@ -2,6 +2,7 @@
 # check_widths.sh - decisions and links do not depend on the width of vectors: oracles compiled for loops and vectors of 1, 4, 8
 # and 16 numbers refine random rooms as the library's do, pair by pair and in waves, on 1 to 3 threads: two of the oracles, with
 # THOROUGH all, in ROOMS (6) rooms. ROOMS=300 THOROUGH=1 takes long.
+# Once is enough: it is about bits.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../dagc/lib.sh"
 build=$(dirname "$(dirname "$dagc")")

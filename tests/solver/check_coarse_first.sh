@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_coarse_first.sh - `radiosity solve`, links as coarse as they pay for: what is chosen, and when nothing is; --scale.
 # RADIOSITY names the command.
+# Once is enough: it is about numbers.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_lost_work.sh - runs that are stopped, that find no memory, or whose names are odd: old outputs stay whole, nothing is
 # left behind, and one line says what happened. RADIOSITY names the command. With THOROUGH 296 runs are stopped, not 28.
+# Once is enough: it is about files and signals.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 mkdir scratch

@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_options.sh - what radiosity says to options that are empty, huge or malformed, and to outputs that cannot be written:
 # one line, at once, and nothing is left behind. RADIOSITY names the command.
+# Once is enough: it is about words, and what is read is read by other suites, too.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 

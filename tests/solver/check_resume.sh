@@ -2,6 +2,7 @@
 # check_resume.sh - `radiosity viewfactors --resume FILE`: runs that are stopped by signals, at whatever place, and go on, have
 # the bytes of those that are not; states that are damaged or of other work are refused and stay. RADIOSITY names the command.
 # Places that are chosen, and states that are damaged on purpose with their checks mended: tests/runtime/check_exchange_state.c.
+# Once is enough: states are damaged in check_exchange_state.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 mkdir scratch

@@ -1,6 +1,7 @@
 #!/bin/bash
 # check_tune.sh - what `radiosity tune` says to oracles, parameters, scenes and files that it cannot work with, where it
 # writes, and that what was found so far is kept when it is stopped. RADIOSITY names the command.
+# Once is enough: fits are numbers, and check_tune reads what it reads.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 export OMP_WAIT_POLICY=passive # many short solves beside other suites

@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_tables.sh - make tables: each marker has a generator and each generator a marker; a generator that fails leaves the
 # file as it was; nothing but what stands between the markers changes. And cell_error against light that is known.
+# Once is enough: it is about scripts, and arithmetic on their rows.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../solver/lib.sh"
 build=$(dirname "$(dirname "$radiosity")")
