@@ -13,6 +13,16 @@ static inline int thorough(void)
     return getenv("THOROUGH") != NULL;
 }
 
+/* Do sanitizers look on? All takes several times as long then, and what takes long does less. */
+static inline int watched(void)
+{
+#ifdef __SANITIZE_ADDRESS__
+    return 1;
+#else
+    return 0;
+#endif
+}
+
 /* Run the suite, print what failed and the count, and free it. Returns how many tests failed. */
 static inline int suite_failures(Suite *suite)
 {

@@ -6,6 +6,7 @@
  * is told by a sweep over all ways in the plane from many points of a segment; and that sweep is
  * held against the numbers that are printed with two of the examples, of strips without an end.
  * [Walton, View3D user manual 3.5, and the examples of View2D beside it; FACET, UCID-19887]
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
  * leaves the same radiosities, to the bit. Powers grow with the area.
  *
  * The built-in oracles use all tools but a few; `rest` asks those.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include "oracle/builtin.h"

@@ -3,6 +3,7 @@
  * clear value (the example of View3D's manual). A room with a box: every pair of its faces against
  * the contour integral or, where the box stands between, against rays that know nothing of the
  * project's code; formats, closure, open scenes.
+ * Once is enough: it is about numbers; that memory is used well, shorter suites tell.
  * SPDX-License-Identifier: MIT */
 #include <check.h>
 #include <jansson.h>
