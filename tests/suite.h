@@ -14,7 +14,7 @@ static inline int thorough(void)
 }
 
 /* Do sanitizers look on? All takes several times as long then, and what takes long does less. */
-static inline int watched(void)
+static inline int under_sanitizers(void)
 {
 #ifdef __SANITIZE_ADDRESS__
     return 1;

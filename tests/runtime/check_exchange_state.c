@@ -289,7 +289,7 @@ START_TEST(test_damaged)
     struct kept state = some_state(_i);
     struct work w = begin(1);
     const struct RadExchangeOptions plain = {0};
-    const size_t step = thorough() ? 1 : watched() ? 1009 : 131;
+    const size_t step = thorough() ? 1 : under_sanitizers() ? 1009 : 131;
     for (size_t i = 0; i < state.size; i += i < sizeof(struct state_head) + 16 ? 1 : step) {
         state.bytes[i] ^= (unsigned char)(1 << i % 8);
         refused(&w, &state, plain, NULL, i);
@@ -375,7 +375,7 @@ START_TEST(test_unbelieved)
     const struct kept state = some_state(_i);
     struct kept made = {malloc(state.size), state.size, state.size};
     struct work w = begin(1);
-    const int runs = thorough() ? 20000 : watched() ? 50 : 400;
+    const int runs = thorough() ? 20000 : under_sanitizers() ? 50 : 400;
     int believed = 0;
     for (int i = 0; i < runs; i++) {
         memcpy(made.bytes, state.bytes, state.size);
