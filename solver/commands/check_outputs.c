@@ -219,18 +219,6 @@ static int add_inputs(struct named_files *f, const struct options *o)
     return add_oracle_files(f, o);
 }
 
-/* NAME.end instead of NAME.what; NULL when out of memory. */
-static char *with_ending(const char *path, const char *end)
-{
-    const size_t stem = (size_t)(strrchr(path, '.') - path);
-    char *text = malloc(stem + strlen(end) + 1);
-    if (text) {
-        memcpy(text, path, stem);
-        strcpy(text + stem, end);
-    }
-    return text;
-}
-
 static int add_outputs(struct named_files *f, const struct options *o)
 {
     const char *paths[OUTPUTS_MAX];
@@ -247,12 +235,13 @@ static int add_outputs(struct named_files *f, const struct options *o)
         && (add_output(f, path_beside(o->out, FACTOR_FACES, strlen(FACTOR_FACES)), 1)
             || add_output(f, path_beside(o->out, FACTOR_MAP, strlen(FACTOR_MAP)), 1)))
         return -1;
-    const char *beside = o->command != COMMAND_SOLVE || !o->out ? NULL
-                         : ends_with(o->out, ".obj")            ? ".mtl"
-                         : ends_with(o->out, ".gltf")           ? ".bin"
-                         : export_format(o->out) == EXPORT_XDMF ? ".h5"
-                                                                : NULL;
-    return beside ? add_output(f, with_ending(o->out, beside), 1) : 0;
+    const enum export_format format =
+        o->command == COMMAND_SOLVE && o->out ? export_format(o->out) : EXPORT_UNKNOWN;
+    const char *beside = format == EXPORT_OBJ    ? ".mtl"
+                         : format == EXPORT_GLTF ? ".bin"
+                         : format == EXPORT_XDMF ? ".h5"
+                                                 : NULL;
+    return beside ? add_output(f, path_with_ending(o->out, beside), 1) : 0;
 }
 
 /* ---- may they be written? */

@@ -1,4 +1,4 @@
-/* beside.h - the path of a file that another file names.
+/* beside.h - the paths of files that belong to another one.
  * SPDX-License-Identifier: MIT */
 #ifndef BESIDE_H
 #define BESIDE_H
@@ -19,6 +19,18 @@ static inline char *path_beside(const char *path, const char *name, size_t lengt
         joined[folder + length] = 0;
     }
     return joined;
+}
+
+/* `path`, which has an ending, with another one; for free(). NULL when out of memory. */
+static inline char *path_with_ending(const char *path, const char *end)
+{
+    const size_t stem = (size_t)(strrchr(path, '.') - path);
+    char *text = malloc(stem + strlen(end) + 1);
+    if (text) {
+        memcpy(text, path, stem);
+        strcpy(text + stem, end);
+    }
+    return text;
 }
 
 #endif

@@ -216,6 +216,7 @@ ln "$tmp.scene/furnace.mtl" "$tmp.scene/hard.mtl"
 for name in furnace.mtl ./furnace.mtl link.mtl hard.mtl; do
     says 2 "this is a material file of the scene, which would be lost" solve "$tmp.scene/furnace.obj" --json "$tmp.scene/$name"
 done
+says 2 "this is a material file of the scene" solve "$tmp.scene/furnace.obj" -o "$tmp.scene/furnace.OBJ"
 says 2 "this is a material file of the scene" compare "$tmp.scene/furnace.obj" --json "$tmp.scene/link.mtl"
 says 2 "this is a material file of the scene" viewfactors "$tmp.scene/furnace.obj" --names "$tmp.scene/link.mtl"
 # mtllib names one file, with blanks or a comment behind it, or several: the reader's way of telling is the guard's.
