@@ -7,7 +7,9 @@
 #include <string.h>
 
 #include "output/hdf5_file.h"
+#include "output/xml_text.h"
 #include "util/atomic_file.h"
+#include "util/beside.h"
 #include "util/report.h"
 
 /* XDMF's numbers for cells of a mesh of several kinds; a polygon's is followed by its corners'
@@ -26,17 +28,6 @@ struct xdmf {
     uint32_t *word;     /* [what the topology takes, or cells] */
 };
 
-static void write_escaped(const char *text, FILE *out)
-{
-    for (; *text; text++)
-        if (*text == '&')
-            fputs("&amp;", out);
-        else if (*text == '<')
-            fputs("&lt;", out);
-        else
-            putc(*text, out);
-}
-
 /* A table of the .h5, and the text's word of it. Returns 0, or -1 after a message. */
 static int put(struct xdmf *x, const char *name, enum hdf5_type type, uint32_t rows,
                uint32_t columns, const void *data)
@@ -46,7 +37,7 @@ static int put(struct xdmf *x, const char *name, enum hdf5_type type, uint32_t r
                                : "NumberType=\"Float\" Precision=\"8\"",
             (unsigned)rows);
     fprintf(x->text, columns > 1 ? " %u\">" : "\">", (unsigned)columns);
-    write_escaped(x->beside, x->text);
+    xml_text_write(x->text, x->beside);
     fprintf(x->text, ":/%s</DataItem>\n", name);
     return hdf5_put(x->file, name, type, rows, columns, data, 0);
 }
@@ -151,11 +142,8 @@ int export_xdmf(const char *path, const struct solution *solution, const struct 
 {
     struct xdmf x = {.solution = solution, .mesh = mesh, .values = values};
     struct atomic_file text = {0};
-    const size_t stem = (size_t)(strrchr(path, '.') - path);
-    char *beside = malloc(stem + sizeof ".h5");
+    char *beside = path_with_ending(path, ".h5");
     int status = -1;
-    if (beside)
-        sprintf(beside, "%.*s.h5", (int)stem, path);
     if (!beside || make_room(&x) < 0) {
         report_error(path, 0, "out of memory for the mesh; use a coarser solution");
     } else if (atomic_open(&text, path) == 0) {

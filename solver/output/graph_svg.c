@@ -10,36 +10,15 @@
 #include <string.h>
 
 #include "output/graph_drawing.h"
+#include "output/xml_text.h"
 #include "util/report.h"
 
 static const double MARGIN = 16, HEAD = 30, SAID = 15, LEGEND = 118;
 
-static void put_text(FILE *out, const char *text)
-{
-    for (; *text; text++)
-        switch (*text) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        default:
-            if ((unsigned char)*text >= ' ' || *text == '\n')
-                fputc(*text, out);
-        }
-}
-
 static void put_title(FILE *out, const char *text)
 {
     fputs("<title>", out);
-    put_text(out, text);
+    xml_text_write(out, text);
     fputs("</title>", out);
 }
 
@@ -132,7 +111,7 @@ static void put_line(FILE *out, const char *class, const char *anchor, double x,
 {
     fprintf(out, "<text class=\"%s\" text-anchor=\"%s\" x=\"%.1f\" y=\"%.1f\">", class, anchor, x,
             y);
-    put_text(out, text);
+    xml_text_write(out, text);
     fputs("</text>", out);
 }
 
@@ -333,9 +312,9 @@ static void put_drawing(FILE *out, const struct drawing *p)
             "aria-labelledby=\"graph-title graph-doc\" width=\"%.0f\" height=\"%.0f\" "
             "viewBox=\"0 0 %.0f %.0f\">\n<title id=\"graph-title\">",
             width, height, width, height);
-    put_text(out, p->oracle);
+    xml_text_write(out, p->oracle);
     fputs("</title>\n<desc id=\"graph-doc\">", out);
-    put_text(out, p->doc);
+    xml_text_write(out, p->doc);
     fputs("</desc>\n", out);
     put_style(out);
     fprintf(out, "<rect class=\"ground\" width=\"%.0f\" height=\"%.0f\"/>\n", width, height);
