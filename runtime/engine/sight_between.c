@@ -76,11 +76,8 @@ static int add_rims(struct sight_between *b, const struct exchange_tree *t,
 static int stops_middle(const struct sight_between *b, const struct exchange_tree *t,
                         const struct shaft *shaft)
 {
-    double middle[2][3] = {{0}}, along[3];
-    for (int end = 0; end < 2; end++)
-        for (int i = 0; i < shaft->points[end]; i++)
-            for (int k = 0; k < 3; k++)
-                middle[end][k] += shaft->end[end][i][k] / shaft->points[end];
+    double middle[2][3], along[3];
+    hidden_middle(shaft, middle);
     sub3(along, middle[1], middle[0]);
     for (int i = 0; i < b->faces; i++) {
         const struct element *e = &t->h.elements[b->list[i]];

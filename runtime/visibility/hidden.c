@@ -39,14 +39,21 @@ int hidden_edge(const struct shaft *shaft, const double a[3], const double b[3])
     return shaft_planes_reach(lanes_width(), shaft, shaft->slack + shaft->grow, a, b);
 }
 
+void hidden_middle(const struct shaft *shaft, double ray[2][3])
+{
+    for (int end = 0; end < 2; end++)
+        for (int k = 0; k < 3; k++) {
+            ray[end][k] = 0;
+            for (int i = 0; i < shaft->points[end]; i++)
+                ray[end][k] += shaft->end[end][i][k] / shaft->points[end];
+        }
+}
+
 void hidden_start(struct hidden *c, const struct hierarchy *h, const struct mates *mates,
                   const struct shaft *shaft)
 {
     *c = (struct hidden){h, mates, shaft, {{0}}, 0, 0};
-    for (int end = 0; end < 2; end++)
-        for (int i = 0; i < shaft->points[end]; i++)
-            for (int k = 0; k < 3; k++)
-                c->ray[end][k] += shaft->end[end][i][k] / shaft->points[end];
+    hidden_middle(shaft, c->ray);
 }
 
 void hidden_add(struct hidden *c, uint32_t index)

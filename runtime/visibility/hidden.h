@@ -32,6 +32,8 @@ int hidden_front(const struct shaft *shaft, const struct element *e);
 int hidden_bent(const struct element *e, double flat);
 /* May the edge from a to b meet the shaft? */
 int hidden_edge(const struct shaft *shaft, const double a[3], const double b[3]);
+/* A ray between the ends, from middle to middle. */
+void hidden_middle(const struct shaft *shaft, double ray[2][3]);
 
 /* Twice the volume over the edge from a to b, as the ray from `eye` along w runs by it; exactly the
  * other sign of the edge from b to a, so that no ray passes between neighbours. */
