@@ -33,11 +33,12 @@ struct filling {
     atomic_size_t *end;               /* and at which block that was; it is the first not filled */
 };
 
-/* Which rank fills block i. Blocks side by side come of one link, or like ones, and cost alike, so
- * each rank gets every so manieth. */
-static int filler_of(const struct exchange_areas *m, size_t i)
+/* The first block from `from` on that the rank fills. Blocks side by side come of one link, or like
+ * ones, and cost alike, so each rank gets every so manieth. */
+static size_t next_of(const struct exchange_areas *m, size_t from, int rank)
 {
-    return (int)(i % (size_t)ranks_count(m->ranks));
+    const size_t ranks = (size_t)ranks_count(m->ranks);
+    return from + ((size_t)rank + ranks - from % ranks) % ranks;
 }
 
 /* Is block i to be left for later? The first at hand never is, so that all come to an end. */
@@ -55,10 +56,11 @@ static void fill_blocks(const void *filling, size_t from, size_t to)
 {
     const struct filling *f = filling;
     const struct exchange_areas *m = f->areas;
-    const int me = ranks_number(m->ranks);
-    for (size_t i = f->from + from; i < f->from + to; i++) {
+    const size_t step = (size_t)ranks_count(m->ranks);
+    for (size_t i = next_of(m, f->from + from, ranks_number(m->ranks)); i < f->from + to;
+         i += step) {
         struct exchange_block *b = &m->blocks[i]; /* no other thread's */
-        if (filler_of(m, i) != me || f->done[i])
+        if (f->done[i])
             continue;
         if (is_late(f, i))
             return;
@@ -79,11 +81,11 @@ static void tell_some(const struct exchange_areas *m, size_t from, size_t to, do
         double *at = room;
         for (int k = 0; k < ranks; k++) {
             first[k] = (size_t)(at - room);
-            for (size_t i = from; i < to; i++) {
+            for (size_t i = next_of(m, from, k); i < to; i += (size_t)ranks) {
                 struct exchange_block *b = &m->blocks[i];
                 double *values = m->values + b->at;
                 const size_t count = exchange_state_values(b);
-                if (b->anew || filler_of(m, i) != k)
+                if (b->anew)
                     continue;
                 if (pass == 0 && k == ranks_number(m->ranks)) {
                     at[0] = b->error;
@@ -115,7 +117,7 @@ static int tell_values(struct filling *f)
     for (size_t to = f->told; to < f->from && !failed; f->told = to) {
         for (size_t size = 0; to < f->from; to++) {
             const struct exchange_block *b = &m->blocks[to];
-            size += b->anew ? 0 : (size_t)b->rows * b->columns + 1;
+            size += b->anew ? 0 : exchange_state_values(b) + 1;
             if (size > AT_A_TIME)
                 break;
         }
@@ -175,10 +177,9 @@ int exchange_fill(struct exchange_areas *m, const struct link **links,
         failed = tell(&f, how);
     }
     failed = failed || tell_values(&f) < 0;
-    for (size_t i = 0; i < m->block_count && !failed; i++)
-        m->own_count += m->blocks[i].anew || filler_of(m, i) != ranks_number(m->ranks)
-                            ? 0
-                            : exchange_state_values(&m->blocks[i]);
+    for (size_t i = next_of(m, 0, ranks_number(m->ranks)); i < m->block_count && !failed;
+         i += (size_t)ranks_count(m->ranks))
+        m->own_count += m->blocks[i].anew ? 0 : exchange_state_values(&m->blocks[i]);
     for (int t = 0; t < threads && scratch; t++)
         exchange_scratch_close(&scratch[t]);
     free(scratch);
