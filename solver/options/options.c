@@ -382,11 +382,10 @@ static int check_together(struct options *o)
                      o->trace        ? "--trace"
                      : o->statistics ? "--statistics"
                                      : "--accuracy");
-    if (kept && !hdf5_built())
-        return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev", kept);
-    if (o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_XDMF
-        && !hdf5_built())
-        return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev", o->out);
+    const int xdmf = o->command == COMMAND_SOLVE && o->out && export_format(o->out) == EXPORT_XDMF;
+    if ((kept || xdmf) && !hdf5_built())
+        return wrong(c->name, "%s: built without HDF5: make HDF5=1, package libhdf5-dev",
+                     kept ? kept : o->out);
     if (o->where && !o->trace)
         return wrong(c->name, "--where picks lines of a trace: add --trace FILE");
     if (o->replacement_count && o->release == RAD_RELEASE_HAND)
