@@ -235,11 +235,16 @@ START_TEST(test_the_last_ends_helpers)
 }
 END_TEST
 
+/* The helpers meet first: a thread that starts may hold a lock of a sanitizer's allocator, which
+ * the child would inherit held. */
 START_TEST(test_fork)
 {
+    pthread_barrier_t barrier, *all = &barrier;
     atomic_int wrong = 0, *context = &wrong;
     thread_pool_retain();
-    thread_pool_run(4, 40, 1, count_inside, &context);
+    pthread_barrier_init(&barrier, NULL, 4);
+    thread_pool_run(4, 4, 1, meet, &all);
+    pthread_barrier_destroy(&barrier);
     pid_t child = fork();
     if (child == 0) {
         thread_pool_run(4, 40, 1, count_inside, &context);
