@@ -184,6 +184,8 @@ printf 'FoamFile\n{\n}\n\n4\n(\n2\n(\n.1\n.2\n)\n3{.5}\n0()\n1(7)\n)\n' | awk -f
 check "OpenFOAM's lists" [ "$(tr '\n' '|' <lists)" = ".1 .2|.5 .5 .5||7|" ]
 awk -v AS=view3d -f "$view/other_input.awk" cube.obj >cube.vs3
 check "View3D's input is the same cube" sh -c '"$1" viewfactors cube.vs3 -q --format coo -o vs3.coo && cmp vs3.coo ours.coo' - "$radiosity"
+check "the study goes on without the other programs" sh -c 'cd "$1" && VIEW3D=no_such_command VIEW_FACTORS_GEN=no_such_command LARGEST=24 SCENES_OF_STUDIES=cube_quads bash tests/studies/viewfactors.sh' - "$top"
+check "and tells of ours alone" grep -q '^| cube_quads | 24 | radiosity |' "$PAGES/viewfactors.md"
 mkdir -p case/0 case/system case/constant/polyMesh
 check "OpenFOAM's case is written" awk -v AS=openfoam -v CASE=case -f "$view/other_input.awk" cube.obj
 check "its faces look the other way" grep -qx '4(3 2 1 0)' case/constant/polyMesh/faces

@@ -5,14 +5,16 @@
 #
 # VIEW3D, VIEW_FACTORS_GEN: those programs, by default as PATH finds them; what is not there is passed over and said so. Each
 # program writes its own format, in binary where it has one, and runs with its own tolerances, on one thread. Without them being
-# asked to, none scales rows to 1. LIMIT: seconds of the processor for one run (120); what takes longer is not tried larger.
+# asked to, none scales rows to 1. How long one takes from start to end on all threads is measured besides. "as View3D" is
+# `radiosity` with the largest tolerance of EXCHANGE_TOLERANCE times a power of two at which its mean error is no larger than
+# View3D's: of entries, or where nobody knows these, of rows. LIMIT: seconds of the processor for one run (120); what takes longer is not tried larger.
 # LARGEST: faces (13000). ENTRIES: faces up to which each entry is held against a finer matrix (400); against closed forms it is up
-# to four times as many. PROGRAMS: of radiosity, View3D and OpenFOAM those that run now; all rows that are there are told of.
+# to four times as many. PROGRAMS: of radiosity, View3D, as_View3D and OpenFOAM those that run now; all rows that are there are told of.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 LIMIT=${LIMIT:-120}
-rows_open viewfactors scene,program,run,binary faces,seconds,memory_mb,row_mean,row_largest,entry_mean,entry_largest
-of_program() { command -v "$1" | xargs -r realpath; }
+rows_open viewfactors scene,program,run,binary faces,tolerance,seconds,elapsed,memory_mb,row_mean,row_largest,entry_mean,entry_largest
+of_program() { { command -v "$1" || true; } | xargs -r realpath; }
 cost_of=$(realpath "$BUILD/bin/cost_of")
 view3d=$(of_program "${VIEW3D:-View3D}")
 foam=$(of_program "${VIEW_FACTORS_GEN:-viewFactorsGen}")
@@ -52,6 +54,7 @@ find_reference() { # SCENE SIZE
 }
 run_reference() {
     cost "$radiosity" viewfactors "$tmp/scene.obj" -q --threads 1 --tolerance 3e-6 --format coo -o "$tmp/reference" || return
+    echo "tolerance 3e-6"
     reference='' judge_matrix <"$tmp/reference"
 }
 
@@ -70,16 +73,33 @@ judge_matrix() { # <MATRIX.coo
 }
 
 # The matrix that is measured is an archive; one as text, which tells the same, is read here.
-run_radiosity() {
-    cost "$radiosity" viewfactors "$tmp/scene.obj" -q --threads 1 --json "$tmp/json" -o "$tmp/factors.npz" || return
+run_radiosity() { # [TOLERANCE]
+    local tolerance=${1:-$default_tolerance}
+    cost "$radiosity" viewfactors "$tmp/scene.obj" -q --tolerance "$tolerance" -o "$tmp/factors.npz" >"$tmp/threads" || return
+    cost "$radiosity" viewfactors "$tmp/scene.obj" -q --tolerance "$tolerance" --threads 1 --json "$tmp/json" -o "$tmp/factors.npz" >"$tmp/thread" || return
+    cat "$tmp/thread" # of names that are told twice, the last counts
+    grep '^elapsed' "$tmp/threads"
+    echo "tolerance $tolerance"
     rm "$tmp/factors.npz"
     if [ -n "$reference" ]; then
-        "$radiosity" viewfactors "$tmp/scene.obj" -q --format coo -o "$tmp/factors.coo"
+        "$radiosity" viewfactors "$tmp/scene.obj" -q --tolerance "$tolerance" --format coo -o "$tmp/factors.coo"
         judge_matrix <"$tmp/factors.coo"
     else
         awk -f "$tables/json.awk" "$tmp/json" |
             awk '{ v[$1] = $2 } END { printf "row_mean %.3g\nrow_largest %.3g\n", v["row_defect_mean"], v["row_defect_largest"] }'
     fi
+}
+error_of() { # NAME VALUE lines: the mean error of entries, else of rows
+    awk '{ v[$1] = $2 } END { print "entry_mean" in v && v["entry_mean"] != "-" ? v["entry_mean"] : v["row_mean"] }'
+}
+run_as_view3d() { # with what run() knows of View3D's row
+    local aim times
+    aim=$(for name in entry_mean row_mean; do echo "$name $(value_of "$view3d_key" $name)"; done | error_of)
+    for times in 16 8 4 2 1 .5 .25 .125; do
+        run_radiosity "$(awk -v t="$times" -v default="$default_tolerance" 'BEGIN { printf "%g", t * default }')" >"$tmp/as_view3d" || return
+        ! awk -v e="$(error_of <"$tmp/as_view3d")" -v aim="$aim" 'BEGIN { exit !(e <= aim) }' || break
+    done
+    cat "$tmp/as_view3d"
 }
 # 32 bytes, then floats: areas, rows, emissivities.
 run_view3d() {
@@ -100,6 +120,7 @@ run_openfoam() {
     rm -r "$tmp/case"
 }
 
+default_tolerance=$(sed -n 's/^#define EXCHANGE_TOLERANCE //p' runtime/kernel/constants.h)
 declare -A late
 run() { # SCENE SIZE PROGRAM CHECKSUM FUNCTION
     local key="$1,$3,$2,$4"
@@ -118,12 +139,16 @@ for scene in ${SCENES_OF_STUDIES:-cube_quads cube_triangles sphere_in_box room_o
     for size in $sizes; do
         make_scene "$scene" "$size"
         [ "$faces" -le "${LARGEST:-13000}" ] || continue
-        for program in ${PROGRAMS:-radiosity View3D OpenFOAM}; do
+        for program in ${PROGRAMS:-radiosity View3D as_View3D OpenFOAM}; do
             case $program in
             radiosity) run "$scene" "$size" radiosity "$binary" run_radiosity ;;
             View3D) [ -z "$view3d" ] || run "$scene" "$size" View3D "$(checksum "$view3d")" run_view3d ;;
+            as_View3D)
+                view3d_key="$scene,View3D,$size,$([ -z "$view3d" ] || checksum "$view3d")"
+                ! have_row "$view3d_key" || [ "$(value_of "$view3d_key" seconds)" = - ] || run "$scene" "$size" as_View3D "$binary" run_as_view3d
+                ;;
             OpenFOAM) [ -z "$foam" ] || run "$scene" "$size" OpenFOAM "$(checksum "$foam")" run_openfoam ;;
-            *) fail "there is no program '$program' in PROGRAMS: radiosity, View3D, OpenFOAM" ;;
+            *) fail "there is no program '$program' in PROGRAMS: radiosity, View3D, as_View3D, OpenFOAM" ;;
             esac
         done
     done
@@ -152,7 +177,7 @@ others=$({ [ -z "$view3d" ] || checksum "$view3d"; [ -z "$foam" ] || checksum "$
             [ $column,$scene = seconds,cube_quads ] && echo "set key at screen .5,.995 center top maxrows 1 width 4" || echo "unset key"
             i=0 between=''
             printf 'plot '
-            for program in radiosity View3D OpenFOAM; do
+            for program in radiosity as_View3D View3D OpenFOAM; do
                 i=$((i + 1))
                 awk -F , -v scene="$scene" -v program="$program" -v column="$column" '
                     NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
@@ -160,7 +185,7 @@ others=$({ [ -z "$view3d" ] || checksum "$view3d"; [ -z "$foam" ] || checksum "$
                     "$pages/viewfactors.csv" >"$tmp/$scene.$program.$column"
                 [ -s "$tmp/$scene.$program.$column" ] || continue
                 printf "%s'%s' with linespoints pt 7 ps .4 lw 2 lc rgb '%s' t '%s'" "$between" "$tmp/$scene.$program.$column" \
-                    "$(cut -d ' ' -f $i <<<'#2f81f7 #d1453b #9a9a9a')" "$program"
+                    "$(cut -d ' ' -f $i <<<'#2f81f7 #1a3f7a #d1453b #9a9a9a')" "${program/as_View3D/radiosity, as View3D}"
                 between=', '
             done
             [ -n "$between" ] || printf '1/0 notitle'
@@ -174,7 +199,9 @@ others=$({ [ -z "$view3d" ] || checksum "$view3d"; [ -z "$foam" ] || checksum "$
 {
     page_head "View factors" "What does a matrix of view factors cost, and how far is it off, as faces grow? \`radiosity viewfactors\` beside View3D (Walton 2002) and OpenFOAM's
 \`viewFactorsGen\`, each with its own tolerances and on one thread; none scales its rows to 1. Seconds are of the processor, from the
-start of the program to its end, reading and writing included: \`radiosity\` writes \`.npz\`, View3D binary floats, OpenFOAM text."
+start of the program to its end, reading and writing included: \`radiosity\` writes \`.npz\`, View3D binary floats, OpenFOAM text.
+*elapsed*: from start to end, \`radiosity\` on all threads; the others have one. *as View3D*: \`radiosity\` with the largest tolerance
+of $default_tolerance times a power of two at which its mean error is no larger than View3D's."
     printf '![Seconds, memory and mean row defect over faces, of four scenes](viewfactors.svg)\n\n'
     echo "All scenes are closed, so rows sum to 1. \`cube_quads\` and \`cube_triangles\` are a bare cube (\`tests/studies/walls.awk\`), whose entries have closed"
     echo "forms; \`sphere_in_box\` is a sphere of triangles in it, \`room_of_boxes\` half of its faces in walls, half in boxes. There entries are"
@@ -184,32 +211,38 @@ start of the program to its end, reading and writing included: \`radiosity\` wri
     awk -F , '
         NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
         $2 == "reference" { next }
-        { s[$1, $3, $2] = $at["seconds"]; if ($at["faces"] != "-") faces[$1, $3] = $at["faces"] }
+        { s[$1, $3, $2] = $at["seconds"]; e[$1, $3, $2] = $at["elapsed"]; if ($at["faces"] != "-") faces[$1, $3] = $at["faces"] }
         !seen[$1]++ { scene[++scenes] = $1 }
         !size_seen[$1, $3]++ { size[$1, ++sizes[$1]] = $3 }
-        function says(other, w, i, k, a, b, wins, loses, from) {
+        function says(t, mine, other, how, w, i, k, a, b, wins, loses) {
             for (w = 1; w <= scenes; w++) {
                 wins = loses = ""
                 for (i = 1; i <= sizes[scene[w]]; i++) {
                     k = scene[w] SUBSEP size[scene[w], i]
-                    a = s[k, "radiosity"]
-                    b = s[k, other]
+                    a = t == "s" ? s[k, mine] : e[k, mine]
+                    b = t == "s" ? s[k, other] : e[k, other]
                     if (a == "" || b == "" || a == "-" && b == "-") continue
                     if (a != "-" && (b == "-" || a + 0 <= b + 0)) wins = wins (wins == "" ? "" : ", ") faces[k] (b == "-" ? " (the other did not end)" : sprintf(" (%.2g times)", b / a))
                     else loses = loses (loses == "" ? "" : ", ") faces[k] (a == "-" ? " (did not end)" : sprintf(" (%.2g times)", a / b))
                 }
-                if (wins loses != "") printf "- `%s` against %s: %s%s%s.\n", scene[w], other, (wins == "" ? "" : "faster at " wins), (wins != "" && loses != "" ? "; " : ""), (loses == "" ? "" : "slower at " loses)
+                if (wins loses != "") printf "- `%s` against %s%s: %s%s%s.\n", scene[w], other, how, (wins == "" ? "" : "faster at " wins), (wins != "" && loses != "" ? "; " : ""), (loses == "" ? "" : "slower at " loses)
             }
         }
-        END { says("View3D"); says("OpenFOAM") }' "$pages/viewfactors.csv"
+        END {
+            says("s", "as_View3D", "View3D", " at its error")
+            says("s", "radiosity", "View3D", "")
+            says("e", "radiosity", "View3D", ", elapsed")
+            says("s", "radiosity", "OpenFOAM", "")
+        }' "$pages/viewfactors.csv"
     echo
-    echo "| scene | faces | program | s | MB | row defect, mean | row defect, largest | entries, of their sum | entry, largest |"
-    echo "|---|---|---|---|---|---|---|---|---|"
+    echo "| scene | faces | program | tolerance | s | elapsed | MB | row defect, mean | row defect, largest | entries, of their sum | entry, largest |"
+    echo "|---|---|---|---|---|---|---|---|---|---|---|"
     awk -F , '
         function number(x, form) { return x == "-" ? "" : sprintf(form, x) }
         NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-        $at["seconds"] == "-" { printf "| %s %s | | %s | too long | | | | | |\n", $1, $3, $2; next }
-        { printf "| %s | %d | %s | %.3g | %.0f | %s | %s | %s | %s |\n", $1, $at["faces"], $2, $at["seconds"], $at["memory_mb"], number($at["row_mean"], "%.1e"),
+        $at["seconds"] == "-" { printf "| %s %s | | %s | | too long | | | | | | |\n", $1, $3, $2; next }
+        { sub(/^as_View3D$/, "radiosity, as View3D", $2) }
+        { printf "| %s | %d | %s | %s | %.3g | %.3g | %.0f | %s | %s | %s | %s |\n", $1, $at["faces"], $2, number($at["tolerance"], "%g"), $at["seconds"], $at["elapsed"], $at["memory_mb"], number($at["row_mean"], "%.1e"),
               number($at["row_largest"], "%.1e"), number($at["entry_mean"], "%.1e"), number($at["entry_largest"], "%.1e") }' "$pages/viewfactors.csv"
 } >"$tmp/page.md"
 mv "$tmp/page.md" "$pages/viewfactors.md"
