@@ -59,26 +59,6 @@ static int is_hidden(const struct cutting *c, const struct outline_cell *cell)
     return sight_faces_stop(c->between->block, sight_between_blocks(c->between), &ray);
 }
 
-/* Does the edge run through a convex cell, whose corners have the heights h over its line? By where
- * the line enters and leaves: cells may have sides without a direction. */
-static int runs_through(const struct cut_line *line, const struct outline_cell *cell,
-                        const double *h)
-{
-    double first = INFINITY, last = -INFINITY, square = line->a * line->a + line->b * line->b;
-    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
-        if ((h[i] > 0) == (h[j] > 0))
-            continue;
-        double t = h[j] / (h[j] - h[i]), along = 0;
-        for (int k = 0; k < 2; k++) {
-            double p = cell->p[j][k] + t * (cell->p[i][k] - cell->p[j][k]);
-            along += (p - line->end[0][k]) * (k ? line->a : -line->b);
-        }
-        first = along < first ? along : first;
-        last = along > last ? along : last;
-    }
-    return first < square && last > 0;
-}
-
 /* Adds what is seen of the cell, cut along the edges from k on. */
 static void add_seen(const struct cutting *c, int k, const struct outline_cell *cell)
 {
@@ -94,7 +74,7 @@ static void add_seen(const struct cutting *c, int k, const struct outline_cell *
             over_it |= h[i] > 0;
             under_it |= h[i] < 0;
         }
-        if (over_it && under_it && runs_through(line, cell, h))
+        if (over_it && under_it && sight_runs_through(line->end[0], line->a, line->b, cell, h))
             break;
     }
     if (k == c->lines) {

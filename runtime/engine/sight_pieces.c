@@ -2,7 +2,8 @@
  *
  * Shadows are cast on the polygon's plane and what they leave of it is cut out (kernel/outline.h),
  * in convex pieces; Lambert's sum goes over their edges. So of a point nothing is approximate
- * but rounding, and an integral over points has no noise of the other side.
+ * but rounding, and an integral over points has no noise of the other side. A piece takes along the
+ * shadows that its box meets: most of what is cut out of it meets few of them.
  * Invariant: with no blocker it is lambert_sum of the whole polygon.
  * [Lambert 1760; Weiler & Atherton 1977 for convex polygons]
  * SPDX-License-Identifier: MIT */
@@ -100,6 +101,57 @@ void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
     }
 }
 
+int sight_runs_through(const double from[2], double a, double b, const struct outline_cell *cell,
+                       const double *h)
+{
+    double first = INFINITY, last = -INFINITY, square = a * a + b * b;
+    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
+        if ((h[i] > 0) == (h[j] > 0))
+            continue;
+        double t = h[j] / (h[j] - h[i]), along = 0;
+        for (int k = 0; k < 2; k++) {
+            double p = cell->p[j][k] + t * (cell->p[i][k] - cell->p[j][k]);
+            along += (p - from[k]) * (k ? a : -b);
+        }
+        first = along < first ? along : first;
+        last = along > last ? along : last;
+    }
+    return first < square && last > 0;
+}
+
+/* Is the middle of a cell outside of a shadow? */
+static int is_outside(const struct outline *s, const struct outline_cell *cell)
+{
+    double at[2] = {0, 0};
+    for (int i = 0; i < cell->n; i++)
+        for (int k = 0; k < 2; k++)
+            at[k] += cell->p[i][k] / cell->n;
+    for (int e = 0; e < s->n; e++)
+        if (s->a[e] * at[0] + s->b[e] * at[1] > s->c[e])
+            return 1;
+    return 0;
+}
+
+/* Sides of cells may be as short as rounding, in any direction: nothing is for sure beside one. As
+ * a sine, and a share of how far the side is; chosen. */
+static const double SIDE_SURE = 1e-10;
+
+/* Is all of the shadow for sure beside a side of the cell? What only touches is not. */
+static int beside_cell(const struct outline *s, const struct outline_cell *cell)
+{
+    for (int i = 0, j = cell->n - 1, e; i < cell->n; j = i++) {
+        const double u = cell->p[i][0] - cell->p[j][0], v = cell->p[i][1] - cell->p[j][1];
+        for (e = 0; e < s->n; e++) {
+            const double x = s->p[e][0] - cell->p[j][0], y = s->p[e][1] - cell->p[j][1];
+            if (!(u * y - v * x < -SIDE_SURE * (x * x + y * y)))
+                break;
+        }
+        if (e == s->n)
+            return 1;
+    }
+    return 0;
+}
+
 /* How a cell lies to a shadow: 1: wholly beside one of its edges. */
 static int beside(const struct outline *s, const struct outline_cell *cell)
 {
@@ -114,49 +166,93 @@ static int beside(const struct outline *s, const struct outline_cell *cell)
     return 0;
 }
 
-/* Adds what is left of the cell when the shadows from k on are taken away. */
-static void add_left(struct sight_eye *eye, const struct outline *shadows, int count, int k,
+/* Does the shadow hide all of the cell? */
+static int covers(const struct outline *s, const struct outline_cell *cell)
+{
+    for (int e = 0; e < s->n; e++)
+        for (int i = 0; i < cell->n; i++)
+            if (s->a[e] * cell->p[i][0] + s->b[e] * cell->p[i][1] > s->c[e])
+                return 0;
+    return 1;
+}
+
+/* The box around points: low and high of either coordinate. */
+static void box_of(const double (*p)[2], int n, double box[4])
+{
+    for (int k = 0; k < 2; k++)
+        box[k] = box[2 + k] = p[0][k];
+    for (int i = 1; i < n; i++)
+        for (int k = 0; k < 2; k++) {
+            box[k] = p[i][k] < box[k] ? p[i][k] : box[k];
+            box[2 + k] = p[i][k] > box[2 + k] ? p[i][k] : box[2 + k];
+        }
+}
+
+/* A point's shadows, and boxes around them. */
+struct shadows {
+    struct sight_eye *eye;
+    struct outline cast[SIGHT_CUT];
+    double box[SIGHT_CUT][4];
+};
+
+/* Adds what is left of the cell when the shadows of a list are taken away; behind it is room for
+ * shorter ones. It is cut along those edges of a shadow that run through it: then all of it lies
+ * within or outside. */
+static void add_left(const struct shadows *all, const uint16_t *among, int count, uint16_t *list,
                      const struct outline_cell *cell)
 {
     struct outline_cell inside[2], outside;
     const struct outline_cell *now = cell;
-    int flip = 0;
+    double box[4];
+    int flip = 0, n = 0, first = 0;
     if (cell->n < 3)
         return;
-    while (k < count && beside(&shadows[k], cell))
-        k++;
-    if (k == count) {
-        sight_eye_add(eye, cell);
+    box_of((const double(*)[2])cell->p, cell->n, box);
+    for (int i = 0; i < count; i++) {
+        const double *b = all->box[among[i]];
+        if ((b[0] <= box[0]) & (b[2] >= box[2]) & (b[1] <= box[1]) & (b[3] >= box[3])
+            && covers(&all->cast[among[i]], cell))
+            return;
+        list[n] = among[i];
+        n += (b[0] < box[2]) & (b[2] > box[0]) & (b[1] < box[3]) & (b[3] > box[1]);
+    }
+    while (first < n
+           && (beside(&all->cast[list[first]], cell) || beside_cell(&all->cast[list[first]], cell)))
+        first++;
+    if (first == n) {
+        sight_eye_add(all->eye, cell);
         return;
     }
-    const struct outline *s = &shadows[k];
-    for (int e = 0; e < s->n && now->n >= 3; e++) {
+    const struct outline *s = &all->cast[list[first++]];
+    list += first;
+    n -= first;
+    for (int e = 0, from = s->n - 1; e < s->n && now->n >= 3; from = e++) {
         double h[OUTLINE_CELL];
         int above = 0;
         for (int i = 0; i < now->n; i++) {
             h[i] = s->a[e] * now->p[i][0] + s->b[e] * now->p[i][1] - s->c[e];
             above += h[i] > 0;
         }
-        if (above == 0)
+        if (above == 0 || above == now->n
+            || !sight_runs_through(s->p[from], s->a[e], s->b[e], now, h))
             continue;
-        if (above == now->n) {
-            add_left(eye, shadows, count, k + 1, now);
-            return;
-        }
         outside.n = polygon_divide(&now->p[0][0], now->n, 2, h, OUTLINE_CELL, &outside.p[0][0],
                                    &inside[flip].p[0][0], &inside[flip].n);
-        add_left(eye, shadows, count, k + 1, &outside);
+        add_left(all, list, n, list + n, &outside);
         now = &inside[flip];
         flip = 1 - flip;
     }
+    if (now->n >= 3 && is_outside(s, now))
+        add_left(all, list, n, list + n, now);
 }
 
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
                     const struct exchange_tree *tree, const uint32_t *faces, int count,
                     double *whole)
 {
-    struct outline shadows[SIGHT_CUT];
     struct sight_eye eye;
+    struct shadows shadows;
+    uint16_t lists[SIGHT_CUT * (SIGHT_CUT + 3) / 2];
     double from[3];
     int cast = 0;
     sight_eye_open(&eye, sight, x, n);
@@ -168,9 +264,14 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
         return 0;
     for (int b = 0; b < count; b++) {
         const struct element *e = &tree->h.elements[faces[b]];
-        cast += outline_cast(&shadows[cast], &sight->raised, from, height,
-                             (const double(*)[3])e->vertex, e->vertices);
+        if (!outline_cast(&shadows.cast[cast], &sight->raised, from, height,
+                          (const double(*)[3])e->vertex, e->vertices))
+            continue;
+        box_of((const double(*)[2])shadows.cast[cast].p, shadows.cast[cast].n, shadows.box[cast]);
+        lists[cast] = (uint16_t)cast;
+        cast++;
     }
-    add_left(&eye, shadows, cast, 0, &sight->cell);
+    shadows.eye = &eye;
+    add_left(&shadows, lists, cast, lists + cast, &sight->cell);
     return sight_eye_factor(&eye, whole);
 }

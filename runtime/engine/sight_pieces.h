@@ -45,6 +45,12 @@ void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
  */
 double sight_eye_factor(struct sight_eye *eye, double *whole);
 
+/* Does an edge run through a convex cell, whose corners have the heights h over its line a u + b v
+ * = c? By where the line enters and leaves: cells may have sides without a direction. The edge
+ * starts at `from` and is (-b, a) long. */
+int sight_runs_through(const double from[2], double a, double b, const struct outline_cell *cell,
+                       const double *h);
+
 /* The form factor from a point x with normal n, in front of whose plane all of the polygon lies, to
  * what it sees of the polygon past the faces, from `up` over x. In [0, 1]; *whole: to all of it. */
 double sight_factor(const struct sight *sight, const double x[3], const double n[3], double up,
