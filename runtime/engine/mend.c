@@ -29,7 +29,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/mend.h"
+#include "hierarchy/levels.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 /* Sums of m^2 and of s^2, of one element or of a class. */
 struct sight {
@@ -43,7 +45,18 @@ struct trend {
     double product, square, noise;
 };
 
-enum { CLASSES = 48, CLUSTERS = -1 };
+enum { CLASSES = 48 };
+
+/* What one element adds to the sums of its class; NOTHING to those of none. */
+enum { NOTHING = -1 };
+struct note {
+    int class;
+    uint32_t elder; /* sights: the head of its kin */
+    union {
+        struct trend trend;
+        struct sight sight;
+    };
+};
 
 struct mending {
     const struct light_operator *op;
@@ -53,14 +66,18 @@ struct mending {
     double *linked;     /* [element * bands + band]: power by links (W) */
     double *received;   /* the same, counted, mean of all replicates */
     double *replicate;  /* [REPLICATES][built * bands]: by each (W) */
-    int depth;          /* of the level that is mended now; CLUSTERS: the tree above the faces */
+    struct levels levels;
+    /* of the level that is mended now: elements that have children; what each adds to the sums */
+    const uint32_t *parent;
+    uint32_t parents;
+    struct note *note; /* [parent * bands + band] */
     /* of this level, by the logarithm of their particles */
     struct sight class[CLASSES];
     struct trend trend[CLASSES];
     struct sight *kin; /* [element]: of what hangs two levels below it, on this level */
 };
 
-enum { CHILDREN = 255 };
+enum { CHILDREN = 255, RUN = 256 /* elements that a thread takes at once */ };
 
 static size_t place(const struct mending *m, uint32_t element, uint32_t band)
 {
@@ -182,20 +199,23 @@ static void foretold_shares(const struct mending *m, uint32_t e, uint32_t k, dou
         given[c] += fmin(1, t->product / t->square) * lack[c];
 }
 
-static void note_trend(struct mending *m, uint32_t e, uint32_t k)
+static struct note note_trend(const struct mending *m, uint32_t e, uint32_t k)
 {
     const struct element *at = &m->op->hierarchy->elements[e];
-    struct trend *t = &m->trend[class_of(m, e, k)];
+    struct note note = {.class = NOTHING};
     double given[CHILDREN], lack[CHILDREN], whole = m->received[place(m, e, k)];
     shares_by_links(m, e, k, given);
     if (!(whole > 0) || !foretell(m, e, k, given, lack))
-        return;
+        return note;
+    note.class = class_of(m, e, k);
+    note.trend = (struct trend){0, 0, 0};
     for (uint32_t c = 0; c < at->children; c++) {
         double here = m->received[place(m, at->child + c, k)];
-        t->product += lack[c] * (here / whole - given[c]);
-        t->square += lack[c] * lack[c];
-        t->noise += lack[c] * lack[c] * tally_chance(m->tally, here, k) / (whole * whole);
+        note.trend.product += lack[c] * (here / whole - given[c]);
+        note.trend.square += lack[c] * lack[c];
+        note.trend.noise += lack[c] * lack[c] * tally_chance(m->tally, here, k) / (whole * whole);
     }
+    return note;
 }
 
 /* Its parent's parent, as far up as they are of one face: the head of its kin. */
@@ -214,16 +234,14 @@ static void add_sight(struct sight *sum, const struct sight *own)
     sum->elements++;
 }
 
-static void note_sight(struct mending *m, uint32_t e, uint32_t k)
+static struct note note_sight(const struct mending *m, uint32_t e, uint32_t k)
 {
-    struct sight *class = &m->class[class_of(m, e, k)];
     double given[CHILDREN];
     if (!(m->received[place(m, e, k)] > 0))
-        return;
+        return (struct note){.class = NOTHING};
     foretold_shares(m, e, k, given);
-    struct sight own = see(m, e, k, given);
-    add_sight(class, &own);
-    add_sight(&m->kin[elder(m, e)], &own);
+    return (struct note){
+        .class = class_of(m, e, k), .elder = elder(m, e), .sight = see(m, e, k, given)};
 }
 
 /* How far m^2 is above noise among elements like this one: of its kin, as far as they are many
@@ -236,7 +254,7 @@ static double above_noise(const struct mending *m, uint32_t e, uint32_t k)
 }
 
 /* Share out what e receives, mended by now, among its children. */
-static void share_out(struct mending *m, uint32_t e, uint32_t k)
+static void share_out(const struct mending *m, uint32_t e, uint32_t k)
 {
     const struct element *elements = m->op->hierarchy->elements, *at = &elements[e];
     double given[CHILDREN], whole = m->irradiance[place(m, e, k)] * at->area;
@@ -255,28 +273,72 @@ static void share_out(struct mending *m, uint32_t e, uint32_t k)
     }
 }
 
-/* Do so with all elements of this level that have children. */
-static void each(struct mending *m, void (*act)(struct mending *, uint32_t, uint32_t))
+static void note_trends(const void *mending, size_t from, size_t to)
 {
-    const struct hierarchy *h = m->op->hierarchy;
-    uint32_t last = m->depth == CLUSTERS ? h->built : h->count;
-    for (uint32_t e = 0; e < last; e++) { /* children follow their parents */
-        const struct element *at = &h->elements[e];
-        int here = at->vertices ? m->depth == at->depth : m->depth == CLUSTERS;
-        for (uint32_t k = 0; k < m->bands && here && at->children; k++)
-            act(m, e, k);
+    const struct mending *m = mending;
+    for (size_t i = from; i < to; i++)
+        for (uint32_t k = 0; k < m->bands; k++)
+            m->note[i * m->bands + k] = note_trend(m, m->parent[i], k);
+}
+
+static void note_sights(const void *mending, size_t from, size_t to)
+{
+    const struct mending *m = mending;
+    for (size_t i = from; i < to; i++)
+        for (uint32_t k = 0; k < m->bands; k++)
+            m->note[i * m->bands + k] = note_sight(m, m->parent[i], k);
+}
+
+static void share_all_out(const void *mending, size_t from, size_t to)
+{
+    const struct mending *m = mending;
+    for (size_t i = from; i < to; i++)
+        for (uint32_t k = 0; k < m->bands; k++)
+            share_out(m, m->parent[i], k);
+}
+
+/* Sums are taken in the order of elements, whoever took the notes. */
+static void add_trends(struct mending *m)
+{
+    memset(m->trend, 0, sizeof m->trend);
+    for (size_t i = 0; i < (size_t)m->parents * m->bands; i++) {
+        const struct note *note = &m->note[i];
+        if (note->class == NOTHING)
+            continue;
+        struct trend *t = &m->trend[note->class];
+        t->product += note->trend.product;
+        t->square += note->trend.square;
+        t->noise += note->trend.noise;
     }
 }
 
-static void mend_level(struct mending *m, int depth)
+static void add_sights(struct mending *m)
 {
-    m->depth = depth;
+    const size_t notes = (size_t)m->parents * m->bands;
     memset(m->class, 0, sizeof m->class);
-    memset(m->kin, 0, m->op->hierarchy->count * sizeof *m->kin);
-    memset(m->trend, 0, sizeof m->trend);
-    each(m, note_trend);
-    each(m, note_sight);
-    each(m, share_out);
+    for (size_t i = 0; i < notes; i++)
+        if (m->note[i].class != NOTHING)
+            m->kin[m->note[i].elder] = (struct sight){0, 0, 0};
+    for (size_t i = 0; i < notes; i++) {
+        const struct note *note = &m->note[i];
+        if (note->class == NOTHING)
+            continue;
+        add_sight(&m->class[note->class], &note -> sight);
+        add_sight(&m->kin[note->elder], &note->sight);
+    }
+}
+
+/* Clusters get their light from those before them. */
+static void mend_level(struct mending *m, uint32_t level)
+{
+    const int threads = level > 0 ? m->op->problem->options.threads : 1;
+    m->parent = &m->levels.parent[m->levels.from[level]];
+    m->parents = m->levels.from[level + 1] - m->levels.from[level];
+    thread_pool_run(threads, m->parents, RUN, note_trends, m);
+    add_trends(m);
+    thread_pool_run(threads, m->parents, RUN, note_sights, m);
+    add_sights(m);
+    thread_pool_run(threads, m->parents, RUN, share_all_out, m);
 }
 
 static void mend_root(struct mending *m, uint32_t k)
@@ -294,11 +356,12 @@ static void mend_root(struct mending *m, uint32_t k)
         (m->linked[place(m, 0, k)] + belief * off) / h->elements[0].area;
 }
 
-/* Powers of leaves and faces, then sums from there up. */
-static void fill(struct mending *m)
+/* Powers of leaves and faces, */
+static void fill_some(const void *mending, size_t from, size_t to)
 {
+    const struct mending *m = mending;
     const struct hierarchy *h = m->op->hierarchy;
-    for (uint32_t e = 0; e < h->count; e++)
+    for (uint32_t e = (uint32_t)from; e < to; e++)
         for (uint32_t k = 0; k < m->bands; k++) {
             const struct element *at = &h->elements[e];
             m->linked[place(m, e, k)] = at->children ? 0 : at->area * m->irradiance[place(m, e, k)];
@@ -307,40 +370,59 @@ static void fill(struct mending *m)
                 m->replicate[(size_t)r * h->built * m->bands + place(m, e, k)] =
                     at->vertices ? tally_face(m->tally, r, at->face, k) : 0;
         }
-    for (uint32_t e = h->count; e-- > 1;) { /* children follow their parents */
-        uint32_t parent = h->elements[e].parent;
+}
+
+/* then sums from there up. */
+static void add_children(const void *mending, uint32_t e)
+{
+    const struct mending *m = mending;
+    const struct hierarchy *h = m->op->hierarchy;
+    const struct element *at = &h->elements[e];
+    for (uint32_t j = at->child + at->children; j-- > at->child;)
         for (uint32_t k = 0; k < m->bands; k++) {
-            m->linked[place(m, parent, k)] += m->linked[place(m, e, k)];
-            m->received[place(m, parent, k)] += m->received[place(m, e, k)];
-            for (int r = 0; r < REPLICATES && e < h->built; r++) {
+            m->linked[place(m, e, k)] += m->linked[place(m, j, k)];
+            m->received[place(m, e, k)] += m->received[place(m, j, k)];
+            for (int r = 0; r < REPLICATES && j < h->built; r++) {
                 double *of = &m->replicate[(size_t)r * h->built * m->bands];
-                of[place(m, parent, k)] += of[place(m, e, k)];
+                of[place(m, e, k)] += of[place(m, j, k)];
             }
         }
-    }
+}
+
+/* The most parents that a level has. */
+static uint32_t widest(const struct levels *l)
+{
+    uint32_t most = 0;
+    for (int i = 0; i < LEVELS; i++)
+        if (l->from[i + 1] - l->from[i] > most)
+            most = l->from[i + 1] - l->from[i];
+    return most;
 }
 
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance)
 {
     const struct hierarchy *h = op->hierarchy;
+    const int threads = op->problem->options.threads;
     size_t values = (size_t)h->count * tally->bands;
     struct mending m = {.op = op, .tally = tally, .bands = tally->bands, .irradiance = irradiance};
+    if (levels_open(&m.levels, h) < 0)
+        return -1;
     m.linked = malloc(values * sizeof *m.linked);
     m.received = malloc(values * sizeof *m.received);
     m.kin = malloc((size_t)h->count * sizeof *m.kin);
     m.replicate = malloc((size_t)REPLICATES * h->built * m.bands * sizeof *m.replicate);
-    int result = m.linked && m.received && m.replicate && m.kin ? 0 : -1;
+    m.note = malloc(((size_t)widest(&m.levels) * m.bands + 1) * sizeof *m.note);
+    int result = m.linked && m.received && m.replicate && m.kin && m.note ? 0 : -1;
     if (result == 0) {
-        fill(&m);
+        thread_pool_run(threads, h->count, RUN, fill_some, &m);
+        levels_up(&m.levels, threads, add_children, &m);
         for (uint32_t k = 0; k < m.bands; k++)
             mend_root(&m, k);
-        int deepest = CLUSTERS;
-        for (uint32_t e = 0; e < h->count; e++)
-            if (h->elements[e].vertices && h->elements[e].depth > deepest)
-                deepest = h->elements[e].depth;
-        for (int depth = CLUSTERS; depth < deepest; depth++)
-            mend_level(&m, depth);
+        for (uint32_t level = 0; level < LEVELS; level++)
+            mend_level(&m, level);
     }
+    levels_close(&m.levels);
+    free(m.note);
     free(m.kin);
     free(m.linked);
     free(m.received);

@@ -64,53 +64,50 @@ static inline void leaf_triangle(const struct element *e, const double p[3], dou
     weight[0] = 1 - weight[1] - weight[2];
 }
 
-/* The first child of i, 0 when it is a leaf; from `first`, which is that of all elements, when it
- * is given: many points in no order find it in the cache, where they would wait for the elements.
- */
-static inline uint32_t leaf_child(const struct element *elements, const uint32_t *first, uint32_t i)
+/* A point on its way down from a surface, in the coordinates of where it is by now: s and t of a
+ * quad, the weights of a triangle's corners. */
+struct leaf_walk {
+    uint32_t at; /* an element */
+    int quad;
+    double x[3];
+};
+
+static inline struct leaf_walk leaf_walk_from(const struct element *elements, uint32_t surface,
+                                              const double point[3])
 {
-    return first ? first[i] : elements[i].children ? elements[i].child : 0;
+    struct leaf_walk w = {surface, elements[surface].vertices == 4, {0, 0, 0}};
+    if (w.quad)
+        leaf_quad(&elements[surface], point, &w.x[0], &w.x[1]);
+    else
+        leaf_triangle(&elements[surface], point, w.x);
+    return w;
 }
 
-/* Halving a quad halves its bilinear parameters: the cuts are lines of s = 1/2 and t = 1/2, and a
- * child numbers its corners as its parent does. */
-static inline uint32_t leaf_descend_quad(const struct element *elements, const uint32_t *first,
-                                         uint32_t i, const double p[3], double weight[4])
+/* To the child that holds the point, of those from `child` on. Halving a quad halves its bilinear
+ * parameters: the cuts are lines of s = 1/2 and t = 1/2, and a child numbers its corners as its
+ * parent does. In a triangle child k keeps corner k; child 3 is the middle, its corners those
+ * between 0-1, 1-2, 2-0. */
+static inline void leaf_walk_down(struct leaf_walk *w, uint32_t child)
 {
-    double s, t;
-    leaf_quad(&elements[i], p, &s, &t);
-    for (uint32_t child; (child = leaf_child(elements, first, i)) != 0;) {
-        int right = s > 0.5, top = t > 0.5;
-        i = child + (uint32_t)(top ? (right ? 2 : 3) : (right ? 1 : 0));
-        s = 2 * s - right;
-        t = 2 * t - top;
+    double *x = w->x;
+    if (w->quad) {
+        int right = x[0] > 0.5, top = x[1] > 0.5;
+        w->at = child + (uint32_t)(right ^ top) + 2 * (uint32_t)top;
+        x[0] = 2 * x[0] - right;
+        x[1] = 2 * x[1] - top;
+        return;
     }
-    weight[0] = (1 - s) * (1 - t);
-    weight[1] = s * (1 - t);
-    weight[2] = s * t;
-    weight[3] = (1 - s) * t;
-    return i;
-}
-
-/* Child k keeps corner k; child 3 is the middle, its corners those between 0-1, 1-2, 2-0. */
-static inline uint32_t leaf_descend_triangle(const struct element *elements, const uint32_t *first,
-                                             uint32_t i, const double p[3], double weight[4])
-{
-    leaf_triangle(&elements[i], p, weight);
-    for (uint32_t child; (child = leaf_child(elements, first, i)) != 0;) {
-        uint32_t k = weight[0] > 0.5 ? 0 : weight[1] > 0.5 ? 1 : weight[2] > 0.5 ? 2 : 3;
-        i = child + k;
-        if (k < 3) {
-            for (uint32_t j = 0; j < 3; j++)
-                weight[j] = 2 * weight[j] - (j == k);
-        } else {
-            double w0 = 1 - 2 * weight[2], w1 = 1 - 2 * weight[0], w2 = 1 - 2 * weight[1];
-            weight[0] = w0;
-            weight[1] = w1;
-            weight[2] = w2;
-        }
+    uint32_t k = x[0] > 0.5 ? 0 : x[1] > 0.5 ? 1 : x[2] > 0.5 ? 2 : 3;
+    w->at = child + k;
+    if (k < 3) {
+        for (uint32_t j = 0; j < 3; j++)
+            x[j] = 2 * x[j] - (j == k);
+    } else {
+        double w0 = 1 - 2 * x[2], w1 = 1 - 2 * x[0], w2 = 1 - 2 * x[1];
+        x[0] = w0;
+        x[1] = w1;
+        x[2] = w2;
     }
-    return i;
 }
 
 /* Weights of the leaf's corners add to 1: bilinear in quads, linear in triangles. A point outside
@@ -119,18 +116,16 @@ static inline uint32_t leaf_descend_triangle(const struct element *elements, con
 static inline uint32_t leaf_at(const struct element *elements, uint32_t surface,
                                const double point[3], double weight[4])
 {
-    return elements[surface].vertices == 4
-               ? leaf_descend_quad(elements, NULL, surface, point, weight)
-               : leaf_descend_triangle(elements, NULL, surface, point, weight);
-}
-
-/* The same by all elements' first children. */
-static inline uint32_t leaf_at_by(const struct element *elements, const uint32_t *first,
-                                  uint32_t surface, const double point[3], double weight[4])
-{
-    return elements[surface].vertices == 4
-               ? leaf_descend_quad(elements, first, surface, point, weight)
-               : leaf_descend_triangle(elements, first, surface, point, weight);
+    struct leaf_walk w = leaf_walk_from(elements, surface, point);
+    while (elements[w.at].children)
+        leaf_walk_down(&w, elements[w.at].child);
+    const double s = w.x[0], t = w.x[1];
+    weight[0] = w.quad ? (1 - s) * (1 - t) : w.x[0];
+    weight[1] = w.quad ? s * (1 - t) : w.x[1];
+    weight[2] = w.quad ? s * t : w.x[2];
+    if (w.quad)
+        weight[3] = (1 - s) * t;
+    return w.at;
 }
 
 #endif

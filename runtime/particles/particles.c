@@ -11,8 +11,9 @@
 
 enum {
     BATCH = 1024,
-    COPIES = 16, /* at most, of one particle at one place */
-    WAITING = 32 /* places on its way at most where copies wait; beyond, none are made */
+    COPIES = 16,  /* at most, of one particle at one place */
+    WAITING = 32, /* places on its way at most where copies wait; beyond, none are made */
+    LANDINGS = 64 /* that are counted at once */
 };
 
 /* Counts of one particle: room for 2^39 of them on a face; or for 2^31, and parts of a millionth.
@@ -80,38 +81,77 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
     return 0;
 }
 
+/* Where a particle has landed, with how much. */
+struct landing {
+    uint32_t face;
+    double at[3], share[3];
+};
+
 /* A run of particles of one replicate, and its sums that are no place's. */
 struct batch {
     const struct sobol_sequence *sobol;
     uint32_t shift[SOBOL_COORDINATES];
-    int replicate;
+    int replicate, landed;
     uint64_t rays;
-    int64_t first[3], second[3]; /* sums of w and w^2, as counts */
+    int64_t first[3], second[3];      /* sums of w and w^2, as counts */
+    struct landing landing[LANDINGS]; /* [landed]: not counted yet */
 };
 
-/* Returns the leaf that is met, or 0 where leaves are not counted on. */
-static uint32_t count(struct tally *tally, const struct tracer *t, uint32_t face,
-                      const double at[3], const double share[3], struct batch *batch)
+/* The leaves that hold them. All go down level by level, side by side: each waits for memory at
+ * every level, and so they wait together. */
+static void find_leaves(const struct tally *tally, const struct tracer *t,
+                        const struct landing *landing, int count, uint32_t *leaf)
 {
-    uint32_t leaf = 0;
-    _Atomic int64_t *to_face =
-        &tally->face[((size_t)batch->replicate * tally->faces + face) * tally->bands];
-    _Atomic int64_t *to_leaf = NULL;
-    if (tally->element) {
-        double weight[4];
-        leaf = leaf_at_by(t->hierarchy->elements, tally->first, t->hierarchy->face_element[face],
-                          at, weight);
-        to_leaf = &tally->element[(size_t)leaf * tally->bands];
+    struct leaf_walk walk[LANDINGS];
+    for (int i = 0; i < count; i++)
+        walk[i] = leaf_walk_from(t->hierarchy->elements,
+                                 t->hierarchy->face_element[landing[i].face], landing[i].at);
+    for (int more = 1; more;) {
+        more = 0;
+        for (int i = 0; i < count; i++) {
+            const uint32_t child = tally->first[walk[i].at];
+            if (!child)
+                continue;
+            leaf_walk_down(&walk[i], child);
+            more = 1;
+        }
     }
-    for (uint32_t k = 0; k < tally->bands; k++) {
-        int64_t w = (int64_t)(share[k] * tally->one + 0.5);
-        batch->first[k] += w;
-        batch->second[k] += (int64_t)(share[k] * share[k] * tally->one + 0.5);
-        to_face[k] += w;
-        if (to_leaf)
-            to_leaf[k] += w;
+    for (int i = 0; i < count; i++)
+        leaf[i] = walk[i].at;
+}
+
+/* Count what has landed. Returns the leaf of the last, or 0 where leaves are not counted on. */
+static uint32_t count_landings(struct tally *tally, const struct tracer *t, struct batch *batch)
+{
+    const int count = batch->landed;
+    uint32_t leaf[LANDINGS] = {0};
+    if (tally->element)
+        find_leaves(tally, t, batch->landing, count, leaf);
+    for (int i = 0; i < count; i++) {
+        const struct landing *l = &batch->landing[i];
+        size_t face = (size_t)batch->replicate * tally->faces + l->face;
+        for (uint32_t k = 0; k < tally->bands; k++) {
+            int64_t w = (int64_t)(l->share[k] * tally->one + 0.5);
+            batch->first[k] += w;
+            batch->second[k] += (int64_t)(l->share[k] * l->share[k] * tally->one + 0.5);
+            tally->face[face * tally->bands + k] += w;
+            if (tally->element)
+                tally->element[(size_t)leaf[i] * tally->bands + k] += w;
+        }
     }
-    return leaf;
+    batch->landed = 0;
+    return count > 0 ? leaf[count - 1] : 0;
+}
+
+/* Returns the leaf that is met where a window asks for it. */
+static uint32_t land(struct tally *tally, const struct tracer *t, uint32_t face, const double at[3],
+                     const double share[3], struct batch *batch)
+{
+    struct landing *l = &batch->landing[batch->landed++];
+    l->face = face;
+    memcpy(l->at, at, sizeof l->at);
+    memcpy(l->share, share, sizeof l->share);
+    return tally->window || batch->landed == LANDINGS ? count_landings(tally, t, batch) : 0;
 }
 
 /* What decides next about a reflection, in [0, 1): a coordinate of the sequence as far as these go,
@@ -188,7 +228,7 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
         f.copies = 0;
         if (met >= 0) {
             f.face = (uint32_t)met;
-            uint32_t leaf = count(tally, t, f.face, at, f.share, batch);
+            uint32_t leaf = land(tally, t, f.face, at, f.share, batch);
             reflect(tally, t, leaf, decide(batch, index, &dice, &f.used),
                     places < WAITING ? COPIES : 1, &f);
         }
@@ -240,6 +280,7 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
             batch.shift[d] = (uint32_t)(hash64(set * SOBOL_COORDINATES + (uint64_t)d + 1) >> 32);
         for (uint64_t k = low; k < high; k++)
             trace(all->tally, all->t, k, &batch);
+        count_landings(all->tally, all->t, &batch);
         all->sums->rays += batch.rays;
         for (int k = 0; k < 3; k++) {
             all->sums->first[k] += batch.first[k];

@@ -63,7 +63,7 @@ static inline double sobol_sequence_at(const struct sobol_sequence *sobol, uint3
 {
     uint32_t x = shift;
     for (uint32_t i = index, b = 0; i; i >>= 1, b++)
-        x ^= i & 1 ? sobol->direction[d][b] : 0;
+        x ^= -(i & 1) & sobol->direction[d][b]; /* bits are as good as random: no branch */
     return x * 0x1p-32;
 }
 

@@ -42,7 +42,7 @@ double contact_fraction(const struct rays *rays, const struct element *e)
 {
     double direction[CONTACT_RAYS][3], p[SIDE * SIDE][3];
     int inside[SIDE * SIDE] = {0}, covered = 0;
-    unsigned open = (1u << SIDE * SIDE) - 1; /* points that may yet be inside */
+    unsigned open = (1u << SIDE * SIDE) - 1; /* points that are inside or not by rays to come */
     look_around(e, direction);
     for (int i = 0; i < SIDE * SIDE; i++) {
         surface_point(p[i], e, (i / SIDE + 0.5) / SIDE, (i % SIDE + 0.5) / SIDE);
@@ -53,7 +53,7 @@ double contact_fraction(const struct rays *rays, const struct element *e)
         unsigned backs = rays_meet_backs(rays, (const double(*)[3])p, open, direction[m]);
         for (int i = 0; i < SIDE * SIDE; i++) {
             inside[i] += (int)(backs >> i & 1);
-            if (inside[i] + CONTACT_RAYS - 1 - m < CONTACT_BACKS)
+            if (inside[i] >= CONTACT_BACKS || inside[i] + CONTACT_RAYS - 1 - m < CONTACT_BACKS)
                 open &= ~(1u << i);
         }
     }

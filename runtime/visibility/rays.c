@@ -395,6 +395,14 @@ static int front_there(const struct rays *rays, struct RTCRayHit *query)
     return 1;
 }
 
+/* Does the ray come from behind what it meets, with no front in the same place? */
+static int meets_behind(const struct rays *rays, struct RTCRayHit *query)
+{
+    return from_behind(query)
+           && !(rays->behind[rays->face[query->hit.primID]] == BLACK_BACK
+                && front_there(rays, query));
+}
+
 /* What the ray meets first: 0 when nothing; *behind: it comes from behind. */
 static int first_hit(const struct rays *rays, const double from[3], const double direction[3],
                      struct RTCRayHit *query, int *behind)
@@ -403,9 +411,7 @@ static int first_hit(const struct rays *rays, const double from[3], const double
     intersect(rays, query, 0);
     if (query->hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return 0;
-    *behind =
-        from_behind(query)
-        && !(rays->behind[rays->face[query->hit.primID]] == BLACK_BACK && front_there(rays, query));
+    *behind = meets_behind(rays, query);
     return 1;
 }
 
@@ -425,6 +431,29 @@ enum ray_fate rays_first(const struct rays *rays, const double from[3], const do
     }
     return behind && rays->behind[rays->face[query.hit.primID]] == BLACK_BACK ? RAY_MEETS_BACK
                                                                               : RAY_MEETS_FRONT;
+}
+
+/* A ray of a packet, and what it met. */
+static struct RTCRayHit one_of(const struct RTCRayHit16 *packet, int i)
+{
+    const struct RTCRay16 *ray = &packet->ray;
+    const struct RTCHit16 *hit = &packet->hit;
+    struct RTCRayHit one;
+    memset(&one, 0, sizeof one);
+    one.ray.org_x = ray->org_x[i];
+    one.ray.org_y = ray->org_y[i];
+    one.ray.org_z = ray->org_z[i];
+    one.ray.dir_x = ray->dir_x[i];
+    one.ray.dir_y = ray->dir_y[i];
+    one.ray.dir_z = ray->dir_z[i];
+    one.ray.tfar = ray->tfar[i];
+    one.ray.mask = ray->mask[i];
+    one.hit.Ng_x = hit->Ng_x[i];
+    one.hit.Ng_y = hit->Ng_y[i];
+    one.hit.Ng_z = hit->Ng_z[i];
+    one.hit.primID = hit->primID[i];
+    one.hit.geomID = hit->geomID[i];
+    return one;
 }
 
 unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsigned which,
@@ -461,14 +490,13 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
         rtcIntersect16(valid, rays->scene, &context, &query);
 #endif
     }
-    for (int i = 0; i < 16; i++)
-        if (valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID
-            && query.hit.Ng_x[i] * query.ray.dir_x[i] + query.hit.Ng_y[i] * query.ray.dir_y[i]
-                       + query.hit.Ng_z[i] * query.ray.dir_z[i]
-                   > 0
-            && rays->behind[rays->face[query.hit.primID[i]]] == BLACK_BACK
-            && rays_first(rays, from[i], direction, NULL, NULL) == RAY_MEETS_BACK)
+    for (int i = 0; i < 16; i++) {
+        if (!valid[i] || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        _Alignas(16) struct RTCRayHit one = one_of(&query, i);
+        if (meets_behind(rays, &one) && rays->behind[rays->face[one.hit.primID]] == BLACK_BACK)
             backs |= 1u << i;
+    }
     return backs;
 }
 
