@@ -277,7 +277,7 @@ demo: all
 
 # A study is tests/studies/NAME.sh; what has been run stays in BUILD/studies. BUDGET: processor seconds for each scene.
 STUDIES   = releases accuracy need growth limit bounds viewfactors waves
-bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of $(BUILD)/bin/embree_bytes
+bench: commands $(BUILD)/bin/cell_error $(BUILD)/bin/by_chance $(BUILD)/bin/cost_of $(BUILD)/bin/embree_bytes $(BUILD)/bin/wave_times
 	@set -e; for study in $(STUDIES); do \
 	    [ -f tests/studies/$$study.sh ] || { echo "make bench: error: there is no study $$study; there are: $(filter-out lib accuracy_page check_studies,$(notdir $(basename $(wildcard tests/studies/*.sh))))" >&2; exit 1; }; \
 	    BUILD=$(BUILD) bash tests/studies/$$study.sh; \

@@ -1,7 +1,8 @@
 #!/bin/sh
 # check_widths.sh - decisions and links do not depend on the width of vectors: oracles compiled for loops and vectors of 1, 4, 8
-# and 16 numbers refine random rooms as the library's do, pair by pair and in waves, on 1 to 3 threads: two of the oracles, with
-# THOROUGH all, in ROOMS (6) rooms. ROOMS=300 THOROUGH=1 takes long.
+# and 16 numbers refine random rooms as the library's do, pair by pair and in waves, on 1 to 3 threads: two of the oracles in 6
+# rooms, with THOROUGH all in 300, which takes half an hour of a processor; ROOMS: in as many. Made with SANITIZE they are
+# compiled so, too.
 # Once is enough: it is about bits.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/../dagc/lib.sh"
@@ -12,11 +13,12 @@ folders="-I$build/gen -I$top/runtime -I$top/runtime/oracle -I$top/dagc"
 compile() { # ORACLE WIDTH OPTION...
     oracle=$1 width=$2
     shift 2
-    ${CC:-cc} $flags $folders "$@" -fPIC -shared -o "$tmp/${oracle}_$width.so" "$build/gen/oracles/$oracle.c" -lm || return
+    ${CC:-cc} $flags ${SANITIZE-} $folders "$@" -fPIC -shared -o "$tmp/${oracle}_$width.so" "$build/gen/oracles/$oracle.c" -lm || return
     WIDTHS="$WIDTHS $oracle $width $tmp/${oracle}_$width.so"
 }
-oracles="power bf_guarded" rooms=${ROOMS:-6}
+oracles="power bf_guarded" rooms=6
 if [ -n "${THOROUGH-}" ]; then
+    rooms=300
     oracles=$(cd "$build/gen/oracles" && ls ./*.c | sed 's/^\.\///; s/\.c$//')
 fi
 WIDTHS=
@@ -27,7 +29,7 @@ for one in $oracles; do
     check "$one, 4" compile "$one" 4 -O2 -DLANES=4 -DLANES_WIDEST=4
     check "$one, 1" compile "$one" 1 -O1 -DLANES=1 -DLANES_WIDEST=1
 done
-export WIDTHS ROOMS=$rooms
+export WIDTHS ROOMS=${ROOMS:-$rooms}
 check "the same in rooms" "$build/tests/runtime/width_rooms"
 cat "$tmp/out"
 # two widths of one text would have the same bits if the second were not another

@@ -1,6 +1,6 @@
 /* wave_times.c - what releases of an oracle take of the same pairs, and what of that is Embree's:
  *
- *     wave_times ORACLE SCENE... [NAME=VALUE...]
+ *     [PAIRS=COUNT] wave_times ORACLE SCENE... [NAME=VALUE...]
  *
  * While a scene is solved, every block of discussions that the engine hands out is held by each
  * release, one after the other, on copies: first the whole block, then those of its pairs that cast
@@ -11,6 +11,7 @@
  * No release holds the same pairs twice in a row, so that no processor can learn their answers by
  * heart: what goes on in the solve is the interpreter's. Elements are in the caches for all, and
  * each block begins with another release. A decision that differs ends the program with status 1.
+ * With PAIRS each solve ends when it has discussed as many.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <stdlib.h>
@@ -278,13 +279,18 @@ static void print_work(const char *scene, const char *what, const struct work *w
 
 static int solve_once(const char *path, const struct scene *scene, const struct refiner *asking)
 {
-    const struct solve_options options = {.tolerance = 1e-3, .iterations = 1000, .threads = 1};
+    const char *pairs = getenv("PAIRS");
+    const struct solve_options options = {.tolerance = 1e-3,
+                                          .iterations = 1000,
+                                          .threads = 1,
+                                          .limits.pairs = pairs ? strtoull(pairs, NULL, 10) : 0};
     struct solve s;
     const char *cause = "";
     bench.solve = &s;
     bench.scene = NULL;
     bench.blocks = bench.turn;
-    if (solve_open(&s, scene, &options, &cause) < 0 || solve_run(&s, asking, &cause) < 0) {
+    if (solve_open(&s, scene, &options, &cause) < 0
+        || (solve_run(&s, asking, &cause) < 0 && !(pairs && s.refinement.met))) {
         fprintf(stderr, "wave_times: %s: %s\n", path, cause);
         return 2;
     }
