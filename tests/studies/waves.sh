@@ -235,7 +235,7 @@ together. A whole solve, by thresholds as above; where that takes over $LIMIT s 
         sed 's/one by one/one_by_one/; s/as a list/as_a_list/; s/ %//g' "$nodes" | awk '
             ($3 == "one_by_one" || $3 == "as_a_list") && $5 >= 1 { gsub(/_/, " ", $3); printf "| %s | %s | %s | %s | %s | %s %% | %s |\n", $1, $2, $3, $5, $6, $8, $10 }
             / nodes are asked / { asked = $0 }
-            END { sub(/^ */, "", asked); printf "\n%s.\n", asked }'
+            END { sub(/^ */, "", asked); gsub(/_/, " ", asked); printf "\n%s.\n", asked }'
     done
     printf '\n## Text\n\n'
     echo "What \`dagc --release=flat\` and \`--release=wave\` (both functions) write, and what a compiler (\`${CC:-cc} -O2\`) takes for it and makes of it."
