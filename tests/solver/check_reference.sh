@@ -45,16 +45,21 @@ check "it goes on" grep -q "^goes on from two.csv.state: .* particles" out
 check "the same in two runs" cmp one.csv two.csv
 check "the state is gone" [ ! -e two.csv.state ]
 
-# ---- stopped by a signal, three times, at whatever place
+# ---- stopped by a signal, three times, at whatever place; also when its table is there already
+check "at one go" "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% -q -o whole.csv
 : >long.csv.log
 for i in 1 2 3 4 5 6 7 8; do
     "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% --threads 1 -o long.csv >out 2>err &
     pid=$!
-    [ $i -lt 4 ] && { catches $pid; sleep 0.4; kill -INT $pid 2>/dev/null || kill -TERM $pid 2>/dev/null; }
+    [ $i -lt 4 ] && { catches $pid; sleep 0.2; kill -INT $pid 2>/dev/null || kill -TERM $pid 2>/dev/null; }
     wait $pid
     status=$?
     echo $status >>long.csv.log
     [ $status = 130 ] || break
+    if grep -q "stopped by a signal; of its files 1 was written before" err; then
+        status=0
+        break
+    fi
     check "a stopped run has no table" [ ! -e long.csv ]
     if [ -s err ]; then # else it was stopped before it began
         check "it says so" grep -q "^stopped after .*goes on from long.csv.state" err
@@ -63,7 +68,6 @@ for i in 1 2 3 4 5 6 7 8; do
 done
 check "it was stopped at least once" grep -q 130 long.csv.log
 check "and ended" [ $status = 0 ]
-check "at one go" "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% -q -o whole.csv
 check "the same after being stopped" cmp whole.csv long.csv
 
 # ---- states that are none of this scene's
