@@ -323,8 +323,9 @@ static void add_sights(struct mending *m)
         const struct note *note = &m->note[i];
         if (note->class == NOTHING)
             continue;
-        add_sight(&m->class[note->class], &note -> sight);
-        add_sight(&m->kin[note->elder], &note->sight);
+        const struct sight *own = &note->sight;
+        add_sight(&m->class[note->class], own);
+        add_sight(&m->kin[note->elder], own);
     }
 }
 
