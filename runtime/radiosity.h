@@ -714,8 +714,8 @@ RAD_API int radMeasureError(RadSolution solution, const struct RadMeasureOptions
 RAD_API int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error,
                                 double *deviation);
 /* The same of each element's mean, as far as it stands out of its noise: [element * bands + band],
- * W/m2, the solution's own until it is measured again or stepped; NULL: nothing has been measured.
- */
+ * W/m2, the solution's own until it is measured again or stepped; NULL: nothing has been measured,
+ * or there is no memory for it. */
 RAD_API const double *radGetElementErrors(RadSolution solution);
 
 struct RadCorrectOptions {

@@ -84,7 +84,12 @@ int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error, doub
 
 const double *radGetElementErrors(RadSolution solution)
 {
-    return solution && !solution->dead ? solution->measured.element : NULL;
+    if (!solution || solution->dead)
+        return NULL;
+    if (measured_elements(&solution->solve, &solution->measured) < 0)
+        api_fail(solution->scene->device, RAD_ERROR_OUT_OF_MEMORY,
+                 "out of memory for the errors of elements");
+    return solution->measured.element;
 }
 
 int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlaces *places)

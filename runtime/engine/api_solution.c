@@ -322,6 +322,8 @@ int radSolve(RadSolution solution)
     if (api_not_dead(solution) < 0)
         return -1;
     const char *cause;
+    if (!solution->done)
+        measured_error_free(&solution->measured);
     if (!solution->done && solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return api_give_up(solution, cause);
     solution->done = 1;
@@ -349,6 +351,7 @@ int radSolveWithFactors(RadSolution solution, const float *form_factors)
                             "form factor %zu of %zu is %g; it takes a finite number from 0", i,
                             count, (double)form_factors[i]);
     const char *cause;
+    measured_error_free(&solution->measured);
     solution->places.rays = 0;
     if (solve_with_factors(&solution->solve, form_factors, &cause) < 0)
         return api_give_up(solution, cause);

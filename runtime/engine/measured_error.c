@@ -62,7 +62,8 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
     return tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch);
 }
 
-/* What the tally, which nothing of the shown solution comes from, says of its polygons, */
+/* What the tally, which nothing of the shown solution comes from, says of its polygons. Returns 0,
+ * or -1 when out of memory. */
 static int measure_faces(struct solve *s, const struct tally *tally, struct measured_error *m)
 {
     m->rays = tally->rays;
@@ -71,27 +72,30 @@ static int measure_faces(struct solve *s, const struct tally *tally, struct meas
                            tally);
 }
 
-/* and of its elements. Both return 0, or -1 when out of memory. */
-static int measure_elements(struct solve *s, const struct tally *tally, struct measured_error *m)
+int measured_elements(const struct solve *s, struct measured_error *m)
 {
     const struct state *shown = solve_shown(s);
     const struct problem *p = &s->problem;
     size_t values = (size_t)s->hierarchy.count * p->bands;
-    m->element = malloc(values * sizeof *m->element);
-    if (!m->element)
+    if (m->element || !m->tally.element)
+        return 0;
+    double *element = malloc(values * sizeof *element);
+    if (element)
+        memcpy(element, shown->irradiance, values * sizeof *element);
+    if (!element || mend_irradiance(&s->operator, & m->tally, element) < 0) {
+        free(element);
         return -1;
-    memcpy(m->element, shown->irradiance, values * sizeof *m->element);
-    if (mend_irradiance(&s->operator, tally, m->element) < 0)
-        return -1;
+    }
+    tally_close(&m->tally);
     for (uint32_t e = 0; e < s->hierarchy.count; e++)
         for (uint32_t k = 0; k < p->bands; k++) {
             const struct element *at = &s->hierarchy.elements[e];
             size_t i = (size_t)e * p->bands + k;
             double rho = at->vertices ? p->reflectance[(size_t)at->face * p->bands + k] : 0;
             double uncovered = s->operator.uncovered[e];
-            m->element[i] =
-                uncovered > 0 ? rho * (shown->irradiance[i] - m->element[i]) / uncovered : 0;
+            element[i] = uncovered > 0 ? rho * (shown->irradiance[i] - element[i]) / uncovered : 0;
         }
+    m->element = element;
     return 0;
 }
 
@@ -126,16 +130,14 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     uint64_t each = surfaces ? rays * 3 / 10 : 0, counted = rays - 2 * each;
     double start = seconds();
     struct tracer t = solve_tracer(s);
-    struct tally tally = {0};
     s->told = 0;
     *m = (struct measured_error){0};
-    int result = tracer_open(&t) < 0 || tally_open(&tally, &t, stream, 1) < 0
-                         || trace_rays(s, &t, &tally, counted, (double)rays) < 0
-                         || measure_faces(s, &tally, m) < 0 || measure_elements(s, &tally, m) < 0
+    int result = tracer_open(&t) < 0 || tally_open(&m->tally, &t, stream, 1) < 0
+                         || trace_rays(s, &t, &m->tally, counted, (double)rays) < 0
+                         || measure_faces(s, &m->tally, m) < 0
                          || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
                      : 0;
-    tally_close(&tally);
     tracer_close(&t);
     m->seconds = seconds() - start;
     if (result < 0)
@@ -146,6 +148,7 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
 void measured_error_free(struct measured_error *m)
 {
     face_error_close(&m->faces);
+    tally_close(&m->tally);
     free(m->element);
     *m = (struct measured_error){0};
 }

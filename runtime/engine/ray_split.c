@@ -14,20 +14,7 @@
 #include <stdlib.h>
 #include "engine/ray_split.h"
 #include "kernel/constants.h"
-
-/* Power counted on all elements, from leaves up: [element * bands + band] (W). */
-static double *count_power(const struct hierarchy *h, const struct tally *tally)
-{
-    uint32_t bands = tally->bands;
-    double *power = malloc((size_t)h->count * bands * sizeof *power);
-    for (uint32_t e = 0; power && e < h->count; e++)
-        for (uint32_t k = 0; k < bands; k++)
-            power[(size_t)e * bands + k] = h->elements[e].children ? 0 : tally_leaf(tally, e, k);
-    for (uint32_t e = h->count; power && e-- > 1;) /* children follow their parents */
-        for (uint32_t k = 0; k < bands; k++)
-            power[(size_t)h->elements[e].parent * bands + k] += power[(size_t)e * bands + k];
-    return power;
-}
+#include "util/thread_pool.h"
 
 static int is_place(const struct hierarchy *h, uint32_t e)
 {
@@ -39,20 +26,77 @@ static int is_place(const struct hierarchy *h, uint32_t e)
     return !parent->vertices || parent->area > most;
 }
 
+/* Places, and the power counted on them: [place * bands + band] (W). */
+struct places {
+    const struct hierarchy *h;
+    const struct tally *tally;
+    uint32_t *element, count;
+    double *power;
+};
+
+/* Add what has been counted below an element: children last to first, each once it is whole. */
+static void add_power(const struct places *p, uint32_t e, double power[3])
+{
+    const struct element *at = &p->h->elements[e];
+    for (uint32_t k = 0; k < p->tally->bands && !at->children; k++)
+        power[k] += tally_leaf(p->tally, e, k);
+    for (uint32_t j = at->child + at->children; at->children && j-- > at->child;) {
+        double part[3] = {0, 0, 0};
+        add_power(p, j, part);
+        for (uint32_t k = 0; k < p->tally->bands; k++)
+            power[k] += part[k];
+    }
+}
+
+static void add_powers(const void *places, size_t from, size_t to)
+{
+    const struct places *p = places;
+    for (size_t i = from; i < to; i++) {
+        double power[3] = {0, 0, 0};
+        add_power(p, p->element[i], power);
+        for (uint32_t k = 0; k < p->tally->bands; k++)
+            p->power[i * p->tally->bands + k] = power[k];
+    }
+}
+
+/* Returns 0, or -1 when out of memory; either way places_close. */
+static int places_open(struct places *p, const struct hierarchy *h, const struct tally *tally,
+                       int threads)
+{
+    *p = (struct places){.h = h, .tally = tally};
+    p->element = malloc((size_t)h->count * sizeof *p->element);
+    for (uint32_t e = 0; p->element && e < h->count; e++)
+        if (is_place(h, e))
+            p->element[p->count++] = e;
+    p->power = malloc(((size_t)p->count * tally->bands + 1) * sizeof *p->power);
+    if (!p->element || !p->power)
+        return -1;
+    thread_pool_run(threads, p->count, 64, add_powers, p);
+    return 0;
+}
+
+static void places_close(struct places *p)
+{
+    free(p->element);
+    free(p->power);
+}
+
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
                       const double *irradiance, struct ray_split *split)
 {
     const struct hierarchy *h = op->hierarchy;
-    double *power = count_power(h, tally), seen = 0, noise = 0, square = 0, light = 0; /* W */
+    double seen = 0, noise = 0, square = 0, light = 0; /* W */
     double one = tally_power_of_one(tally);
+    struct places places;
+    int result = places_open(&places, h, tally, op->problem->options.threads);
     *split = (struct ray_split){.rays = tally->rays};
-    if (!power)
-        return -1;
-    for (uint32_t e = 0; e < h->count; e++)
-        for (uint32_t k = 0; k < tally->bands && is_place(h, e); k++) {
-            size_t at = (size_t)e * tally->bands + k;
-            double area = h->elements[e].area, linked = irradiance[at] * area,
-                   off = power[at] - linked, weight = 1 / (linked + irradiance[k] * area + one);
+    for (uint32_t i = 0; result == 0 && i < places.count; i++)
+        for (uint32_t k = 0; k < tally->bands; k++) {
+            const uint32_t e = places.element[i];
+            double area = h->elements[e].area,
+                   linked = irradiance[(size_t)e * tally->bands + k] * area,
+                   off = places.power[(size_t)i * tally->bands + k] - linked,
+                   weight = 1 / (linked + irradiance[k] * area + one);
             /* chance is that of the light that links expect: of what landed it would be small
              * wherever little happened to */
             double chance = one * tally->square[k] * linked * weight;
@@ -61,13 +105,13 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
             square += chance * chance;
             light += linked * linked * weight;
         }
-    free(power);
+    places_close(&places);
     if (light > 0 && tally->rays > 0) {
         split->links = (seen - noise) / light;
         split->deviation = sqrt(2 * square) / light; /* of squares of normal variables */
         split->ray = noise / light * (double)tally->rays;
     }
-    return 0;
+    return result;
 }
 
 double ray_split_wanted(const struct ray_split *split, double wanted)

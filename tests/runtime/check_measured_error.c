@@ -689,6 +689,7 @@ START_TEST(test_bare)
     ck_assert(m.faces.l1.value == 0 && m.faces.l1.low == 0 && m.faces.l1.high == 0);
     ck_assert(m.faces.power.value == 0 && m.faces.reflected == 0);
     ck_assert_uint_eq(m.faces.worst, scene.input_count);
+    ck_assert_int_eq(measured_elements(&s, &m), 0);
     for (uint32_t e = 0; e < s.hierarchy.count; e++) {
         ck_assert_double_eq(m.element[e], 0);
         ck_assert_double_eq(s.mended.radiosity[e], s.state.radiosity[e]);
