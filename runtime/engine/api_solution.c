@@ -300,6 +300,13 @@ int radRefine(RadSolution solution)
     return 0;
 }
 
+/* What was measured is of light that is about to change. */
+static void forget_measured(RadSolution solution)
+{
+    measured_error_free(&solution->measured);
+    solution->places.rays = 0;
+}
+
 int radStep(RadSolution solution)
 {
     if (api_not_dead(solution) < 0)
@@ -310,8 +317,7 @@ int radStep(RadSolution solution)
     if (!is_refined(solution)
         && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return api_give_up(solution, cause);
-    measured_error_free(&solution->measured);
-    solution->places.rays = 0;
+    forget_measured(solution);
     int more = solve_step(&solution->solve, &cause);
     solution->done = more == 0;
     return more < 0 ? api_give_up(solution, cause) : more;
@@ -321,10 +327,11 @@ int radSolve(RadSolution solution)
 {
     if (api_not_dead(solution) < 0)
         return -1;
+    if (solution->done)
+        return 0;
     const char *cause;
-    if (!solution->done)
-        measured_error_free(&solution->measured);
-    if (!solution->done && solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
+    forget_measured(solution);
+    if (solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return api_give_up(solution, cause);
     solution->done = 1;
     return 0;
@@ -351,8 +358,7 @@ int radSolveWithFactors(RadSolution solution, const float *form_factors)
                             "form factor %zu of %zu is %g; it takes a finite number from 0", i,
                             count, (double)form_factors[i]);
     const char *cause;
-    measured_error_free(&solution->measured);
-    solution->places.rays = 0;
+    forget_measured(solution);
     if (solve_with_factors(&solution->solve, form_factors, &cause) < 0)
         return api_give_up(solution, cause);
     solution->done = 1;

@@ -323,6 +323,56 @@ START_TEST(test_factors)
 }
 END_TEST
 
+static void expect_measured(RadSolution solution)
+{
+    ck_assert_int_eq(radMeasureError(solution, NULL, NULL), 0);
+    ck_assert_ptr_nonnull(radGetElementErrors(solution));
+}
+
+static void expect_unmeasured(RadDevice device, RadSolution solution)
+{
+    double error[6];
+    ck_assert_ptr_null(radGetElementErrors(solution));
+    ck_assert_int_eq(radGetPolygonErrors(solution, 0, error, NULL), -1);
+    expect_error(device, RAD_ERROR_INVALID_OPERATION, "nothing has been measured of what is shown");
+}
+
+/* An error is of the light it was measured of: whatever changes that light forgets it, and what
+ * changes nothing does not. */
+START_TEST(test_measured_is_forgotten)
+{
+    RadDevice device = radNewDevice(NULL);
+    RadScene scene = lamp_scene(device, 0.5);
+    RadOracle oracle = default_oracle(device);
+    RadSolution solution = radNewSolution(scene, oracle, NULL);
+    ck_assert_int_eq(radStep(solution), 1);
+    expect_measured(solution);
+    ck_assert_int_ge(radStep(solution), 0);
+    expect_unmeasured(device, solution);
+    radReleaseSolution(solution);
+
+    solution = radNewSolution(scene, oracle, NULL);
+    ck_assert_int_eq(radStep(solution), 1);
+    expect_measured(solution);
+    ck_assert_int_eq(radSolve(solution), 0);
+    expect_unmeasured(device, solution);
+    expect_measured(solution);
+    ck_assert_int_eq(radSolve(solution), 0);
+    ck_assert_ptr_nonnull(radGetElementErrors(solution));
+    struct RadLinks links;
+    radGetLinks(solution, &links);
+    float *factors = calloc(links.count, sizeof *factors);
+    ck_assert_ptr_nonnull(factors);
+    ck_assert_int_eq(radSolveWithFactors(solution, factors), 0);
+    expect_unmeasured(device, solution);
+    free(factors);
+    radReleaseSolution(solution);
+    radReleaseOracle(oracle);
+    radReleaseScene(scene);
+    radReleaseDevice(device);
+}
+END_TEST
+
 /* Bent, concave, two-sided and empty polygons; the arrays may go after the commit. */
 START_TEST(test_polygons)
 {
@@ -1377,6 +1427,7 @@ int main(void)
     tcase_add_test(t, test_views);
     tcase_add_test(t, test_linear);
     tcase_add_test(t, test_factors);
+    tcase_add_test(t, test_measured_is_forgotten);
     tcase_add_test(t, test_polygons);
     tcase_add_test(t, test_exchange);
     tcase_add_test(t, test_reference);
