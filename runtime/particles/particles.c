@@ -127,6 +127,12 @@ static uint32_t count_landings(struct tally *tally, const struct tracer *t, stru
     uint32_t leaf[LANDINGS] = {0};
     if (tally->element)
         find_leaves(tally, t, batch->landing, count, leaf);
+    for (int i = 0; i < count; i++) { /* additions wait for memory one after the other */
+        const size_t face = (size_t)batch->replicate * tally->faces + batch->landing[i].face;
+        __builtin_prefetch((const void *)&tally->face[face * tally->bands], 1);
+        if (tally->element)
+            __builtin_prefetch((const void *)&tally->element[(size_t)leaf[i] * tally->bands], 1);
+    }
     for (int i = 0; i < count; i++) {
         const struct landing *l = &batch->landing[i];
         size_t face = (size_t)batch->replicate * tally->faces + l->face;

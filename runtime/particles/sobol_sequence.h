@@ -15,9 +15,13 @@
 /* Those that a point has, and those that can be had. */
 enum { SOBOL_DIMENSIONS = 5, SOBOL_COORDINATES = 20 };
 
-/* Direction numbers: what bit b of the index adds to the digits of dimension d. */
+/* Bits of an index that are looked up at once, and how many such runs it has. */
+enum { SOBOL_RUN = 5, SOBOL_RUNS = 7 };
+
+/* What the bits of a run of the index add to the digits of dimension d. Those of one bit b are its
+ * direction numbers, digits[d][b / SOBOL_RUN][1 << b % SOBOL_RUN]. */
 struct sobol_sequence {
-    uint32_t direction[SOBOL_COORDINATES][32];
+    uint32_t digits[SOBOL_COORDINATES][SOBOL_RUNS][1 << SOBOL_RUN];
 };
 
 static inline void sobol_sequence_open(struct sobol_sequence *sobol)
@@ -45,14 +49,24 @@ static inline void sobol_sequence_open(struct sobol_sequence *sobol)
                 {6, 22, {1, 3, 1, 15, 13, 25}},
                 {6, 25, {1, 1, 5, 5, 19, 61}},
                 {7, 1, {1, 3, 7, 11, 23, 15, 103}}};
-    for (uint32_t b = 0; b < 32; b++)
-        sobol->direction[0][b] = 1u << (31 - b);
-    for (int d = 1; d < SOBOL_COORDINATES; d++) {
-        uint32_t s = rows[d - 1].s, a = rows[d - 1].a, *v = sobol->direction[d];
+    for (int d = 0; d < SOBOL_COORDINATES; d++) {
+        uint32_t v[SOBOL_RUN * SOBOL_RUNS] = {0};
         for (uint32_t b = 0; b < 32; b++) {
+            if (d == 0) {
+                v[b] = 1u << (31 - b);
+                continue;
+            }
+            const uint32_t s = rows[d - 1].s, a = rows[d - 1].a;
             v[b] = b < s ? rows[d - 1].m[b] << (31 - b) : v[b - s] ^ v[b - s] >> s;
             for (uint32_t j = 1; b >= s && j < s; j++)
                 v[b] ^= a >> (s - 1 - j) & 1 ? v[b - j] : 0;
+        }
+        for (uint32_t run = 0; run < SOBOL_RUNS; run++) {
+            uint32_t *digits = sobol->digits[d][run];
+            digits[0] = 0;
+            for (uint32_t b = 0; b < SOBOL_RUN; b++)
+                for (uint32_t i = 0; i < 1u << b; i++)
+                    digits[(1u << b) + i] = digits[i] ^ v[run * SOBOL_RUN + b];
         }
     }
 }
@@ -61,9 +75,10 @@ static inline void sobol_sequence_open(struct sobol_sequence *sobol)
 static inline double sobol_sequence_at(const struct sobol_sequence *sobol, uint32_t index, int d,
                                        uint32_t shift)
 {
+    const uint32_t last = (1u << SOBOL_RUN) - 1;
     uint32_t x = shift;
-    for (uint32_t i = index, b = 0; i; i >>= 1, b++)
-        x ^= -(i & 1) & sobol->direction[d][b]; /* bits are as good as random: no branch */
+    for (uint32_t i = index, run = 0; i; i >>= SOBOL_RUN, run++)
+        x ^= sobol->digits[d][run][i & last];
     return x * 0x1p-32;
 }
 
