@@ -4,7 +4,10 @@
  * known is e^ = R~ - R^, R^ counted: e with a noise whose deviation is s. Two estimates of s^2 are
  * averaged: how the replicates differ, which sees all but is known to 15 degrees of freedom only
  * and to fewer where few particles land; and chance, by the number of particles, times how the
- * replicates of polygons with as many particles differ from chance in the mean.
+ * replicates of polygons with as many particles differ from chance in the mean. What noise adds to
+ * a sum of moduli is told by the replicates themselves: half of them less the other half, over 2,
+ * has the noise of the mean of all and no error in it. By that s of a class of many polygons is
+ * scaled, as errors below a third of the noise make that sum but a twentieth larger.
  *
  * Power. The sum of e^ over that of R^, with Student's interval of the replicates.
  *
@@ -20,8 +23,10 @@
  * not make the observed sum a surprise at 95 %, a sum of few being skewed (Cornish and Fisher).
  * With it goes what squares leave open of a, and the noise of certain ones: the surprise is shared
  * between them as is worst. What replicates show the noises of polygons to have in common widens
- * or narrows all of it. Where nothing but noise is seen, the upper end is no lower than for a sum
- * one standard deviation below what noise alone makes: a power-constrained limit.
+ * or narrows all of it. The moduli of counts of n are not quite those of differences of counts of
+ * n / 2: what noise adds is doubted by 1 / 8 n, which no number of polygons mends. Where nothing
+ * but noise is seen, the upper end is no lower than for a sum one standard deviation below what
+ * noise alone makes: a power-constrained limit.
  *
  * [folded normal: Leone, Nelson and Nottingham 1961; interval by inversion of a test: Neyman 1937;
  * skewed sums: Cornish and Fisher 1938; the limit: Cowan et al. 2011; the rest: derived here,
@@ -46,19 +51,21 @@ _Static_assert(REPLICATES == 16, "T_QUANTILE is that of 15 degrees of freedom");
 /* Polygons and bands alike in number of particles and in x = |e^| / s: sums of s, s^2 and s x. */
 struct bin {
     double s, square, x;
+    double doubt;        /* sum of s times how uncertain it is, as a share */
     double count, error; /* error: m of each, true errors over s, as far as can be told */
 };
 
 struct counted {
     uint32_t bands;
-    size_t values;        /* polygons * bands */
-    double *solved;       /* [values]: R~ (W) */
-    double *replicate;    /* [REPLICATES][values]: R^ of each (W) */
-    double *mean;         /* [values]: R^ */
-    double *deviation;    /* [values]: s (W) */
-    double *weight;       /* [values]: room to work in */
-    double reflected;     /* sum of R^ (W) */
-    unsigned char *class; /* [values] */
+    size_t values;         /* polygons * bands */
+    double *solved;        /* [values]: R~ (W) */
+    double *replicate;     /* [REPLICATES][values]: R^ of each (W) */
+    double *mean;          /* [values]: R^ */
+    double *deviation;     /* [values]: s (W) */
+    double scale[CLASSES]; /* s of a class by its moduli over that by its squares */
+    double *weight;        /* [values]: room to work in */
+    double reflected;      /* sum of R^ (W) */
+    unsigned char *class;  /* [values] */
     struct bin bin[CLASSES][BINS];
     double sure, sure_square;     /* of those whose x is beyond all bins: sums of |e^| and s^2 */
     double shape_low, shape_high; /* what shapes may take off and add (W) */
@@ -83,8 +90,9 @@ struct expected {
     double sum, variance, skew, errors; /* skew: the third central moment */
 };
 
-/* With every m^2 raised by so much; certain ones are as they are. */
-static struct expected expect_all(const struct counted *c, double raise)
+/* With every m^2 raised by so much, and noise less by so many times its doubt; certain ones are as
+ * they are. */
+static struct expected expect_all(const struct counted *c, double raise, int less)
 {
     struct expected all = {0, 0, 0, 0};
     for (int k = 0; k < CLASSES; k++)
@@ -92,7 +100,8 @@ static struct expected expect_all(const struct counted *c, double raise)
             const struct bin *b = &c->bin[k][i];
             if (!(b->s > 0))
                 continue;
-            double x = sqrt(fmax(0, b->error * b->error + raise)), e = folded(x, 1);
+            double x = sqrt(fmax(0, b->error * b->error + raise)), noise = b->s - less * b->doubt,
+                   e = folded(x, noise / b->s);
             all.sum += b->s * e;
             all.variance += b->square * fmax(0, 1 + x * x - e * e);
             all.skew += b->square * (b->square / b->s) * skew(x);
@@ -243,12 +252,55 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
     }
 }
 
+static unsigned odd_bits(unsigned x)
+{
+    x ^= x >> 2;
+    return (x ^ x >> 1) & 1;
+}
+
+/* How uncertain the moduli of noise are in a class, whose polygons have 4^class particles or more,
+ * as a share. */
+static double doubt_of(int class)
+{
+    return class > 0 ? exp2(-2 * class - 3) : FACE_ERROR_FEWEST;
+}
+
+/* Of a class, by how far halves of the replicates are apart: what the moduli of noise are over
+ * those of a normal one of deviation s. A class of few polygons says little, and where
+ * less than four particles come both are something else. */
+static void find_scales(struct counted *c)
+{
+    double apart[CLASSES] = {0}, normal[CLASSES] = {0}, count[CLASSES] = {0};
+    for (size_t i = 0; i < c->values; i++) {
+        double sum = 0;
+        if (!(c->deviation[i] > 0))
+            continue;
+        for (unsigned split = 1; split < REPLICATES; split++) {
+            double off = 0;
+            for (unsigned r = 0; r < REPLICATES; r++) { /* rows of Hadamard's matrix */
+                double one = c->replicate[(size_t)r * c->values + i] / REPLICATES;
+                off += odd_bits(split & r) ? one : -one;
+            }
+            sum += fabs(off) / (REPLICATES - 1);
+        }
+        apart[c->class[i]] += sum;
+        normal[c->class[i]] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
+        count[c->class[i]]++;
+    }
+    for (int k = 0; k < CLASSES; k++)
+        c->scale[k] =
+            normal[k] > 0
+                ? 1 + (apart[k] / normal[k] - 1) * count[k] / (count[k] + FACE_ERROR_ALIKE)
+                : 1;
+}
+
 /* Put values into bins and find their errors. */
 static void find_errors(struct counted *c)
 {
     double seen[CLASSES] = {0};
     for (size_t i = 0; i < c->values; i++) {
-        double s = c->deviation[i], off = fabs(c->solved[i] - c->mean[i]);
+        double rms = c->deviation[i], s = rms * c->scale[c->class[i]],
+               off = fabs(c->solved[i] - c->mean[i]);
         if (!(s > 0))
             continue;
         if (off >= FACE_ERROR_CERTAIN * s) {
@@ -260,8 +312,9 @@ static void find_errors(struct counted *c)
         b->s += s;
         b->square += s * s;
         b->x += off;
+        b->doubt += s * doubt_of(c->class[i]);
         b->count++;
-        seen[c->class[i]] += off * off - s * s;
+        seen[c->class[i]] += off * off - rms * rms;
     }
     for (int k = 0; k < CLASSES; k++) {
         int filled = 0;
@@ -305,9 +358,10 @@ static double variance_of_sum(const struct counted *c)
 /* How far the expected sum is from the observed one, in standard deviations that the skewness of
  * sums of few has been taken from; `common`: by what the noise that values share multiplies the
  * variance. */
-static double surprise(const struct counted *c, double raise, double observed, double common)
+static double surprise(const struct counted *c, double raise, int less, double observed,
+                       double common)
 {
-    struct expected e = expect_all(c, raise);
+    struct expected e = expect_all(c, raise, less);
     if (!(e.variance > 0))
         return 0;
     double skewed = e.skew / pow(e.variance, 1.5) * (T_QUANTILE * T_QUANTILE - 1) / 6;
@@ -320,19 +374,19 @@ static double reach(const struct counted *c, int sign, double surprised, double 
                     double common)
 {
     double near = 0, far = sign < 0 ? LOWEST : 1;
-    struct expected now = expect_all(c, 0);
+    struct expected now = expect_all(c, 0, 0);
     if (!(now.variance > 0))
         return 0;
-    while (sign > 0 && far < 1e12 && surprise(c, far, observed, common) < surprised)
+    while (sign > 0 && far < 1e12 && surprise(c, far, sign, observed, common) < surprised)
         far *= 4;
     for (int i = 0; i < HALVINGS; i++) {
         double middle = 0.5 * (near + far);
-        if (sign * surprise(c, middle, observed, common) < surprised)
+        if (sign * surprise(c, middle, sign, observed, common) < surprised)
             near = middle;
         else
             far = middle;
     }
-    return sign * (expect_all(c, near).errors - now.errors);
+    return sign * (expect_all(c, near, sign).errors - now.errors);
 }
 
 /* The most that errors may be above or below what they are thought to be (W): 95 % are shared, as
@@ -351,14 +405,14 @@ static double farthest(const struct counted *c, int sign, double observed, doubl
 
 static struct RadMeasure measure_l1(struct counted *c)
 {
-    struct expected now = expect_all(c, 0);
+    struct expected now = expect_all(c, 0, 0);
     double observed = 0, value = now.errors + c->sure, all = c->reflected, independent = 0;
     for (int k = 0; k < CLASSES; k++)
         for (int i = 0; i < BINS; i++)
             observed += c->bin[k][i].x;
     for (size_t i = 0; i < c->values; i++) { /* d |e^| / d R^, and that of the reflected light */
         double off = c->solved[i] - c->mean[i];
-        double s = c->deviation[i], x = s > 0 ? off / s : 0;
+        double s = c->deviation[i] * c->scale[c->class[i]], x = s > 0 ? off / s : 0;
         if (fabs(x) < FACE_ERROR_CERTAIN && s > 0) {
             double m = c->bin[c->class[i]][(int)(fabs(x) * (BINS / FACE_ERROR_CERTAIN))].error;
             x = x < 0 ? -m : m;
@@ -370,7 +424,7 @@ static struct RadMeasure measure_l1(struct counted *c)
     double seen = variance_of_sum(c), chance = now.variance + c->sure_square;
     double common = chance > 0 ? fmax(0.25, 1 + (seen - independent) / chance) : 1;
     /* A sum that is small by luck must not make the interval that of a better measurement. */
-    struct expected none = expect_all(c, LOWEST);
+    struct expected none = expect_all(c, LOWEST, 0);
     double lucky = none.sum - sqrt(none.variance * common);
     double low = farthest(c, -1, observed, common),
            high = farthest(c, 1, fmax(observed, lucky), common);
@@ -487,6 +541,7 @@ int face_error_open(struct face_error *f, const struct problem *p, const struct 
     for (uint32_t i = 0; i < h->face_count; i++)
         areas[h->faces[i].input] += h->elements[h->face_element[i]].area;
     f->reflected = c->reflected;
+    find_scales(c);
     find_errors(c);
     if (f->reflected > 0) {
         f->noise = expected_noise(c);

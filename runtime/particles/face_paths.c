@@ -14,9 +14,13 @@ int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t strea
     size_t values = (size_t)faces * t->bands;
     *p = (struct face_paths){.faces = faces, .bands = t->bands, .stream = stream};
     p->share = calloc(faces, sizeof *p->share);
-    p->sum = calloc(values, sizeof *p->sum);
-    p->square = calloc(values, sizeof *p->square);
-    if (!p->share || !p->sum || !p->square) {
+    int failed = !p->share;
+    for (int half = 0; half < PATH_HALVES; half++) {
+        p->sum[half] = calloc(values, sizeof *p->sum[half]);
+        p->square[half] = calloc(values, sizeof *p->square[half]);
+        failed |= !p->sum[half] || !p->square[half];
+    }
+    if (failed) {
         face_paths_close(p);
         return -1;
     }
@@ -37,8 +41,10 @@ int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t strea
 void face_paths_close(struct face_paths *p)
 {
     free(p->share);
-    free(p->sum);
-    free(p->square);
+    for (int half = 0; half < PATH_HALVES; half++) {
+        free(p->sum[half]);
+        free(p->square[half]);
+    }
     *p = (struct face_paths){0};
 }
 
@@ -46,7 +52,7 @@ void face_paths_close(struct face_paths *p)
 struct block {
     uint64_t first, rays;
     uint32_t face;
-    double sum[3], square[3];
+    double sum[PATH_HALVES][3], square[PATH_HALVES][3];
 };
 
 static void trace(struct block *b, const struct tracer *t, uint64_t stream)
@@ -57,8 +63,8 @@ static void trace(struct block *b, const struct tracer *t, uint64_t stream)
         tracer_point(t, b->face, u, v, p);
         path_irradiance(t, b->face, p, &dice, h, &b->rays);
         for (uint32_t k = 0; k < t->bands; k++) {
-            b->sum[k] += h[k];
-            b->square[k] += h[k] * h[k];
+            b->sum[i % PATH_HALVES][k] += h[k];
+            b->square[i % PATH_HALVES][k] += h[k] * h[k];
         }
     }
 }
@@ -66,10 +72,11 @@ static void trace(struct block *b, const struct tracer *t, uint64_t stream)
 static void add(struct face_paths *p, const struct block *b)
 {
     p->rays += b->rays;
-    for (uint32_t k = 0; k < p->bands; k++) {
-        p->sum[(size_t)b->face * p->bands + k] += b->sum[k];
-        p->square[(size_t)b->face * p->bands + k] += b->square[k];
-    }
+    for (int half = 0; half < PATH_HALVES; half++)
+        for (uint32_t k = 0; k < p->bands; k++) {
+            p->sum[half][(size_t)b->face * p->bands + k] += b->sum[half][k];
+            p->square[half][(size_t)b->face * p->bands + k] += b->square[half][k];
+        }
 }
 
 struct blocks {

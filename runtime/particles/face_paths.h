@@ -2,7 +2,8 @@
  *
  * How many paths a face gets of so many in all is fixed: by its share, in whole blocks, the first
  * of them by being there. So what has been traced depends on the sum of what was asked for, not on
- * the pieces it was asked in.
+ * the pieces it was asked in. Even and odd paths are summed up apart: two halves that know nothing
+ * of each other.
  *
  * Invariant: a block is summed up by one thread and blocks in their order, so neither threads nor
  * pieces show.
@@ -12,7 +13,7 @@
 
 #include "particles/particles.h"
 
-enum { PATH_BLOCK = 64 };
+enum { PATH_BLOCK = 64, PATH_HALVES = 2 };
 
 struct face_paths {
     uint32_t faces, bands;
@@ -20,8 +21,9 @@ struct face_paths {
     uint64_t paths;  /* asked for so far, all faces */
     uint64_t rays;   /* cast for them */
     double *share;   /* [faces]: of all paths; 0: none */
-    double *sum;     /* [faces * bands + band]: of the irradiances h that paths found (W/m2) */
-    double *square;  /* the same of h^2 */
+    /* by halves, [faces * bands + band]: of the irradiances h that paths found (W/m2), and of h^2
+     */
+    double *sum[PATH_HALVES], *square[PATH_HALVES];
 };
 
 /* None yet. Faces share paths by (A rho)^(2/3), rho of the strongest band, which gives the sum of
@@ -44,15 +46,15 @@ static inline uint64_t face_paths_count(const struct face_paths *p, uint32_t fac
     return PATH_BLOCK * (blocks > 0 ? blocks : 1);
 }
 
-/* Mean irradiance of the face in a band (W/m2), and the variance of that mean. 0 where no path was
- * traced. */
-static inline void face_paths_mean(const struct face_paths *p, uint32_t face, uint32_t band,
-                                   double *mean, double *variance)
+/* Mean irradiance of the face in a band (W/m2) by a half, and the variance of that mean. 0 where no
+ * path was traced. */
+static inline void face_paths_mean(const struct face_paths *p, int half, uint32_t face,
+                                   uint32_t band, double *mean, double *variance)
 {
-    double n = (double)face_paths_count(p, face, p->paths);
+    double n = (double)(face_paths_count(p, face, p->paths) / PATH_HALVES);
     size_t at = (size_t)face * p->bands + band;
-    *mean = n > 0 ? p->sum[at] / n : 0;
-    double spread = n > 0 ? p->square[at] / n - *mean * *mean : 0;
+    *mean = n > 0 ? p->sum[half][at] / n : 0;
+    double spread = n > 0 ? p->square[half][at] / n - *mean * *mean : 0;
     *variance = spread > 0 ? spread / (n - 1) : 0;
 }
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include "hierarchy/scene.h"
 
-enum { MADE_FACES = 4096, MADE_MATERIALS = 16 };
+enum { MADE_FACES = 32768, MADE_MATERIALS = 16 };
 
 /* An empty scene with room for that many. Returns 0, or -1 when out of memory. */
 static inline int made_open(struct scene *s)
