@@ -331,7 +331,7 @@ START_TEST(test_directions)
         uint32_t row[SOBOL_COORDINATES] = {0};
         for (int d = 0; d < n; d++)
             for (int b = 0; b < n; b++)
-                row[d] |= (sequence.direction[d][b] >> 31) << b;
+                row[d] |= (sequence.digits[d][b / SOBOL_RUN][1 << b % SOBOL_RUN] >> 31) << b;
         for (int b = 0; b < n; b++) { /* to triangular form */
             int pivot = b;
             while (pivot < n && !(row[pivot] >> b & 1))
