@@ -134,6 +134,61 @@ START_TEST(as_sure_as_it_says)
 }
 END_TEST
 
+/* A room of TILES x TILES tiles a wall, one of them a lamp, of which few particles and few paths
+ * know little each. A closed room absorbs what is emitted: whatever the noise of its faces, their
+ * sum is right within what is told of it. */
+START_TEST(no_bias)
+{
+    enum { TILES = 16 };
+    struct scene scene;
+    struct reference r;
+    made_open(&scene);
+    const double rho = 0.6, side = 1. / TILES;
+    const uint32_t wall = made_material(&scene, rho, 0), lamp = made_material(&scene, rho, 1);
+    for (int face = 0; face < 6; face++)
+        for (int i = 0; i < TILES * TILES; i++) {
+            /* axis k goes through the wall; a x b points into the room */
+            const int k = face / 2, far = face % 2;
+            double o[3] = {0, 0, 0}, a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
+            const int u = (k + 1) % 3, v = (k + 2) % 3;
+            o[k] = far;
+            o[u] = i % TILES * side;
+            o[v] = i / TILES * side;
+            a[far ? v : u] = side;
+            b[far ? u : v] = side;
+            made_quad(&scene, face == 5 && i == 0 ? lamp : wall, o[0], o[1], o[2], a[0], a[1], a[2],
+                      b[0], b[1], b[2]);
+        }
+    double *mean = calloc(scene.input_count, sizeof *mean),
+           *variance = calloc(scene.input_count, sizeof *variance);
+    ck_assert(mean && variance);
+    for (int many = 1; many <= 4; many *= 4) {
+        open_reference(&r, &scene, 2);
+        trace(&r, (uint64_t)(1 << 14) * (unsigned)many, (uint64_t)(1 << 16) * (unsigned)many);
+        struct reference_summary s;
+        ck_assert_int_eq(reference_summary(&r, &s), 0);
+        for (enum reference_method way = 0; way < REFERENCE_METHODS;
+             way = (enum reference_method)(way + 1)) {
+            double absorbed = 0, chance = 0;
+            ck_assert_int_eq(reference_irradiance(&r, way, 0, mean, variance), 0);
+            for (uint32_t i = 0; i < scene.input_count; i++) {
+                const double share = (1 - rho) * side * side;
+                absorbed += share * mean[i];
+                chance += share * share * variance[i];
+            }
+            printf("method %d, noise %.3f: %.4f of what is emitted is absorbed, deviation %.4f\n",
+                   way, s.noise[way], absorbed / s.emitted, sqrt(chance) / s.emitted);
+            ck_assert_double_eq_tol(absorbed, s.emitted, 4 * sqrt(chance));
+            ck_assert_double_lt(sqrt(chance), 0.04 * s.emitted); /* or it says nothing */
+        }
+        reference_close(&r);
+    }
+    free(mean);
+    free(variance);
+    made_close(&scene);
+}
+END_TEST
+
 /* Another program's particles, of which nothing is shared but Embree. */
 START_TEST(as_others_find)
 {
@@ -300,6 +355,7 @@ int main(void)
     tcase_set_timeout(c, 300);
     tcase_add_test(c, furnace);
     tcase_add_test(c, as_sure_as_it_says);
+    tcase_add_test(c, no_bias);
     tcase_add_test(c, as_others_find);
     tcase_add_test(c, same_bits);
     tcase_add_test(c, nothing_to_find);
