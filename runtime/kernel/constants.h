@@ -322,8 +322,8 @@
 /* polygons. A class of so many tells by its own replicates half of what noise adds to moduli: as
  * uncertain by then as a hundredth of it; chosen */
 #define FACE_ERROR_ALIKE 100.0
-/* of the moduli of noise. What is not known of them where fewer than four particles come: a count of
- * one in the mean is off by .74, a normal number of its deviation by .80, and what half of the
+/* of the moduli of noise. What is not known of them where fewer than four particles come: a count
+ * of one in the mean is off by .74, a normal number of its deviation by .80, and what half of the
  * replicates have less the others by .67 */
 #define FACE_ERROR_FEWEST 0.1
 /* standard errors. How far a solution may draw the mean that chance is computed from: 95 % */
