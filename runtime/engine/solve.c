@@ -85,7 +85,7 @@ static void measure_leaves(const void *contacts, size_t from, size_t to)
     for (size_t i = c->first + from; i < c->first + to; i++) {
         const struct element *e = &c->h->elements[i];
         if (e->vertices && !e->children && !(c->known && c->uncovered[i] >= 1))
-            c->uncovered[i] = 1 - contact_fraction(c->rays, e);
+            c->uncovered[i] = 1 - contact_fraction(c->rays, c->h, e);
     }
 }
 

@@ -247,6 +247,9 @@
 /* of CONTACT_RAYS that must meet backs for a point to lie inside a solid. chosen: two may meet
  * fronts of what reaches into the solid; points outside meet backs of closed solids never */
 #define CONTACT_BACKS 6
+/* of a surface's radius: what hangs higher above it than this, open below, does not stand on a part
+ * of it. Chosen; it is a cell and a half of the 4 x 4 points that are asked */
+#define STANDING_GAP 0.5
 /* of the rays from a point: when so many meet backs, it lies inside a solid. As CONTACT_BACKS of
  * CONTACT_RAYS */
 #define ENVIRONMENT_BACKS 0.75

@@ -2,15 +2,16 @@
  *
  * A point is covered when most rays from it, cosine-spread over its side, meet first the back of a
  * one-sided face: it is inside something. The share is that of a 4 x 4 grid of points, so it is off
- * by up to about half a cell along the edge of what stands there. Not all rays need meet backs:
- * solids may reach into each other, and a ray along an edge may slip past. Fails where faces are
- * two-sided: they have no inside.
- * [derived here]
+ * by up to about half a cell along the edge of what stands there. Where nothing stands on a part
+ * (standing.h) the middle is asked, and says it for all when it is outside. Not all rays need meet
+ * backs: solids may reach into each other, and a ray along an edge may slip past. Fails where faces
+ * are two-sided: they have no inside. [derived here]
  * SPDX-License-Identifier: MIT */
 #include "kernel/constants.h"
 #include "kernel/hemisphere.h"
 #include "kernel/surface_point.h"
 #include "visibility/contact_fraction.h"
+#include "visibility/standing.h"
 
 enum { SIDE = 4 };
 
@@ -38,12 +39,12 @@ int contact_covers(const struct rays *rays, const struct element *e, const doubl
 }
 
 /* As is_inside for all points at once, direction by direction: rays side by side cost half. */
-double contact_fraction(const struct rays *rays, const struct element *e)
+static double share_inside(const struct rays *rays, const struct element *e,
+                           double direction[CONTACT_RAYS][3])
 {
-    double direction[CONTACT_RAYS][3], p[SIDE * SIDE][3];
+    double p[SIDE * SIDE][3];
     int inside[SIDE * SIDE] = {0}, covered = 0;
     unsigned open = (1u << SIDE * SIDE) - 1; /* points that are inside or not by rays to come */
-    look_around(e, direction);
     for (int i = 0; i < SIDE * SIDE; i++) {
         surface_point(p[i], e, (i / SIDE + 0.5) / SIDE, (i % SIDE + 0.5) / SIDE);
         for (int k = 0; k < 3; k++)
@@ -60,4 +61,16 @@ double contact_fraction(const struct rays *rays, const struct element *e)
     for (int i = 0; i < SIDE * SIDE; i++)
         covered += inside[i] >= CONTACT_BACKS;
     return covered / (double)(SIDE * SIDE);
+}
+
+double contact_fraction(const struct rays *rays, const struct hierarchy *h, const struct element *e)
+{
+    const double off = rays_host(rays)->ray_offset;
+    double direction[CONTACT_RAYS][3], p[3];
+    look_around(e, direction);
+    for (int k = 0; k < 3; k++)
+        p[k] = e->centre[k] + off * e->normal[k];
+    return standing_may(h, e, off) || is_inside(rays, p, direction)
+               ? share_inside(rays, e, direction)
+               : 0;
 }

@@ -3,10 +3,12 @@
 #ifndef CONTACT_FRACTION_H
 #define CONTACT_FRACTION_H
 
+#include "hierarchy/hierarchy.h"
 #include "visibility/rays.h"
 
-/* Share of e's area in [0, 1], in steps of 1/16. Thread-safe. */
-double contact_fraction(const struct rays *rays, const struct element *e);
+/* Share of e's area in [0, 1], in steps of 1/16; e is of the hierarchy. Thread-safe. */
+double contact_fraction(const struct rays *rays, const struct hierarchy *h,
+                        const struct element *e);
 
 /* Does a solid stand on the point p (m) of e, ray_offset in front of it? By CONTACT_RAYS rays or
  * fewer. Thread-safe. */
