@@ -724,14 +724,17 @@ struct RadCorrectOptions {
     double noise;
     /* or until about so many rays are cast. 0: as many as bring the error on places of 1e-4 of the
      * scene's area to RAD_CORRECT_PLACES, root mean square as in RadPlaces, and on until the noise
-     * is as small as that; no fewer than RAD_CORRECT_LEAST, and no more than RAD_CORRECT_MOST or
-     * what the solution has cast, whichever is more */
+     * is as small as that; no fewer than RAD_CORRECT_LEAST. No more than RAD_CORRECT_MOST,
+     * RAD_CORRECT_OF_ONE for each polygon up to RAD_CORRECT_OF_ALL, or what the solution has cast,
+     * whichever is the most */
     uint64_t rays;
 };
 #define RAD_CORRECT_NOISE 0.0065
 #define RAD_CORRECT_PLACES 0.065
 #define RAD_CORRECT_LEAST (1u << 17)
 #define RAD_CORRECT_MOST (1u << 24)
+#define RAD_CORRECT_OF_ONE 6400u
+#define RAD_CORRECT_OF_ALL (1u << 26)
 
 /* How far links are off, point by point: squared errors on places of about 1e-4 of the scene's
  * area, each as a share of the light that falls there, the places weighed by that light. */

@@ -109,6 +109,19 @@ int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlaces *plac
     return 0;
 }
 
+/* Rays of mending at most. What n landings tell of a polygon is off by .8 / sqrt(n) in the mean: by
+ * a hundredth when RAD_CORRECT_OF_ONE fall on it. */
+static uint64_t most_rays(RadSolution solution)
+{
+    const uint64_t cast = solution->solve.report.counts.rays,
+                   polygons = solution->solve.problem.scene->input_count,
+                   each = polygons < RAD_CORRECT_OF_ALL / RAD_CORRECT_OF_ONE
+                              ? polygons * RAD_CORRECT_OF_ONE
+                              : RAD_CORRECT_OF_ALL,
+                   most = each > RAD_CORRECT_MOST ? each : RAD_CORRECT_MOST;
+    return cast > most ? cast : most;
+}
+
 int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                struct RadErrorReport *alone)
 {
@@ -124,10 +137,9 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
     struct mending_goal goal = {.noise = noise, .most = o->rays};
     if (!o->rays) {
-        uint64_t cast = solution->solve.report.counts.rays;
         goal.places = RAD_CORRECT_PLACES;
         goal.least = RAD_CORRECT_LEAST;
-        goal.most = cast > RAD_CORRECT_MOST ? cast : RAD_CORRECT_MOST;
+        goal.most = most_rays(solution);
         goal.expected = ray_split_wanted(&solution->places, goal.places);
     }
     struct measured_error links;
