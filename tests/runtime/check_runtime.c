@@ -222,8 +222,9 @@ START_TEST(test_contact)
     const char *cause;
     struct rays *rays = rays_open(&h, zero, zero, 1, &cause);
     ck_assert_ptr_nonnull(rays);
-    ck_assert_double_eq_tol(contact_fraction(rays, &h.elements[h.face_element[0]]), 0.25, 1e-12);
-    ck_assert_double_eq_tol(contact_fraction(rays, &h.elements[h.face_element[1]]), 0, 1e-12);
+    ck_assert_double_eq_tol(contact_fraction(rays, &h, &h.elements[h.face_element[0]]), 0.25,
+                            1e-12);
+    ck_assert_double_eq_tol(contact_fraction(rays, &h, &h.elements[h.face_element[1]]), 0, 1e-12);
     rays_close(rays);
     hierarchy_free(&h);
     made_close(&s);
