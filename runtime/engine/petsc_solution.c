@@ -399,7 +399,7 @@ static PetscErrorCode solve(struct equation *q)
 }
 
 /* Let x have it: this rank's elements, and others' that links take light from. */
-static PetscErrorCode take(struct equation *q)
+static PetscErrorCode keep(struct equation *q)
 {
     const struct shares *s = &q->op->shares;
     struct transport *x = q->x;
@@ -436,7 +436,7 @@ static PetscErrorCode make_and_solve(struct equation *q, MPI_Comm comm)
     PetscCall(make_ghosts(q, comm));
     PetscCall(make_method(q, comm, left));
     PetscCall(solve(q));
-    return take(q);
+    return keep(q);
 }
 
 int petsc_solution_make(const struct light_operator *op, struct transport *x)

@@ -39,23 +39,25 @@ static PetscErrorCode hear(MPI_Comm comm, int line, const char *function, const 
     return error;
 }
 
-static int end_with_mpi(MPI_Comm comm, int key, void *value, void *context)
-{
-    (void)comm, (void)key, (void)value, (void)context;
-    PetscFinalize();
-    return MPI_SUCCESS;
-}
-
-static void end_with_process(void)
-{
-    PetscFinalize();
-}
-
 static int is_begun(void)
 {
     PetscBool begun = PETSC_FALSE;
     PetscInitialized(&begun);
     return begun != PETSC_FALSE;
+}
+
+/* Unless the program has done so. */
+static void end(void)
+{
+    if (is_begun())
+        PetscFinalize();
+}
+
+static int end_with_mpi(MPI_Comm comm, int key, void *value, void *context)
+{
+    (void)comm, (void)key, (void)value, (void)context;
+    end();
+    return MPI_SUCCESS;
 }
 
 static PetscErrorCode begin(MPI_Comm comm)
@@ -70,7 +72,7 @@ static PetscErrorCode begin(MPI_Comm comm)
     PetscCall(PetscOptionsSetValue(NULL, "-no_signal_handler", "1"));
     PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
     if (!mpi)
-        return atexit(end_with_process) ? PETSC_ERR_LIB : 0;
+        return atexit(end) ? PETSC_ERR_LIB : 0;
     PetscCallMPI(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, end_with_mpi, &key, NULL));
     PetscCallMPI(MPI_Comm_set_attr(MPI_COMM_SELF, key, NULL));
     PetscCallMPI(MPI_Comm_free_keyval(&key));

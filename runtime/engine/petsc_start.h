@@ -5,8 +5,9 @@
 #ifndef PETSC_START_H
 #define PETSC_START_H
 
-#include <stddef.h>
+#ifdef RADIOSITY_PETSC
 #include <mpi.h>
+#include <stddef.h>
 #include "util/ranks.h"
 
 /* Take PETSc, over the ranks of a run; errors return. Sets *comm to what these have in common.
@@ -17,4 +18,5 @@ int petsc_begin(struct ranks *ranks, MPI_Comm *comm);
  * complaint goes into cause[size]. Returns 0, or -1 on all ranks. */
 int petsc_end(struct ranks *ranks, int error, char *cause, size_t size);
 
+#endif
 #endif
