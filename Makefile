@@ -39,8 +39,18 @@ LDFLAGS  = $(SANITIZE) -fopenmp
 DEPEND   = $(if $(findstring tcc,$(CC)),-MD,-MMD -MP)
 EMBREE   = $(if $(wildcard /usr/include/embree4/rtcore.h),-lembree4,-lembree3)
 # MPI=1: for runs over several processes (mpirun). Two objects ask: what they were made for stands in a file, so that another
-# answer makes them anew.
-MPI      =
+# answer makes them anew. PETSC=1: for --solver petsc, of which three more know; Debian's is built on Open MPI.
+PETSC      =
+PETSC_NAME = $(firstword $(foreach name,PETSc petsc,$(if $(shell pkg-config --exists $(name) && echo yes),$(name))))
+ifneq ($(filter-out 0 no,$(PETSC)),)
+ifneq ($(PETSC_NAME),)
+PETSC_CFLAGS = -DRADIOSITY_PETSC $(patsubst -I%,-isystem %,$(filter -I%,$(shell pkg-config --cflags $(PETSC_NAME))))
+PETSC_LIBS = $(shell pkg-config --libs $(PETSC_NAME))
+else
+$(warning PETSC=1: pkg-config finds no PETSc or petsc yet: package libpetsc-real-dev)
+endif
+endif
+MPI      = $(filter-out 0 no,$(PETSC))
 MPI_NAME = $(firstword $(foreach name,ompi mpi mpich,$(if $(shell pkg-config --exists $(name) && echo yes),$(name))))
 ifneq ($(filter-out 0 no,$(MPI)),)
 MPI_CFLAGS = -DRADIOSITY_MPI $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(MPI_NAME)))
@@ -58,8 +68,8 @@ $(warning HDF5=1: pkg-config finds no hdf5-serial, hdf5 or hdf5-openmpi yet: pac
 endif
 endif
 # What the library is linked with, and what the command needs besides.
-ENGINE_LIBS = $(EMBREE) -llapacke $(MPI_LIBS) -lpthread -ldl -lm
-LIBS     = $(EMBREE) -llapacke $(HDF5_LIBS) $(MPI_LIBS) -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
+ENGINE_LIBS = $(EMBREE) -llapacke $(PETSC_LIBS) $(MPI_LIBS) -lpthread -ldl -lm
+LIBS     = $(EMBREE) -llapacke $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
@@ -186,12 +196,17 @@ $(RUNTIME): PARALLEL = -fopenmp-simd
 ASK_MPI   = $(BUILD)/runtime/util/ranks.o $(BUILD)/solver/util/machines.o
 $(ASK_MPI): CPPFLAGS += $(MPI_CFLAGS)
 $(ASK_MPI): $(BUILD)/mpi
+ASK_PETSC = $(patsubst %,$(BUILD)/runtime/engine/petsc_%.o,start sums solution)
+$(ASK_PETSC): CPPFLAGS += $(MPI_CFLAGS) $(PETSC_CFLAGS)
+$(ASK_PETSC): $(BUILD)/petsc
 ASK_HDF5  = $(BUILD)/solver/output/hdf5_file.o
 $(ASK_HDF5): CPPFLAGS += $(MPI_CFLAGS) $(HDF5_CFLAGS)
 $(ASK_HDF5): $(BUILD)/hdf5
 .PHONY: FORCE
 $(BUILD)/hdf5: FORCE
 	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS)" > $@
+$(BUILD)/petsc: FORCE
+	@mkdir -p $(@D); echo "$(PETSC_CFLAGS) $(PETSC_LIBS)" | cmp -s - $@ || echo "$(PETSC_CFLAGS) $(PETSC_LIBS)" > $@
 $(BUILD)/mpi: FORCE
 	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(MPI_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(MPI_LIBS)" > $@
 
@@ -203,7 +218,7 @@ $(BUILD)/gen/%.o: $(BUILD)/gen/%.c
 $(filter $(BUILD)/runtime/% $(BUILD)/solver/% $(BUILD)/tests/%,$(OBJECTS) $(TESTS:=.o)) $(FLAT) $(BUILD)/gen/builtin.o $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/tests/runtime/width_rooms.o: $(BUILD)/gen/catalog.h
 
 packages:
-	@PACKAGES_MORE="$$PACKAGES_MORE $(if $(filter-out 0 no,$(MPI)),libopenmpi-dev openmpi-bin libhdf5-openmpi-dev,$(if $(filter-out 0 no,$(HDF5)),libhdf5-dev))" sh tests/packages.sh
+	@PACKAGES_MORE="$$PACKAGES_MORE $(if $(filter-out 0 no,$(PETSC)),libpetsc-real-dev) $(if $(filter-out 0 no,$(MPI)),libopenmpi-dev openmpi-bin libhdf5-openmpi-dev,$(if $(filter-out 0 no,$(HDF5)),libhdf5-dev))" sh tests/packages.sh
 
 # Tests are compiled and linked once for a run of seconds: to optimise them costs more than it saves, but for those that
 # compute much themselves.

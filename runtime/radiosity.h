@@ -389,9 +389,19 @@ enum RadSolver {
     RAD_SOLVER_SOUTHWELL,
     /* a dense matrix, by LAPACKE; RAD_LU_LEAVES at the most. While links change much, and so
      * solves need be rough only, Gauss-Seidel; LAPACK decides the last bits */
-    RAD_SOLVER_LU
+    RAD_SOLVER_LU,
+    /* PETSc's Krylov methods on the matrix of links, GMRES unless its options (PETSC_OPTIONS)
+     * name another, then sweeps, which say that the tolerance is reached. While links change much
+     * Gauss-Seidel, as with LU. On any number of ranks, and by GMRES, Bi-CGStab and others that
+     * take plain dot products, to the same bits. Only where the library was built with PETSc, which
+     * begins then unless the program has begun it, and ends with MPI; the calls of all threads are
+     * made one after the other */
+    RAD_SOLVER_PETSC
 };
 enum { RAD_LU_LEAVES = 5000 };
+
+/* 1: this library has the solver; 0: it was built without, or there is none such. */
+RAD_API int radHasSolver(enum RadSolver solver);
 
 /* What an element keeps of the irradiance on it. */
 enum RadProjection {

@@ -188,6 +188,7 @@ enum RadError api_cause(const char *cause)
 {
     return strncmp(cause, "Embree finds", 12) == 0     ? RAD_ERROR_UNSUPPORTED
            : strncmp(cause, "LU solves", 9) == 0       ? RAD_ERROR_INVALID_ARGUMENT
+           : strncmp(cause, "PETSc cannot", 12) == 0   ? RAD_ERROR_INVALID_ARGUMENT
            : strncmp(cause, "refinement for", 14) == 0 ? RAD_ERROR_LIMIT
                                                        : RAD_ERROR_OUT_OF_MEMORY;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "engine/api.h"
 #include "engine/dense.h"
+#include "engine/petsc_solution.h"
 #include "kernel/constants.h"
 
 /* What programs see is what the engine has, under other names. */
@@ -64,6 +65,12 @@ static int check_camera(RadDevice device, const struct RadCamera *c)
     return 0;
 }
 
+int radHasSolver(enum RadSolver solver)
+{
+    return (unsigned)solver < RAD_SOLVER_PETSC
+           || (solver == RAD_SOLVER_PETSC && petsc_solution_built());
+}
+
 static int check_options(RadDevice device, const struct RadSolveOptions *o)
 {
     if (!(o->tolerance >= 0 && o->tolerance < 1))
@@ -76,13 +83,16 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
             device, RAD_ERROR_INVALID_ARGUMENT,
             "RadSolveOptions.iterations is %d; it takes 1 or more, or 0 for the default",
             o->iterations);
-    if ((unsigned)o->solver > RAD_SOLVER_LU)
+    if ((unsigned)o->solver > RAD_SOLVER_PETSC)
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RadSolveOptions.solver is %d; it takes one of enum RadSolver",
                         (int)o->solver);
+    if (!radHasSolver(o->solver))
+        return api_fail(device, RAD_ERROR_UNSUPPORTED,
+                        "this library was built without PETSc: make PETSC=1");
     if (o->basis == RAD_BASIS_LINEAR
         && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
-            || o->solver == RAD_SOLVER_LU))
+            || o->solver == RAD_SOLVER_LU || o->solver == RAD_SOLVER_PETSC))
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RAD_BASIS_LINEAR goes with RAD_PROJECTION_GALERKIN and with Gauss-Seidel "
                         "or Jacobi sweeps");

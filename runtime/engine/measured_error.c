@@ -51,10 +51,12 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
 {
     struct watched watched = {.solve = s, .all = all};
     const struct watch watch = {tell, &watched};
-    if (tally->particles == 0 && tally_trace(tally, t, FIRST, &watch) < 0)
+    if (tally->particles == 0 && tally_trace_part(tally, t, FIRST, &watch) < 0)
         return -1;
-    if (tally->rays == 0 || tally->rays >= rays)
+    if (tally->rays == 0 || tally->rays >= rays) {
+        tally_add(tally, t->ranks);
         return 0;
+    }
     double each = (double)tally->rays / (double)tally->particles;
     double more = (double)(rays - tally->rays) / each;
     watched.before = tally->rays;

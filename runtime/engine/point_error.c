@@ -13,11 +13,14 @@ enum { FEELER = 8 };
 static int trace_tally(struct tally *tally, const struct tracer *t, uint64_t budget,
                        const struct watch *watch)
 {
-    if (tally_trace(tally, t, FEELER, NULL) < 0)
+    if (tally_trace_part(tally, t, FEELER, NULL) < 0)
         return -1;
     double more = tally->rays > 0 ? (double)budget * FEELER / (double)tally->rays - FEELER : 0;
     /* the points of a Sobol' sequence are 2^32 */
-    return more >= 1 ? tally_trace(tally, t, (uint64_t)fmin(more, 0x1p32 - FEELER), watch) : 0;
+    if (more >= 1)
+        return tally_trace(tally, t, (uint64_t)fmin(more, 0x1p32 - FEELER), watch);
+    tally_add(tally, t->ranks);
+    return 0;
 }
 
 /* Per element, of all leaves below it that reflect: what the solution has them receive less what

@@ -141,12 +141,12 @@ static struct transport light(struct solve *s, double tolerance)
                               .tolerance = tolerance};
 }
 
-/* Are there more leaves than a dense matrix is made for? Then s->too_many says so. */
+/* Are there more leaves than a dense matrix is made for? Then s->cause says so. */
 static int too_many(struct solve *s, uint32_t leaves)
 {
     if (s->problem.options.solver != RAD_SOLVER_LU || leaves <= DENSE_LEAVES)
         return 0;
-    snprintf(s->too_many, sizeof s->too_many,
+    snprintf(s->cause, sizeof s->cause,
              "LU solves for at most %d leaves, and there are %u already; coarser oracle parameters "
              "make fewer, and the other solvers take any number",
              DENSE_LEAVES, (unsigned)leaves);
@@ -164,7 +164,7 @@ int solve_open(struct solve *s, const struct scene *scene, const struct solve_op
     p->scene = scene;
     p->options = *options;
     if (too_many(s, scene->face_count)) {
-        *cause = s->too_many;
+        *cause = s->cause;
         return -1;
     }
     p->bands = options->unit ? 1 : scene->bands;
@@ -244,10 +244,19 @@ static int watch_importance(void *context, const struct transport *x)
     return solve_tell(s, "solve");
 }
 
+/* Solve; a cause of failure is the solve's. Returns 0 or -1. */
+static int solve_transport(struct solve *s, struct transport *x)
+{
+    const int result = transport_solve(&s->operator, x);
+    if (result < 0 && x->cause[0])
+        memcpy(s->cause, x->cause, sizeof s->cause);
+    return result;
+}
+
 /* What keeps a step from going on. Returns -1. */
 static int fail(const struct solve *s, const char *memory, const char **cause)
 {
-    *cause = s->report.cancelled ? "cancelled" : s->too_many[0] ? s->too_many : memory;
+    *cause = s->report.cancelled ? "cancelled" : s->cause[0] ? s->cause : memory;
     return -1;
 }
 
@@ -352,7 +361,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
         return -1;
     x.watch = watch_light;
     x.watch_context = s;
-    if (transport_solve(op, &x) < 0 || shares_complete(&op->shares, x.value, x.bands) < 0
+    if (solve_transport(s, &x) < 0 || shares_complete(&op->shares, x.value, x.bands) < 0
         || shares_complete(&op->shares, x.irradiance, x.bands) < 0)
         return -1;
     s->report.converged = x.converged;
@@ -372,7 +381,7 @@ static int iterate(struct solve *s, double tolerance, int rough)
         return -1;
     carried.watch = watch_importance;
     carried.watch_context = s;
-    if (transport_solve(op, &carried) < 0
+    if (solve_transport(s, &carried) < 0
         || shares_complete(&op->shares, carried.value, carried.bands) < 0
         || shares_complete(&op->shares, carried.irradiance, carried.bands) < 0)
         return -1;

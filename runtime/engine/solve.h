@@ -84,7 +84,8 @@ struct solve {
     /* elements that the arrays have place for, and whose radiosity has a value */
     size_t capacity;
     uint32_t started;
-    char too_many[160]; /* leaves for the solver, in a sentence; "": there are not */
+    /* what keeps its solver from solving, in a sentence, as of transport.h; "": nothing does */
+    char cause[200];
 };
 
 /* Build hierarchy and rays over the scene, set B = E. Returns 0; on failure -1 with *cause set

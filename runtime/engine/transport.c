@@ -6,8 +6,9 @@
  * the result is the same for any number of threads, and of ranks, each of which has its own faces
  * of every block and tells the others of them then (shares.h). One block is Jacobi's method, many
  * are Gauss-Seidel's. Southwell's shoots
- * between Jacobi's sweeps (southwell.c), and LU solves a dense matrix before the first (dense.c):
- * whichever it is, a sweep says what is left, and all stop by the same bound.
+ * between Jacobi's sweeps (southwell.c); LU solves a dense matrix before the first (dense.c), and
+ * PETSc by a Krylov method (petsc_solution.c): whichever it is, a sweep says what is left, and all
+ * stop by the same bound.
  *
  * When to stop. A sweep is x_n = s + L x_n + U x_(n-1) with L + U = K >= 0, the operator (L = 0 is
  * Jacobi's); so errors and changes go as e_n = T e_(n-1), d_n = x_n - x_(n-1) = (T - 1) e_(n-1), T
@@ -32,6 +33,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "engine/dense.h"
+#include "engine/petsc_solution.h"
 #include "engine/push_pull.h"
 #include "engine/southwell.h"
 #include "engine/transport.h"
@@ -169,6 +171,17 @@ static int iterate(const struct light_operator *op, struct transport *x, struct 
     return 0;
 }
 
+/* What comes before the first sweep. A rough solve takes so few that nothing has to. Returns 0 or
+ * -1. */
+static int prepare(const struct light_operator *op, struct transport *x)
+{
+    const enum RadSolver solver = op->problem->options.solver;
+    return x->rough                     ? 0
+           : solver == RAD_SOLVER_LU    ? dense_solve(op, x)
+           : solver == RAD_SOLVER_PETSC ? petsc_solution_make(op, x)
+                                        : 0;
+}
+
 int transport_solve(const struct light_operator *op, struct transport *x)
 {
     const enum RadSolver solver = op->problem->options.solver;
@@ -178,9 +191,10 @@ int transport_solve(const struct light_operator *op, struct transport *x)
     int status = -1;
     x->sweeps = x->converged = 0;
     x->variation = 0;
+    x->cause[0] = 0;
     if (!ranks_any(op->shares.ranks,
                    !change || !room || (!shooter && solver == RAD_SOLVER_SOUTHWELL))
-        && (solver != RAD_SOLVER_LU || x->rough || dense_solve(op, x) == 0))
+        && prepare(op, x) == 0)
         status = iterate(op, x, change, room, shooter);
     southwell_free(shooter);
     free(room);

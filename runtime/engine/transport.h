@@ -33,11 +33,12 @@ struct transport {
     double bound;
     double held;      /* the tolerance that the bound was last held against */
     double variation; /* where that was asked for, what constants leave; else 0 */
+    char cause[200];  /* of a failure, in a sentence; "": out of memory, or the watch said so */
 };
 
 /* Iterate until what that leaves is within the tolerance, by the solver that the problem's options
- * name; the row scales are set (row_sums.h). Returns 0, or -1 when out of memory or stopped by
- * `watch`. */
+ * name; the row scales are set (row_sums.h). Returns 0, or -1 when out of memory, stopped by
+ * `watch` or with x->cause set. */
 int transport_solve(const struct light_operator *op, struct transport *x);
 
 /* One sweep over all faces, in blocks; by Jacobi's method in one, which takes all of `value` as it

@@ -308,10 +308,9 @@ static void part_counts(struct tally *tally, struct ranks *ranks)
                (size_t)tally->elements * tally->bands * sizeof *tally->element);
 }
 
-/* after it all have what all have counted. Counts are integers: their sum has no order. */
-static void add_counts(struct tally *tally, struct ranks *ranks, struct sums *sums)
+/* after it all have the sums of all, */
+static void add_sums(struct ranks *ranks, struct sums *sums)
 {
-    _Static_assert(sizeof(_Atomic int64_t) == sizeof(uint64_t), "counts are sent as they stand");
     uint64_t few[7] = {sums->rays};
     for (int k = 0; k < 3; k++) {
         few[1 + k] = (uint64_t)sums->first[k];
@@ -323,6 +322,15 @@ static void add_counts(struct tally *tally, struct ranks *ranks, struct sums *su
         sums->first[k] = (int64_t)few[1 + k];
         sums->second[k] = (int64_t)few[4 + k];
     }
+}
+
+/* and once they are asked for, the counts. They are integers: their sum has no order. */
+void tally_add(struct tally *tally, struct ranks *ranks)
+{
+    _Static_assert(sizeof(_Atomic int64_t) == sizeof(uint64_t), "counts are sent as they stand");
+    if (!tally->parted)
+        return;
+    tally->parted = 0;
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->face,
                      (size_t)REPLICATES * tally->faces * tally->bands);
     if (tally->element)
@@ -330,8 +338,8 @@ static void add_counts(struct tally *tally, struct ranks *ranks, struct sums *su
                          (size_t)tally->elements * tally->bands);
 }
 
-int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
-                const struct watch *watch)
+int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t particles,
+                     const struct watch *watch)
 {
     uint64_t from = tally->particles, to = from + particles,
              count = (particles + BATCH - 1) / BATCH * REPLICATES;
@@ -345,11 +353,21 @@ int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
     struct watched_loop loop = {.watch = watch, .all = mine};
     struct sums sums = {0};
     const struct batches all = {tally, t, &sobol, from, to, rank, ranks, &loop, &sums};
-    part_counts(tally, t->ranks);
+    if (!tally->parted)
+        part_counts(tally, t->ranks);
+    tally->parted = ranks > 1;
     thread_pool_run(t->threads, mine, 1, trace_batches, &all);
-    add_counts(tally, t->ranks, &sums);
+    add_sums(t->ranks, &sums);
     tally->rays += sums.rays;
     for (uint32_t k = 0; k < tally->bands; k++) /* of this call: all are alike but for chance */
         tally->square[k] = sums.first[k] > 0 ? (double)sums.second[k] / (double)sums.first[k] : 0;
     return loop.stopped ? -1 : 0;
+}
+
+int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
+                const struct watch *watch)
+{
+    const int result = tally_trace_part(tally, t, particles, watch);
+    tally_add(tally, t->ranks);
+    return result;
 }

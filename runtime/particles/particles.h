@@ -45,6 +45,7 @@ struct tally {
     double *square;  /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
+    int parted;              /* 1: each rank has counts of its own, which nobody has added yet */
 };
 
 /* Empty, over the elements of a hierarchy as it is now (leaves: 1: count on them, too). Returns 0,
@@ -63,6 +64,12 @@ int tally_split(struct tally *tally, const struct tracer *t, const float *window
  * NULL, or asked. Returns 0, or -1 when it was stopped: then the tally is of no use. */
 int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
                 const struct watch *watch);
+
+/* The same, but where there are several ranks counts stay with those who have made them, until
+ * tally_add or tally_trace: before that `rays` and `square` alone are right. */
+int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t particles,
+                     const struct watch *watch);
+void tally_add(struct tally *tally, struct ranks *ranks);
 
 /* W that one count of a replicate's stands for; of `element`, a REPLICATES-th of it. */
 static inline double tally_unit(const struct tally *tally)

@@ -173,6 +173,17 @@ int ranks_number(const struct ranks *r)
     return r ? r->number : 0;
 }
 
+const void *ranks_communicator(const struct ranks *r)
+{
+    return r ? &r->all : NULL;
+}
+
+void ranks_sends(struct ranks *r, enum ranks_kind kind, uint64_t bytes)
+{
+    if (r)
+        r->sent[kind] += bytes;
+}
+
 uint64_t ranks_sent(const struct ranks *r, enum ranks_kind kind)
 {
     return r ? r->sent[kind] : 0;

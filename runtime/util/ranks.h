@@ -38,6 +38,11 @@ void ranks_close(struct ranks *r);
 int ranks_count(const struct ranks *r);
 int ranks_number(const struct ranks *r); /* of this one, from 0 */
 
+/* The address of its MPI_Comm, for others that send over it; NULL: one process. What they send they
+ * tell of. */
+const void *ranks_communicator(const struct ranks *r);
+void ranks_sends(struct ranks *r, enum ranks_kind kind, uint64_t bytes);
+
 /* Bytes that this rank has sent so far: of what all are told, to each of the others; of sums, as a
  * ring takes them. */
 uint64_t ranks_sent(const struct ranks *r, enum ranks_kind kind);

@@ -520,7 +520,7 @@ const char *const release_words[] = {"flat", "dag", "hand", "wave", NULL};
 const char *const norm_words[] = {"l1", "l2", "power", NULL};
 static const char *const closures[] = {"none", "rows", NULL};
 const char *const closure_words[] = {"none", "rows", "reciprocal", NULL};
-const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", NULL};
+const char *const solver_words[] = {"gauss-seidel", "jacobi", "southwell", "lu", "petsc", NULL};
 const char *const projection_words[] = {"galerkin", "collocation", NULL};
 static const char *const bases[] = {"constant", "linear", NULL};
 static const char *const costs[] = {"rays", "links", "time", NULL}; /* enum tune_cost */
@@ -593,7 +593,7 @@ const struct option_row option_rows[] = {
     {"iterations", "N", MATRICES | FORM_FACTORS, "100000",
      "sweeps at the most; solve ends with 3 if they do not do", "a whole number from 1",
      WHOLE(iterations, 1, INT_MAX), .rare = 1},
-    {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell or lu",
+    {"solver", "NAME", SOLVE | COMPARE, NULL, "gauss-seidel, jacobi, southwell, lu or petsc",
      WORD(read_solver, solver_words), .rare = 1},
     {"projection", "NAME", SOLVE | COMPARE, NULL, "galerkin (element means) or collocation",
      WORD(read_projection, projection_words), .rare = 1},

@@ -433,13 +433,16 @@ static int check_together(struct options *o)
                      o->no_errors ? "--no-errors" : "--no-correct");
     if (o->command == COMMAND_SOLVE && o->limit_seconds && !(o->accuracy > 0))
         return wrong(c->name, "--limit-seconds is of --accuracy: add --accuracy 1%%");
+    if (!radHasSolver(o->solver))
+        return wrong(c->name, "--solver petsc: this command was built without PETSc; build it by "
+                              "make PETSC=1, or take another solver");
     if ((o->command == COMMAND_SOLVE || o->command == COMMAND_TUNE) && !o->basis_given
         && o->projection == RAD_PROJECTION_GALERKIN && o->solver != RAD_SOLVER_SOUTHWELL
-        && o->solver != RAD_SOLVER_LU)
+        && o->solver != RAD_SOLVER_LU && o->solver != RAD_SOLVER_PETSC)
         o->basis = RAD_BASIS_LINEAR;
     if (o->basis == RAD_BASIS_LINEAR
         && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
-            || o->solver == RAD_SOLVER_LU))
+            || o->solver == RAD_SOLVER_LU || o->solver == RAD_SOLVER_PETSC))
         return wrong(c->name, "--basis linear goes with --projection galerkin, and with --solver "
                               "gauss-seidel or jacobi");
     o->choose_scale = o->command == COMMAND_SOLVE && strcmp(o->oracle, RAD_DEFAULT_ORACLE) == 0

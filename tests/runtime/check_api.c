@@ -1036,6 +1036,14 @@ START_TEST(test_solvers)
     ck_assert_int_eq(radSolve(solution), -1);
     expect_error(device, RAD_ERROR_INVALID_ARGUMENT, "LU solves for at most 5000 leaves");
     radReleaseSolution(solution);
+    ck_assert_int_eq(radHasSolver(RAD_SOLVER_LU), 1);
+    ck_assert_int_eq(radHasSolver((enum RadSolver)(RAD_SOLVER_PETSC + 1)), 0);
+    ck_assert_int_eq(radHasSolver((enum RadSolver) - 1), 0);
+    if (!radHasSolver(RAD_SOLVER_PETSC)) {
+        const struct RadSolveOptions how = {.solver = RAD_SOLVER_PETSC};
+        ck_assert_ptr_null(radNewSolution(scene, oracle, &how));
+        expect_error(device, RAD_ERROR_UNSUPPORTED, "make PETSC=1");
+    }
     radReleaseOracle(oracle);
     radReleaseScene(scene);
     radReleaseDevice(device);
@@ -1056,7 +1064,7 @@ START_TEST(test_bad_options)
         {{.tolerance = (double)NAN}, "tolerance is"},
         {{.tolerance = 1}, "tolerance is 1"},
         {{.iterations = -1}, "iterations is -1"},
-        {{.solver = (enum RadSolver)4}, "solver is 4"},
+        {{.solver = (enum RadSolver)5}, "solver is 5"},
         {{.projection = (enum RadProjection)2}, "projection"},
         {{.closure = RAD_CLOSURE_RECIPROCAL}, "closure"},
         {{.clustering = "heap"}, "no clustering 'heap'"},

@@ -73,7 +73,7 @@ says 2 "for the account of error: add --errors=all" solve "$scene" --reflectance
 says 2 "for the account of error: add --errors=all" solve "$scene" --errors --exitance-error 0.1
 says 2 "named .ply, .gltf, .glb, .obj or .xdmf, not x" solve "$scene" -o x
 says 2 "--release takes flat, dag, hand or wave, not x" solve "$scene" --release x
-says 2 "--solver takes gauss-seidel, jacobi, southwell or lu, not x" solve "$scene" --solver x
+says 2 "--solver takes gauss-seidel, jacobi, southwell, lu or petsc, not x" solve "$scene" --solver x
 says 2 "--projection takes galerkin or collocation, not x" compare "$scene" --projection x
 says 1 "LU solves for at most 5000 leaves, and there are" solve "$scenes/room.obj" --solver lu --set bend=1e-6
 says 2 "--closure takes none or rows, not reciprocal" solve "$scene" --closure reciprocal

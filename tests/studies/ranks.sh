@@ -70,7 +70,7 @@ What follows.
   machine one rank, with threads.
 - **A sweep tells of nearly every face**, not of the surface between parts: groups are linked far and wide, and what a group sends is
   summed from its faces by whoever receives. So its bytes grow with the faces, and with the ranks that each is told to.
-- **Particles** cost most: counts of all faces are added up after each stretch of tracing.
+- **Particles** cost most: counts of all faces are added up after each stretch of tracing that anybody looks at.
 
 ## More faces, more machines
 
