@@ -265,8 +265,8 @@ static double grown(const struct equation *q, size_t i, uint32_t k)
            * q->op->row[e];
 }
 
-/* What |r| may be for the bound to hold whatever r is; 0: there is no light, or none is reflected.
- */
+/* What |r| may be for the bound to hold whatever r is; 0: there is no light, none is reflected, or
+ * rows are too large for a bound. */
 static double allowed(struct equation *q)
 {
     const struct light_operator *op = q->op;
@@ -431,7 +431,7 @@ static PetscErrorCode make_and_solve(struct equation *q, MPI_Comm comm)
     if (ranks_any(ranks, error != 0)) /* what follows waits for all */
         return error ? error : PETSC_ERR_MEM;
     const double left = allowed(q);
-    if (!(left > 0)) /* of what nothing sends or reflects a sweep makes all */
+    if (!(left > 0)) /* nothing to be solved, or rows too large for a bound: sweeps do it */
         return 0;
     PetscCall(make_ghosts(q, comm));
     PetscCall(make_method(q, comm, left));
