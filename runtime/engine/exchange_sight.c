@@ -155,12 +155,15 @@ static void sort_list(uint32_t *list, int count)
 }
 
 /* What a point sees past what stands between. Outlines save most where faces go on into each other;
- * faces by themselves, and bent ones, are cut out one by one. */
+ * faces by themselves, and bent ones, are cut out one by one. Many faces leave parts that each meet
+ * few of them, and many edges part what is hidden, too. */
 static double past(const struct looking *l, const double x[3], const double n[3], double *whole)
 {
     const struct sight_between *b = l->scratch->between;
     double up = l->tree->host.ray_offset;
-    return !b->bent && b->edges <= 2 * b->faces
+    /* edges of two faces; measured */
+    const int most = b->faces > SIGHT_SHORT && b->faces <= SIGHT_CUT ? 3 : 4;
+    return !b->bent && 2 * b->edges <= most * b->faces
                ? sight_past(&l->sight, x, n, up, b, whole)
                : sight_factor(&l->sight, x, n, up, l->tree, b->list, b->faces, whole);
 }

@@ -3,7 +3,8 @@
  * Shadows are cast on the polygon's plane and what they leave of it is cut out (kernel/outline.h),
  * in convex pieces; Lambert's sum goes over their edges. So of a point nothing is approximate
  * but rounding, and an integral over points has no noise of the other side. A piece takes along the
- * shadows that its box meets: most of what is cut out of it meets few of them.
+ * shadows that its box meets: most of what is cut out of it meets few of them. Large shadows come
+ * first: what they hide is cut no more.
  * Invariant: with no blocker it is lambert_sum of the whole polygon.
  * [Lambert 1760; Weiler & Atherton 1977 for convex polygons]
  * SPDX-License-Identifier: MIT */
@@ -188,6 +189,18 @@ static void box_of(const double (*p)[2], int n, double box[4])
         }
 }
 
+/* The area (m2) that two boxes share. */
+static double overlap(const double a[4], const double b[4])
+{
+    double area = 1;
+    for (int k = 0; k < 2; k++) {
+        const double low = a[k] > b[k] ? a[k] : b[k],
+                     high = a[2 + k] < b[2 + k] ? a[2 + k] : b[2 + k];
+        area *= high > low ? high - low : 0;
+    }
+    return area;
+}
+
 /* A point's shadows, and boxes around them. */
 struct shadows {
     struct sight_eye *eye;
@@ -253,7 +266,7 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
     struct sight_eye eye;
     struct shadows shadows;
     uint16_t lists[SIGHT_CUT * (SIGHT_CUT + 3) / 2];
-    double from[3];
+    double from[3], box[4], sizes[SIGHT_CUT];
     int cast = 0;
     sight_eye_open(&eye, sight, x, n);
     for (int k = 0; k < 3; k++)
@@ -262,14 +275,23 @@ double sight_factor(const struct sight *sight, const double x[3], const double n
     *whole = 0;
     if (!(eye.height > 0) || !(height > 0))
         return 0;
+    box_of((const double(*)[2])sight->cell.p, sight->cell.n, box);
     for (int b = 0; b < count; b++) {
         const struct element *e = &tree->h.elements[faces[b]];
         if (!outline_cast(&shadows.cast[cast], &sight->raised, from, height,
                           (const double(*)[3])e->vertex, e->vertices))
             continue;
         box_of((const double(*)[2])shadows.cast[cast].p, shadows.cast[cast].n, shadows.box[cast]);
-        lists[cast] = (uint16_t)cast;
-        cast++;
+        const double size = overlap(shadows.box[cast], box);
+        int at = cast;
+        if (!(size > 0))
+            continue;
+        for (; at > 0 && sizes[at - 1] < size; at--) {
+            sizes[at] = sizes[at - 1];
+            lists[at] = lists[at - 1];
+        }
+        sizes[at] = size;
+        lists[at] = (uint16_t)cast++;
     }
     shadows.eye = &eye;
     add_left(&shadows, lists, cast, lists + cast, &sight->cell);

@@ -8,6 +8,7 @@
 #include "engine/exchange.h"
 #include "engine/sight_outlines.h"
 #include "kernel/hash.h"
+#include "kernel/lambert.h"
 #include "kernel/shaft.h"
 #include "scene/make_scene.h"
 #include "suite.h"
@@ -143,6 +144,100 @@ START_TEST(test_both_ways)
 }
 END_TEST
 
+/* Does the way from a to b run through a triangle? By the volumes that it spans with its sides. */
+static int runs_through(const double a[3], const double b[3], const double (*v)[3])
+{
+    double along[3], to[3][3], n[3], e[3], f[3], over[2];
+    sub3(along, b, a);
+    sub3(e, v[1], v[0]);
+    sub3(f, v[2], v[0]);
+    cross3(n, e, f);
+    for (int i = 0; i < 3; i++)
+        sub3(to[i], v[i], a);
+    sub3(e, b, v[0]);
+    over[0] = -dot3(n, to[0]);
+    over[1] = dot3(n, e);
+    int sides = 0;
+    for (int i = 0; i < 3; i++) {
+        cross3(e, to[i], to[(i + 1) % 3]);
+        sides += dot3(e, along) > 0;
+    }
+    return (over[0] > 0) != (over[1] > 0) && (sides == 0 || sides == 3);
+}
+
+/* What a point sees of a square past up to 30 loose triangles, which are small and large, cross,
+ * hide each other, stand beside the square or reach under it: in whatever order they are listed,
+ * and as ways to a grid of points of the square say one by one. */
+START_TEST(test_loose)
+{
+    enum { GRID = 120 };
+    uint64_t state = 1000 + (uint64_t)_i;
+    double whole, most_order = 0, most_ways = 0, sum_ways = 0, partial = 0, points = 0;
+    for (int scene = 0; scene < 10; scene++) {
+        struct scene s;
+        struct exchange_tree t;
+        made_open(&s);
+        made_material(&s, 0.5, 0);
+        made_quad(&s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+        made_quad(&s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+        const int loose = 3 * (scene + 1);
+        for (int i = 0; i < loose; i++) {
+            const double size = 0.1 + 0.5 * chance(&state) * chance(&state);
+            double p[3][3], c[3];
+            for (int k = 0; k < 3; k++)
+                c[k] = k < 2 ? 1.6 * chance(&state) - 0.3 : 0.2 + 0.8 * chance(&state);
+            for (int k = 0; k < 9; k++)
+                p[k / 3][k % 3] = c[k % 3] + size * (chance(&state) - 0.5);
+            made_face(&s, 0, 3, (const double(*)[3])p);
+        }
+        open_tree(&t, &s);
+        const struct element *low = face_of(&t, 0), *high = face_of(&t, 1);
+        uint32_t list[30], mixed[30];
+        struct sight sight;
+        struct polygon part = {.n = 4};
+        memcpy(part.v, high->vertex, 4 * sizeof *part.v);
+        sight_open(&sight, high, &part, t.host.ray_offset);
+        for (int i = 0; i < loose; i++)
+            mixed[i] = list[i] = t.h.face_element[i + 2];
+        for (int i = loose - 1; i > 0; i--) {
+            const int j = (int)((i + 1) * chance(&state));
+            const uint32_t swap = mixed[i];
+            mixed[i] = mixed[j];
+            mixed[j] = swap;
+        }
+        for (int i = 0; i < 12; i++) {
+            const double x[3] = {chance(&state), chance(&state), 0};
+            double ways = 0;
+            const double seen = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, list,
+                                             loose, &whole),
+                         again = sight_factor(&sight, x, low->normal, t.host.ray_offset, &t, mixed,
+                                              loose, &whole);
+            for (int k = 0; k < GRID * GRID; k++) {
+                const double to[3] = {(k / GRID + 0.5) / GRID, (k % GRID + 0.5) / GRID, 1};
+                double r[3];
+                int stopped = 0;
+                for (int f = 0; f < loose && !stopped; f++)
+                    stopped = runs_through(x, to, (const double(*)[3])t.h.elements[list[f]].vertex);
+                sub3(r, to, x);
+                const double square = dot3(r, r);
+                ways += stopped ? 0 : 1 / (square * square * LAMBERT_PI * GRID * GRID);
+            }
+            most_order = fmax(most_order, fabs(seen - again));
+            most_ways = fmax(most_ways, fabs(seen - ways));
+            sum_ways += fabs(seen - ways);
+            partial += seen > 0 && seen < 0.999 * whole;
+            points++;
+        }
+        exchange_tree_close(&t);
+        made_close(&s);
+    }
+    ck_assert_double_gt(partial, 0.6 * points);
+    ck_assert_double_lt(most_order, 1e-12);
+    ck_assert_double_lt(most_ways, 1.5e-3);
+    ck_assert_double_lt(sum_ways, 2.5e-4 * points);
+}
+END_TEST
+
 /* Small squares on both sides of a ball: hidden behind its middle, not at its rim, nor through a
  * hole, with which the far side alone would hide. */
 START_TEST(test_hidden)
@@ -257,6 +352,7 @@ int main(void)
     tcase_set_timeout(tests, 120);
     suite_add_tcase(suite, tests);
     tcase_add_loop_test(tests, test_both_ways, 0, 3);
+    tcase_add_loop_test(tests, test_loose, 0, 3);
     tcase_add_test(tests, test_hidden);
     tcase_add_test(tests, test_closed);
     tcase_add_test(tests, test_many_between);
