@@ -18,17 +18,15 @@ struct sight_faces {
     double low[3], high[3];       /* the box around them, larger than they are */
 };
 
-/* per: 1 / along */
+/* per: 1 / along, for boxes */
 struct sight_ray {
     double from[3], to[3], along[3], per[3];
 };
 
 static inline void sight_ray_aim(struct sight_ray *ray)
 {
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         ray->along[k] = ray->to[k] - ray->from[k];
-        ray->per[k] = 1 / ray->along[k];
-    }
 }
 
 /* Where the ray runs along a side, that side does not tell. */
@@ -87,10 +85,11 @@ LANES_AVX2 int sight_faces_stop_4(const struct sight_faces *f, const struct sigh
 #endif
 
 /* Does a ray meet one of the faces of so many blocks? */
-static inline int sight_faces_stop(const struct sight_faces *f, int blocks,
-                                   const struct sight_ray *ray)
+static inline int sight_faces_stop(const struct sight_faces *f, int blocks, struct sight_ray *ray)
 {
     const int width = lanes_width();
+    for (int k = 0; k < 3 && blocks > 1; k++)
+        ray->per[k] = 1 / ray->along[k];
     for (int i = 0; i < blocks; i++)
         if (!(blocks > 1 && sight_ray_passes(ray, &f[i]))
             && LANES_RUN(width, sight_faces_stop_8, sight_faces_stop_4, sight_faces_stop_body,

@@ -52,9 +52,10 @@ static void cast_edges(struct cutting *c, const struct outline_cell *cell)
 static int is_hidden(const struct cutting *c, const struct outline_cell *cell)
 {
     struct sight_ray ray = {.from = {c->from[0], c->from[1], c->from[2]}};
+    const double each = 1.0 / cell->n;
     for (int i = 0; i < cell->n; i++)
         for (int k = 0; k < 2; k++)
-            ray.to[k] += cell->p[i][k] / cell->n;
+            ray.to[k] += cell->p[i][k] * each;
     sight_ray_aim(&ray);
     return sight_faces_stop(c->between->block, sight_between_blocks(c->between), &ray);
 }
@@ -74,18 +75,15 @@ static void add_seen(const struct cutting *c, int k, const struct outline_cell *
             over_it |= h[i] > 0;
             under_it |= h[i] < 0;
         }
-        if (over_it && under_it && sight_runs_through(line->end[0], line->a, line->b, cell, h))
-            break;
+        if (over_it && under_it
+            && sight_part(line->end[0], line->a, line->b, cell, h, &above, &below)) {
+            add_seen(c, k + 1, &above);
+            add_seen(c, k + 1, &below);
+            return;
+        }
     }
-    if (k == c->lines) {
-        if (!is_hidden(c, cell))
-            sight_eye_add(c->eye, cell);
-        return;
-    }
-    above.n = polygon_divide(&cell->p[0][0], cell->n, 2, h, OUTLINE_CELL, &above.p[0][0],
-                             &below.p[0][0], &below.n);
-    add_seen(c, k + 1, &above);
-    add_seen(c, k + 1, &below);
+    if (!is_hidden(c, cell))
+        sight_eye_add(c->eye, cell);
 }
 
 double sight_past(const struct sight *sight, const double x[3], const double n[3], double up,

@@ -83,7 +83,7 @@ static inline int outline_cast(struct outline *out, const struct outline_frame *
 {
     double q[2][OUTLINE_CORNERS][3], h[OUTLINE_CORNERS], most = height * (1 - OUTLINE_BELOW_EYE),
                                                          at[2], w[3];
-    int count = n;
+    int count = n, now = 0;
     sub3(w, x, f->origin);
     at[0] = dot3(w, f->u);
     at[1] = dot3(w, f->v);
@@ -97,20 +97,23 @@ static inline int outline_cast(struct outline *out, const struct outline_frame *
     for (int side = 0; side < 2; side++) { /* over the plane; below x */
         int within = 0;
         for (i = 0; i < count; i++) {
-            h[i] = side ? most - q[side][i][2] : q[side][i][2];
+            h[i] = side ? most - q[now][i][2] : q[now][i][2];
             within += h[i] > 0;
         }
         if (within == 0) /* also what lies in the plane: it hides nothing of it */
             return 0;
-        count = polygon_divide(&q[side][0][0], count, 3, h, OUTLINE_CORNERS, &q[1 - side][0][0],
-                               NULL, NULL);
+        if (within == count) /* most are cut by neither */
+            continue;
+        count = polygon_divide(&q[now][0][0], count, 3, h, OUTLINE_CORNERS, &q[1 - now][0][0], NULL,
+                               NULL);
+        now = 1 - now;
         if (count < 3)
             return 0;
     }
     for (i = 0; i < count; i++) {
-        double t = height / (height - q[0][i][2]);
+        double t = height / (height - q[now][i][2]);
         for (int k = 0; k < 2; k++)
-            out->p[i][k] = at[k] + t * (q[0][i][k] - at[k]);
+            out->p[i][k] = at[k] + t * (q[now][i][k] - at[k]);
     }
     int j;
     if (outline_twice((const double(*)[2])out->p, count) < 0)
