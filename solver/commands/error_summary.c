@@ -115,8 +115,11 @@ void measured_print(const struct measured *m, uint32_t polygons)
     fputs("error     reflected light per face: off by ", stdout);
     print_share(stdout, &e->l1_faces);
     print_power(stdout, e);
-    if (e->worst < polygons)
-        printf("; worst large face %u: %.2g %% too %s\n", (unsigned)e->worst,
+    if (e->worst < polygons && e->worst_share > 10) /* a face in the dark: percents say little */
+        printf("; worst large face %u: %.3g times as bright as it should be\n", (unsigned)e->worst,
+               1 + e->worst_share);
+    else if (e->worst < polygons)
+        printf("; worst large face %u: %.3g %% too %s\n", (unsigned)e->worst,
                100 * fabs(e->worst_share), e->worst_share < 0 ? "dark" : "bright");
     else
         printf("; no large face is surely wrong\n");

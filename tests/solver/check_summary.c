@@ -155,13 +155,12 @@ START_TEST(test_error)
 }
 END_TEST
 
-/* The worst face, by its number and which way. */
-START_TEST(test_worst_face)
+/* The worst face of four, 3, that is off by a share of its light: what is printed of it. */
+static void print_worst(char *text, size_t size, double share)
 {
-    char text[4096];
     measured = (struct measured){
         .measured = 1,
-        .error = {.l1_faces = {0.1, 0.09, 0.11}, .reflected = 1, .worst = 3, .worst_share = -0.2}};
+        .error = {.l1_faces = {0.1, 0.09, 0.11}, .reflected = 1, .worst = 3, .worst_share = share}};
     FILE *file = tmpfile();
     ck_assert_ptr_nonnull(file);
     fflush(stdout);
@@ -172,10 +171,21 @@ START_TEST(test_worst_face)
     dup2(before, STDOUT_FILENO);
     close(before);
     rewind(file);
-    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    text[fread(text, 1, size - 1, file)] = 0;
     (void)fclose(file);
-    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 20 % too dark\n"));
     measured = (struct measured){0};
+}
+
+START_TEST(test_worst_face)
+{
+    char text[4096];
+    print_worst(text, sizeof text, -0.2);
+    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 20 % too dark\n"));
+    print_worst(text, sizeof text, 9);
+    ck_assert_ptr_nonnull(strstr(text, "; worst large face 3: 900 % too bright\n"));
+    print_worst(text, sizeof text, 270);
+    ck_assert_ptr_nonnull(
+        strstr(text, "; worst large face 3: 271 times as bright as it should be\n"));
 }
 END_TEST
 
