@@ -21,8 +21,6 @@
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
-enum { LINKS_WORTH_THREADS = 1 << 16 };
-
 /* A function over a surface in each band. */
 struct piece {
     double b[3][3];
@@ -247,7 +245,7 @@ static void sweep(const struct sweep *s, struct change *change, double *room)
     const struct light_operator *op = s->op;
     const struct shares *shares = &op->shares;
     const struct solve_options *o = &op->problem->options;
-    int threads = op->refinement->link_count > LINKS_WORTH_THREADS ? o->threads : 1;
+    const int threads = operator_threads(op);
     const int jacobi = o->solver == RAD_SOLVER_JACOBI;
     separable_links_send(&op->separable, (int)s->bands, s->x->means->value);
     for (uint32_t i = 0; i < SWEEP_BLOCKS; i++) {

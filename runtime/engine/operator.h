@@ -36,6 +36,14 @@ struct light_operator {
                     irradiance per uncovered area that a radiosity of 1 everywhere makes */
 };
 
+enum { LINKS_WORTH_THREADS = 1 << 16 };
+
+/* Threads that what goes over all links is worth. */
+static inline int operator_threads(const struct light_operator *op)
+{
+    return op->refinement->link_count > LINKS_WORTH_THREADS ? op->problem->options.threads : 1;
+}
+
 /* F of link i, by the projection that is asked for. */
 static inline double operator_factor(const struct light_operator *op, size_t i)
 {

@@ -33,8 +33,6 @@
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
-enum { LINKS_WORTH_THREADS = 1 << 16 };
-
 /* By how much a norm gets less, at the least and at the most, before the residual is made again:
  * one or more steps of a method that does well, and no more than that it never comes. Chosen */
 #define MOST_STEP 0.7
@@ -119,8 +117,7 @@ static PetscErrorCode multiply(Mat system, Vec x, Vec y)
     PetscCall(MatShellGetContext(system, &q));
     const struct light_operator *op = q->op;
     const struct transport *t = &q->step;
-    const int threads =
-        op->refinement->link_count > LINKS_WORTH_THREADS ? op->problem->options.threads : 1;
+    const int threads = operator_threads(op);
     PetscCall(VecGetArrayRead(x, &from));
     PetscCall(spread(q, from));
     PetscCall(MatMult(q->links, q->everywhere, q->gathered));

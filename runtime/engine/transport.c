@@ -41,8 +41,6 @@
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
-enum { LINKS_WORTH_THREADS = 1 << 16 };
-
 void transport_average(const struct light_operator *op, struct transport *x)
 {
     for (uint32_t e = op->hierarchy->count; e-- > 0;) /* children follow their parents */
@@ -77,8 +75,7 @@ void transport_sweep(const struct light_operator *op, const struct transport *x,
                      struct change *change, double *room)
 {
     const struct shares *s = &op->shares;
-    int threads =
-        op->refinement->link_count > LINKS_WORTH_THREADS ? op->problem->options.threads : 1;
+    const int threads = operator_threads(op);
     separable_links_send(&op->separable, (int)x->bands, x->value);
     for (uint32_t i = 0; i < SWEEP_BLOCKS; i++) {
         const uint32_t from = s->own_first[i], to = s->own_first[jacobi ? SWEEP_BLOCKS : i + 1];
