@@ -75,8 +75,9 @@ static void add_seen(const struct cutting *c, int k, const struct outline_cell *
             over_it |= h[i] > 0;
             under_it |= h[i] < 0;
         }
-        if (over_it && under_it
-            && sight_part(line->end[0], line->a, line->b, cell, h, &above, &below)) {
+        if (over_it && under_it && sight_runs_through(line->end[0], line->a, line->b, cell, h)) {
+            above.n = polygon_divide(&cell->p[0][0], cell->n, 2, h, OUTLINE_CELL, &above.p[0][0],
+                                     &below.p[0][0], &below.n);
             add_seen(c, k + 1, &above);
             add_seen(c, k + 1, &below);
             return;

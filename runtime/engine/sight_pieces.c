@@ -102,46 +102,22 @@ void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell)
     }
 }
 
-static void add_corner(struct outline_cell *cell, const double p[2])
+int sight_runs_through(const double from[2], double a, double b, const struct outline_cell *cell,
+                       const double *h)
 {
-    if (cell->n == OUTLINE_CELL)
-        return;
-    cell->p[cell->n][0] = p[0];
-    cell->p[cell->n][1] = p[1];
-    cell->n++;
-}
-
-/* Corners on the line belong to both, as polygon_divide has it. */
-int sight_part(const double from[2], double a, double b, const struct outline_cell *cell,
-               const double *h, struct outline_cell *above, struct outline_cell *below)
-{
-    double first = INFINITY, last = -INFINITY, square = a * a + b * b, cut[OUTLINE_CELL][2];
+    double first = INFINITY, last = -INFINITY, square = a * a + b * b;
     for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
         if ((h[i] > 0) == (h[j] > 0))
             continue;
-        const double t = h[j] / (h[j] - h[i]);
-        double along = 0;
+        double t = h[j] / (h[j] - h[i]), along = 0;
         for (int k = 0; k < 2; k++) {
-            cut[i][k] = cell->p[j][k] + t * (cell->p[i][k] - cell->p[j][k]);
-            along += (cut[i][k] - from[k]) * (k ? a : -b);
+            double p = cell->p[j][k] + t * (cell->p[i][k] - cell->p[j][k]);
+            along += (p - from[k]) * (k ? a : -b);
         }
         first = along < first ? along : first;
         last = along > last ? along : last;
     }
-    if (!(first < square && last > 0))
-        return 0;
-    above->n = below->n = 0;
-    for (int i = 0, j = cell->n - 1; i < cell->n; j = i++) {
-        if (((h[j] > 0) & (h[i] < 0)) | ((h[j] < 0) & (h[i] > 0))) {
-            add_corner(above, cut[i]);
-            add_corner(below, cut[i]);
-        }
-        if (h[i] >= 0)
-            add_corner(above, cell->p[i]);
-        if (h[i] <= 0)
-            add_corner(below, cell->p[i]);
-    }
-    return 1;
+    return first < square && last > 0;
 }
 
 /* Is the middle of a cell outside of a shadow? */
@@ -271,8 +247,10 @@ static void add_left(const struct shadows *all, const uint16_t *among, int count
             above += h[i] > 0;
         }
         if (above == 0 || above == now->n
-            || !sight_part(s->p[from], s->a[e], s->b[e], now, h, &outside, &inside[flip]))
+            || !sight_runs_through(s->p[from], s->a[e], s->b[e], now, h))
             continue;
+        outside.n = polygon_divide(&now->p[0][0], now->n, 2, h, OUTLINE_CELL, &outside.p[0][0],
+                                   &inside[flip].p[0][0], &inside[flip].n);
         add_left(all, list, n, list + n, &outside);
         now = &inside[flip];
         flip = 1 - flip;

@@ -45,12 +45,11 @@ void sight_eye_add(struct sight_eye *eye, const struct outline_cell *cell);
  */
 double sight_eye_factor(struct sight_eye *eye, double *whole);
 
-/* Parts a convex cell, whose corners have the heights h over the line a u + b v = c, along an edge
- * of that line, if it runs through the cell: by where the line enters and leaves, as cells may have
- * sides without a direction. The edge starts at `from` and is (-b, a) long. Returns 0 when it does
- * not; above and below are neither's then. */
-int sight_part(const double from[2], double a, double b, const struct outline_cell *cell,
-               const double *h, struct outline_cell *above, struct outline_cell *below);
+/* Does an edge run through a convex cell, whose corners have the heights h over its line a u + b v
+ * = c? By where the line enters and leaves: cells may have sides without a direction. The edge
+ * starts at `from` and is (-b, a) long. */
+int sight_runs_through(const double from[2], double a, double b, const struct outline_cell *cell,
+                       const double *h);
 
 /* The form factor from a point x with normal n, in front of whose plane all of the polygon lies, to
  * what it sees of the polygon past the faces, from `up` over x. In [0, 1]; *whole: to all of it. */
