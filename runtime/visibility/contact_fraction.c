@@ -23,28 +23,23 @@ static void look_around(const struct element *e, double direction[CONTACT_RAYS][
         hemisphere_direction(direction[m], &above, m, CONTACT_RAYS, 0);
 }
 
-static int is_inside(const struct rays *rays, const double p[3], double direction[CONTACT_RAYS][3])
+int contact_covers(const struct rays *rays, const struct element *e, const double p[3])
 {
+    double direction[CONTACT_RAYS][3];
     int inside = 0;
+    look_around(e, direction);
     for (int m = 0; m < CONTACT_RAYS && inside + CONTACT_RAYS - m >= CONTACT_BACKS; m++)
         inside += rays_first(rays, p, direction[m], NULL, NULL) == RAY_MEETS_BACK;
     return inside >= CONTACT_BACKS;
 }
 
-int contact_covers(const struct rays *rays, const struct element *e, const double p[3])
+/* As contact_covers for all points at once, direction by direction: rays side by side cost half. */
+static double share_inside(const struct rays *rays, const struct element *e)
 {
-    double direction[CONTACT_RAYS][3];
-    look_around(e, direction);
-    return is_inside(rays, p, direction);
-}
-
-/* As is_inside for all points at once, direction by direction: rays side by side cost half. */
-static double share_inside(const struct rays *rays, const struct element *e,
-                           double direction[CONTACT_RAYS][3])
-{
-    double p[SIDE * SIDE][3];
+    double direction[CONTACT_RAYS][3], p[SIDE * SIDE][3];
     int inside[SIDE * SIDE] = {0}, covered = 0;
     unsigned open = (1u << SIDE * SIDE) - 1; /* points that are inside or not by rays to come */
+    look_around(e, direction);
     for (int i = 0; i < SIDE * SIDE; i++) {
         surface_point(p[i], e, (i / SIDE + 0.5) / SIDE, (i % SIDE + 0.5) / SIDE);
         for (int k = 0; k < 3; k++)
@@ -66,11 +61,8 @@ static double share_inside(const struct rays *rays, const struct element *e,
 double contact_fraction(const struct rays *rays, const struct hierarchy *h, const struct element *e)
 {
     const double off = rays_host(rays)->ray_offset;
-    double direction[CONTACT_RAYS][3], p[3];
-    look_around(e, direction);
+    double middle[3];
     for (int k = 0; k < 3; k++)
-        p[k] = e->centre[k] + off * e->normal[k];
-    return standing_may(h, e, off) || is_inside(rays, p, direction)
-               ? share_inside(rays, e, direction)
-               : 0;
+        middle[k] = e->centre[k] + off * e->normal[k];
+    return standing_may(h, e, off) || contact_covers(rays, e, middle) ? share_inside(rays, e) : 0;
 }
