@@ -91,8 +91,8 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
         return api_fail(device, RAD_ERROR_UNSUPPORTED,
                         "this library was built without PETSc: make PETSC=1");
     if (o->basis == RAD_BASIS_LINEAR
-        && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
-            || o->solver == RAD_SOLVER_LU || o->solver == RAD_SOLVER_PETSC))
+        && (o->projection != RAD_PROJECTION_GALERKIN
+            || (o->solver != RAD_SOLVER_GAUSS_SEIDEL && o->solver != RAD_SOLVER_JACOBI)))
         return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
                         "RAD_BASIS_LINEAR goes with RAD_PROJECTION_GALERKIN and with Gauss-Seidel "
                         "or Jacobi sweeps");

@@ -345,6 +345,13 @@ static int read_argument(struct options *o, int number, const char *last)
     }
 }
 
+/* Is the linear basis to be had? */
+static int may_slope(const struct options *o)
+{
+    return o->projection == RAD_PROJECTION_GALERKIN
+           && (o->solver == RAD_SOLVER_GAUSS_SEIDEL || o->solver == RAD_SOLVER_JACOBI);
+}
+
 /* What no option says by itself. Returns -1, or the exit status. */
 static int check_together(struct options *o)
 {
@@ -437,12 +444,9 @@ static int check_together(struct options *o)
         return wrong(c->name, "--solver petsc: this command was built without PETSc; build it by "
                               "make PETSC=1, or take another solver");
     if ((o->command == COMMAND_SOLVE || o->command == COMMAND_TUNE) && !o->basis_given
-        && o->projection == RAD_PROJECTION_GALERKIN && o->solver != RAD_SOLVER_SOUTHWELL
-        && o->solver != RAD_SOLVER_LU && o->solver != RAD_SOLVER_PETSC)
+        && may_slope(o))
         o->basis = RAD_BASIS_LINEAR;
-    if (o->basis == RAD_BASIS_LINEAR
-        && (o->projection != RAD_PROJECTION_GALERKIN || o->solver == RAD_SOLVER_SOUTHWELL
-            || o->solver == RAD_SOLVER_LU || o->solver == RAD_SOLVER_PETSC))
+    if (o->basis == RAD_BASIS_LINEAR && !may_slope(o))
         return wrong(c->name, "--basis linear goes with --projection galerkin, and with --solver "
                               "gauss-seidel or jacobi");
     o->choose_scale = o->command == COMMAND_SOLVE && strcmp(o->oracle, RAD_DEFAULT_ORACLE) == 0
