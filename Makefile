@@ -203,12 +203,14 @@ ASK_HDF5  = $(BUILD)/solver/output/hdf5_file.o
 $(ASK_HDF5): CPPFLAGS += $(MPI_CFLAGS) $(HDF5_CFLAGS)
 $(ASK_HDF5): $(BUILD)/hdf5
 .PHONY: FORCE
+# A file that says by which flags objects were made, and is as old as these.
+made_for  = @mkdir -p $(@D); echo "$(1)" | cmp -s - $@ || echo "$(1)" > $@
 $(BUILD)/hdf5: FORCE
-	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS)" > $@
+	$(call made_for,$(MPI_CFLAGS) $(HDF5_CFLAGS) $(HDF5_LIBS))
 $(BUILD)/petsc: FORCE
-	@mkdir -p $(@D); echo "$(PETSC_CFLAGS) $(PETSC_LIBS)" | cmp -s - $@ || echo "$(PETSC_CFLAGS) $(PETSC_LIBS)" > $@
+	$(call made_for,$(PETSC_CFLAGS) $(PETSC_LIBS))
 $(BUILD)/mpi: FORCE
-	@mkdir -p $(@D); echo "$(MPI_CFLAGS) $(MPI_LIBS)" | cmp -s - $@ || echo "$(MPI_CFLAGS) $(MPI_LIBS)" > $@
+	$(call made_for,$(MPI_CFLAGS) $(MPI_LIBS))
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
