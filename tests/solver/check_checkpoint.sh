@@ -4,6 +4,8 @@
 # that is full leaves the last good file, and so does a network that is cut between two processes (as root: in two namespaces).
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
+# shellcheck source=tests/support/mpi.sh
+. "$top/tests/support/mpi.sh"
 quietly=into_files
 scene=$scenes/room.obj
 if "$radiosity" solve "$scene" --restart none.h5 2>&1 | grep -q "built without HDF5"; then
@@ -20,7 +22,6 @@ same() { # NAME FILE.json: the answer is that of whole.json
         check "$1: the same $of" [ -n "$(value $of whole.json)" -a "$(value $of whole.json)" = "$(value $of "$2")" ]
     done
 }
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
 
 check "at one go" "$radiosity" solve "$scene" -q --json whole.json
 check "with a checkpoint" "$radiosity" solve "$scene" -q --threads 1 --checkpoint c.h5 --json a.json

@@ -4,30 +4,10 @@
 # tolerance; what PETSc's options cannot mean ends with a message. Needs a command built by `make PETSC=1`; without it, that the
 # solver is refused is all that is checked. THOROUGH: more scenes and more ranks.
 # SPDX-License-Identifier: MIT
-set -u
-cd "$(dirname "$0")/../.." || exit 2
-radiosity=$(realpath "${RADIOSITY:-build/bin/radiosity}")
-scenes=$PWD/examples/scenes
-# As root, on a machine with fewer processors than ranks, beside other tests.
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_rmaps_base_oversubscribe=1
+. "$(dirname "$0")/lib.sh"
+# shellcheck source=tests/support/mpi.sh
+. "$top/tests/support/mpi.sh"
 unset PETSC_OPTIONS
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-count=0 bad=0
-check() { # WHAT COMMAND...
-    count=$((count + 1))
-    local what=$1
-    shift
-    "$@" && return 0
-    bad=$((bad + 1))
-    echo "failed: $what"
-}
-finish() {
-    echo "petsc: $count checks, $bad failed"
-    [ "$bad" = 0 ]
-    exit
-}
-cd "$tmp" || exit 2
 cube=$scenes/furnace.obj cornell=$scenes/cornell.obj
 
 "$radiosity" solve "$cube" --solver petsc -q --json one.json >said 2>&1
@@ -36,7 +16,8 @@ if grep -q 'built without PETSc' said; then
     check "without PETSc: status $status" [ "$status" = 2 ]
     check "without PETSc something is written" [ ! -e one.json ]
     echo "skipped: the command was built without PETSc (make PETSC=1 builds it)"
-    finish
+    finish petsc
+    exit
 fi
 
 value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
@@ -143,7 +124,8 @@ check "2 sweeps do, status $?" [ $? = 3 ]
 # ---- any number of ranks
 if ! command -v mpirun >/dev/null; then
     echo "skipped: no mpirun"
-    finish
+    finish petsc
+    exit
 fi
 ranks() { # SCENE RANKS ARGUMENTS...: in one process and in several
     local scene=$1 n name
@@ -181,4 +163,4 @@ export PETSC_OPTIONS="-ksp_type nonsense"
 timeout 300 mpirun -n 3 "$radiosity" solve "$cornell" -q --solver petsc --json several.json >said 2>&1
 check "nonsense on 3 ranks: status $?" [ $? = 1 ]
 check "nonsense on 3 ranks: $(head -n 3 said)" [ "$(grep -c 'error: PETSc cannot solve' said)" = 1 -a ! -e several.json ]
-finish
+finish petsc

@@ -4,25 +4,10 @@
 # rank that is killed, or that cannot go on, ends the run with a message and leaves no half of a file. Needs a command built by
 # `make MPI=1` and mpirun; else it says that it is skipped. THOROUGH: more scenes and more ranks.
 # SPDX-License-Identifier: MIT
-set -u
-cd "$(dirname "$0")/../.." || exit 2
-top=$PWD
-radiosity=$(realpath "${RADIOSITY:-build/bin/radiosity}")
-# As root, on a machine with fewer processors than ranks, beside other tests.
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_rmaps_base_oversubscribe=1
-tmp=$(mktemp -d) || exit 2
-trap 'rm -rf "$tmp"' EXIT
-count=0 bad=0
-check() { # WHAT COMMAND...
-    count=$((count + 1))
-    local what=$1
-    shift
-    "$@" && return 0
-    bad=$((bad + 1))
-    echo "failed: $what"
-}
+. "$(dirname "$0")/lib.sh"
+# shellcheck source=tests/support/mpi.sh
+. "$top/tests/support/mpi.sh"
 command -v mpirun >/dev/null || { echo "skipped: no mpirun"; exit 0; }
-cd "$tmp" || exit 2
 several() { # N COMMAND...
     timeout 300 mpirun -n "$@"
 }
@@ -46,7 +31,6 @@ rank_of() { # COMMAND RANK: wait for the process, then $found is its number
 }
 
 # ---- the same answer
-scenes=$top/examples/scenes
 value() { sed -n "s/^  \"$2\": \(.*[^,]\),*$/\1/p" "$1" | head -n 1; }
 near() { # A B: to 1e-12
     awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= 1e-12 * (a < 0 ? -a : a)) }'
@@ -196,5 +180,4 @@ check "a rank was killed: the run went on for $((SECONDS - killed)) s" [ $((SECO
 check "a rank was killed, and nobody said so: $(head -n 3 said)" grep -q -i 'signal 9\|killed' said
 check "a rank was killed: $(ls)" [ ! -e td.ply -a ! -e td.json -a -z "$(find . -name 'td.*')" ]
 
-echo "ranks: $count checks, $bad failed"
-[ "$bad" = 0 ]
+finish ranks

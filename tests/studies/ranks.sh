@@ -6,7 +6,7 @@
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 export LIMIT=${LIMIT:-3600}
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_rmaps_base_oversubscribe=1
+. "$(dirname "$0")/../support/mpi.sh"
 command -v mpirun >/dev/null || fail "mpirun is missing: apt-get install openmpi-bin"
 ! mpirun -n 2 "$radiosity" --version 2>&1 | grep -q 'built without MPI' || fail "$radiosity was built without MPI: make MPI=1"
 rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes,links_most,pairs_most,ghosts_most,memory_mb,splits,link_bytes,sweep_bytes,values,particles,fingerprint
