@@ -64,6 +64,15 @@ static void add_ball(struct scene *s, const double c[3], double radius, double d
 
 static const int no_gap[2] = {-1, -1};
 
+/* Two squares that face each other at a distance of their side: faces 0 and 1. */
+static void open_squares(struct scene *s)
+{
+    made_open(s);
+    made_material(s, 0.5, 0);
+    made_quad(s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+    made_quad(s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+}
+
 static void open_tree(struct exchange_tree *t, const struct scene *s)
 {
     const char *cause;
@@ -93,10 +102,7 @@ START_TEST(test_both_ways)
     for (int scene = 0; scene < 12; scene++) {
         struct scene s;
         struct exchange_tree t;
-        made_open(&s);
-        made_material(&s, 0.5, 0);
-        made_quad(&s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-        made_quad(&s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+        open_squares(&s);
         for (int ball = 0; ball <= scene % 3; ball++) {
             const double c[3] = {chance(&state), chance(&state), 0.3 + 0.4 * chance(&state)};
             add_ball(&s, c, 0.1 + 0.15 * chance(&state), ball ? 0.3 : 0, scene % 3 ? 2 : 4, no_gap);
@@ -176,10 +182,7 @@ START_TEST(test_loose)
     for (int scene = 0; scene < 10; scene++) {
         struct scene s;
         struct exchange_tree t;
-        made_open(&s);
-        made_material(&s, 0.5, 0);
-        made_quad(&s, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0);
-        made_quad(&s, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0);
+        open_squares(&s);
         const int loose = 3 * (scene + 1);
         for (int i = 0; i < loose; i++) {
             const double size = 0.1 + 0.5 * chance(&state) * chance(&state);
