@@ -48,6 +48,7 @@ check "the state is gone" [ ! -e two.csv.state ]
 # ---- stopped by a signal, three times, at whatever place; also when its table is there already
 check "at one go" "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% -q -o whole.csv
 : >long.csv.log
+kept= # 1: a run has left a state
 for i in 1 2 3 4 5 6 7 8; do
     "$radiosity" reference "$scenes/cornell.obj" --accuracy 0.2% --threads 1 -o long.csv >out 2>err &
     pid=$!
@@ -64,8 +65,9 @@ for i in 1 2 3 4 5 6 7 8; do
     # else it was stopped before it traced anything, and says that or, before it could, nothing
     if [ -s err ] && ! grep -q "^radiosity: stopped by a signal; nothing was written$" err; then
         check "it says so" grep -q "^stopped after .*goes on from long.csv.state" err
-        check "it leaves a state" [ -s long.csv.state ]
+        kept=1
     fi
+    [ -z "$kept" ] || check "it leaves a state" [ -s long.csv.state ]
 done
 check "it was stopped at least once" grep -q 130 long.csv.log
 check "and ended" [ $status = 0 ]
