@@ -34,8 +34,9 @@
 #include "util/array.h"
 #include "util/thread_pool.h"
 
-/* of one face at the most, before polygons become quads; of one part */
-enum { PARTS = 256, CORNERS = POLYGON_CORNERS };
+/* of one face at the most, before polygons become quads (the floor of a house has some for each of
+ * its rooms; each part looks for the longest in all lines); of one part */
+enum { PARTS = 4096, CORNERS = POLYGON_CORNERS };
 
 struct part {
     double vertex[CORNERS][3];
@@ -58,6 +59,8 @@ struct cutter {
     struct cut_frame frame;       /* of the face at hand */
     struct contact_list contacts; /* its */
     struct line_list lines;
+    struct part *parts; /* its */
+    size_t part_capacity;
     struct cutting *cuttings; /* [cutting_count] */
     size_t cutting_count, cutting_capacity;
     struct face *out; /* [out_count]: parts of faces that were cut */
@@ -182,8 +185,11 @@ static int emit_piece(struct cutter *c, const struct part *p, const struct piece
 static int cut_along_lines(struct cutter *c)
 {
     const struct face *f = c->frame.face;
-    struct part part[PARTS], side[2];
+    struct part side[2];
     uint32_t count = 1;
+    if (array_reserve(&c->parts, 1, &c->part_capacity, sizeof *c->parts) < 0)
+        return -1;
+    struct part *part = c->parts;
     memcpy(part[0].vertex, f->vertex, sizeof f->vertex);
     part[0].n = f->vertices;
     find_cut(c, &part[0]);
@@ -199,6 +205,9 @@ static int cut_along_lines(struct cutter *c)
         divide(c, &part[best], h, side);
         find_cut(c, &side[0]);
         find_cut(c, &side[1]);
+        if (array_reserve(&c->parts, count + 1, &c->part_capacity, sizeof *c->parts) < 0)
+            return -1;
+        part = c->parts;
         part[best] = side[0];
         part[count] = side[1];
     }
@@ -317,6 +326,7 @@ int scene_cut(struct scene *scene, const struct bvh *tree, int threads)
     for (int t = 0; t < threads; t++) {
         free(cutters[t].contacts.contacts);
         free(cutters[t].lines.lines);
+        free(cutters[t].parts);
         free(cutters[t].out);
         free(cutters[t].cuttings);
     }

@@ -339,17 +339,24 @@ END_TEST
 
 /* ---- limits and sizes */
 
-/* A grid of 31 x 31 walls would make 1024 parts. */
-START_TEST(test_limit)
+/* A floor with walls along both sides' steps of 1. */
+static uint32_t cut_grid(int side)
 {
     struct scene s;
-    open_floor(&s, 32, 32);
-    for (int i = 1; i < 32; i++) {
-        made_quad(&s, 0, i, 0, 0, 0, 32, 0, 0, 0, 1);
-        made_quad(&s, 0, 0, i, 0, 32, 0, 0, 0, 0, 1);
+    open_floor(&s, side, side);
+    for (int i = 1; i < side; i++) {
+        made_quad(&s, 0, i, 0, 0, 0, side, 0, 0, 0, 1);
+        made_quad(&s, 0, 0, i, 0, side, 0, 0, 0, 0, 1);
     }
-    ck_assert_uint_eq(cut_floor(&s), 256);
+    uint32_t parts = cut_floor(&s);
     made_close(&s);
+    return parts;
+}
+
+START_TEST(test_limit)
+{
+    ck_assert_uint_eq(cut_grid(32), 1024);
+    ck_assert_uint_eq(cut_grid(65), 4096);
 }
 END_TEST
 
