@@ -52,23 +52,33 @@ struct total {
     double power[3], variance[3], area;
 };
 
-/* A point of a cell, u and v in [0, 1]. */
-static void point_in(double p[3], const struct cell *c, double u, double v)
+/* A point of a cell, u and v in [0, 1]. Returns how much of the cell it stands for, beside others
+ * of the same steps in u and v: a quad need not be as wide at both ends. */
+static double point_in(double p[3], const struct cell *c, double u, double v)
 {
-    for (int k = 0; k < 3; k++)
-        if (c->corners == 4)
-            p[k] = (1 - v) * ((1 - u) * c->corner[0][k] + u * c->corner[1][k])
-                   + v * ((1 - u) * c->corner[3][k] + u * c->corner[2][k]);
-        else /* by area: sqrt keeps what u and v spread evenly */
+    double du[3], dv[3], area[3];
+    for (int k = 0; k < 3; k++) {
+        double low = (1 - u) * c->corner[0][k] + u * c->corner[1][k],
+               high = (1 - u) * c->corner[3][k] + u * c->corner[2][k];
+        if (c->corners == 4) {
+            p[k] = (1 - v) * low + v * high;
+            du[k] = (1 - v) * (c->corner[1][k] - c->corner[0][k])
+                    + v * (c->corner[2][k] - c->corner[3][k]);
+            dv[k] = high - low;
+        } else /* by area: sqrt keeps what u and v spread evenly */
             p[k] = (1 - sqrt(u)) * c->corner[0][k]
                    + sqrt(u) * ((1 - v) * c->corner[1][k] + v * c->corner[2][k]);
+    }
+    if (c->corners != 4)
+        return 1;
+    cross3(area, du, dv);
+    return length3(area);
 }
 
 /* Mean B over a cell of the solution. Returns 0, or -1: no leaf is there. */
 static int cell_value(const struct leaves *m, const struct cell *c, int two_sided, double *value)
 {
-    double a[3], b[3], n[2][3], got[3];
-    int found = 0;
+    double a[3], b[3], n[2][3], got[3], found = 0;
     sub3(a, c->corner[1], c->corner[0]);
     sub3(b, c->corner[2], c->corner[0]);
     cross3(n[0], a, b);
@@ -80,17 +90,17 @@ static int cell_value(const struct leaves *m, const struct cell *c, int two_side
     memset(value, 0, m->bands * sizeof *value);
     for (int i = 0; i < POINTS * POINTS; i++)
         for (int side = 0; side <= two_sided; side++) {
-            double p[3];
-            point_in(p, c, (i % POINTS + 0.5) / POINTS, (i / POINTS + 0.5) / POINTS);
+            double p[3],
+                weight = point_in(p, c, (i % POINTS + 0.5) / POINTS, (i / POINTS + 0.5) / POINTS);
             if (leaves_at(m, p, n[side], got) < 0)
                 continue;
-            found++;
+            found += weight;
             for (uint32_t k = 0; k < m->bands; k++)
-                value[k] += got[k];
+                value[k] += weight * got[k];
         }
-    for (uint32_t k = 0; k < m->bands && found; k++)
+    for (uint32_t k = 0; k < m->bands && found > 0; k++)
         value[k] /= found;
-    return found ? 0 : -1;
+    return found > 0 ? 0 : -1;
 }
 
 struct inputs {
