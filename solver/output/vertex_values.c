@@ -228,15 +228,27 @@ static int by_leaf(const void *a, const void *b)
                                    : p->vertex > q->vertex;
 }
 
-/* Let a leaf count for the mean at a vertex, by its area. */
+/* Let a leaf count for the mean at a vertex, by its area; what solids stand on tells nothing. */
 static void add_leaf(struct vertex_values *v, const struct solution *solution, uint32_t leaf,
                      uint32_t vertex)
 {
-    double area = solution->tree.elements[leaf].area;
+    const struct RadElements *tree = &solution->tree;
+    double area = tree->elements[leaf].area;
+    if (tree->uncovered && !(tree->uncovered[leaf] > 0))
+        return;
     v->weight[vertex] += area;
     for (uint32_t k = 0; k < v->bands; k++)
         v->value[(size_t)vertex * v->bands + k] +=
             area * radiosity_at(solution, leaf, k, v->vertices[vertex].position);
+}
+
+/* Sums to means. Under a solid no light arrives. */
+static void divide(struct vertex_values *v, const struct solution *solution, uint32_t vertex)
+{
+    const double *exitance = solution->surfaces.materials[v->vertices[vertex].material].exitance;
+    double *value = &v->value[(size_t)vertex * v->bands], weight = v->weight[vertex];
+    for (uint32_t k = 0; k < v->bands; k++)
+        value[k] = weight > 0 ? value[k] / weight : exitance[k];
 }
 
 /* Every leaf at its corners, which makes the vertices. Returns 0 or -1. */
@@ -326,8 +338,7 @@ int vertex_values_build(struct vertex_values *v, const struct solution *solution
     }
     add_passing(v, solution);
     for (uint32_t c = 0; c < v->count; c++)
-        for (uint32_t k = 0; k < v->bands && v->weight[c] > 0; k++)
-            v->value[(size_t)c * v->bands + k] /= v->weight[c];
+        divide(v, solution, c);
     close_seams(v, solution);
     return 0;
 }

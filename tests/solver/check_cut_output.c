@@ -164,6 +164,35 @@ START_TEST(test_walls_part)
 }
 END_TEST
 
+/* Whatever the leaves under the box have been given, they show what they emit, and none beside them
+ * shows any of it. */
+START_TEST(test_under_a_box)
+{
+    struct stage s;
+    stage_open(&s);
+    double *uncovered = malloc(s.h.count * sizeof *uncovered);
+    ck_assert_ptr_nonnull(uncovered);
+    for (uint32_t i = 0; i < s.h.count; i++) {
+        const struct element *e = &s.h.elements[i];
+        int under =
+            is_leaf(e) && s.solution.surfaces.faces[e->face].input == 0 && under_box(e->centre);
+        uncovered[i] = !under;
+        if (under)
+            s.b[i] = 7;
+    }
+    s.solution.tree.uncovered = uncovered;
+    vertex_values_free(&s.values);
+    ck_assert_int_eq(vertex_values_build(&s.values, &s.solution), 0);
+    for (double y = 0.21; y < 0.8; y += 0.01) {
+        ck_assert_double_eq_tol(shown(&s, 0.2 - 1e-6, y), 4, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, 0.2 + 1e-6, y), 0, 1e-4);
+        ck_assert_double_eq_tol(shown(&s, 0.5, y), 0, 1e-4);
+    }
+    free(uncovered);
+    stage_close(&s);
+}
+END_TEST
+
 /* From above: bright and dark meet at the wall with nothing between, and no pixel of the floor
  * is empty. */
 START_TEST(test_picture)
@@ -329,6 +358,7 @@ int main(void)
         return EXIT_FAILURE;
     tcase_set_timeout(c, 60);
     tcase_add_test(c, test_walls_part);
+    tcase_add_test(c, test_under_a_box);
     tcase_add_test(c, test_picture);
     tcase_add_test(c, test_meshes);
     tcase_add_test(c, test_no_gaps);
