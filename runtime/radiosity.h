@@ -709,6 +709,9 @@ struct RadErrorReport {
      * them are so dim that, mended, their light is not known to 5 % (two standard errors) */
     uint32_t large, unsure;
     uint64_t rays, particles; /* that measuring took; no part of RadReport.rays */
+    /* 1: `particles` are paths from polygons: where these tell polygons at a far lower price, as
+     * under a sky, they mend and measure (engine/path_mending.c) */
+    uint32_t by_paths;
     double seconds;
 };
 /* Measure how far the solution, mended or not, is from the truth, by particles traced from the

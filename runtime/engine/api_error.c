@@ -33,6 +33,7 @@ static struct RadErrorReport report_of(const struct measured_error *m)
                                    .unsure = m->dim.unsure,
                                    .rays = m->rays,
                                    .particles = m->particles,
+                                   .by_paths = (uint32_t)m->by_paths,
                                    .seconds = m->seconds};
 }
 

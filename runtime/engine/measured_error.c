@@ -10,6 +10,7 @@
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/path_mending.h"
 #include "engine/ray_split.h"
 #include "engine/solve_tracer.h"
 #include "engine/surface_error.h"
@@ -21,6 +22,8 @@
 
 /* particles of each replicate in a first look, which tells how many rays one takes */
 enum { FIRST = 64 };
+/* rays of a look by particles where the goal says nothing of it */
+enum { LOOK = 1 << 15 };
 
 static const char memory[] = "out of memory for counting particles; fewer elements need less";
 
@@ -70,6 +73,7 @@ static int measure_faces(struct solve *s, const struct tally *tally, struct meas
 {
     m->rays = tally->rays;
     m->particles = tally->particles * REPLICATES;
+    m->by_paths = s->by_paths;
     return face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance,
                            tally);
 }
@@ -79,7 +83,7 @@ int measured_elements(const struct solve *s, struct measured_error *m)
     const struct state *shown = solve_shown(s);
     const struct problem *p = &s->problem;
     size_t values = (size_t)s->hierarchy.count * p->bands;
-    if (m->element || !m->tally.element)
+    if (m->element || !m->tally.face)
         return 0;
     double *element = malloc(values * sizeof *element);
     if (element)
@@ -126,6 +130,25 @@ static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t ra
     return tail_error_measure(s, t, &shown, rays, stream, &watch, &m->p999, &m->rays);
 }
 
+/* Particles, or paths where these have mended; about so many rays of `all`. Returns 0, or -1 when
+ * cancelled or out of memory. */
+static int count(struct solve *s, const struct tracer *t, uint64_t rays, double all,
+                 uint64_t stream, struct tally *tally)
+{
+    if (!s->by_paths)
+        return tally_open(tally, t, stream, 1) < 0 || trace_rays(s, t, tally, rays, all) < 0 ? -1
+                                                                                             : 0;
+    struct watched watched = {.solve = s, .now = (double)rays, .all = all};
+    const struct watch watch = {tell, &watched};
+    struct path_tally paths;
+    int failed = path_tally_open(&paths, t, path_mending_stream(stream)) < 0
+                 || path_tally_trace_rays(&paths, t, solve_shown(s)->irradiance, rays, &watch) < 0;
+    *tally = paths.tally;
+    paths.tally = (struct tally){0};
+    path_tally_close(&paths);
+    return failed ? -1 : 0;
+}
+
 int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
                   struct measured_error *m, const char **cause)
 {
@@ -134,8 +157,7 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     struct tracer t = solve_tracer(s);
     s->told = 0;
     *m = (struct measured_error){0};
-    int result = tracer_open(&t) < 0 || tally_open(&m->tally, &t, stream, 1) < 0
-                         || trace_rays(s, &t, &m->tally, counted, (double)rays) < 0
+    int result = tracer_open(&t) < 0 || count(s, &t, counted, (double)rays, stream, &m->tally) < 0
                          || measure_faces(s, &m->tally, m) < 0
                          || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
@@ -234,8 +256,9 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
     return changed > 0 ? follow_irradiance(s) : changed;
 }
 
+/* By what particles counted, and then by paths, if there are any. */
 static int mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                struct measured_error *alone, uint64_t *spent)
+                const struct tally *paths, struct measured_error *alone, uint64_t *spent)
 {
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     struct state *m = &s->mended;
@@ -244,8 +267,10 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
     m->irradiance = malloc(values * sizeof *m->irradiance);
     if (m->radiosity && m->irradiance) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
-        if (mend_irradiance(&s->operator, tally, m->irradiance) == 0 && follow_irradiance(s) == 0
-            && mend_dim(s, t, tally, alone, spent) == 0)
+        if (mend_irradiance(&s->operator, tally, m->irradiance) == 0
+            && (!paths || mend_irradiance(&s->operator, paths, m->irradiance) == 0)
+            && follow_irradiance(s) == 0
+            && mend_dim(s, t, paths ? paths : tally, alone, spent) == 0)
             return 0;
     }
     solve_forget_mended(s);
@@ -279,7 +304,8 @@ static int trace_for_places(struct solve *s, const struct tracer *t, struct tall
         double next = fmin(fmin(wanted, fmax(2.0 * (double)tally->rays, (double)goal->least)),
                            (double)goal->most);
         struct ray_split split;
-        if (trace_rays(s, t, tally, (uint64_t)next, fmin(wanted, (double)goal->most)) < 0
+        if (((double)tally->rays < 0.99 * next
+             && trace_rays(s, t, tally, (uint64_t)next, fmin(wanted, (double)goal->most)) < 0)
             || ray_split_measure(&s->operator, tally, s->state.irradiance, &split) < 0)
             return -1;
         wanted = ray_split_wanted(&split, goal->places);
@@ -317,6 +343,24 @@ static double landings(const struct mending_goal *goal)
     return goal->places > 0 ? fmin(expected, (double)goal->most) : (double)goal->most;
 }
 
+/* A first look by particles; then paths, if they are much cheaper for polygons: s->by_paths.
+ * Returns 0, or -1 when cancelled or out of memory. */
+static int look(struct solve *s, const struct tracer *t, struct tally *tally,
+                struct path_tally *paths, const struct mending_goal *goal)
+{
+    const uint64_t first = goal->least > 0 ? goal->least : LOOK,
+                   rays = first < goal->most ? first : goal->most;
+    if (trace_rays(s, t, tally, rays, (double)goal->most) < 0)
+        return -1;
+    struct watched watched = {.solve = s, .before = tally->rays, .all = (double)goal->most};
+    watched.now = fmax(watched.all - (double)tally->rays, 0);
+    const struct watch watch = {tell, &watched};
+    if (tally->rays == 0)
+        return 0;
+    s->by_paths = path_mending_trace(paths, s, t, tally, goal->noise, goal->most, &watch);
+    return s->by_paths < 0 ? -1 : 0;
+}
+
 /* What has been counted, as one number: a sum, so that no order shows. */
 static uint64_t fingerprint(const struct tally *tally)
 {
@@ -336,17 +380,24 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     double start = seconds();
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
+    struct path_tally paths = {.tally = {0}};
     uint64_t spent = 0;
     uint32_t elements = s->hierarchy.count;
     s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
+    s->by_paths = 0;
     int failed = tracer_open(&t) < 0 || detail_leaves(s, landings(goal)) < 0
                  || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || (goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
-                 || trace_for_faces(s, &t, &tally, goal) < 0 || measure_faces(s, &tally, alone) < 0
-                 || mend(s, &t, &tally, alone, &spent) < 0 || detail_merge(s, elements) < 0;
+                 || look(s, &t, &tally, &paths, goal) < 0
+                 || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
+                 || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
+                 || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
+                 || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
+                 || detail_merge(s, elements) < 0;
     s->report.particles = failed ? 0 : fingerprint(&tally);
+    alone->rays = tally.rays + paths.paths.rays;
+    path_tally_close(&paths);
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {

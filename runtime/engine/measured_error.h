@@ -18,7 +18,8 @@ struct measured_error {
     double *element;
     struct tally tally;
     struct dim_count dim; /* once mended, by measure_and_mend alone */
-    uint64_t rays, particles;
+    uint64_t rays, particles; /* particles: paths, where by_paths */
+    int by_paths;
     double seconds;
 };
 

@@ -35,7 +35,7 @@ int reference_open(struct reference *r, const struct scene *scene, int threads, 
         return -1;
     r->tracer = solve_tracer(&r->solve);
     if (tracer_open(&r->tracer) == 0 && tally_open(&r->tally, &r->tracer, PARTICLE_STREAM, 0) == 0
-        && face_paths_open(&r->paths, &r->tracer, PATH_STREAM) == 0)
+        && face_paths_open(&r->paths, &r->tracer, PATH_STREAM, 0) == 0)
         return 0;
     reference_close(r);
     *cause = "out of memory for what is counted";

@@ -68,6 +68,7 @@ struct solve {
     struct state state;
     struct state mended;     /* of state, by particles (measured_error.h); NULLs: it is not */
     double *mended_gradient; /* of linear.gradient, to go with it; NULL: none */
+    int by_paths; /* what is mended is so by paths, and is measured by them */
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;

@@ -366,6 +366,11 @@
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define DIM_GOAL 0.0255
+/* times the rays of a first look by paths. Where particles would take no more, there is none.
+ * Chosen: it is an eighth of them then */
+#define PATHS_LOOK 8.0
+/* times cheaper than particles, which tell places within faces as well, paths have to be; chosen */
+#define PATHS_CHEAPER 4.0
 /* of the rays of mending. So many may be spent on paths from dim polygons at the most: mending then
  * takes twice as many at worst */
 #define DIM_RAYS 1.0

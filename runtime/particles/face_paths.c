@@ -8,7 +8,7 @@
 
 enum { BLOCKS = 1 << 13 }; /* traced before their sums are added */
 
-int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t stream)
+int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t stream, int replicates)
 {
     uint32_t faces = t->hierarchy->face_count;
     size_t values = (size_t)faces * t->bands;
@@ -19,6 +19,10 @@ int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t strea
         p->sum[half] = calloc(values, sizeof *p->sum[half]);
         p->square[half] = calloc(values, sizeof *p->square[half]);
         failed |= !p->sum[half] || !p->square[half];
+    }
+    for (int r = 0; r < REPLICATES && replicates; r++) {
+        p->replicate[r] = calloc(values, sizeof *p->replicate[r]);
+        failed |= !p->replicate[r];
     }
     if (failed) {
         face_paths_close(p);
@@ -45,6 +49,8 @@ void face_paths_close(struct face_paths *p)
         free(p->sum[half]);
         free(p->square[half]);
     }
+    for (int r = 0; r < REPLICATES; r++)
+        free(p->replicate[r]);
     *p = (struct face_paths){0};
 }
 
@@ -52,7 +58,7 @@ void face_paths_close(struct face_paths *p)
 struct block {
     uint64_t first, rays;
     uint32_t face;
-    double sum[PATH_HALVES][3], square[PATH_HALVES][3];
+    double sum[PATH_HALVES][3], square[PATH_HALVES][3], replicate[REPLICATES][3];
 };
 
 static void trace(struct block *b, const struct tracer *t, uint64_t stream)
@@ -65,6 +71,7 @@ static void trace(struct block *b, const struct tracer *t, uint64_t stream)
         for (uint32_t k = 0; k < t->bands; k++) {
             b->sum[i % PATH_HALVES][k] += h[k];
             b->square[i % PATH_HALVES][k] += h[k] * h[k];
+            b->replicate[i % REPLICATES][k] += h[k];
         }
     }
 }
@@ -77,6 +84,9 @@ static void add(struct face_paths *p, const struct block *b)
             p->sum[half][(size_t)b->face * p->bands + k] += b->sum[half][k];
             p->square[half][(size_t)b->face * p->bands + k] += b->square[half][k];
         }
+    for (int r = 0; r < REPLICATES && p->replicate[r]; r++)
+        for (uint32_t k = 0; k < p->bands; k++)
+            p->replicate[r][(size_t)b->face * p->bands + k] += b->replicate[r][k];
 }
 
 struct blocks {

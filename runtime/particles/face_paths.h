@@ -24,12 +24,13 @@ struct face_paths {
     /* by halves, [faces * bands + band]: of the irradiances h that paths found (W/m2), and of h^2
      */
     double *sum[PATH_HALVES], *square[PATH_HALVES];
+    double *replicate[REPLICATES]; /* the same sums of h, by replicates; NULL: not asked for */
 };
 
 /* None yet. Faces share paths by (A rho)^(2/3), rho of the strongest band, which gives the sum of
  * A rho times the standard error its least where all are equally noisy; where nothing is reflected
- * none is traced. Returns 0, or -1 when out of memory. */
-int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t stream);
+ * none is traced. replicates: 1: sums of these, too. Returns 0, or -1 when out of memory. */
+int face_paths_open(struct face_paths *p, const struct tracer *t, uint64_t stream, int replicates);
 void face_paths_close(struct face_paths *p);
 
 /* Trace on until `paths` have been asked for in all. watch: NULL, or asked. Returns 0, or -1 when

@@ -99,8 +99,8 @@ void measured_print(const struct measured *m, uint32_t polygons)
 {
     const struct RadErrorReport *e = &m->error;
     if (m->mended && m->alone.reflected > 0) {
-        printf("mended    by particles (%.3g rays); the links alone are off by ",
-               (double)m->alone.rays);
+        printf("mended    by %s (%.3g rays); the links alone are off by ",
+               m->alone.by_paths ? "paths" : "particles", (double)m->alone.rays);
         print_share(stdout, &m->alone.l1_faces);
         fputs(" per face", stdout);
         print_power(stdout, &m->alone);
@@ -148,10 +148,11 @@ static json_t *surface_json(const struct RadMeasure *m)
 
 static json_t *report_json(const struct RadErrorReport *r)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:I, s:I, s:f, s:f}", "power", measure_json(&r->power),
-                     "l1_faces", measure_json(&r->l1_faces), "l2", surface_json(&r->l2), "p999",
-                     surface_json(&r->p999), "rays", (json_int_t)r->rays, "particles",
-                     (json_int_t)r->particles, "reflected", r->reflected, "seconds", r->seconds);
+    return json_pack("{s:o, s:o, s:o, s:o, s:I, s:I, s:b, s:f, s:f}", "power",
+                     measure_json(&r->power), "l1_faces", measure_json(&r->l1_faces), "l2",
+                     surface_json(&r->l2), "p999", surface_json(&r->p999), "rays",
+                     (json_int_t)r->rays, "particles", (json_int_t)r->particles, "by_paths",
+                     (int)r->by_paths, "reflected", r->reflected, "seconds", r->seconds);
 }
 
 /* The large face that is most surely wrong; null: none is. */

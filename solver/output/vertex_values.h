@@ -15,8 +15,8 @@
  * Where another face stands on the surface, light may jump: leaves on two sides of a wall share no
  * vertex along it, so that nothing shines under it and a box that stands on the floor darkens none
  * of it. Beyond the wall's end they do. Leaves that solids cover wholly count nowhere: no light
- * arrives there, and what the solver keeps of them is the face's. A vertex between such leaves alone
- * has what they emit.
+ * arrives there, and what the solver keeps of them is the face's. A vertex between such leaves
+ * alone has what they emit.
  *
  * Invariant: parts of a face are cut at exact midpoints (a + b) / 2, so that equal points are
  * equal bits and a hash finds them.

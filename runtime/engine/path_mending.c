@@ -1,0 +1,56 @@
+/* path_mending.c - see path_mending.h.
+ *
+ * Particles go where emitters shine. Of a sky over a house next to none finds the window, and of
+ * those that leave a small lamp few meet a terrain's far end; paths start on what is asked for and
+ * look for the light. In a room, where light is reflected many times, it is the other way round.
+ * Noise falls with the root of the number, so noise^2 times rays is what each costs, whatever the
+ * number: both are measured, particles by the first look that mending takes anyway, paths by a
+ * block for each face. Paths know nothing of places within a face, so they have to be much cheaper.
+ * [Derived here]
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include "engine/face_error.h"
+#include "engine/path_mending.h"
+#include "kernel/constants.h"
+
+enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
+
+static double noise_of(const struct solve *s, const struct tally *tally)
+{
+    double noise;
+    return face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &noise) < 0 ? -1
+                                                                                          : noise;
+}
+
+static uint32_t faces_that_reflect(const struct path_tally *y)
+{
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < y->paths.faces; f++)
+        count += y->paths.share[f] > 0;
+    return count;
+}
+
+int path_mending_trace(struct path_tally *y, const struct solve *s, const struct tracer *t,
+                       const struct tally *tally, double noise, uint64_t most,
+                       const struct watch *watch)
+{
+    double by_particles = noise_of(s, tally), by_paths, paths = 1;
+    if (by_particles < 0 || path_tally_open(y, t, path_mending_stream(0)) < 0)
+        return -1;
+    double cost = by_particles * by_particles * (double)tally->rays,
+           look = (double)PATH_BLOCK * RAYS_OF_PATH * faces_that_reflect(y);
+    if (!(fmin(cost / (noise * noise), (double)most) > PATHS_LOOK * look))
+        return 0;
+    for (int first = 1;; first = 0) {
+        if (path_tally_trace(y, t, s->state.irradiance, (uint64_t)paths, watch) < 0
+            || (by_paths = noise_of(s, &y->tally)) < 0)
+            return -1;
+        double rays = (double)y->tally.rays, ratio = by_paths / noise;
+        if (first && !(PATHS_CHEAPER * by_paths * by_paths * rays < cost))
+            return 0;
+        if (!(ratio > 1) || rays >= 0.99 * (double)most)
+            return 1;
+        paths = (double)y->tally.particles * REPLICATES
+                * fmin(fmin(1.02 * ratio * ratio, 4), (double)most / rays);
+    }
+}

@@ -1,0 +1,195 @@
+/* check_path_mending.c - polygons told by paths: as good as the interval that is told of them, and
+ * taken where they are cheap.
+ *
+ * Under a sky that is the same everywhere a convex body receives what the sky emits, on all of it.
+ * SPDX-License-Identifier: MIT */
+#include <check.h>
+#include <stdio.h>
+#include "engine/measured_error.h"
+#include "engine/path_mending.h"
+#include "engine/solve_tracer.h"
+#include "runtime/make_known.h"
+#include "runtime/make_solve.h"
+#include "suite.h"
+
+static char *coarse[] = {"min_share=0.004", NULL};
+static const struct mending_goal goal = {
+    .noise = 0.0065, .most = 1 << 23, .places = 0.065, .least = 1 << 17};
+
+/* A black sky of 100 m on a side, which emits 1 W/m2; in it a grey box of 1 m. */
+static void box_under_sky(struct scene *s)
+{
+    uint32_t sky[6] = {0, 0, 0, 0, 0, 0};
+    made_open(s);
+    made_material(s, 0, 1);
+    made_material(s, 0.6, 0);
+    made_room(s, sky, 100, 100, 100);
+    const double o = 50, p = 51;
+    made_quad(s, 1, o, o, o, 0, 1, 0, 1, 0, 0);
+    made_quad(s, 1, o, o, p, 1, 0, 0, 0, 1, 0);
+    made_quad(s, 1, o, o, o, 1, 0, 0, 0, 0, 1);
+    made_quad(s, 1, o, p, o, 0, 0, 1, 1, 0, 0);
+    made_quad(s, 1, o, o, o, 0, 0, 1, 0, 1, 0);
+    made_quad(s, 1, p, o, o, 0, 1, 0, 0, 0, 1);
+}
+
+START_TEST(test_sky)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone, error;
+    const char *cause;
+    box_under_sky(&scene);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(2));
+    /* links of the sky are as right as they are coarse: let them be wrong */
+    for (uint32_t f = 6; f < 12; f++)
+        s.state.irradiance[s.hierarchy.face_element[f]] *= f % 2 ? 1.3 : 0.8;
+    ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
+    ck_assert_int_eq(s.by_paths, 1);
+    ck_assert_int_eq(alone.by_paths, 1);
+    ck_assert_double_gt(alone.faces.l1.low, 0.15);
+    for (uint32_t f = 6; f < 12; f++)
+        ck_assert_double_eq_tol(s.mended.irradiance[s.hierarchy.face_element[f]], 1, 0.03);
+    printf("a box under a sky: %.2g rays\n", (double)alone.rays);
+    ck_assert_uint_lt(alone.rays, 1000000);
+    ck_assert_int_eq(measure_error(&s, 100000, 1, 0, &error, &cause), 0);
+    ck_assert_int_eq(error.by_paths, 1);
+    ck_assert_double_lt(error.faces.l1.high, 0.05);
+    ck_assert_int_eq(measured_elements(&s, &error), 0);
+    ck_assert_ptr_nonnull(error.element);
+    measured_error_free(&error);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* A lamp in a room of white walls: light that has been reflected many times. */
+START_TEST(test_room)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    const uint32_t walls[6] = {0, 0, 0, 0, 0, 0};
+    made_open(&scene);
+    made_material(&scene, 0.85, 0);
+    made_material(&scene, 0, 100);
+    made_room(&scene, walls, 4, 5, 2.5);
+    made_quad(&scene, 1, 2, 2, 2.45, 0, 0.1, 0, 0.1, 0, 0);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(2));
+    ck_assert_int_eq(measure_and_mend(&s, &goal, &alone, &cause), 0);
+    ck_assert_int_eq(s.by_paths, 0);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+/* Is the L1 error of light that is off by `off` of itself within what paths say of it? */
+static int covered(const struct solve *s, const double *truth, const struct tally *y, double off,
+                   struct chance *c)
+{
+    const struct problem *p = &s->problem;
+    const struct hierarchy *h = &s->hierarchy;
+    const uint32_t bands = p->bands;
+    double *solved = calloc((size_t)h->count * bands, sizeof *solved), wrong = 0, all = 0;
+    double *polygon = calloc((size_t)p->scene->input_count * bands, sizeof *polygon);
+    struct face_error m;
+    for (uint32_t f = 0; f < h->face_count; f++)
+        for (uint32_t k = 0; k < bands; k++) {
+            const double H = truth[f * bands + k],
+                         changed = H * fmax(0, 1 + off * chance_normal(c));
+            const double area =
+                p->reflectance[f * bands + k] * h->elements[h->face_element[f]].area;
+            solved[h->face_element[f] * bands + k] = changed;
+            polygon[h->faces[f].input * bands + k] += area * (changed - H);
+            all += area * H;
+        }
+    for (uint32_t i = 0; i < p->scene->input_count * bands; i++)
+        wrong += fabs(polygon[i]) / all;
+    ck_assert_int_eq(face_error_open(&m, p, h, solved, y), 0);
+    int in = wrong >= m.l1.low - 1e-9 && wrong <= m.l1.high + 1e-9;
+    face_error_close(&m);
+    free(polygon);
+    free(solved);
+    return in;
+}
+
+START_TEST(test_coverage)
+{
+    static const double off[] = {0, 0.01, 0.05, 0.3};
+    const int problems = thorough() ? 300 : 60;
+    int trials = 0, missed = 0;
+    for (int i = 0; i < problems; i++) {
+        struct chance chance = {hash64(77 + (uint64_t)i)};
+        struct scene scene;
+        struct solve s;
+        struct path_tally y;
+        struct solve_options o = quick(1);
+        const char *cause;
+        double *truth = known_open(&scene, (enum known)(i % KNOWN_KINDS), &chance);
+        ck_assert_int_eq(solve_open(&s, &scene, &o, &cause), 0);
+        struct tracer t = solve_tracer(&s);
+        t.threads = 1;
+        ck_assert_int_eq(tracer_open(&t), 0);
+        ck_assert_int_eq(path_tally_open(&y, &t, path_mending_stream((uint64_t)i)), 0);
+        double *nothing = calloc((size_t)s.hierarchy.count * scene.bands, sizeof *nothing);
+        ck_assert_int_eq(path_tally_trace(&y, &t, nothing,
+                                          (uint64_t)(i % 2 ? 1 : 200) * scene.input_count, NULL),
+                         0);
+        for (int n = 0; n < 4; n++, trials++)
+            missed += !covered(&s, truth, &y.tally, off[n], &chance);
+        free(nothing);
+        free(truth);
+        path_tally_close(&y);
+        tracer_close(&t);
+        solve_close(&s);
+        made_close(&scene);
+    }
+    printf("%d of %d intervals miss the truth\n", missed, trials);
+    /* trials of one tally are not independent */
+    ck_assert_double_le(missed, trials * (0.08 + 3 * sqrt(0.05 * 0.95 * 4 / trials)));
+}
+END_TEST
+
+/* The same counts for any number of threads and of pieces. */
+START_TEST(test_same)
+{
+    struct scene scene;
+    struct solve s;
+    struct path_tally y[2];
+    box_under_sky(&scene);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, coarse, quick(1));
+    for (int i = 0; i < 2; i++) {
+        struct tracer t = solve_tracer(&s);
+        t.threads = 1 + 2 * i;
+        ck_assert_int_eq(tracer_open(&t), 0);
+        ck_assert_int_eq(path_tally_open(&y[i], &t, 1), 0);
+        for (uint64_t paths = i ? 100 : 20000; paths <= 20000; paths += 9950)
+            ck_assert_int_eq(path_tally_trace(&y[i], &t, s.state.irradiance, paths, NULL), 0);
+        tracer_close(&t);
+    }
+    ck_assert_uint_eq(y[0].tally.rays, y[1].tally.rays);
+    for (uint32_t f = 0; f < y[0].tally.faces; f++)
+        for (int r = 0; r < REPLICATES; r++)
+            ck_assert(tally_face(&y[0].tally, r, f, 0) == tally_face(&y[1].tally, r, f, 0));
+    path_tally_close(&y[0]);
+    path_tally_close(&y[1]);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("polygons by paths");
+    TCase *c = tcase_create("paths");
+    tcase_set_timeout(c, thorough() ? 600 : 60);
+    tcase_add_test(c, test_sky);
+    tcase_add_test(c, test_room);
+    tcase_add_test(c, test_coverage);
+    tcase_add_test(c, test_same);
+    suite_add_tcase(suite, c);
+    return suite_failures(suite) != 0;
+}
