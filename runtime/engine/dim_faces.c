@@ -17,6 +17,10 @@
  * polygons get what they need, the cheapest first, so that few are left wrong; what remains makes
  * the others equally sure.
  *
+ * Smaller polygons are nobody's loss in the light of all, but somebody's room in a landscape. They
+ * are asked in the same way where few rays have been cast, all to be equally sure: there are too
+ * many to get some of them right and leave the others as they are.
+ *
  * Those that are not sure then are behind a second door: what paths end in is as wrong there as the
  * polygon. For them particles are split (dim_split.c); and where these say otherwise than paths by
  * more than the noise of both, paths are thought to be off by that much.
@@ -37,7 +41,6 @@ enum {
     LOOK = 256        /* paths of a first look at most: chosen, the variance is known to a tenth */
 };
 #define FIRST 0.125 /* of the rays: those that tell how noisy paths are */
-#define NOT_DIM UINT32_MAX
 
 static double strongest(const struct tracer *t, uint32_t face)
 {
@@ -49,24 +52,58 @@ static double strongest(const struct tracer *t, uint32_t face)
 
 /* ---- which polygons */
 
-/* Large ones, with their faces. Returns 0, or -1 when out of memory. */
-static int list_large(struct dim_faces *d)
+/* A polygon, and what of it reflects (m2). */
+struct candidate {
+    uint32_t polygon;
+    double area;
+};
+
+static int by_area(const void *a, const void *b)
+{
+    const struct candidate *x = a, *y = b;
+    return x->area != y->area ? (x->area < y->area ? 1 : -1)
+                              : (x->polygon > y->polygon) - (x->polygon < y->polygon);
+}
+
+/* Is it one to look at? */
+static int is_asked(const struct dim_faces *d, const struct candidate *c)
+{
+    const int large = c->area > DIM_LARGE * d->tracer->hierarchy->elements[0].area;
+    return c->area > 0 && large == (d->size == DIM_LARGE_ONES);
+}
+
+/* Those to look at, no more than `most`, the largest ones. Returns 0, or -1 when out of memory. */
+static int list_polygons(struct dim_faces *d, uint32_t most)
 {
     const struct tracer *t = d->tracer;
     const struct hierarchy *h = t->hierarchy;
-    uint32_t polygons = d->solve->problem.scene->input_count;
-    double *area = calloc((size_t)polygons + 1, sizeof *area);
+    uint32_t polygons = d->solve->problem.scene->input_count, asked = 0;
+    struct candidate *all = calloc((size_t)polygons + 1, sizeof *all);
     d->of = malloc(((size_t)polygons + 1) * sizeof *d->of);
-    d->polygon = calloc((size_t)(1 / DIM_LARGE) + 1, sizeof *d->polygon);
     d->face = malloc(((size_t)h->face_count + 1) * sizeof *d->face);
     d->until = malloc(((size_t)h->face_count + 1) * sizeof *d->until);
-    int failed = !area || !d->of || !d->polygon || !d->face || !d->until;
-    for (uint32_t i = 0; i < h->face_count && !failed; i++)
-        area[h->faces[i].input] += strongest(t, i) > 0 ? tracer_surface(t, i)->area : 0;
+    int failed = !all || !d->of || !d->face || !d->until;
+    for (uint32_t p = 0; p < polygons && !failed; p++) {
+        all[p].polygon = p;
+        d->of[p] = NOT_DIM;
+    }
+    for (uint32_t i = 0; i < h->face_count && !failed; i++) {
+        struct candidate *c = &all[h->faces[i].input];
+        c->area += strongest(t, i) > 0 ? tracer_surface(t, i)->area : 0;
+    }
     for (uint32_t p = 0; p < polygons && !failed; p++)
-        d->of[p] = area[p] > DIM_LARGE * h->elements[0].area ? d->count++ : NOT_DIM;
-    free(area);
-    return failed ? -1 : 0;
+        if (is_asked(d, &all[p]))
+            all[asked++] = all[p];
+    if (!failed && asked > most)
+        qsort(all, asked, sizeof *all, by_area);
+    for (uint32_t i = 0; i < asked && i < most; i++)
+        d->of[all[i].polygon] = 0;
+    for (uint32_t p = 0; p < polygons && !failed; p++)
+        if (d->of[p] != NOT_DIM)
+            d->of[p] = d->count++;
+    d->polygon = failed ? NULL : calloc((size_t)d->count + 1, sizeof *d->polygon);
+    free(all);
+    return d->polygon ? 0 : -1;
 }
 
 /* The faces of each, one polygon's beside each other. */
@@ -193,7 +230,8 @@ static void plan(struct dim_faces *d, double rays)
         d->polygon[j].planned = 0;
         d->polygon[j].wanted = d->polygon[j].paths;
     }
-    rays = plan_cheap(d, rays);
+    if (d->size == DIM_LARGE_ONES)
+        rays = plan_cheap(d, rays);
     while (share < 1 && rays_of_others(d, share) > rays)
         share *= 1.02;
     for (uint32_t j = 0; j < d->count && share < 1; j++)
@@ -342,15 +380,21 @@ static void close_all(struct dim_faces *d)
 }
 
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   uint64_t paths, uint64_t both, const struct watch *watch, uint64_t *rays,
-                   struct dim_count *count)
+                   enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
+                   uint64_t *rays, struct dim_count *count)
 {
-    struct dim_faces d = {
-        .solve = s, .tracer = t, .light = element_light_shown(s), .watch = watch, .rays = rays};
+    const uint64_t most =
+        size == DIM_LARGE_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * 64 * RAYS_OF_PATH);
+    struct dim_faces d = {.solve = s,
+                          .tracer = t,
+                          .size = size,
+                          .light = element_light_shown(s),
+                          .watch = watch,
+                          .rays = rays};
     *count = (struct dim_count){0, 0};
     if (!(t->lights.power > 0) || tally->particles == 0)
         return 0;
-    int failed = list_large(&d) < 0;
+    int failed = list_polygons(&d, (uint32_t)most) < 0;
     if (!failed) {
         list_faces(&d);
         count->large = d.count;

@@ -3,6 +3,7 @@
 #ifndef DIM_FACES_H
 #define DIM_FACES_H
 
+#include "engine/dim_paths.h"
 #include "engine/solve.h"
 #include "particles/particles.h"
 #include "particles/watch.h"
@@ -22,7 +23,7 @@ struct dim_count {
  * NULL, or asked. *count: what is known then. Returns how many polygons were changed, or -1 when
  * out of memory or stopped. */
 int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *tally,
-                   uint64_t paths, uint64_t both, const struct watch *watch, uint64_t *rays,
-                   struct dim_count *count);
+                   enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
+                   uint64_t *rays, struct dim_count *count);
 
 #endif

@@ -41,7 +41,7 @@ static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], st
         if (met < 0)
             return;
         face = (uint32_t)met;
-        if (met_before > 0) {
+        if (met_before > 0 && d->of[t->hierarchy->faces[face].input] == NOT_DIM) {
             uint32_t leaf = leaf_at(elements, t->hierarchy->face_element[face], at, weight);
             sub3(away, at, from);
             if (dot3(away, away) > elements[leaf].area) {

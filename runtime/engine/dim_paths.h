@@ -10,6 +10,8 @@
 #include "particles/tracer.h"
 #include "particles/watch.h"
 
+#define NOT_DIM UINT32_MAX
+
 struct dim_polygon {
     uint32_t from, to; /* its faces that reflect, in dim_faces.face */
     double area;       /* of them (m2) */
@@ -26,7 +28,11 @@ struct dim_polygon {
     double split_light, split_variance, split[3];
 };
 
+/* Which polygons: those above DIM_LARGE of the area, or the others. */
+enum dim_size { DIM_LARGE_ONES, DIM_SMALL_ONES };
+
 struct dim_faces {
+    enum dim_size size;
     const struct solve *solve;
     const struct tracer *tracer;
     struct element_light light; /* B~ */

@@ -251,9 +251,18 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                               .now = budget,
                               .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {tell, &watched};
-    int changed =
-        dim_faces_mend(s, t, tally, (uint64_t)paths, (uint64_t)both, &watch, spent, &alone->dim);
-    return changed > 0 ? follow_irradiance(s) : changed;
+    struct dim_count small;
+    if (dim_faces_mend(s, t, tally, DIM_LARGE_ONES, (uint64_t)paths, (uint64_t)both, &watch, spent,
+                       &alone->dim)
+        < 0)
+        return -1;
+    const double left = fmin(fmax(paths, DIM_SMALL), both - (double)*spent);
+    if (left > 0
+        && (follow_irradiance(s) < 0
+            || dim_faces_mend(s, t, tally, DIM_SMALL_ONES, (uint64_t)left, 0, &watch, spent, &small)
+                   < 0))
+        return -1;
+    return follow_irradiance(s);
 }
 
 /* By what particles counted, and then by paths, if there are any. */

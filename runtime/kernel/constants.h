@@ -377,6 +377,9 @@
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */
 #define DIM_FEW 1.5e6
+/* rays for paths from polygons below DIM_LARGE, where mending took fewer and DIM_FEW leaves them:
+ * chosen, a tenth of a second */
+#define DIM_SMALL 4e5
 /* of the mean irradiance. Particles are not split for what is dimmer than that by far: what links
  * say of it may be nothing at all, and all rays would go there */
 #define DIM_LEAST 1e-6

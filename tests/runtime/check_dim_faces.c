@@ -45,13 +45,20 @@ static void two_furnaces(struct solve *s, struct scene *scene, double light, int
     solve_with(s, scene, "bf", RELEASE_FLAT, settings, quick(threads));
 }
 
-static void spoil_wall(struct solve *s)
+static void spoil(struct solve *s, uint32_t from, uint32_t to, double factor)
 {
-    for (uint32_t e = 0; e < s->hierarchy.count; e++)
-        if (s->hierarchy.elements[e].vertices && s->hierarchy.elements[e].face == WALL) {
-            s->state.irradiance[e] *= SPOILT;
+    for (uint32_t e = 0; e < s->hierarchy.count; e++) {
+        const struct element *at = &s->hierarchy.elements[e];
+        if (at->vertices && at->face >= from && at->face < to) {
+            s->state.irradiance[e] *= factor;
             s->state.radiosity[e] = DARK * (1 - RHO) + RHO * s->state.irradiance[e];
         }
+    }
+}
+
+static void spoil_wall(struct solve *s)
+{
+    spoil(s, WALL, WALL + 1, SPOILT);
 }
 
 static double of_face(const struct solve *s, uint32_t face)
@@ -113,7 +120,7 @@ static int mend_apart(struct solve *s, uint64_t particles, uint64_t budget, uint
     ck_assert_int_eq(mend_irradiance(&s->operator, & tally, s->mended.irradiance), 0);
     double before = s->mended.irradiance[0];
     *rays = 0;
-    int changed = dim_faces_mend(s, &t, &tally, budget, budget, NULL, rays, &dim);
+    int changed = dim_faces_mend(s, &t, &tally, DIM_LARGE_ONES, budget, budget, NULL, rays, &dim);
     ck_assert_uint_ge(dim.large, dim.unsure);
     unsure = dim.unsure;
     *root = s->mended.irradiance[0] / before;
@@ -231,6 +238,26 @@ START_TEST(test_large_budget)
 }
 END_TEST
 
+/* Small faces where little light is: all of them are three times too bright, and none stays so. */
+START_TEST(test_small)
+{
+    struct scene scene;
+    struct solve s;
+    struct measured_error alone;
+    const char *cause;
+    two_furnaces(&s, &scene, DARK, 2);
+    spoil(&s, WALL + 1, scene.face_count, 3);
+    ck_assert_int_eq(
+        measure_and_mend(&s, &(struct mending_goal){.noise = 1e-2, .most = 200000}, &alone, &cause),
+        0);
+    for (uint32_t f = WALL + 1; f < scene.face_count; f++)
+        ck_assert_double_eq_tol(of_face(&s, f) / DARK, 1, 0.15);
+    measured_error_free(&alone);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Where every large face is met by particles enough, nothing is asked and nothing paid. */
 START_TEST(test_bright)
 {
@@ -256,6 +283,7 @@ int main(void)
     tcase_add_test(tests, test_split);
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
+    tcase_add_test(tests, test_small);
     tcase_add_test(tests, test_bright);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
