@@ -135,7 +135,7 @@ static void list_faces(struct dim_faces *d)
 static void weigh(const struct dim_faces *d, const struct tally *tally, struct dim_polygon *p)
 {
     const struct tracer *t = d->tracer;
-    double one = tally_power_of_one(tally) / p->area, noise,
+    double one = tally->by_paths ? 0 : tally_power_of_one(tally) / p->area, noise,
            counted = dim_count_light(d, tally, p, &noise);
     for (uint32_t i = p->from; i < p->to; i++)
         for (uint32_t k = 0; k < t->bands; k++) {

@@ -8,6 +8,7 @@ int path_tally_open(struct path_tally *y, const struct tracer *t, uint64_t strea
     *y = (struct path_tally){.paths = {.share = NULL}};
     if (tally_open(&y->tally, t, stream, 0) < 0)
         return -1;
+    y->tally.by_paths = 1;
     for (uint32_t k = 0; k < t->bands; k++)
         y->tally.square[k] = 1;
     return face_paths_open(&y->paths, t, stream, 1);
