@@ -404,7 +404,8 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
                  || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
                  || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
                  || detail_merge(s, elements) < 0;
-    s->report.particles = failed ? 0 : fingerprint(&tally);
+    s->report.particles =
+        failed ? 0 : fingerprint(&tally) + (s->by_paths ? fingerprint(&paths.tally) : 0);
     alone->rays = tally.rays + paths.paths.rays;
     path_tally_close(&paths);
     tally_close(&tally);

@@ -64,6 +64,7 @@ compare_ranks() { # SCENE RANKS...: against one process
 }
 compare_ranks "$scenes/cornell.obj" 1 2 3 4
 compare_ranks "$scenes/room.obj" 2
+compare_ranks "$top/tests/runtime/sky_room.obj" 3 # by paths
 if [ -n "${THOROUGH:-}" ]; then
     compare_ranks "$scenes/room.obj" 3 4 7
     compare_ranks "$scenes/td.obj" 2 3 4
