@@ -203,7 +203,7 @@ static void part_elements(struct judging *j)
 
 /* From the finest up: each with what no finer one has said of; what is not wrong for itself falls
  * to what is around it. */
-static void hold_parts(struct judging *j)
+static void judge_parts(struct judging *j)
 {
     const struct hierarchy *h = j->h;
     for (uint32_t e = 0; e < h->count; e++)
@@ -272,7 +272,7 @@ static void judge(struct judging *j, struct element_error *x)
     for (j->band = 0; j->band < j->bands; j->band++) {
         measure_leaves(j);
         part_elements(j);
-        hold_parts(j);
+        judge_parts(j);
         tell_leaves(j, x);
     }
 }
