@@ -726,10 +726,17 @@ RAD_API int radMeasureError(RadSolution solution, const struct RadMeasureOptions
  * E + rho H, H the mean over both sides. Returns 0, or -1: nothing has been measured. */
 RAD_API int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error,
                                 double *deviation);
-/* The same of each element's mean, as far as it stands out of its noise: [element * bands + band],
- * W/m2, the solution's own until it is measured again or stepped; NULL: nothing has been measured,
- * or there is no memory for it. */
+/* The mean B of each leaf less the truth where that stands clear of noise, 0 where it does not and
+ * of all other elements: [element * bands + band], W/m2. What a leaf's own particles do not tell is
+ * told by the smallest part of its face around it that is surely off by another share; in 95 of 100
+ * measurements of a solution that is right all are 0. The solution's own until it is measured again
+ * or stepped; NULL: nothing has been measured, or there is no memory for it.
+ * [engine/element_error.c] */
 RAD_API const double *radGetElementErrors(RadSolution solution);
+/* The same of what the modulus of that difference is below, in 95 of 100 leaves: the mean over such
+ * a part, or over what else there is of the polygon, and two standard errors of it. So an error of
+ * 0 with a limit near B is not known, one with a small limit is none. */
+RAD_API const double *radGetElementErrorLimits(RadSolution solution);
 
 struct RadCorrectOptions {
     /* particles are traced until their noise in the L1 error of polygons is below this share of the

@@ -73,6 +73,11 @@ panel: texts are markup | solver/output/panel_page.c | s/strchr("<>&", \*at)/str
 panel: wrong files taken | solver/panel/result.js | s/if (wrong.length) throw/if (false) throw/ | solver/check_panel
 panel: all nodes are stops | solver/panel/graph.js | s/i ? "-1" : "0"/"0"/ | solver/check_panel
 panel: words unquoted | solver/panel/result.js | s/words.map(quoted)/words/ | solver/check_panel
+clear too soon | runtime/engine/element_error.c | s/j->squares = 2 \* log/j->squares = 0.4 * log/ | runtime/check_element_error
+parts know nothing of what is around | runtime/engine/element_error.c | s/j->say\[above\].told ? share_of/j->say[above].told ? 0 * share_of/ | runtime/check_element_error
+parts that are right stay parts | runtime/engine/element_error.c | s/s->told = is_wrong(j, polygon_of(j, e), &s->part)/s->told = 1/ | runtime/check_element_error
+limits without noise | runtime/engine/element_error.c | s/ELEMENT_ERROR_LIMIT \* sqrt/0.01 * sqrt/ | runtime/check_element_error
+bands by themselves | runtime/engine/face_error.c | s/noise += c->deviation\[j\]/noise = hypot(noise, c->deviation[j])/ | runtime/check_element_error
 END
 }
 

@@ -83,7 +83,7 @@ struct RadSolutionObject {
     struct solve solve;
     struct ray_split places;        /* of the links as they are; rays 0: not measured */
     uint64_t mending_rays;          /* of the last radCorrect */
-    struct measured_error measured; /* .element NULL: nothing has been, or not what is shown */
+    struct measured_error measured; /* .elements NULLs: nothing has been, or not what is shown */
     struct trace trace;             /* of radTraceSolution */
     uint32_t *part;                 /* per face: see engine/element_names.h; NULL: not yet asked */
     struct solve_state state;       /* of radGetSolutionState */

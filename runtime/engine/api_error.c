@@ -83,14 +83,25 @@ int radGetPolygonErrors(RadSolution solution, uint32_t band, double *error, doub
     return 0;
 }
 
-const double *radGetElementErrors(RadSolution solution)
+/* What was measured of the elements that are shown; NULLs: nothing was, or there is no memory. */
+static struct element_error element_errors(RadSolution solution)
 {
     if (!solution || solution->dead)
-        return NULL;
+        return (struct element_error){NULL, NULL};
     if (measured_elements(&solution->solve, &solution->measured) < 0)
         api_fail(solution->scene->device, RAD_ERROR_OUT_OF_MEMORY,
                  "out of memory for the errors of elements");
-    return solution->measured.element;
+    return solution->measured.elements;
+}
+
+const double *radGetElementErrors(RadSolution solution)
+{
+    return element_errors(solution).error;
+}
+
+const double *radGetElementErrorLimits(RadSolution solution)
+{
+    return element_errors(solution).limit;
 }
 
 int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlaces *places)

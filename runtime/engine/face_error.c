@@ -450,15 +450,15 @@ static void show_polygons(struct face_error *f, const struct counted *c, const d
 {
     double surest = 0;
     for (uint32_t i = 0; i < f->polygons; i++) {
-        double off = 0, reflected = 0, deviation = 0;
+        double off = 0, reflected = 0, noise = 0;
         for (size_t j = (size_t)i * c->bands; j < ((size_t)i + 1) * c->bands; j++) {
             f->error[j] = areas[i] > 0 ? (c->solved[j] - c->mean[j]) / areas[i] : 0;
             f->deviation[j] = areas[i] > 0 ? c->deviation[j] / areas[i] : 0;
             off += c->solved[j] - c->mean[j];
             reflected += c->mean[j];
-            deviation += c->deviation[j]; /* a particle brings all bands: their noise is one */
+            noise += c->deviation[j]; /* one particle has all bands: their noise is alike */
         }
-        double sure = fabs(off) - FACE_ERROR_SURE * deviation;
+        double sure = fabs(off) - FACE_ERROR_SURE * noise;
         if (!(areas[i] > FACE_ERROR_LARGE * all) || !(reflected > 0)
             || !(sure > surest * reflected))
             continue;

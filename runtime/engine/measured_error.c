@@ -80,28 +80,13 @@ static int measure_faces(struct solve *s, const struct tally *tally, struct meas
 
 int measured_elements(const struct solve *s, struct measured_error *m)
 {
-    const struct state *shown = solve_shown(s);
-    const struct problem *p = &s->problem;
-    size_t values = (size_t)s->hierarchy.count * p->bands;
-    if (m->element || !m->tally.face)
+    if (m->elements.error || !m->tally.face)
         return 0;
-    double *element = malloc(values * sizeof *element);
-    if (element)
-        memcpy(element, shown->irradiance, values * sizeof *element);
-    if (!element || mend_irradiance(&s->operator, & m->tally, element) < 0) {
-        free(element);
+    if (element_error_open(&m->elements, &s->operator, & m->faces, &m->tally,
+                           solve_shown(s)->irradiance)
+        < 0)
         return -1;
-    }
     tally_close(&m->tally);
-    for (uint32_t e = 0; e < s->hierarchy.count; e++)
-        for (uint32_t k = 0; k < p->bands; k++) {
-            const struct element *at = &s->hierarchy.elements[e];
-            size_t i = (size_t)e * p->bands + k;
-            double rho = at->vertices ? p->reflectance[(size_t)at->face * p->bands + k] : 0;
-            double uncovered = s->operator.uncovered[e];
-            element[i] = uncovered > 0 ? rho * (shown->irradiance[i] - element[i]) / uncovered : 0;
-        }
-    m->element = element;
     return 0;
 }
 
@@ -173,7 +158,7 @@ void measured_error_free(struct measured_error *m)
 {
     face_error_close(&m->faces);
     tally_close(&m->tally);
-    free(m->element);
+    element_error_close(&m->elements);
     *m = (struct measured_error){0};
 }
 

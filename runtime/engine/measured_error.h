@@ -5,6 +5,7 @@
 #define MEASURED_ERROR_H
 
 #include "engine/dim_faces.h"
+#include "engine/element_error.h"
 #include "engine/ray_split.h"
 #include "engine/face_error.h"
 #include "engine/solve.h"
@@ -12,10 +13,8 @@
 /* What a measurement found of the solution that is shown. */
 struct measured_error {
     struct face_error faces;
-    struct RadMeasure l2, p999; /* of surfaces, where they were asked for; else all zero */
-    /* [elements * bands]: B less the truth, as far as it stands out (W/m2): NULL until
-     * measured_elements makes it of what measure_error has counted */
-    double *element;
+    struct RadMeasure l2, p999;    /* of surfaces, where they were asked for; else all zero */
+    struct element_error elements; /* NULLs until measured_elements makes it of what is counted */
     struct tally tally;
     struct dim_count dim; /* once mended, by measure_and_mend alone */
     uint64_t rays, particles; /* particles: paths, where by_paths */
@@ -29,7 +28,7 @@ struct measured_error {
 enum { MEND_STREAM = 0 };
 int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
                   struct measured_error *m, const char **cause);
-/* m->element, of a solution that has not changed since it was measured. Few ask for it. Returns 0,
+/* m->elements, of a solution that has not changed since it was measured. Few ask for it. Returns 0,
  * or -1 when out of memory. */
 int measured_elements(const struct solve *s, struct measured_error *m);
 void measured_error_free(struct measured_error *m);

@@ -28,6 +28,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/leaf_count.h"
 #include "engine/mend.h"
 #include "hierarchy/levels.h"
 #include "kernel/constants.h"
@@ -357,23 +358,6 @@ static void mend_root(struct mending *m, uint32_t k)
         (m->linked[place(m, 0, k)] + belief * off) / h->elements[0].area;
 }
 
-/* What a leaf receives (W): where none were counted, its share by links of what its face does. */
-static double leaf_received(const struct mending *m, uint32_t e, uint32_t k)
-{
-    const struct hierarchy *h = m->op->hierarchy;
-    const struct element *at = &h->elements[e];
-    if (m->tally->element)
-        return tally_leaf(m->tally, e, k);
-    if (!at->vertices)
-        return 0;
-    const uint32_t whole = h->face_element[at->face];
-    double counted = 0, linked = m->irradiance[place(m, whole, k)];
-    for (int r = 0; r < REPLICATES; r++)
-        counted += tally_face(m->tally, r, at->face, k) / REPLICATES;
-    const double share = at->area / h->elements[whole].area;
-    return counted * share * (linked > 0 ? m->irradiance[place(m, e, k)] / linked : 1);
-}
-
 /* Powers of leaves and faces, */
 static void fill_some(const void *mending, size_t from, size_t to)
 {
@@ -383,7 +367,8 @@ static void fill_some(const void *mending, size_t from, size_t to)
         for (uint32_t k = 0; k < m->bands; k++) {
             const struct element *at = &h->elements[e];
             m->linked[place(m, e, k)] = at->children ? 0 : at->area * m->irradiance[place(m, e, k)];
-            m->received[place(m, e, k)] = at->children ? 0 : leaf_received(m, e, k);
+            m->received[place(m, e, k)] =
+                at->children || !at->vertices ? 0 : leaf_count(m->tally, h, m->irradiance, e, k);
             for (int r = 0; r < REPLICATES && e < h->built; r++)
                 m->replicate[(size_t)r * h->built * m->bands + place(m, e, k)] =
                     at->vertices ? tally_face(m->tally, r, at->face, k) : 0;

@@ -314,21 +314,32 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     return rays;
 }
 
-/* The ray from p (m) into a direction, of length `far` directions, in Embree's coordinates. */
-static struct RTCRay ray_from(const struct rays *rays, const double p[3], const double direction[3],
-                              float far)
+/* A coordinate of a point (m), and of a direction, in Embree's coordinates. */
+static float embree_place(const struct rays *rays, const double p[3], int k)
 {
-    struct RTCRay ray;
-    memset(&ray, 0, sizeof ray);
-    ray.org_x = (float)((p[0] - rays->origin[0]) * rays->scale);
-    ray.org_y = (float)((p[1] - rays->origin[1]) * rays->scale);
-    ray.org_z = (float)((p[2] - rays->origin[2]) * rays->scale);
-    ray.dir_x = (float)(direction[0] * rays->scale);
-    ray.dir_y = (float)(direction[1] * rays->scale);
-    ray.dir_z = (float)(direction[2] * rays->scale);
-    ray.tfar = far;
-    ray.mask = ~0u;
-    return ray;
+    return (float)((p[k] - rays->origin[k]) * rays->scale);
+}
+static float embree_way(const struct rays *rays, const double direction[3], int k)
+{
+    return (float)(direction[k] * rays->scale);
+}
+
+/* The ray from p (m) into a direction, of length `far` directions. Written where it is wanted: a
+ * copy would load at once as wholes what has just been stored in parts, and wait for that. */
+static void ray_from(struct RTCRay *ray, const struct rays *rays, const double p[3],
+                     const double direction[3], float far)
+{
+    ray->org_x = embree_place(rays, p, 0);
+    ray->org_y = embree_place(rays, p, 1);
+    ray->org_z = embree_place(rays, p, 2);
+    ray->tnear = 0;
+    ray->dir_x = embree_way(rays, direction, 0);
+    ray->dir_y = embree_way(rays, direction, 1);
+    ray->dir_z = embree_way(rays, direction, 2);
+    ray->time = 0;
+    ray->tfar = far;
+    ray->mask = ~0u;
+    ray->id = ray->flags = 0;
 }
 
 /* Is it hit from behind? */
@@ -407,7 +418,7 @@ static int meets_behind(const struct rays *rays, struct RTCRayHit *query)
 static int first_hit(const struct rays *rays, const double from[3], const double direction[3],
                      struct RTCRayHit *query, int *behind)
 {
-    query->ray = ray_from(rays, from, direction, INFINITY);
+    ray_from(&query->ray, rays, from, direction, INFINITY);
     intersect(rays, query, 0);
     if (query->hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return 0;
@@ -462,19 +473,20 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
     struct RTCRayHit16 query;
     _Alignas(64) int valid[16];
     unsigned backs = 0;
+    const float way[3] = {embree_way(rays, direction, 0), embree_way(rays, direction, 1),
+                          embree_way(rays, direction, 2)};
     for (int i = 0; i < 16; i++) {
-        const struct RTCRay ray = ray_from(rays, from[i], direction, INFINITY);
         valid[i] = which >> i & 1 ? -1 : 0;
-        query.ray.org_x[i] = ray.org_x;
-        query.ray.org_y[i] = ray.org_y;
-        query.ray.org_z[i] = ray.org_z;
-        query.ray.dir_x[i] = ray.dir_x;
-        query.ray.dir_y[i] = ray.dir_y;
-        query.ray.dir_z[i] = ray.dir_z;
+        query.ray.org_x[i] = embree_place(rays, from[i], 0);
+        query.ray.org_y[i] = embree_place(rays, from[i], 1);
+        query.ray.org_z[i] = embree_place(rays, from[i], 2);
+        query.ray.dir_x[i] = way[0];
+        query.ray.dir_y[i] = way[1];
+        query.ray.dir_z[i] = way[2];
         query.ray.tnear[i] = 0;
-        query.ray.tfar[i] = ray.tfar;
+        query.ray.tfar[i] = INFINITY;
         query.ray.time[i] = 0;
-        query.ray.mask[i] = ray.mask;
+        query.ray.mask[i] = ~0u;
         query.ray.id[i] = query.ray.flags[i] = 0;
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
@@ -491,11 +503,11 @@ unsigned rays_meet_backs(const struct rays *rays, const double from[16][3], unsi
 #endif
     }
     for (int i = 0; i < 16; i++) {
-        if (!valid[i] || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+        if (!valid[i] || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+            || rays->behind[rays->face[query.hit.primID[i]]] != BLACK_BACK)
             continue;
         _Alignas(16) struct RTCRayHit one = one_of(&query, i);
-        if (meets_behind(rays, &one) && rays->behind[rays->face[one.hit.primID]] == BLACK_BACK)
-            backs |= 1u << i;
+        backs |= (unsigned)meets_behind(rays, &one) << i;
     }
     return backs;
 }
@@ -516,7 +528,8 @@ int64_t rays_meet(const struct rays *rays, const double from[3], const double di
 
 int rays_blocked(const struct rays *rays, const double from[3], const double direction[3])
 {
-    _Alignas(16) struct RTCRay ray = ray_from(rays, from, direction, 1);
+    _Alignas(16) struct RTCRay ray;
+    ray_from(&ray, rays, from, direction, 1);
 #if EMBREE == 4
     struct RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);

@@ -29,7 +29,9 @@ static int write_pictures(const struct options *o, const struct solution *soluti
                                   0};
     int failed = 0;
     if (o->image_error)
-        failed |= error_image_write(o->image_error, solution, values, radGetElementErrors(solved),
+        failed |= error_image_write(o->image_error, solution, values,
+                                    &(struct error_seen){radGetElementErrors(solved),
+                                                         radGetElementErrorLimits(solved)},
                                     view, o->width, o->height, o->mesh)
                   < 0;
     if (o->image)

@@ -69,6 +69,20 @@ double error_image_share(const struct solution *s, const double *error, double m
     return of > 0 ? off / of : copysign(INFINITY, off);
 }
 
+int error_image_unknown(const struct solution *s, const struct error_seen *seen, double mean,
+                        uint32_t element)
+{
+    uint32_t bands = s->tree.bands;
+    double limit = luminance(&seen->limit[(size_t)element * bands], bands);
+    if (is_lamp(&s->surfaces, s->tree.elements[element].face))
+        return 0;
+    for (uint32_t k = 0; k < bands; k++)
+        if (seen->error[(size_t)element * bands + k] != 0)
+            return 0;
+    return limit
+           > ERROR_IMAGE_KNOWN * fmax(truth_of(s, seen->error, element), ERROR_IMAGE_DARK * mean);
+}
+
 struct part {
     double share, area;
 };
@@ -131,23 +145,37 @@ static double linear(double byte)
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
+/* In dots: of a hatch's lines, across and down. */
+enum { HATCH = 6, HATCH_LINE = 2 };
+static const uint8_t hatch_line[3] = {160, 160, 160};
+
+static int is_hatched(double x, double y)
+{
+    double at = fmod(x + y, HATCH);
+    return at < HATCH_LINE;
+}
+
 struct error_colours {
     const struct picture *picture;
-    const double *error;
+    const struct error_seen *seen;
     double mean, scale;
+    int zoom; /* pixels of a dot */
 };
 
-static void error_colour(const void *context, uint32_t leaf, const double *radiosity,
-                         double colour[3])
+static void error_colour(const void *context, const struct picture_sample *at, double colour[3])
 {
     const struct error_colours *c = context;
     const struct picture *p = c->picture;
     double lit[3], rgb[3];
-    exposure_apply(&p->exposure, radiosity, p->solution->tree.bands, lit);
-    double share = error_image_share(p->solution, c->error, c->mean, leaf) / c->scale;
+    exposure_apply(&p->exposure, at->radiosity, p->solution->tree.bands, lit);
+    double share = error_image_share(p->solution, c->seen->error, c->mean, at->leaf) / c->scale;
     /* The root is about the lightness that an eye sees. */
     double shade = SHADE + (1 - SHADE) * sqrt(luminance(lit, 3));
     hue_of(fabs(share) < 1 + 1e-9 ? fmin(fmax(share, -1), 1) : share, rgb);
+    if (error_image_unknown(p->solution, c->seen, c->mean, at->leaf)
+        && is_hatched(at->x / c->zoom, at->y / c->zoom))
+        for (int k = 0; k < 3; k++)
+            rgb[k] = hatch_line[k];
     for (int k = 0; k < 3; k++)
         colour[k] = shade * linear(rgb[k]);
 }
@@ -177,6 +205,7 @@ static void draw_bar(const struct bitmap *b, int left, int right, int top, int t
 
 /* In dots: the bar's height, and what is left free around bar and text. */
 enum { THICK = 6, GAP = 2 };
+static const uint8_t white[3] = {255, 255, 255}, black[3] = {20, 20, 20};
 
 /* The longest that fits of "-20% too dark", "-20% dark" and "-20%", so with "too bright". Returns
  * 0 when none does. */
@@ -195,18 +224,53 @@ static int scale_words(double scale, int room, char low[32], char high[32])
 
 static void draw_centred(const struct bitmap *b, int x, int y, int zoom, const char *text)
 {
-    static const uint8_t white[3] = {255, 255, 255};
     bitmap_text(b, x - bitmap_text_width(text) * zoom / 2, y, zoom, white, text);
+}
+
+static int zoom_of(int width, int height)
+{
+    int across = width / 400, down = height / 300, zoom = across < down ? across : down;
+    return zoom > 1 ? zoom : 1;
+}
+
+/* A piece of grey as in the picture, as wide as it is high. */
+static void draw_grey(const struct bitmap *b, int left, int top, int zoom, int hatched)
+{
+    for (int y = 0; y < TEXT_ASCENT; y++)
+        for (int x = 0; x < 2 * TEXT_ASCENT; x++)
+            bitmap_fill(b, left + x * zoom, top + y * zoom, left + (x + 1) * zoom,
+                        top + (y + 1) * zoom,
+                        hatched && is_hatched(x, y) ? hatch_line : too_dark[0]);
+}
+
+/* What both greys mean, in a row of its own that ends at `bottom`; as many as find room, the
+ * hatched one first. */
+static void draw_greys(const struct bitmap *b, int bottom, int zoom)
+{
+    char known[32], unknown[32];
+    snprintf(known, sizeof known, "right within %g%%", 100 * ERROR_IMAGE_KNOWN);
+    snprintf(unknown, sizeof unknown, "not known to %g%%", 100 * ERROR_IMAGE_KNOWN);
+    const int grey = 2 * TEXT_ASCENT + 2 * GAP, tall = GAP + TEXT_ASCENT + TEXT_DESCENT;
+    const int first = grey + bitmap_text_width(unknown), second = grey + bitmap_text_width(known);
+    int room = b->width / zoom - 2 * GAP, top = bottom - tall * zoom, left = GAP * zoom;
+    int right = b->width - (GAP + second) * zoom;
+    if (first > room || 4 * (b->height - top) > 3 * b->height)
+        return;
+    bitmap_fill(b, 0, top, b->width, bottom, black);
+    draw_grey(b, left, top + GAP * zoom, zoom, 1);
+    bitmap_text(b, left + grey * zoom, top + GAP * zoom, zoom, white, unknown);
+    if (first + 4 * GAP + second > room)
+        return;
+    draw_grey(b, right, top + GAP * zoom, zoom, 0);
+    bitmap_text(b, right + grey * zoom, top + GAP * zoom, zoom, white, known);
 }
 
 /* Bar and numbers over the lower edge, as large as the picture allows; what finds no room is left
  * out. */
 static void draw_scale(const struct bitmap *b, double scale)
 {
-    static const uint8_t black[3] = {20, 20, 20};
     char low[32], high[32], text[32];
-    int across = b->width / 400, down = b->height / 300, zoom = across < down ? across : down;
-    zoom = zoom > 1 ? zoom : 1;
+    const int zoom = zoom_of(b->width, b->height);
     int room = b->width / zoom - 2 * GAP, tall = (4 * GAP + THICK + TEXT_ASCENT) * zoom;
     if (3 * tall > b->height || !scale_words(scale, room, low, high))
         return;
@@ -215,6 +279,7 @@ static void draw_scale(const struct bitmap *b, double scale)
     int half = (right - left - 2 * THICK * zoom) / 4; /* where the root is 1/2: the share 1/4 */
     int low_width = bitmap_text_width(low) * zoom, high_width = bitmap_text_width(high) * zoom;
     bitmap_fill(b, 0, top, b->width, b->height, black);
+    draw_greys(b, top, zoom);
     draw_bar(b, left, right, top + GAP * zoom, THICK * zoom);
     draw_centred(b, left + low_width / 2, line, zoom, low);
     draw_centred(b, middle, line, zoom, "0");
@@ -228,14 +293,17 @@ static void draw_scale(const struct bitmap *b, double scale)
 }
 
 int error_image_write(const char *path, const struct solution *solution,
-                      const struct vertex_values *values, const double *error,
+                      const struct vertex_values *values, const struct error_seen *seen,
                       const struct view *view, int width, int height, int mesh)
 {
     struct picture p;
+    if (!seen->error || !seen->limit)
+        return report_error(path, 0, "out of memory for the errors of elements");
     if (picture_open(&p, path, solution, values, view, width, height, mesh) < 0)
         return -1;
-    const struct error_colours c = {&p, error, error_image_mean(solution, error),
-                                    error_image_scale(solution, error)};
+    const struct error_colours c = {&p, seen, error_image_mean(solution, seen->error),
+                                    error_image_scale(solution, seen->error),
+                                    zoom_of(width, height)};
     if (c.scale < 0)
         return report_error(path, 0, "out of memory for the picture; ask for a smaller one");
     uint8_t *rgb = picture_draw(&p, error_colour, &c);

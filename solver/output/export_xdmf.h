@@ -6,7 +6,7 @@
  * and cells, each of one value:
  *     radiosity_mean_K  B, the mean over what of it no solid stands on (W/m2)
  *     irradiance_K      H, the mean over all of it (W/m2)
- *     error_K           of B, as far as it was measured and stands out of its noise (W/m2)
+ *     error_K           of B, where it was measured and stands clear of noise (W/m2)
  *     area              m2; face, material: the polygon of the scene file, and its material
  * [XDMF 2, which VTK reads: XdmfReader]
  * SPDX-License-Identifier: MIT */

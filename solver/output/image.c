@@ -11,11 +11,10 @@
 #include "output/png_file.h"
 #include "util/report.h"
 
-static void light(const void *context, uint32_t leaf, const double *radiosity, double colour[3])
+static void light(const void *context, const struct picture_sample *at, double colour[3])
 {
     const struct picture *p = context;
-    (void)leaf;
-    exposure_apply(&p->exposure, radiosity, p->solution->tree.bands, colour);
+    exposure_apply(&p->exposure, at->radiosity, p->solution->tree.bands, colour);
 }
 
 /* At the corners of what is seen. Returns 0, or -1 after a message. */

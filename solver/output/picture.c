@@ -91,7 +91,9 @@ static void shade(const struct drawing *d, uint32_t face, double x, double y, co
         return;
     raster_point(&d->raster, p->solution, face, x, y, direction, point);
     uint32_t leaf = vertex_values_at(p->values, p->solution, face, point, radiosity);
-    d->colour(d->context, leaf, light ? light : radiosity, colour);
+    const struct picture_sample sample = {leaf, light ? light : radiosity, (x + 0.5) / SIDE,
+                                          (y + 0.5) / SIDE};
+    d->colour(d->context, &sample, colour);
     if (p->mesh)
         draw_line(colour, line_cover(&d->raster, &p->solution->tree.elements[leaf], direction));
 }

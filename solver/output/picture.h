@@ -21,9 +21,15 @@ struct picture {
     struct gathering *gathering; /* NULL: light is interpolated between corners */
 };
 
-/* The colour, linear, each channel 0 to 1, of a leaf where its radiosity is that. Asked on many
- * threads at once. */
-typedef void (*picture_colour)(const void *context, uint32_t leaf, const double *radiosity,
+/* What one sample sees. */
+struct picture_sample {
+    uint32_t leaf;
+    const double *radiosity; /* there, [bands], W/m2 */
+    double x, y;             /* where it stands in the picture, pixels from the top left */
+};
+
+/* The colour of a sample, linear, each channel 0 to 1. Asked on many threads at once. */
+typedef void (*picture_colour)(const void *context, const struct picture_sample *sample,
                                double colour[3]);
 
 /* View NULL: one is guessed. Backs of one-sided faces are cut away, so that one can look into a

@@ -327,12 +327,14 @@ static void expect_measured(RadSolution solution)
 {
     ck_assert_int_eq(radMeasureError(solution, NULL, NULL), 0);
     ck_assert_ptr_nonnull(radGetElementErrors(solution));
+    ck_assert_ptr_nonnull(radGetElementErrorLimits(solution));
 }
 
 static void expect_unmeasured(RadDevice device, RadSolution solution)
 {
     double error[6];
     ck_assert_ptr_null(radGetElementErrors(solution));
+    ck_assert_ptr_null(radGetElementErrorLimits(solution));
     ck_assert_int_eq(radGetPolygonErrors(solution, 0, error, NULL), -1);
     expect_error(device, RAD_ERROR_INVALID_OPERATION, "nothing has been measured of what is shown");
 }

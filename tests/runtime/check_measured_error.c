@@ -739,7 +739,7 @@ START_TEST(test_cancel)
     ck_assert_int_eq(measure_error(&s, 1000000, 1, 0, &m, &cause), -1);
     ck_assert_str_eq(cause, "cancelled");
     ck_assert_int_gt(told, 0);
-    ck_assert_ptr_null(m.element);
+    ck_assert_ptr_null(m.elements.error);
     solve_close(&s);
     made_close(&scene);
 }
@@ -785,7 +785,7 @@ START_TEST(test_bare)
     ck_assert_uint_eq(m.faces.worst, scene.input_count);
     ck_assert_int_eq(measured_elements(&s, &m), 0);
     for (uint32_t e = 0; e < s.hierarchy.count; e++) {
-        ck_assert_double_eq(m.element[e], 0);
+        ck_assert_double_eq(m.elements.error[e], 0);
         ck_assert_double_eq(s.mended.radiosity[e], s.state.radiosity[e]);
     }
     measured_error_free(&alone);

@@ -56,7 +56,7 @@ START_TEST(test_sky)
     ck_assert_int_eq(error.by_paths, 1);
     ck_assert_double_lt(error.faces.l1.high, 0.05);
     ck_assert_int_eq(measured_elements(&s, &error), 0);
-    ck_assert_ptr_nonnull(error.element);
+    ck_assert_ptr_nonnull(error.elements.error);
     measured_error_free(&error);
     measured_error_free(&alone);
     solve_close(&s);

@@ -1,0 +1,26 @@
+/* leaf_count.h - what a leaf receives by a tally, with counts on leaves or without.
+ * SPDX-License-Identifier: MIT */
+#ifndef LEAF_COUNT_H
+#define LEAF_COUNT_H
+
+#include "hierarchy/hierarchy.h"
+#include "particles/particles.h"
+
+/* W. Where nothing was counted on leaves, as by paths (path_tally.h), a leaf has that share of what
+ * was counted on its face which it has of irradiance[element * bands + band] (W/m2). */
+static inline double leaf_count(const struct tally *tally, const struct hierarchy *h,
+                                const double *irradiance, uint32_t leaf, uint32_t band)
+{
+    if (tally->element)
+        return tally_leaf(tally, leaf, band);
+    const struct element *at = &h->elements[leaf];
+    const uint32_t whole = h->face_element[at->face];
+    const double all = irradiance[(size_t)whole * tally->bands + band];
+    double counted = 0;
+    for (int r = 0; r < REPLICATES; r++)
+        counted += tally_face(tally, r, at->face, band) / REPLICATES;
+    return counted * (at->area / h->elements[whole].area)
+           * (all > 0 ? irradiance[(size_t)leaf * tally->bands + band] / all : 1);
+}
+
+#endif
