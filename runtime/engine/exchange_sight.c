@@ -43,7 +43,8 @@ struct looking {
     struct sight sight;
     struct sight_scratch *scratch;
     int nodes, heap;
-    int between_of;       /* the node that scratch->between is of; -1: of none */
+    int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
+    int between_of;       /* else: the node that it is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
     double clear;         /* of the roots (m2) */
 };
@@ -193,7 +194,8 @@ static void by_rays(const struct looking *l, struct sight_node *node)
 }
 
 /* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
- * face it is known. */
+ * face it is known; when that is little, few pieces would be proved to see all or nothing, and what
+ * does not stand before them costs less than looking for what does. */
 static enum between find_between(struct looking *l, const struct element *piece, int all,
                                  const uint32_t *list, int count)
 {
@@ -202,6 +204,8 @@ static enum between find_between(struct looking *l, const struct element *piece,
     struct shaft shaft;
     uint32_t own[SIGHT_LIST];
     enum between stands = BETWEEN_SOME;
+    if (l->shared)
+        return piece->area > 0 ? BETWEEN_SOME : BETWEEN_ALL;
     l->between_of = -1;
     if (!all) {
         if (!(piece->area > 0) || !shaft_open(&shaft, piece, l->to, host))
@@ -468,6 +472,8 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     if (part.n == 0 || seen.n == 0)
         return 0;
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
+    l.shared = stands == BETWEEN_SOME && scratch->between->faces <= SIGHT_SHARED
+               && sight_between_place(scratch->between, t, &l.sight) == 0;
     double sum = integrate(&l, &part, all, own, many ? MANY : count, least, error);
     if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
         return sum;
