@@ -23,13 +23,15 @@
 #define KEPT ((size_t)1 << 29)
 
 /* The error of half shadow falls with what is left to it. Pairs of faces are not split for it: each
- * is integrated (engine/exchange_sight.h). */
+ * is integrated (engine/exchange_sight.h). Those in clear view have all their digits made anew from
+ * the link (engine/exchange_blocks.h), which need not have them. */
 void exchange_set_tolerance(struct refiner *refiner, double tolerance)
 {
     for (int i = -1; (i = refiner_find_role(refiner, ROLE_SHADOW_TOLERANCE, i)) >= 0;)
         (void)refiner_set(refiner, refiner->parameters[i].name,
                           refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
     (void)refiner_set(refiner, "shadow", INFINITY, NULL);
+    (void)refiner_set(refiner, "exact", INFINITY, NULL);
 }
 
 struct watcher {

@@ -3,11 +3,12 @@
  * In a clear view each pair has its own (exchange_clear.h). In half shadow of groups each value is
  * looked into from a few points, or pair by pair (exchange_shadow.h). Single faces that are not
  * proved to see each other, groups with more between than a list holds, and parts of faces linked
- * to groups are looked into pair by pair (exchange_sight.h).
+ * to groups are halved down to the pairs that are in half shadow (exchange_halves.h).
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include <string.h>
 #include "engine/exchange_blocks.h"
+#include "engine/exchange_halves.h"
 #include "kernel/constants.h"
 #include "kernel/polygon_factor.h"
 #include "terms/blockers.h"
@@ -21,44 +22,6 @@ void exchange_scratch_close(struct exchange_scratch *s)
 {
     sight_scratch_close(&s->sight);
     shadow_scratch_close(&s->shadow);
-}
-
-/* What may stand between one face of the receiver and all of the emitter: of those of a list, or,
- * when this is NULL, of all there are. Returns `own`, or the list when that is good enough. */
-static const struct sight_list *list_row(const struct exchange_pair *pair, uint32_t row,
-                                         const struct sight_list *list, struct sight_list *own)
-{
-    const struct element *s = pair->emitter;
-    if (!s->group || (list && list->count <= SIGHT_SHORT))
-        return list;
-    const struct element *r =
-        pair->receiver->group ? exchange_tree_face(pair->tree, row) : pair->receiver;
-    sight_list_find(own, r, s, pair->tree, list);
-    return own->count <= SIGHT_LIST ? own : list;
-}
-
-/* A block of which no more is known than what it links. Lists are handed down: a row's shaft lies
- * in the block's, a pair's in the row's. */
-static double block_by_pairs(const struct exchange_pair *pair, struct exchange_scratch *scratch,
-                             double *out)
-{
-    const struct element *r = pair->receiver, *s = pair->emitter;
-    double error, most = 0;
-    struct sight_list list, own, *among = NULL;
-    if (r->group || s->group) {
-        sight_list_find(&list, r, s, pair->tree, NULL);
-        among = list.count <= SIGHT_LIST ? &list : NULL;
-    }
-    for (uint32_t i = pair->rows.from; i < pair->rows.to; i++) {
-        const struct sight_list *row = list_row(pair, i, among, &own);
-        for (uint32_t j = pair->columns.from; j < pair->columns.to; j++) {
-            *out++ = sight_pair(r->group ? exchange_tree_face(pair->tree, i) : r,
-                                s->group ? exchange_tree_face(pair->tree, j) : s, pair->tree, row,
-                                &scratch->sight, &error);
-            most = fmax(most, error);
-        }
-    }
-    return most;
 }
 
 /* The form factor of a link in clear view. Of whole faces in all its digits: the link keeps those
@@ -96,7 +59,7 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
         return 0;
     }
     if (r->depth || s->depth || (!r->group && !s->group)) /* or a part of a face against a group */
-        return block_by_pairs(pair, scratch, out);
+        return halves_block(p, pair, &scratch->sight, out);
     if (is_proved(link)) {
         clear_block(p, pair, scratch->sight.limits.tolerance, out);
         return 0;
@@ -109,7 +72,7 @@ double exchange_block_fill(const struct exchange_faces *p, const struct exchange
         return 0;
     }
     if (list.count > BLOCKERS_MAX)
-        return block_by_pairs(pair, scratch, out);
+        return halves_block(p, pair, &scratch->sight, out);
     clear_block(p, pair, scratch->sight.limits.tolerance, out);
     return shadow_block(pair, &list, &scratch->shadow, &scratch->sight, out);
 }

@@ -43,7 +43,8 @@ struct looking {
     struct sight sight;
     struct sight_scratch *scratch;
     int nodes, heap;
-    int between_of;       /* the node that scratch->between is of; -1: of none */
+    int shared;           /* 1: scratch->between is the pair's, and does for all pieces */
+    int between_of;       /* else: the node that it is of; -1: of none */
     double value, square; /* of the sum, and of its error (m2, m4) */
     double clear;         /* of the roots (m2) */
 };
@@ -143,17 +144,6 @@ static uint32_t *list_of(const struct looking *l, int at)
     return l->scratch->lists + (size_t)at * (size_t)l->scratch->limits.list;
 }
 
-static int compare_faces(const void *a, const void *b)
-{
-    const uint32_t *x = a, *y = b;
-    return *x < *y ? -1 : *x > *y;
-}
-
-static void sort_list(uint32_t *list, int count)
-{
-    qsort(list, (size_t)count, sizeof *list, compare_faces);
-}
-
 /* What a point sees past what stands between. Outlines save most where faces go on into each other;
  * faces by themselves, and bent ones, are cut out one by one. Many faces leave parts that each meet
  * few of them, and many edges part what is hidden, too. */
@@ -204,7 +194,8 @@ static void by_rays(const struct looking *l, struct sight_node *node)
 }
 
 /* What stands between a piece and the other face: of the list or of the whole scene. Of all of the
- * face it is known. */
+ * face it is known; when that is little, few pieces would be proved to see all or nothing, and what
+ * does not stand before them costs less than looking for what does. */
 static enum between find_between(struct looking *l, const struct element *piece, int all,
                                  const uint32_t *list, int count)
 {
@@ -213,6 +204,8 @@ static enum between find_between(struct looking *l, const struct element *piece,
     struct shaft shaft;
     uint32_t own[SIGHT_LIST];
     enum between stands = BETWEEN_SOME;
+    if (l->shared)
+        return piece->area > 0 ? BETWEEN_SOME : BETWEEN_ALL;
     l->between_of = -1;
     if (!all) {
         if (!(piece->area > 0) || !shaft_open(&shaft, piece, l->to, host))
@@ -223,7 +216,7 @@ static enum between find_between(struct looking *l, const struct element *piece,
                 return BETWEEN_ALL;
             if (count > SIGHT_LIST)
                 return BETWEEN_MANY;
-            sort_list(own, count);
+            sight_list_sort(own, count);
             list = own;
         }
         stands = sight_between_find(between, l->tree, &shaft, list, count, 0);
@@ -442,19 +435,6 @@ static double sway(const struct element *e, const struct exchange_tree *t, const
     return e->radius / (least + e->radius);
 }
 
-/* Those of a list that the shaft does not lie aside of. Returns how many. */
-static int near_ones(const struct sight_list *list, const struct exchange_tree *t,
-                     const struct shaft *shaft, uint32_t *faces)
-{
-    int count = 0;
-    for (int i = 0; i < list->count; i++) {
-        const struct element *e = &t->h.elements[list->face[i]];
-        if (!shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
-            faces[count++] = list->face[i];
-    }
-    return count;
-}
-
 double sight_pair(const struct element *r, const struct element *s, const struct exchange_tree *t,
                   const struct sight_list *among, struct sight_scratch *scratch, double *error)
 {
@@ -465,15 +445,15 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     *error = 0;
     if (!shaft_open(&shaft, r, s, host))
         return 0;
-    int count =
-        among ? near_ones(among, t, &shaft, own) : host->candidates(host, &shaft, SIGHT_LIST, own);
+    int count = among ? sight_list_near(among, t, &shaft, own)
+                      : host->candidates(host, &shaft, SIGHT_LIST, own);
     if (count == HOST_HIDDEN)
         return 0;
     if (count == 0)
         return fmin(r->area * polygon_factor(r, s, 1), least);
     int many = count > SIGHT_LIST; /* the larger one is cut: shafts shrink most */
     if (!many && !among)
-        sort_list(own, count);
+        sight_list_sort(own, count);
     const enum between stands =
         many ? BETWEEN_MANY : sight_between_find(scratch->between, t, &shaft, own, count, 1);
     if (stands == BETWEEN_ALL)
@@ -492,24 +472,10 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     if (part.n == 0 || seen.n == 0)
         return 0;
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
+    l.shared = stands == BETWEEN_SOME && scratch->between->faces <= SIGHT_SHARED
+               && sight_between_place(scratch->between, t, &l.sight) == 0;
     double sum = integrate(&l, &part, all, own, many ? MANY : count, least, error);
     if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
         return sum;
     return fmin(sum, fmin(r->area * polygon_factor(r, s, 1), least));
-}
-
-void sight_list_find(struct sight_list *list, const struct element *r, const struct element *s,
-                     const struct exchange_tree *t, const struct sight_list *among)
-{
-    struct shaft shaft;
-    list->count = MANY; /* where these make no shaft, faces of theirs that lie a little off may */
-    if (!shaft_open(&shaft, r, s, &t->host))
-        return;
-    if (among) {
-        list->count = near_ones(among, t, &shaft, list->face);
-        return;
-    }
-    list->count = candidates_find(&t->h, &shaft, t->host.ray_offset, SIGHT_LIST, list->face);
-    if (list->count <= SIGHT_LIST)
-        sort_list(list->face, list->count);
 }

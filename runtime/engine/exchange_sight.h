@@ -6,7 +6,7 @@
 
 #include "engine/exchange_tree.h"
 #include "engine/face_rule.h"
-#include "engine/sight_pieces.h"
+#include "engine/sight_lists.h"
 
 /* How near to come: the error of F, of itself, or of `floor` where F is smaller; with at most so
  * many pieces. */
@@ -39,15 +39,6 @@ struct sight_limits sight_limits_for(double tolerance, uint32_t faces);
 /* Returns 0, or -1 when out of memory; close is fine then too. */
 int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits *limits);
 void sight_scratch_close(struct sight_scratch *scratch);
-
-/* What may stand between, ascending; more than SIGHT_LIST: more than that. */
-struct sight_list {
-    int count;
-    uint32_t face[SIGHT_LIST];
-};
-/* `among`: those of a pair that holds this one; NULL: of all there are. */
-void sight_list_find(struct sight_list *list, const struct element *r, const struct element *s,
-                     const struct exchange_tree *tree, const struct sight_list *among);
 
 /* A_r F_rs (m2), no more than if nothing stood between; *error: the error estimated (m2). `among`:
  * of a pair that holds this one; NULL: nobody has looked. */
