@@ -228,27 +228,19 @@ static int by_leaf(const void *a, const void *b)
                                    : p->vertex > q->vertex;
 }
 
-/* Let a leaf count for the mean at a vertex, by its area; what solids stand on tells nothing. */
+/* Let a leaf count for the mean at a vertex, by its area. Under a solid no light arrives. */
 static void add_leaf(struct vertex_values *v, const struct solution *solution, uint32_t leaf,
                      uint32_t vertex)
 {
-    const struct RadElements *tree = &solution->tree;
-    double area = tree->elements[leaf].area;
-    if (tree->uncovered && !(tree->uncovered[leaf] > 0))
-        return;
+    const struct shared_vertex *at = &v->vertices[vertex];
+    const double *uncovered = solution->tree.uncovered,
+                 *exitance = solution->surfaces.materials[at->material].exitance;
+    const int under = uncovered && !(uncovered[leaf] > 0);
+    double area = solution->tree.elements[leaf].area;
     v->weight[vertex] += area;
     for (uint32_t k = 0; k < v->bands; k++)
         v->value[(size_t)vertex * v->bands + k] +=
-            area * radiosity_at(solution, leaf, k, v->vertices[vertex].position);
-}
-
-/* Sums to means. Under a solid no light arrives. */
-static void divide(struct vertex_values *v, const struct solution *solution, uint32_t vertex)
-{
-    const double *exitance = solution->surfaces.materials[v->vertices[vertex].material].exitance;
-    double *value = &v->value[(size_t)vertex * v->bands], weight = v->weight[vertex];
-    for (uint32_t k = 0; k < v->bands; k++)
-        value[k] = weight > 0 ? value[k] / weight : exitance[k];
+            area * (under ? exitance[k] : radiosity_at(solution, leaf, k, at->position));
 }
 
 /* Every leaf at its corners, which makes the vertices. Returns 0 or -1. */
@@ -338,7 +330,8 @@ int vertex_values_build(struct vertex_values *v, const struct solution *solution
     }
     add_passing(v, solution);
     for (uint32_t c = 0; c < v->count; c++)
-        divide(v, solution, c);
+        for (uint32_t k = 0; k < v->bands && v->weight[c] > 0; k++)
+            v->value[(size_t)c * v->bands + k] /= v->weight[c];
     close_seams(v, solution);
     return 0;
 }

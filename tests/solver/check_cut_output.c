@@ -165,7 +165,7 @@ START_TEST(test_walls_part)
 END_TEST
 
 /* Whatever the leaves under the box have been given, they show what they emit, and none beside them
- * shows any of it. */
+ * shows any of it, where the box's sides part them. */
 START_TEST(test_under_a_box)
 {
     struct stage s;
