@@ -14,8 +14,8 @@
  *
  * Where another face stands on the surface, light may jump: leaves on two sides of a wall share no
  * vertex along it, so that nothing shines under it and a box that stands on the floor darkens none
- * of it. Beyond the wall's end they do. A leaf that solids cover
- * wholly counts with what it emits: no light arrives there, whatever the solver keeps of it.
+ * of it. Beyond the wall's end they do. A leaf that solids cover wholly counts with what it emits:
+ * no light arrives there, whatever the solver keeps of it.
  *
  * Invariant: parts of a face are cut at exact midpoints (a + b) / 2, so that equal points are
  * equal bits and a hash finds them.
