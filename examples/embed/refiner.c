@@ -391,8 +391,8 @@
 /* of its light. A polygon whose standard error is no more needs no more looking at: within 1.96 of
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define REFINER_DIM_GOAL 0.0255
-/* times the rays of a first look by paths. Where particles would take no more there is none: chosen,
- * it is an eighth of them then */
+/* times the rays of a first look by paths. Where particles would take no more, there is none.
+ * Chosen: it is an eighth of them then */
 #define REFINER_PATHS_LOOK 8.0
 /* times cheaper than particles, which tell places within faces as well, paths have to be; chosen */
 #define REFINER_PATHS_CHEAPER 4.0
@@ -402,6 +402,9 @@
 /* rays of links, mending and paths. Where these are fewer the rest is for split particles, if paths
  * leave a dim polygon unsure: chosen, half a second */
 #define REFINER_DIM_FEW 1.5e6
+/* rays for paths from polygons below DIM_LARGE, where mending took fewer and DIM_FEW leaves them:
+ * chosen, a tenth of a second */
+#define REFINER_DIM_SMALL 4e5
 /* of the mean irradiance. Particles are not split for what is dimmer than that by far: what links
  * say of it may be nothing at all, and all rays would go there */
 #define REFINER_DIM_LEAST 1e-6
