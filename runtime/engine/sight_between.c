@@ -5,10 +5,8 @@
  * an outline from anywhere; then how many faces a ray meets is the same for all (hidden.c), and one
  * ray tells whether all is seen or nothing. Else the faces and edges that were found are put down
  * in the coordinates of the plane that shadows are cast on, for the points to look past them.
- * Whether a face that does not part the ends lies in the shaft at all is asked only where the
- * answer hangs on it: one too many costs time and changes nothing. Invariant: every face that meets
- * the shaft is in the list; an edge that is not is no outline within the shaft, or the other face
- * at it has brought it.
+ * Invariant: every face that meets the shaft is in the list; an edge that is not is no outline
+ * within the shaft, or the other face at it has brought it.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "engine/sight_between.h"
@@ -74,18 +72,16 @@ static int add_rims(struct sight_between *b, const struct exchange_tree *t,
     return 0;
 }
 
-/* One ray between the ends, which speaks for all where no edge is an outline. It meets none of the
- * faces that do not part the ends, for they do not meet the shaft. */
+/* One ray between the ends, which speaks for all where no edge is an outline. */
 static int stops_middle(const struct sight_between *b, const struct exchange_tree *t,
-                        const struct shaft *shaft, const signed char *front)
+                        const struct shaft *shaft)
 {
     double middle[2][3], along[3];
     hidden_middle(shaft, middle);
     sub3(along, middle[1], middle[0]);
     for (int i = 0; i < b->faces; i++) {
         const struct element *e = &t->h.elements[b->list[i]];
-        if (front[i]
-            && hidden_through(middle[0], along, (const double(*)[3])e->vertex, e->vertices))
+        if (hidden_through(middle[0], along, (const double(*)[3])e->vertex, e->vertices))
             return 1;
     }
     return 0;
@@ -96,6 +92,7 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
                                 int near)
 {
     signed char front[SIGHT_LIST];
+    int parted = 1;
     b->faces = b->rims = b->bent = 0;
     b->flat = shaft->flat;
     for (int i = 0; i < count; i++) {
@@ -103,8 +100,9 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
         if (!near && shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
             continue;
         front[b->faces] = (signed char)hidden_front(shaft, e);
-        if (!front[b->faces] && !candidates_parted(&t->h, shaft, t->host.ray_offset, list[i]))
+        if (!front[b->faces] && !candidates_meets(&t->h, shaft, t->host.ray_offset, list[i]))
             continue;
+        parted &= front[b->faces] != 0;
         b->bent |= hidden_bent(e, shaft->flat); /* edges and planes tell two outlines */
         b->list[b->faces++] = list[i];
     }
@@ -112,12 +110,9 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
     for (int i = 0; i < b->faces; i++)
         if (add_rims(b, t, shaft, front, i) < 0)
             return BETWEEN_MANY;
-    if (b->rims > 0)
+    if (!parted || b->rims > 0)
         return BETWEEN_SOME;
-    for (int i = 0; i < b->faces; i++)
-        if (!front[i] && candidates_meets(&t->h, shaft, t->host.ray_offset, b->list[i]))
-            return BETWEEN_SOME;
-    return stops_middle(b, t, shaft, front) ? BETWEEN_ALL : BETWEEN_NOTHING;
+    return stops_middle(b, t, shaft) ? BETWEEN_ALL : BETWEEN_NOTHING;
 }
 
 /* ---- in the plane's coordinates */
