@@ -472,7 +472,9 @@ double sight_pair(const struct element *r, const struct element *s, const struct
     if (part.n == 0 || seen.n == 0)
         return 0;
     sight_open(&l.sight, l.to, &seen, host->ray_offset);
-    l.shared = stands == BETWEEN_SOME && scratch->between->faces <= SIGHT_SHARED
+    /* of bent faces one too many may hide what it does not stand before */
+    l.shared = stands == BETWEEN_SOME && !scratch->between->bent
+               && scratch->between->faces <= SIGHT_SHARED
                && sight_between_place(scratch->between, t, &l.sight) == 0;
     double sum = integrate(&l, &part, all, own, many ? MANY : count, least, error);
     if (!(sum > SIGHT_NEARLY_CLEAR * l.clear))
