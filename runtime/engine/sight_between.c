@@ -5,8 +5,10 @@
  * an outline from anywhere; then how many faces a ray meets is the same for all (hidden.c), and one
  * ray tells whether all is seen or nothing. Else the faces and edges that were found are put down
  * in the coordinates of the plane that shadows are cast on, for the points to look past them.
- * Invariant: every face that meets the shaft is in the list; an edge that is not is no outline
- * within the shaft, or the other face at it has brought it.
+ * Whether a face that does not part the ends lies in the shaft at all is asked only where the
+ * answer hangs on it: one too many costs time and changes nothing. Invariant: every face that meets
+ * the shaft is in the list; an edge that is not is no outline within the shaft, or the other face
+ * at it has brought it.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "engine/sight_between.h"
@@ -72,16 +74,18 @@ static int add_rims(struct sight_between *b, const struct exchange_tree *t,
     return 0;
 }
 
-/* One ray between the ends, which speaks for all where no edge is an outline. */
+/* One ray between the ends, which speaks for all where no edge is an outline. It meets none of the
+ * faces that do not part the ends, for they do not meet the shaft. */
 static int stops_middle(const struct sight_between *b, const struct exchange_tree *t,
-                        const struct shaft *shaft)
+                        const struct shaft *shaft, const signed char *front)
 {
     double middle[2][3], along[3];
     hidden_middle(shaft, middle);
     sub3(along, middle[1], middle[0]);
     for (int i = 0; i < b->faces; i++) {
         const struct element *e = &t->h.elements[b->list[i]];
-        if (hidden_through(middle[0], along, (const double(*)[3])e->vertex, e->vertices))
+        if (front[i]
+            && hidden_through(middle[0], along, (const double(*)[3])e->vertex, e->vertices))
             return 1;
     }
     return 0;
@@ -92,7 +96,6 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
                                 int near)
 {
     signed char front[SIGHT_LIST];
-    int parted = 1;
     b->faces = b->rims = b->bent = 0;
     b->flat = shaft->flat;
     for (int i = 0; i < count; i++) {
@@ -100,9 +103,8 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
         if (!near && shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
             continue;
         front[b->faces] = (signed char)hidden_front(shaft, e);
-        if (!front[b->faces] && !candidates_meets(&t->h, shaft, t->host.ray_offset, list[i]))
+        if (!front[b->faces] && !candidates_parted(&t->h, shaft, t->host.ray_offset, list[i]))
             continue;
-        parted &= front[b->faces] != 0;
         b->bent |= hidden_bent(e, shaft->flat); /* edges and planes tell two outlines */
         b->list[b->faces++] = list[i];
     }
@@ -110,9 +112,12 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
     for (int i = 0; i < b->faces; i++)
         if (add_rims(b, t, shaft, front, i) < 0)
             return BETWEEN_MANY;
-    if (!parted || b->rims > 0)
+    if (b->rims > 0)
         return BETWEEN_SOME;
-    return stops_middle(b, t, shaft) ? BETWEEN_ALL : BETWEEN_NOTHING;
+    for (int i = 0; i < b->faces; i++)
+        if (!front[i] && candidates_meets(&t->h, shaft, t->host.ray_offset, b->list[i]))
+            return BETWEEN_SOME;
+    return stops_middle(b, t, shaft, front) ? BETWEEN_ALL : BETWEEN_NOTHING;
 }
 
 /* ---- in the plane's coordinates */

@@ -71,6 +71,19 @@ static int on_one_side(const struct shaft *shaft, double offset, const struct el
            || (high <= strip && low < -SHAFT_AWAY * strip);
 }
 
+int candidates_parted(const struct hierarchy *h, const struct shaft *shaft, double offset,
+                      uint32_t index)
+{
+    const struct element *e = &h->elements[index];
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    double normal[3];
+    if (h->solid && (lies_behind(shaft, offset, e) || on_one_side(shaft, offset, e)))
+        return 0;
+    return shaft_normal(v, e->vertices, normal)
+           && (shaft_bent(shaft, v, e->vertices, normal)
+               || shaft_side(shaft, v, e->vertices, normal) <= 0);
+}
+
 int candidates_meets(const struct hierarchy *h, const struct shaft *shaft, double offset,
                      uint32_t index)
 {

@@ -14,6 +14,11 @@ int candidates_walk(const struct hierarchy *h, const struct shaft *shaft, double
 int candidates_meets(const struct hierarchy *h, const struct shaft *shaft, double offset,
                      uint32_t index);
 
+/* The same of its plane: may that part the ends, or an end lie flat on it? Where this is 0 it does
+ * not meet the shaft. */
+int candidates_parted(const struct hierarchy *h, const struct shaft *shaft, double offset,
+                      uint32_t index);
+
 /* The faces that meet the shaft, at most `most` of them. Returns how many there are, or most + 1
  * when there are more. Faces marked `back` are left out: their front stands at the same place. In a
  * hierarchy with groups what is listed are elements: faces, and groups that are as good as one;
