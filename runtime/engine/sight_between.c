@@ -6,9 +6,9 @@
  * ray tells whether all is seen or nothing. Else the faces and edges that were found are put down
  * in the coordinates of the plane that shadows are cast on, for the points to look past them.
  * Whether a face that does not part the ends lies in the shaft at all is asked only where the
- * answer hangs on it: one too many costs time and changes nothing. Invariant: every face that meets
- * the shaft is in the list; an edge that is not is no outline within the shaft, or the other face
- * at it has brought it.
+ * answer hangs on it: one too many costs time and changes nothing, unless it is bent. Invariant:
+ * every face that meets the shaft is in the list; an edge that is not is no outline within the
+ * shaft, or the other face at it has brought it.
  * SPDX-License-Identifier: MIT */
 #include <string.h>
 #include "engine/sight_between.h"
@@ -103,9 +103,12 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
         if (!near && shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
             continue;
         front[b->faces] = (signed char)hidden_front(shaft, e);
-        if (!front[b->faces] && !candidates_parted(&t->h, shaft, t->host.ray_offset, list[i]))
+        const int bent = hidden_bent(e, shaft->flat); /* edges and planes tell two outlines */
+        if (!front[b->faces]
+            && !(bent ? candidates_meets : candidates_parted)(&t->h, shaft, t->host.ray_offset,
+                                                              list[i]))
             continue;
-        b->bent |= hidden_bent(e, shaft->flat); /* edges and planes tell two outlines */
+        b->bent |= bent;
         b->list[b->faces++] = list[i];
     }
     make_places(b);
