@@ -8,7 +8,8 @@ for name in soda gridroom_1000 sejour; do
     say "$name"
     reference=$(sh "$tables/references.sh" "$file")
     "$build/bin/cell_error" faces "$file" "$reference/cells.csv" >"$tmp/ref.csv"
-    "$radiosity" study clustering "$file" --reference "$tmp/ref.csv" -o "$tmp/table.csv" >&2
+    "$radiosity" study clustering "$file" --reference "$tmp/ref.csv" -o "$tmp/table.csv" >&2 ||
+        [ $? = 3 ] # a solve that did not converge has its row, and is marked
     echo "## $name.obj: $(grep -c '^f' "$file") faces"
     awk -F , -v name="$name" '
         NR == 1 {
@@ -17,7 +18,8 @@ for name in soda gridroom_1000 sejour; do
             print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
             next
         }
-        { printf "| %s | %d | %d | %.1f | %.2f | %.1f | %.1f | %d | %d | %d | %d | %.0f | %.2f %% | %.2f %% |\n", $1, $at["clusters"], $at["depth"],
+        { printf "| %s%s | %d | %d | %.1f | %.2f | %.1f | %.1f | %d | %d | %d | %d | %.0f | %.2f %% | %.2f %% |\n", $1,
+              $at["converged"] == 1 ? "" : ", not converged", $at["clusters"], $at["depth"],
               $at["crossed"], $at["build_s"], $at["cpu_s"], $at["clock_s"], $at["links"], $at["links_of_groups"], $at["pairs"], $at["rays"],
               $at["memory_mb"], 100 * $at["imbalance"], 100 * $at["error"] }
         END { print "" }' "$tmp/table.csv"
