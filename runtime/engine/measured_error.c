@@ -396,6 +396,7 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     tally_close(&tally);
     tracer_close(&t);
     if (failed) {
+        s->by_paths = 0;
         measured_error_free(alone);
         return give_up(s, cause);
     }
