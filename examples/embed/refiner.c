@@ -394,6 +394,9 @@
 /* times the rays of a first look by paths. Where particles would take no more, there is none.
  * Chosen: it is an eighth of them then */
 #define REFINER_PATHS_LOOK 8.0
+/* standard errors. All light by paths and by particles is no farther apart: 1 in 500 of Student's t
+ * with 15 degrees of freedom; chosen */
+#define REFINER_PATHS_AGREE 3.7
 /* times cheaper than particles, which tell places within faces as well, paths have to be; chosen */
 #define REFINER_PATHS_CHEAPER 4.0
 /* of the rays of mending. So many may be spent on paths from dim polygons at the most: mending then

@@ -22,6 +22,31 @@ static double noise_of(const struct solve *s, const struct tally *tally)
                                                                                           : noise;
 }
 
+/* What all faces reflect (W), and its variance. */
+static double reflected(const struct solve *s, const struct tally *tally, double *variance)
+{
+    double mean = 0, square = 0;
+    for (int r = 0; r < REPLICATES; r++) {
+        double sum = 0;
+        for (uint32_t f = 0; f < tally->faces; f++)
+            for (uint32_t k = 0; k < tally->bands; k++)
+                sum += s->problem.reflectance[(size_t)f * tally->bands + k]
+                       * tally_face(tally, r, f, k);
+        mean += sum / REPLICATES;
+        square += sum * sum / REPLICATES;
+    }
+    *variance = fmax(square - mean * mean, 0) / (REPLICATES - 1);
+    return mean;
+}
+
+/* Do both see the same light? */
+static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
+{
+    double of_particles, of_paths,
+        off = reflected(s, particles, &of_particles) - reflected(s, paths, &of_paths);
+    return off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
+}
+
 static uint32_t faces_that_reflect(const struct path_tally *y)
 {
     uint32_t count = 0;
@@ -46,6 +71,8 @@ int path_mending_trace(struct path_tally *y, const struct solve *s, const struct
             || (by_paths = noise_of(s, &y->tally)) < 0)
             return -1;
         double rays = (double)y->tally.rays, ratio = by_paths / noise;
+        if (!agree(s, tally, &y->tally))
+            return 0;
         if (first && !(PATHS_CHEAPER * by_paths * by_paths * rays < cost))
             return 0;
         if (!(ratio > 1) || rays >= 0.99 * (double)most)

@@ -86,6 +86,32 @@ START_TEST(test_room)
 }
 END_TEST
 
+/* Where particles see ten times the light that paths do, paths are not believed, however sure they
+ * are. */
+START_TEST(test_other_light)
+{
+    struct scene scene;
+    struct solve s;
+    struct tally particles;
+    struct path_tally y;
+    box_under_sky(&scene);
+    solve_with(&s, &scene, "power", RELEASE_FLAT, NULL, quick(1));
+    struct tracer t = solve_tracer(&s);
+    ck_assert_int_eq(tracer_open(&t), 0);
+    ck_assert_int_eq(tally_open(&particles, &t, 1, 0), 0);
+    ck_assert_int_eq(tally_trace(&particles, &t, 20000, NULL), 0);
+    ck_assert_int_eq(path_mending_trace(&y, &s, &t, &particles, 0.0065, 1 << 23, NULL), 1);
+    path_tally_close(&y);
+    particles.power *= 10;
+    ck_assert_int_eq(path_mending_trace(&y, &s, &t, &particles, 0.0065, 1 << 23, NULL), 0);
+    path_tally_close(&y);
+    tally_close(&particles);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Is the L1 error of light that is off by `off` of itself within what paths say of it? */
 static int covered(const struct solve *s, const double *truth, const struct tally *y, double off,
                    struct chance *c)
@@ -188,6 +214,7 @@ int main(void)
     tcase_set_timeout(c, thorough() ? 600 : 60);
     tcase_add_test(c, test_sky);
     tcase_add_test(c, test_room);
+    tcase_add_test(c, test_other_light);
     tcase_add_test(c, test_coverage);
     tcase_add_test(c, test_same);
     suite_add_tcase(suite, c);
