@@ -6,11 +6,15 @@
  * Noise falls with the root of the number, so noise^2 times rays is what each costs, whatever the
  * number: both are measured, particles by the first look that mending takes anyway, paths by a
  * block for each face. Paths know nothing of places within a face, so they have to be much cheaper.
- * [Derived here]
+ *
+ * Paths that hardly ever find the light, as of a lamp behind two bends, may have found none and
+ * seem to have no noise. So what they say of all light together is held against the particles:
+ * where it is farther off than the noise of both, particles go on. [Derived here]
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/face_error.h"
 #include "engine/path_mending.h"
+#include "engine/reflected_light.h"
 #include "kernel/constants.h"
 
 enum { RAYS_OF_PATH = 4 }; /* about, before any is traced */
@@ -22,28 +26,12 @@ static double noise_of(const struct solve *s, const struct tally *tally)
                                                                                           : noise;
 }
 
-/* What all faces reflect (W), and its variance. */
-static double reflected(const struct solve *s, const struct tally *tally, double *variance)
-{
-    double mean = 0, square = 0;
-    for (int r = 0; r < REPLICATES; r++) {
-        double sum = 0;
-        for (uint32_t f = 0; f < tally->faces; f++)
-            for (uint32_t k = 0; k < tally->bands; k++)
-                sum += s->problem.reflectance[(size_t)f * tally->bands + k]
-                       * tally_face(tally, r, f, k);
-        mean += sum / REPLICATES;
-        square += sum * sum / REPLICATES;
-    }
-    *variance = fmax(square - mean * mean, 0) / (REPLICATES - 1);
-    return mean;
-}
-
 /* Do both see the same light? */
 static int agree(const struct solve *s, const struct tally *particles, const struct tally *paths)
 {
     double of_particles, of_paths,
-        off = reflected(s, particles, &of_particles) - reflected(s, paths, &of_paths);
+        off = reflected_light(&s->problem, particles, &of_particles)
+              - reflected_light(&s->problem, paths, &of_paths);
     return off * off <= PATHS_AGREE * PATHS_AGREE * (of_particles + of_paths);
 }
 

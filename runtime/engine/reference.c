@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/reference.h"
+#include "engine/reflected_light.h"
 #include "engine/solve_tracer.h"
 #include "kernel/constants.h"
 
@@ -185,29 +186,6 @@ int reference_irradiance(const struct reference *r, enum reference_method method
 
 /* ---- the whole */
 
-/* What each replicate says is reflected in all (W). */
-static void replicate_powers(const struct reference *r, double power[REPLICATES])
-{
-    const struct problem *p = &r->solve.problem;
-    for (int k = 0; k < REPLICATES; k++) {
-        power[k] = 0;
-        for (uint32_t i = 0; i < p->scene->face_count; i++)
-            for (uint32_t b = 0; b < p->bands; b++)
-                power[k] +=
-                    p->reflectance[(size_t)i * p->bands + b] * tally_face(&r->tally, k, i, b);
-    }
-}
-
-static double variance_of_mean(const double power[REPLICATES])
-{
-    double mean = 0, square = 0;
-    for (int k = 0; k < REPLICATES; k++)
-        mean += power[k] / REPLICATES;
-    for (int k = 0; k < REPLICATES; k++)
-        square += (power[k] - mean) * (power[k] - mean);
-    return square / (REPLICATES * (REPLICATES - 1));
-}
-
 int reference_summary(const struct reference *r, struct reference_summary *s)
 {
     const struct problem *p = &r->solve.problem;
@@ -247,9 +225,8 @@ int reference_summary(const struct reference *r, struct reference_summary *s)
             }
         }
     }
-    double power[REPLICATES], variance;
-    replicate_powers(r, power);
-    variance = variance_of_mean(power);
+    double variance;
+    (void)reflected_light(p, &r->tally, &variance);
     for (size_t i = 0; i < count; i++)
         variance += deviation[i] * deviation[i];
     s->deviation = sqrt(variance);

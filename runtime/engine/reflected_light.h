@@ -1,0 +1,28 @@
+/* reflected_light.h - what all faces reflect by a tally.
+ * SPDX-License-Identifier: MIT */
+#ifndef REFLECTED_LIGHT_H
+#define REFLECTED_LIGHT_H
+
+#include "engine/problem.h"
+#include "particles/particles.h"
+
+/* W, all bands; *variance: of that, by how replicates differ. */
+static inline double reflected_light(const struct problem *p, const struct tally *tally,
+                                     double *variance)
+{
+    double power[REPLICATES], mean = 0, square = 0;
+    for (int r = 0; r < REPLICATES; r++) {
+        power[r] = 0;
+        for (uint32_t f = 0; f < tally->faces; f++)
+            for (uint32_t k = 0; k < tally->bands; k++)
+                power[r] +=
+                    p->reflectance[(size_t)f * tally->bands + k] * tally_face(tally, r, f, k);
+        mean += power[r] / REPLICATES;
+    }
+    for (int r = 0; r < REPLICATES; r++)
+        square += (power[r] - mean) * (power[r] - mean);
+    *variance = square / (REPLICATES * (REPLICATES - 1));
+    return mean;
+}
+
+#endif
