@@ -103,12 +103,13 @@ enum between sight_between_find(struct sight_between *b, const struct exchange_t
         if (!near && shaft_far(shaft, (const double(*)[3])e->vertex, e->vertices))
             continue;
         front[b->faces] = (signed char)hidden_front(shaft, e);
-        const int bent = hidden_bent(e, shaft->flat); /* edges and planes tell two outlines */
-        if (!front[b->faces]
-            && !(bent ? candidates_meets : candidates_parted)(&t->h, shaft, t->host.ray_offset,
-                                                              list[i]))
+        if (!front[b->faces] && !candidates_parted(&t->h, shaft, t->host.ray_offset, list[i]))
             continue;
-        b->bent |= bent;
+        if (hidden_bent(e, shaft->flat)) { /* edges and planes tell two outlines */
+            if (!front[b->faces] && !candidates_meets(&t->h, shaft, t->host.ray_offset, list[i]))
+                continue;
+            b->bent = 1;
+        }
         b->list[b->faces++] = list[i];
     }
     make_places(b);

@@ -9,8 +9,8 @@
 /* the most faces that may stand between, of a mesh; so many where each is cut out by itself; the
  * most edges and feet, which as many have */
 enum { SIGHT_LIST = 2048, SIGHT_CUT = 256, SIGHT_EDGES = 5 * SIGHT_CUT };
-/* faces of a list that is not worth being made shorter for each face of a group, nor an index; by
- * how many an index tells places apart, twice the longest list's */
+/* faces of a list that is not worth an index; by how many an index tells places apart, twice the
+ * longest list's */
 enum { SIGHT_SHORT = 16, SIGHT_PLACES = 2 * SIGHT_LIST };
 /* and of one that does for all pieces of a pair; measured: in rooms of boxes, 16 are worse, 256 no
  * better */
