@@ -383,8 +383,9 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                    enum dim_size size, uint64_t paths, uint64_t both, const struct watch *watch,
                    uint64_t *rays, struct dim_count *count)
 {
+    /* so many that each is believed, at the least: dim_belief.c */
     const uint64_t most =
-        size == DIM_LARGE_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * 64 * RAYS_OF_PATH);
+        size == DIM_LARGE_ONES ? UINT32_MAX : paths / (DIM_ENOUGH * DIM_BLOCK * RAYS_OF_PATH);
     struct dim_faces d = {.solve = s,
                           .tracer = t,
                           .size = size,

@@ -16,8 +16,6 @@
 #include "particles/running_sums.h"
 #include "util/ranks_loop.h"
 
-enum { BLOCK = 64 };
-
 /* Random numbers that nothing else takes; each polygon has its own. */
 static const uint64_t STREAM = (uint64_t)0x64696d << 32;
 
@@ -68,7 +66,7 @@ static void trace_path(const struct dim_faces *d, uint32_t face, double x[3], st
     }
 }
 
-/* BLOCK paths of a polygon, from number `first` on. */
+/* DIM_BLOCK paths of a polygon, from number `first` on. */
 struct block {
     uint32_t polygon;
     uint64_t first, rays;
@@ -80,7 +78,7 @@ static void trace_block(const struct dim_faces *d, struct block *b)
     const struct tracer *t = d->tracer;
     const struct dim_polygon *p = &d->polygon[b->polygon];
     const double *until = &d->until[p->from];
-    for (uint64_t i = b->first; i < b->first + BLOCK; i++) {
+    for (uint64_t i = b->first; i < b->first + DIM_BLOCK; i++) {
         struct dice dice = dice_of(STREAM + d->face[p->from], i);
         double w = dice_throw(&dice), u = dice_throw(&dice), v = dice_throw(&dice);
         double x[3], h[3] = {0, 0, 0}, all = 0;
@@ -118,12 +116,12 @@ int dim_paths_trace(struct dim_faces *d)
     size_t count = 0, next = 0;
     for (uint32_t j = 0; j < d->count; j++)
         if (d->polygon[j].wanted > d->polygon[j].paths)
-            count += (d->polygon[j].wanted - d->polygon[j].paths + BLOCK - 1) / BLOCK;
+            count += (d->polygon[j].wanted - d->polygon[j].paths + DIM_BLOCK - 1) / DIM_BLOCK;
     struct block *block = calloc(count + 1, sizeof *block);
     if (!block)
         return -1;
     for (uint32_t j = 0; j < d->count; j++)
-        for (struct dim_polygon *p = &d->polygon[j]; p->paths < p->wanted; p->paths += BLOCK)
+        for (struct dim_polygon *p = &d->polygon[j]; p->paths < p->wanted; p->paths += DIM_BLOCK)
             block[next++] = (struct block){.polygon = j, .first = p->paths};
     struct watched_loop loop = {.watch = d->watch, .all = count};
     const struct blocks all = {d, block, &loop};

@@ -10,7 +10,7 @@
 #include "particles/tracer.h"
 #include "particles/watch.h"
 
-#define NOT_DIM UINT32_MAX
+enum { DIM_BLOCK = 64 }; /* paths that are traced at once: no polygon has fewer */
 
 struct dim_polygon {
     uint32_t from, to; /* its faces that reflect, in dim_faces.face */
@@ -31,6 +31,7 @@ struct dim_polygon {
 /* Which polygons: those above DIM_LARGE of the area, or the others. */
 enum dim_size { DIM_LARGE_ONES, DIM_SMALL_ONES };
 
+#define NOT_DIM UINT32_MAX
 struct dim_faces {
     enum dim_size size;
     const struct solve *solve;

@@ -73,7 +73,7 @@ static int measure_faces(struct solve *s, const struct tally *tally, struct meas
 {
     m->rays = tally->rays;
     m->particles = tally->particles * REPLICATES;
-    m->by_paths = s->by_paths;
+    m->by_paths = tally->by_paths;
     return face_error_open(&m->faces, &s->problem, &s->hierarchy, solve_shown(s)->irradiance,
                            tally);
 }
@@ -223,6 +223,16 @@ static int follow_irradiance(struct solve *s)
     return mend_gradient(s);
 }
 
+/* Polygons of a size, and what goes with them. Returns 0, or -1 when out of memory or cancelled. */
+static int mend_polygons(struct solve *s, const struct tracer *t, const struct tally *tally,
+                         enum dim_size size, double paths, double both, const struct watch *watch,
+                         uint64_t *spent, struct dim_count *count)
+{
+    const int changed =
+        dim_faces_mend(s, t, tally, size, (uint64_t)paths, (uint64_t)both, watch, spent, count);
+    return changed > 0 ? follow_irradiance(s) : changed;
+}
+
 /* Dim polygons, whose rays are added to *spent. Returns 0, or -1 when out of memory or cancelled.
  */
 static int mend_dim(struct solve *s, const struct tracer *t, const struct tally *tally,
@@ -237,17 +247,11 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                               .all = (double)(tally->rays + *spent) + budget};
     const struct watch watch = {tell, &watched};
     struct dim_count small;
-    if (dim_faces_mend(s, t, tally, DIM_LARGE_ONES, (uint64_t)paths, (uint64_t)both, &watch, spent,
-                       &alone->dim)
-        < 0)
+    if (mend_polygons(s, t, tally, DIM_LARGE_ONES, paths, both, &watch, spent, &alone->dim) < 0)
         return -1;
     const double left = fmin(fmax(paths, DIM_SMALL), both - (double)*spent);
-    if (left > 0
-        && (follow_irradiance(s) < 0
-            || dim_faces_mend(s, t, tally, DIM_SMALL_ONES, (uint64_t)left, 0, &watch, spent, &small)
-                   < 0))
-        return -1;
-    return follow_irradiance(s);
+    return left > 0 ? mend_polygons(s, t, tally, DIM_SMALL_ONES, left, 0, &watch, spent, &small)
+                    : 0;
 }
 
 /* By what particles counted, and then by paths, if there are any. */
