@@ -66,6 +66,13 @@ static double of_face(const struct solve *s, uint32_t face)
     return s->mended.irradiance[s->hierarchy.face_element[face]];
 }
 
+static void mend_all(struct solve *s, double noise, uint64_t most, struct measured_error *alone)
+{
+    const struct mending_goal goal = {.noise = noise, .most = most};
+    const char *cause;
+    ck_assert_int_eq(measure_and_mend(s, &goal, alone, &cause), 0);
+}
+
 /* The wall is right to 5 %, two standard errors, where links are off by 30 % and some 50 particles
  * by 14 %; bright walls stay; each element has what its children have. */
 START_TEST(test_found)
@@ -73,12 +80,9 @@ START_TEST(test_found)
     struct scene scene;
     struct solve s;
     struct measured_error alone;
-    const char *cause;
     two_furnaces(&s, &scene, DARK, 2);
     spoil_wall(&s);
-    ck_assert_int_eq(
-        measure_and_mend(&s, &(struct mending_goal){.noise = 1e-4, .most = 450000}, &alone, &cause),
-        0);
+    mend_all(&s, 1e-4, 450000, &alone);
     ck_assert_uint_eq(alone.dim.large, WALL + 1); /* parts of the other dark walls are small */
     ck_assert_uint_eq(alone.dim.unsure, 0);
     const struct hierarchy *h = &s.hierarchy;
@@ -244,12 +248,9 @@ START_TEST(test_small)
     struct scene scene;
     struct solve s;
     struct measured_error alone;
-    const char *cause;
     two_furnaces(&s, &scene, DARK, 2);
     spoil(&s, WALL + 1, scene.face_count, 3);
-    ck_assert_int_eq(
-        measure_and_mend(&s, &(struct mending_goal){.noise = 1e-2, .most = 200000}, &alone, &cause),
-        0);
+    mend_all(&s, 1e-2, 200000, &alone);
     for (uint32_t f = WALL + 1; f < scene.face_count; f++)
         ck_assert_double_eq_tol(of_face(&s, f) / DARK, 1, 0.15);
     measured_error_free(&alone);

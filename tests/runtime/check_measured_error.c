@@ -138,6 +138,16 @@ static void open_known(struct solve *s, struct scene *scene)
     ck_assert_int_eq(solve_open(s, scene, &o, &cause), 0);
 }
 
+static void close_known(struct solve *s, struct scene *scene, struct tracer *t, double *truth,
+                        double *solved)
+{
+    free(solved);
+    free(truth);
+    tracer_close(t);
+    solve_close(s);
+    made_close(scene);
+}
+
 START_TEST(test_coverage)
 {
     static const double beside[] = {0, 0.2, 1, 4, 20}; /* true error over noise */
@@ -168,11 +178,7 @@ START_TEST(test_coverage)
                 }
                 tally_close(&y);
             }
-        free(solved);
-        free(truth);
-        tracer_close(&t);
-        solve_close(&s);
-        made_close(&scene);
+        close_known(&s, &scene, &t, truth, solved);
     }
     struct cover all = {0};
     for (int many = 0; many < 2; many++)
@@ -244,11 +250,7 @@ START_TEST(test_many)
             }
             tally_close(&y);
         }
-        free(solved);
-        free(truth);
-        tracer_close(&t);
-        solve_close(&s);
-        made_close(&scene);
+        close_known(&s, &scene, &t, truth, solved);
     }
 }
 END_TEST
@@ -282,11 +284,7 @@ START_TEST(test_sure)
         printf("%u bands, %d particles a face: %.2f %% have a face that is surely wrong\n",
                (unsigned)scene.bands, particles[i], 100.0 * sure / tallies);
         ck_assert_double_le(sure, 0.025 * tallies + 3 * sqrt(0.025 * tallies));
-        free(solved);
-        free(truth);
-        tracer_close(&t);
-        solve_close(&s);
-        made_close(&scene);
+        close_known(&s, &scene, &t, truth, solved);
     }
 }
 END_TEST
