@@ -61,10 +61,11 @@ static void add(struct dense *d, uint32_t e, uint32_t s, double weight)
     for (uint32_t i = d->from[e]; i < d->to[e] && weight != 0; i++) {
         uint32_t leaf = d->leaf[i];
         double scale = leaf == e ? op->row_scale[leaf] : op->row_above[leaf],
+               bare = weight * operator_bare(op, leaf, e),
                spare = op->hierarchy->elements[leaf].area * (closes ? scale : 1 - scale),
                *row = &d->matrix[(size_t)i * d->count];
         for (uint32_t j = d->from[s]; j < d->to[s]; j++) {
-            double part = weight * share_of(d, j, s);
+            double part = bare * share_of(d, j, s);
             row[j] += scale * part;
             d->shared[j] += spare * part;
         }

@@ -94,6 +94,20 @@ static void add_links(const struct causes *c, uint32_t e, struct brought *b)
     separable_links_gather(&op->separable, (int)bands, e, b->way[RAD_WAY_GROUPS]);
 }
 
+/* What of it child j of e gets. */
+static struct brought brought_to(const struct causes *c, uint32_t j, uint32_t e,
+                                 const struct brought *all)
+{
+    struct brought part = *all;
+    double bare = operator_bare(&c->solve->operator, j, e);
+    for (int way = 0; way < RAD_WAYS; way++)
+        for (int k = 0; k < 3; k++) {
+            part.way[way][k] *= bare;
+            part.kernel[way][k] *= bare;
+        }
+    return part;
+}
+
 /* ---- one leaf */
 
 /* By cause, what no ray is asked for (W/m2). */
@@ -207,7 +221,8 @@ static void walk_surface(struct walk *w, uint32_t e, struct brought above, doubl
         double begin = from + (to - from) * part / whole;
         part += cause_line_length(&c->line, x->child + (uint32_t)i);
         double end = i + 1 < x->children ? from + (to - from) * part / whole : to;
-        walk_surface(w, x->child + (uint32_t)i, above, begin, end);
+        walk_surface(w, x->child + (uint32_t)i, brought_to(c, x->child + (uint32_t)i, e, &above),
+                     begin, end);
     }
     if (!x->children)
         cast_leaf(w, e, &above, from, to);

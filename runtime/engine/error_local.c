@@ -55,8 +55,12 @@ static void gather_below(const struct error_account *a, uint32_t e, const double
     gather(a, e, own);
     for (uint32_t k = 0; k < bands; k++)
         all[k] = above[k] + own[k];
-    for (int c = 0; c < x->children; c++)
-        gather_below(a, x->child + (uint32_t)c, all, spare);
+    for (uint32_t j = x->child; j < x->child + x->children; j++) {
+        double bare = operator_bare(op, j, e), on_child[3];
+        for (uint32_t k = 0; k < bands; k++)
+            on_child[k] = bare * all[k];
+        gather_below(a, j, on_child, spare);
+    }
     for (uint32_t k = 0; k < bands && !x->children; k++) {
         size_t at = (size_t)e * bands + k;
         a->left[at] = all[k];
@@ -141,10 +145,12 @@ struct leaf_errors {
     double factor[3], most[3], visibility[3];
 };
 
-static void add_link(const struct error_account *a, const struct link *l, struct leaf_errors *e)
+static void add_link(const struct error_account *a, const struct link *l, double bare,
+                     struct leaf_errors *e)
 {
     uint32_t bands = a->solve->problem.bands;
-    double v = l->visibility * (1.0 / LINK_VISIBLE), off[2], noise = visibility_error(l);
+    double v = bare * l->visibility * (1.0 / LINK_VISIBLE), off[2],
+           noise = bare * visibility_error(l);
     factor_error(a, l, off);
     for (uint32_t k = 0; k < bands; k++) {
         double b = a->solve->state.radiosity[(size_t)l->emitter * bands + k],
@@ -157,12 +163,12 @@ static void add_link(const struct error_account *a, const struct link *l, struct
 
 /* Of the separable links the noise of their rays. */
 static void add_separable(const struct error_account *a, const struct link *l, size_t b,
-                          const struct element *taker, struct leaf_errors *e)
+                          double bare, const struct element *taker, struct leaf_errors *e)
 {
     const struct separable_links *s = &a->solve->operator.separable;
     uint32_t bands = a->solve->problem.bands;
     double v = l->visibility * (1.0 / LINK_VISIBLE),
-           noise = v > 0 ? visibility_error(l) / v
+           noise = v > 0 ? bare * visibility_error(l) / v
                                * separable_links_at(s, &s->links[b], taker->centre, taker->normal)
                          : 0;
     for (uint32_t k = 0; k < bands; k++) {
@@ -176,17 +182,20 @@ static void find_leaf_errors(const struct error_account *a, uint32_t leaf, struc
     const struct solve *s = a->solve;
     const struct separable_links *c = &s->operator.separable;
     const struct element *elements = s->hierarchy.elements, *taker = &elements[leaf];
+    double bare = 1;
     memset(e, 0, sizeof *e);
     for (uint32_t up = leaf;; up = elements[up].parent) {
         size_t b = c->count && up < c->elements ? c->first[up] : 0;
-        if (elements[up].vertices)
+        if (elements[up].vertices) {
             taker = &elements[up];
+            bare = operator_bare(&s->operator, leaf, up);
+        }
         for (size_t i = s->refinement.first_link[up]; i < s->refinement.first_link[up + 1]; i++) {
             const struct link *l = &s->refinement.links[i];
             if (elements[l->receiver].vertices && elements[l->emitter].vertices)
-                add_link(a, l, e);
+                add_link(a, l, bare, e);
             else if (c->count && up < c->elements)
-                add_separable(a, l, b++, taker, e);
+                add_separable(a, l, b++, bare, taker, e);
         }
         if (up == 0)
             break;

@@ -213,6 +213,15 @@ void linear_links_restrict(const struct linear_links *l, const struct hierarchy 
     on_child[2] = b[1] * t.from[0][1] + b[2] * t.from[1][1];
 }
 
+void linear_links_hand_down(const struct linear_links *l, const struct light_operator *op,
+                            uint32_t e, uint32_t child, const double b[3], double on_child[3])
+{
+    double bare = operator_bare(op, child, e);
+    linear_links_restrict(l, op->hierarchy, e, child, b, on_child);
+    for (int a = 0; a < 3; a++)
+        on_child[a] *= bare;
+}
+
 void linear_links_rows(const struct linear_links *l, const struct light_operator *op, uint32_t e,
                        const double above[3])
 {
@@ -237,7 +246,7 @@ void linear_links_rows(const struct linear_links *l, const struct light_operator
     const double all[3] = {above[0] + own[0], above[1] + own[1], above[2] + own[2]};
     for (int c = 0; c < x->children; c++) {
         double on_child[3];
-        linear_links_restrict(l, op->hierarchy, e, x->child + (uint32_t)c, all, on_child);
+        linear_links_hand_down(l, op, e, x->child + (uint32_t)c, all, on_child);
         linear_links_rows(l, op, x->child + (uint32_t)c, on_child);
     }
 }

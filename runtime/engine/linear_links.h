@@ -57,6 +57,10 @@ void linear_links_gather(const struct linear_links *l, const struct light_operat
 void linear_links_restrict(const struct linear_links *l, const struct hierarchy *h, uint32_t e,
                            uint32_t child, const double b[3], double on_child[3]);
 
+/* What the part `child` of e gets of an irradiance of e, b[3]: the barer, the more. */
+void linear_links_hand_down(const struct linear_links *l, const struct light_operator *op,
+                            uint32_t e, uint32_t child, const double b[3], double on_child[3]);
+
 void linear_links_close(struct linear_links *l);
 
 #endif

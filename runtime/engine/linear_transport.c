@@ -99,7 +99,7 @@ static void push(const struct sweep *s, uint32_t e, const struct piece *above, d
         uint32_t child = at->child + (uint32_t)c;
         struct piece on_child = {0};
         for (uint32_t k = 0; k < s->bands; k++)
-            linear_links_restrict(s->links, op->hierarchy, e, child, all.b[k], on_child.b[k]);
+            linear_links_hand_down(s->links, op, e, child, all.b[k], on_child.b[k]);
         push(s, child, &on_child, spare);
     }
     if (at->children)

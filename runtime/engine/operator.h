@@ -64,4 +64,11 @@ static inline double operator_share(const struct light_operator *op, uint32_t j,
     return op->uncovered[e] > 0 ? part * op->uncovered[j] / op->uncovered[e] : part;
 }
 
+/* Irradiance of e, a mean over all of it, lies on what is bare: so many times as much is the mean
+ * over j, which is below e. */
+static inline double operator_bare(const struct light_operator *op, uint32_t j, uint32_t e)
+{
+    return op->uncovered[e] > 0 ? op->uncovered[j] / op->uncovered[e] : 1;
+}
+
 #endif

@@ -3,9 +3,9 @@
  * A solid may stand on part of a surface, like a table leg on the floor. What it covers receives
  * nothing and sends nothing; rays know that, but a mean over the whole element would send the
  * missing light a second time less. So x is the mean over the uncovered part, and x = source + rho
- * H / uncovered, where H stays the mean over all. (A leaf found wholly covered has no weight in its
- * parent, but may yet be linked by rays that did find it: closure gives it the irradiance of its
- * face too.)
+ * H / uncovered, where H stays the mean over all; of two parts the barer one is handed more. (A
+ * leaf found wholly covered has no weight in its parent, but may yet be linked by rays that did
+ * find it: closure gives it the irradiance of its face too.)
  *
  * All of it is linear in value, irradiance and source together: with a source of 0 it carries
  * changes as it carries light.
@@ -50,8 +50,12 @@ static void push(const struct light_operator *op, const struct transport *x, uin
     double *H = &x->irradiance[(size_t)e * b], h[3];
     for (uint32_t k = 0; k < b; k++)
         h[k] = above[k] + H[k];
-    for (int c = 0; c < at->children; c++)
-        push(op, x, at->child + (uint32_t)c, h, spare);
+    for (uint32_t j = at->child; j < at->child + at->children; j++) {
+        double bare = operator_bare(op, j, e), on_child[3];
+        for (uint32_t k = 0; k < b; k++)
+            on_child[k] = bare * h[k];
+        push(op, x, j, on_child, spare);
+    }
     for (uint32_t k = 0; k < b && !at->children; k++) {
         H[k] = above[k] * op->row_above[e] + H[k] * op->row_scale[e];
         spare[k] += at->area * (op->problem->options.closure == CLOSURE_ROWS ? H[k] : h[k] - H[k]);

@@ -52,12 +52,13 @@ static void add_emitter(struct residual_points *p, const struct light_operator *
             sum[i][k] += radiosity[(size_t)emitter * bands + k] * factor[i];
 }
 
+/* `bare`: what of the link falls on the leaf (operator_bare). */
 static void add_link(struct residual_points *p, const struct light_operator *op,
-                     const double *radiosity, size_t link, const struct element *leaf)
+                     const double *radiosity, size_t link, double bare, const struct element *leaf)
 {
     const struct link *l = &op->refinement->links[link];
     uint32_t bands = op->problem->bands;
-    double visible = l->visibility * (1.0 / LINK_VISIBLE),
+    double visible = bare * l->visibility * (1.0 / LINK_VISIBLE),
            (*sum)[3] = p->sum[l->mark == LINK_GUARDED];
     add_emitter(p, op, radiosity, l->emitter, visible, leaf, sum);
     for (int i = 0; i < p->count; i++)
@@ -70,7 +71,7 @@ static void add_link(struct residual_points *p, const struct light_operator *op,
  * `taker` takes the light: the whole face, or the part of it that has the links. Returns how many
  * there are. */
 static uint32_t add_separable(struct residual_points *p, const struct light_operator *op,
-                              uint32_t up, const struct element *taker)
+                              uint32_t up, double bare, const struct element *taker)
 {
     const struct separable_links *s = &op->separable;
     uint32_t bands = op->problem->bands;
@@ -79,7 +80,8 @@ static uint32_t add_separable(struct residual_points *p, const struct light_oper
     for (size_t b = s->first[up]; b < s->first[up + 1]; b++) {
         double whole = separable_links_at(s, &s->links[b], taker->centre, taker->normal);
         for (int i = 0; i < p->count; i++) {
-            double off = separable_links_at(s, &s->links[b], p->at[i], taker->normal) - whole;
+            double off =
+                bare * (separable_links_at(s, &s->links[b], p->at[i], taker->normal) - whole);
             for (uint32_t k = 0; k < bands; k++)
                 p->sum[0][i][k] += s->arrives[b * bands + k] * off;
         }
@@ -105,15 +107,18 @@ uint32_t residual_at_points(const struct light_operator *op, const double *radio
     const struct element *elements = op->hierarchy->elements, *e = &elements[leaf], *taker = e;
     const struct refinement *r = op->refinement;
     uint32_t links = 0;
+    double bare = 1;
     memset(p->sum, 0, sizeof p->sum);
     for (uint32_t up = leaf;; up = elements[up].parent) {
-        if (elements[up].vertices)
+        if (elements[up].vertices) {
             taker = &elements[up];
-        links += add_separable(p, op, up, taker);
+            bare = operator_bare(op, leaf, up);
+        }
+        links += add_separable(p, op, up, bare, taker);
         for (size_t l = r->first_link[up]; l < r->first_link[up + 1]; l++) {
             if (!elements[r->links[l].receiver].vertices || !elements[r->links[l].emitter].vertices)
                 continue;
-            add_link(p, op, radiosity, l, e);
+            add_link(p, op, radiosity, l, bare, e);
             links++;
         }
         if (up == 0)

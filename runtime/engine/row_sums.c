@@ -62,7 +62,7 @@ static void sum_links(const struct light_operator *op, uint32_t e, double above)
         row += operator_weight(op, i);
     row += separable_links_row(&op->separable, e);
     for (int c = 0; c < x->children; c++)
-        sum_links(op, x->child + (uint32_t)c, row);
+        sum_links(op, x->child + (uint32_t)c, row * operator_bare(op, x->child + (uint32_t)c, e));
     if (!x->children) {
         op->row_scale[e] = row;
         op->row_above[e] = above;

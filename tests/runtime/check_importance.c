@@ -128,7 +128,7 @@ START_TEST(test_importance_dense)
             for (size_t l = s.refinement.first_link[up]; l < s.refinement.first_link[up + 1]; l++) {
                 const struct link *link = &s.refinement.links[l];
                 double f = (double)link->form_factor * link->visibility / LINK_VISIBLE
-                           * s.operator.row_scale[leaf[i]] / s.operator.uncovered[leaf[i]];
+                           * s.operator.row_scale[leaf[i]] / s.operator.uncovered[up];
                 for (uint32_t j = 0; j < n; j++)
                     a[(size_t)i * n + j] -= f * part_of(&s, leaf[j], link->emitter)
                                             * s.hierarchy.elements[leaf[j]].reflectance;

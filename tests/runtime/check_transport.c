@@ -144,6 +144,67 @@ START_TEST(test_cap)
 }
 END_TEST
 
+/* ---- what stands on a face */
+
+static double above_and_split(const struct element *r, const struct element *e)
+{
+    return r->face + e->face == 2 && r->face != 1 ? 0.25 : r->face + e->face == 1 ? 1e-9 : 0;
+}
+
+/* A box stands on half of a quarter of a face. What a lamp brings over the whole face's link lies
+ * on what is bare, everywhere alike: 7/8 of the face have all of its light, by sweeps, by shots, by
+ * elimination and with slopes. The lamp reflects what comes back. */
+static void stand_box(enum RadSolver solver, int linear)
+{
+    static const struct script script = {split_for_lamp, above_and_split, 0};
+    struct solve_options how = options(1e-9, solver);
+    const double row = 0.25 / 0.875, expected = 0.5 * row * 1024 / (1 - 0.5 * row * 0.5 * 0.25);
+    double power = 0;
+    int covered = 0, found = 0;
+    struct scene scene;
+    how.linear = linear;
+    made_open(&scene);
+    add_square(&scene, 2, 0.5, 0);
+    add_square(&scene, 2, 0, 0);
+    add_square(&scene, 2, 0.5, 1024);
+    uint32_t black = made_material(&scene, 0, 0);
+    made_quad(&scene, black, 0, 0, 0, 0, 0.5, 0, 1, 0, 0); /* bottom, top, front, back, sides */
+    made_quad(&scene, black, 0, 0, 1, 1, 0, 0, 0, 0.5, 0);
+    made_quad(&scene, black, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+    made_quad(&scene, black, 0, 0.5, 0, 0, 0, 1, 1, 0, 0);
+    made_quad(&scene, black, 0, 0, 0, 0, 0, 1, 0, 0.5, 0);
+    made_quad(&scene, black, 1, 0, 0, 0, 0.5, 0, 0, 0, 1);
+    struct solve s;
+    run_solve(&s, &scene, &script, how);
+    if (solver == RAD_SOLVER_LU) /* one to see that nothing changes */
+        ck_assert_int_eq(s.report.sweeps, s.report.passes);
+    for (uint32_t i = 0; i < s.hierarchy.count; i++) {
+        const struct element *e = &s.hierarchy.elements[i];
+        if (!e->vertices || e->children || e->face != 0)
+            continue;
+        covered += s.operator.uncovered[i]<1;
+        ck_assert_double_eq_tol(s.operator.uncovered[i], quarter(e) == 0 ? 0.5 : 1, 1e-12);
+        ck_assert_double_eq_tol(s.state.radiosity[i], expected, 1e-6);
+        ck_assert_double_eq_tol(s.operator.row[i], row, 1e-8);
+        power += e->area * s.state.irradiance[i];
+        found++;
+    }
+    ck_assert_int_eq(found, 4);
+    ck_assert_int_eq(covered, 1);
+    ck_assert_double_eq_tol(power, 4 * 0.875 * expected / 0.5, 1e-5);
+    solve_close(&s);
+    made_close(&scene);
+}
+
+START_TEST(test_stands)
+{
+    stand_box(RAD_SOLVER_GAUSS_SEIDEL, 0);
+    stand_box(RAD_SOLVER_SOUTHWELL, 0);
+    stand_box(RAD_SOLVER_LU, 0);
+    stand_box(RAD_SOLVER_GAUSS_SEIDEL, 1);
+}
+END_TEST
+
 /* ---- when iteration stops */
 
 static double mutual;
@@ -501,6 +562,7 @@ int main(void)
     Suite *suite = suite_create("transport");
     TCase *c = tcase_create("transport");
     tcase_add_test(c, test_cap);
+    tcase_add_test(c, test_stands);
     tcase_add_loop_test(c, test_stop, 0, 2);
     tcase_add_loop_test(c, test_tenth, 0, 4);
     tcase_add_test(c, test_stop_small);
