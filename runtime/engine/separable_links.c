@@ -7,6 +7,8 @@
 #include <string.h>
 #include "engine/pivots.h"
 #include "engine/separable_links.h"
+#include "engine/separable_sums.h"
+#include "kernel/lanes.h"
 #include "util/thread_pool.h"
 
 #define INVERSE_PI 0.31830988618379067154
@@ -69,28 +71,15 @@ static void send_link(const struct separable_links *c, const struct separable_li
         return;
     }
     side_open(c, &side, b->emitter);
-    if (bands == 1) {
-        const float *sent = radiosity ? side.faces.sent[0] : side.faces.area;
-        float all = 0;
-#pragma omp simd reduction(+ : all)
-        for (size_t i = side.from; i < side.to; i++)
-            all += sent[i] * separable_kernel(&side.faces, i, &b->r);
-        sum[0] = all;
-    } else {
-        const float *red = side.faces.sent[0], *green = side.faces.sent[1],
-                    *blue = side.faces.sent[2];
-        float x = 0, y = 0, z = 0;
-#pragma omp simd reduction(+ : x, y, z)
-        for (size_t i = side.from; i < side.to; i++) {
-            float value = separable_kernel(&side.faces, i, &b->r);
-            x += red[i] * value;
-            y += green[i] * value;
-            z += blue[i] * value;
-        }
-        sum[0] = x;
-        sum[1] = y;
-        sum[2] = z;
-    }
+    const float *const sent[3] = {radiosity ? side.faces.sent[0] : side.faces.area,
+                                  side.faces.sent[1], side.faces.sent[2]};
+    separable_sum_sent(&(struct separable_sum){.faces = &side.faces,
+                                               .pivot = &b->r,
+                                               .from = side.from,
+                                               .to = side.to,
+                                               .bands = bands,
+                                               .width = c->width},
+                       sent, sum);
     for (int k = 0; k < bands; k++)
         to[k] = b->scale * sum[k];
 }
@@ -110,22 +99,14 @@ static void receive_below(const struct separable_links *c, int bands, uint32_t e
     for (size_t b = c->first[e]; b < c->first[e + 1]; b++) {
         const struct separable_link *link = &c->links[b];
         const float *arrives = &c->arrives[b * (size_t)bands];
-        float value[CHUNK];
-        if (c->centres) {
-#pragma omp simd
-            for (size_t i = from; i < to; i++)
-                value[i - from] = separable_kernel_at_centre(&c->faces, i, &link->s);
-        } else {
-#pragma omp simd
-            for (size_t i = from; i < to; i++)
-                value[i - from] = separable_kernel(&c->faces, i, &link->s);
-        }
-        for (int k = 0; k < bands; k++) {
-            float *received = &c->received[(size_t)k * count];
-#pragma omp simd
-            for (size_t i = from; i < to; i++)
-                received[i] += arrives[k] * value[i - from];
-        }
+        separable_sum_received(&(struct separable_sum){.faces = &c->faces,
+                                                       .pivot = &link->s,
+                                                       .from = from,
+                                                       .to = to,
+                                                       .bands = bands,
+                                                       .width = c->width,
+                                                       .centres = c->centres},
+                               arrives, c->received, count);
     }
     for (int k = 0; k < x->children && !x->vertices; k++)
         receive_below(c, bands, x->child + (uint32_t)k, from, to);
@@ -223,6 +204,7 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h,
     c->threads = threads;
     c->centres = centres;
     c->here = here;
+    c->width = lanes_width();
     c->unit = unit_of(h);
     c->elements = h->count;
     c->first = calloc((size_t)h->count + 1, sizeof *c->first);
@@ -241,7 +223,8 @@ int separable_links_open(struct separable_links *c, const struct hierarchy *h,
     c->arrives = malloc(n * (size_t)bands * sizeof *c->arrives);
     c->received = malloc(faces * (size_t)bands * sizeof *c->received);
     c->place = malloc(faces * sizeof *c->place);
-    c->faces.centre[0] = malloc((SEPARABLE_ARRAYS + (size_t)bands) * faces * sizeof(float));
+    c->faces.centre[0] =
+        calloc((SEPARABLE_ARRAYS + (size_t)bands) * faces + SEPARABLE_SPARE, sizeof(float));
     if (!c->links || !c->arrives || !c->received || !c->place || !c->faces.centre[0]) {
         separable_links_close(c);
         return -1;

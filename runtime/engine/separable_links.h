@@ -39,6 +39,7 @@ struct separable_link {
 struct separable_links {
     const struct hierarchy *hierarchy;
     int bands, threads;           /* bands: the most that `arrives` and `received` have room for */
+    int width;                    /* of vectors (kernel/lanes.h) */
     int centres;                  /* 1: a surface takes light at its centre (collocation) */
     struct face_range here;       /* in the tree's order, the faces that light is received for */
     double unit;                  /* m; a power of two */

@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/separable_links.h"
+#include "engine/separable_sums.h"
 #include "kernel/constants.h"
+#include "kernel/lanes.h"
 #include "suite.h"
 
 enum { MOST = 400, POINTS = 4 };
@@ -338,6 +340,55 @@ START_TEST(test_on_edge)
 }
 END_TEST
 
+/* Sums over faces from .. to - 1, against those of one face after the other in double precision;
+ * with vectors of any width the same bits, and nothing of faces outside. */
+START_TEST(test_sums)
+{
+    enum { FACES = 40, BANDS = 3, ARRAYS = SEPARABLE_ARRAYS + BANDS };
+    static float at[ARRAYS * FACES + SEPARABLE_SPARE];
+    struct separable_faces f;
+    struct pivot pivot = {{0.5f, 0.4f, 0.9f}, {0, 0.6f, -0.8f}, 0.01f};
+    separable_faces_arrays(&f, at, FACES, BANDS);
+    uint32_t seed = 1;
+    for (size_t i = 0; i < ARRAYS * FACES; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        at[i] = (float)(seed >> 8) * 0x1p-24f * (i < 3 * FACES || i >= 12 * FACES ? 1 : 0.1f);
+    }
+    const float *const sent[3] = {f.sent[0], f.sent[1], f.sent[2]};
+    const float arrives[BANDS] = {1, 2, 0.5f};
+    for (size_t from = 0; from < 11; from++)
+        for (size_t to = from; to <= FACES; to++)
+            for (int centres = 0; centres < 2; centres++) {
+                float sum[3][BANDS] = {{0}}, received[3][BANDS * FACES] = {{0}};
+                for (int w = 0; w < 3; w++) {
+                    const int width = w < 2 ? 1 + 3 * w : 8;
+                    const struct separable_sum s = {
+                        &f,      &pivot, from,
+                        to,      BANDS,  width < lanes_width() ? width : lanes_width(),
+                        centres,
+                    };
+                    separable_sum_sent(&s, sent, sum[w]);
+                    separable_sum_received(&s, arrives, received[w], FACES);
+                }
+                ck_assert_mem_eq(sum[1], sum[0], sizeof *sum);
+                ck_assert_mem_eq(sum[2], sum[0], sizeof *sum);
+                ck_assert_mem_eq(received[1], received[0], sizeof *received);
+                ck_assert_mem_eq(received[2], received[0], sizeof *received);
+                for (int k = 0; k < BANDS; k++) {
+                    double expected = 0;
+                    for (size_t i = 0; i < FACES; i++) {
+                        const float one = i < from || i >= to ? 0
+                                          : centres ? separable_kernel_at_centre(&f, i, &pivot)
+                                                    : separable_kernel(&f, i, &pivot);
+                        expected += (double)sent[k][i] * (double)one;
+                        ck_assert_float_eq(received[0][k * FACES + (int)i], arrives[k] * one);
+                    }
+                    ck_assert_double_le(fabs((double)sum[0][k] - expected), 1e-6 * expected);
+                }
+            }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("separable links");
@@ -345,6 +396,7 @@ int main(void)
     tcase_set_timeout(c, 300);
     tcase_add_loop_test(c, test_exchange, 0, BODIES * BODIES);
     tcase_add_test(c, test_constant);
+    tcase_add_test(c, test_sums);
     tcase_add_loop_test(c, test_grazing, 0, 3);
     tcase_add_test(c, test_on_edge);
     suite_add_tcase(suite, c);
