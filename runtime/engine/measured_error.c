@@ -11,6 +11,7 @@
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/path_mending.h"
+#include "particles/power_balance.h"
 #include "engine/ray_split.h"
 #include "engine/solve_tracer.h"
 #include "engine/surface_error.h"
@@ -58,13 +59,17 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
         return -1;
     if (tally->rays == 0 || tally->rays >= rays) {
         tally_add(tally, t->ranks);
+        power_balance(tally, t);
         return 0;
     }
     double each = (double)tally->rays / (double)tally->particles;
     double more = (double)(rays - tally->rays) / each;
     watched.before = tally->rays;
     watched.now = (double)(rays - tally->rays);
-    return tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch);
+    if (tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch) < 0)
+        return -1;
+    power_balance(tally, t);
+    return 0;
 }
 
 /* What the tally, which nothing of the shown solution comes from, says of its polygons. Returns 0,

@@ -94,6 +94,7 @@ struct batch {
     int replicate, landed;
     uint64_t rays;
     int64_t first[3], second[3];      /* sums of w and w^2, as counts */
+    int64_t lost[3];                  /* of w that is not met again */
     struct landing landing[LANDINGS]; /* [landed]: not counted yet */
 };
 
@@ -237,6 +238,9 @@ static void trace(struct tally *tally, const struct tracer *t, uint64_t index, s
             uint32_t leaf = land(tally, t, f.face, at, f.share, batch);
             reflect(tally, t, leaf, decide(batch, index, &dice, &f.used),
                     places < WAITING ? COPIES : 1, &f);
+        } else {
+            for (uint32_t k = 0; k < t->bands; k++)
+                batch->lost[k] += (int64_t)(f.share[k] * tally->one + 0.5);
         }
         if (f.copies > 1) {
             f.copies--;
@@ -291,6 +295,7 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
         for (int k = 0; k < 3; k++) {
             all->sums->first[k] += batch.first[k];
             all->sums->second[k] += batch.second[k];
+            all->tally->lost[batch.replicate][k] += batch.lost[k];
         }
         watched_loop_tell(all->loop);
     }
@@ -303,6 +308,7 @@ static void part_counts(struct tally *tally, struct ranks *ranks)
         return;
     memset((void *)(uintptr_t)tally->face, 0,
            (size_t)REPLICATES * tally->faces * tally->bands * sizeof *tally->face);
+    memset((void *)(uintptr_t)tally->lost, 0, sizeof tally->lost);
     if (tally->element)
         memset((void *)(uintptr_t)tally->element, 0,
                (size_t)tally->elements * tally->bands * sizeof *tally->element);
@@ -333,6 +339,8 @@ void tally_add(struct tally *tally, struct ranks *ranks)
     tally->parted = 0;
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->face,
                      (size_t)REPLICATES * tally->faces * tally->bands);
+    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->lost,
+                     sizeof tally->lost / sizeof **tally->lost);
     if (tally->element)
         ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->element,
                          (size_t)tally->elements * tally->bands);

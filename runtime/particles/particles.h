@@ -40,7 +40,10 @@ struct tally {
     double one;            /* a count of so much is one particle at its full power */
     _Atomic int64_t *face; /* [REPLICATES][faces * bands + band] */
     _Atomic int64_t
-        *element;    /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
+        *element; /* [elements * bands + band]: of leaves, all replicates; NULL: not asked */
+    _Atomic int64_t lost[REPLICATES][3]; /* [band]: what left the scene or met a black back */
+    /* by replicate, and of all: counts are so much more, as a share (power_balance.h) */
+    double correction[REPLICATES + 1][3];
     uint32_t *first; /* [element]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
     double *square;  /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
@@ -83,14 +86,16 @@ static inline double tally_face(const struct tally *tally, int replicate, uint32
                                 uint32_t band)
 {
     size_t at = (size_t)replicate * tally->faces + face;
-    return tally_unit(tally) * (double)tally->face[at * tally->bands + band];
+    return tally_unit(tally) * (double)tally->face[at * tally->bands + band]
+           * (1 + tally->correction[replicate][band]);
 }
 
 /* Power that the leaf receives in a band (W), mean of all replicates. */
 static inline double tally_leaf(const struct tally *tally, uint32_t element, uint32_t band)
 {
     return tally_unit(tally) / REPLICATES
-           * (double)tally->element[(size_t)element * tally->bands + band];
+           * (double)tally->element[(size_t)element * tally->bands + band]
+           * (1 + tally->correction[REPLICATES][band]);
 }
 
 /* W that one particle of all replicates stands for. */

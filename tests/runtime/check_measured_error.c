@@ -15,6 +15,7 @@
 #include "engine/solve_tracer.h"
 #include "kernel/constants.h"
 #include "kernel/leaf_at.h"
+#include "particles/power_balance.h"
 #include "suite.h"
 
 struct cover {
@@ -34,6 +35,7 @@ static void traced(struct tally *y, const struct tracer *t, uint64_t stream, int
 {
     ck_assert_int_eq(tally_open(y, t, stream, 1), 0);
     ck_assert_int_eq(tally_trace(y, t, (uint64_t)particles / REPLICATES, NULL), 0);
+    power_balance(y, t);
 }
 
 struct errors {

@@ -1,0 +1,77 @@
+/* power_balance.c - see power_balance.h.
+ *
+ * Where much is reflected a particle that lives long lights all faces: their noise is one, and more
+ * particles are a poor cure for it. But one thing of all light is known: what surfaces absorb and
+ * what leaves the scene is what is emitted, E. A set of particles has counted Q instead. Light
+ * reflected, P, differs from set to set as Q does, or partly so; by how much, b, is the slope of P
+ * over Q among the REPLICATES sets. So P - b (Q - E) is light reflected as before, in the mean, and
+ * less noisy: all counts of a set and a band are scaled alike to come to it. A set takes the slope
+ * of all others, lest sets agree because they have chosen it. Where all faces reflect alike nothing
+ * is left of the noise of P; where P and Q have nothing in common b is near 0 and costs a
+ * thirteenth of the variance.
+ *
+ * [control variates by regression: Lavenberg and Welch 1981]
+ * Fails: nothing is gained for how light is spread over faces.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include "particles/power_balance.h"
+
+/* By replicate (W): reflected; absorbed or lost. */
+struct balance {
+    double reflected[REPLICATES], ended[REPLICATES], emitted;
+};
+
+static void add_faces(const struct tally *tally, const struct tracer *t, uint32_t band,
+                      struct balance *b)
+{
+    const double unit = tally_unit(tally);
+    *b = (struct balance){{0}, {0}, 0};
+    for (uint32_t f = 0; f < tally->faces; f++)
+        b->emitted += t->exitance[(size_t)f * tally->bands + band] * tracer_surface(t, f)->area;
+    for (int r = 0; r < REPLICATES; r++) {
+        for (uint32_t f = 0; f < tally->faces; f++) {
+            const size_t at = (size_t)f * tally->bands + band;
+            const double rho = t->reflectance[at],
+                         power =
+                             unit
+                             * (double)tally->face[(size_t)r * tally->faces * tally->bands + at];
+            b->reflected[r] += rho * power;
+            b->ended[r] += (1 - rho) * power;
+        }
+        b->ended[r] += unit * (double)tally->lost[r][band];
+    }
+}
+
+/* What is counted too little, as a share; the slope is both / square. */
+static double correct(const struct balance *b, double ended, double reflected, double both,
+                      double square)
+{
+    const double slope = square > 0 ? both / square : 0;
+    return reflected > 0 ? fmax(slope * (b->emitted - ended) / reflected, -1) : 0;
+}
+
+/* Squares about the mean without one of n are less by so many times its own about that of all. */
+#define LEFT_OUT (REPLICATES / (REPLICATES - 1.0))
+
+void power_balance(struct tally *tally, const struct tracer *t)
+{
+    for (uint32_t k = 0; k < tally->bands && tally->particles > 0; k++) {
+        struct balance b;
+        double reflected = 0, ended = 0, both = 0, square = 0;
+        add_faces(tally, t, k, &b);
+        for (int r = 0; r < REPLICATES; r++) {
+            reflected += b.reflected[r] / REPLICATES;
+            ended += b.ended[r] / REPLICATES;
+        }
+        for (int r = 0; r < REPLICATES; r++) {
+            both += (b.ended[r] - ended) * (b.reflected[r] - reflected);
+            square += (b.ended[r] - ended) * (b.ended[r] - ended);
+        }
+        for (int r = 0; r < REPLICATES; r++)
+            tally->correction[r][k] =
+                correct(&b, b.ended[r], b.reflected[r],
+                        both - LEFT_OUT * (b.ended[r] - ended) * (b.reflected[r] - reflected),
+                        square - LEFT_OUT * (b.ended[r] - ended) * (b.ended[r] - ended));
+        tally->correction[REPLICATES][k] = correct(&b, ended, reflected, both, square);
+    }
+}
