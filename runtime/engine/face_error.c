@@ -219,7 +219,8 @@ static double variance_seen(const struct counted *c, size_t i)
 static void find_deviations(struct counted *c, const struct problem *p, const struct hierarchy *h,
                             const struct tally *tally)
 {
-    double seen[CLASSES] = {0}, chance[CLASSES] = {0}, one = tally_power_of_one(tally);
+    double seen[CLASSES] = {0}, chance[CLASSES] = {0}, count[CLASSES] = {0},
+           one = tally_power_of_one(tally);
     double *rho = c->deviation;                  /* until s is known */
     for (uint32_t f = 0; f < h->face_count; f++) /* sides of one polygon have one rho */
         for (uint32_t k = 0; k < c->bands; k++)
@@ -241,7 +242,16 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
         c->class[i] = (unsigned char)(class < CLASSES ? class : CLASSES - 1);
         seen[c->class[i]] += variance_seen(c, i);
         chance[c->class[i]] += by_chance;
+        count[c->class[i]] += by_chance > 0;
         c->deviation[i] = by_chance;
+    }
+    /* of few particles replicates may have met none of a class: as if one polygon more were by
+     * chance */
+    for (int k = 0; k < CLASSES && !tally->by_paths; k++) {
+        double few = FACE_ERROR_FEW / (FACE_ERROR_FEW + ldexp(1, 2 * k)),
+               more = count[k] > 0 ? few * chance[k] / count[k] : 0;
+        seen[k] += more;
+        chance[k] += more;
     }
     for (size_t i = 0; i < c->values; i++) {
         int class = c->class[i];

@@ -19,8 +19,8 @@
  * but an element that is far out is believed for itself.
  *
  * s^2 above the faces and among them is told by the replicates, which see correlations that chance
- * does not; below, where few particles land and replicates would say little, it is that of chance,
- * of a multinomial.
+ * does not; below, and where few particles land and replicates would say little, it is that of
+ * chance, of a multinomial.
  *
  * [James and Stein 1961, for k; Efron and Morris 1972, for classes and outliers; Cai 1999, blocks
  * in a tree; shares of a tree's nodes: Polya trees, Lavine 1992; the rest: derived here]
@@ -144,6 +144,34 @@ static int foretell(const struct mending *m, uint32_t e, uint32_t k, const doubl
     return 1;
 }
 
+/* s^2 of a child that has the share `given` of `whole`, of which `here` were counted there, if
+ * chance alone spread particles (W2). */
+static double noise_of_chance(const struct mending *m, uint32_t k, double given, double here,
+                              double whole)
+{
+    return (1 - given) * (1 - given) * tally_chance(m->tally, here, k)
+           + given * given * tally_chance(m->tally, fmax(whole - here, 0), k);
+}
+
+/* The same of child j of e by replicates, off what it has more than given. Where few land, or
+ * should by links, these say little, and where none did, nothing: then as far by chance. */
+static double noise_of_replicates(const struct mending *m, uint32_t e, uint32_t j, uint32_t k,
+                                  double given, double off)
+{
+    const struct hierarchy *h = m->op->hierarchy;
+    double seen = 0, whole = m->received[place(m, e, k)];
+    for (int r = 0; r < REPLICATES; r++) {
+        const double *of = &m->replicate[(size_t)r * h->built * m->bands];
+        double d = of[place(m, j, k)] - given * of[place(m, e, k)] - off;
+        seen += d * d / (REPLICATES * (REPLICATES - 1.0));
+    }
+    if (m->tally->by_paths)
+        return seen;
+    double likely = fmax(m->received[place(m, j, k)], given * whole),
+           believed = likely / (likely + FACE_ERROR_FEW * tally_power_of_one(m->tally));
+    return believed * seen + (1 - believed) * noise_of_chance(m, k, given, likely, whole);
+}
+
 /* m^2 and s^2 among the children of e, which some particles met. */
 static struct sight see(const struct mending *m, uint32_t e, uint32_t k, const double *given)
 {
@@ -154,17 +182,8 @@ static struct sight see(const struct mending *m, uint32_t e, uint32_t k, const d
         uint32_t j = at->child + c;
         double off = m->received[place(m, j, k)] - given[c] * whole;
         seen += off * off;
-        if (j < h->built) {
-            for (int r = 0; r < REPLICATES; r++) {
-                const double *of = &m->replicate[(size_t)r * h->built * m->bands];
-                double d = of[place(m, j, k)] - given[c] * of[place(m, e, k)] - off;
-                noise += d * d / (REPLICATES * (REPLICATES - 1.0));
-            }
-        } else {
-            double here = m->received[place(m, j, k)];
-            noise += (1 - given[c]) * (1 - given[c]) * tally_chance(m->tally, here, k)
-                     + given[c] * given[c] * tally_chance(m->tally, whole - here, k);
-        }
+        noise += j < h->built ? noise_of_replicates(m, e, j, k, given[c], off)
+                              : noise_of_chance(m, k, given[c], m->received[place(m, j, k)], whole);
     }
     return (struct sight){seen / (whole * whole), noise / (whole * whole), 1};
 }

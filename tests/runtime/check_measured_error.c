@@ -795,6 +795,46 @@ START_TEST(test_bare)
 }
 END_TEST
 
+/* A sliver that few particles or none meet keeps what links say of it, and nobody is sure of that:
+ * walls that emit 1 W/m2 and reflect half of what they receive have 2 W/m2 everywhere. */
+START_TEST(test_sliver)
+{
+    struct scene scene;
+    made_open(&scene);
+    made_material(&scene, 0.5, 1);
+    const uint32_t walls[6] = {0, 0, 0, 0, 0, 0};
+    made_room(&scene, walls, 4, 5, 3);
+    scene.faces[0].vertex[0][0] = scene.faces[0].vertex[3][0] = 0.001; /* the floor, but for it */
+    made_quad(&scene, 0, 0, 0, 0, 0.001, 0, 0, 0, 5, 0);
+    struct solve s;
+    const char *cause;
+    const struct solve_options how = quick(1);
+    ck_assert_int_eq(solve_open(&s, &scene, &how, &cause), 0);
+    struct tracer t = tracer_over(&s, 1);
+    double *irradiance = malloc(s.hierarchy.count * sizeof *irradiance);
+    uint32_t sliver = s.hierarchy.face_element[6];
+    ck_assert_ptr_nonnull(irradiance);
+    for (uint64_t stream = 1; stream <= 20; stream++) {
+        struct tally y;
+        struct face_error error;
+        for (uint32_t e = 0; e < s.hierarchy.count; e++)
+            irradiance[e] = 2;
+        traced(&y, &t, stream, 4000);
+        ck_assert_int_eq(face_error_open(&error, &s.problem, &s.hierarchy, irradiance, &y), 0);
+        ck_assert_double_gt(error.deviation[6], 0.1 * fabs(error.error[6]));
+        face_error_close(&error);
+        ck_assert_int_eq(mend_irradiance(&s.operator, & y, irradiance), 0);
+        ck_assert_double_gt(irradiance[sliver], 1);
+        ck_assert_double_lt(irradiance[sliver], 4);
+        tally_close(&y);
+    }
+    free(irradiance);
+    tracer_close(&t);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("measured error");
@@ -805,6 +845,7 @@ int main(void)
     tcase_add_test(tests, test_sure);
     tcase_add_test(tests, test_mended);
     tcase_add_test(tests, test_mends);
+    tcase_add_test(tests, test_sliver);
     tcase_add_test(tests, test_slopes);
     tcase_add_test(tests, test_detail);
     tcase_add_test(tests, test_merge);
