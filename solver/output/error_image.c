@@ -69,8 +69,7 @@ double error_image_share(const struct solution *s, const double *error, double m
     return of > 0 ? off / of : copysign(INFINITY, off);
 }
 
-int error_image_unknown(const struct solution *s, const struct error_seen *seen, double mean,
-                        uint32_t element)
+int error_image_unknown(const struct solution *s, const struct error_seen *seen, uint32_t element)
 {
     uint32_t bands = s->tree.bands;
     double limit = luminance(&seen->limit[(size_t)element * bands], bands);
@@ -79,8 +78,7 @@ int error_image_unknown(const struct solution *s, const struct error_seen *seen,
     for (uint32_t k = 0; k < bands; k++)
         if (seen->error[(size_t)element * bands + k] != 0)
             return 0;
-    return limit
-           > ERROR_IMAGE_KNOWN * fmax(truth_of(s, seen->error, element), ERROR_IMAGE_DARK * mean);
+    return limit > ERROR_IMAGE_KNOWN * fmax(truth_of(s, seen->error, element), 0);
 }
 
 struct part {
@@ -172,7 +170,7 @@ static void error_colour(const void *context, const struct picture_sample *at, d
     /* The root is about the lightness that an eye sees. */
     double shade = SHADE + (1 - SHADE) * sqrt(luminance(lit, 3));
     hue_of(fabs(share) < 1 + 1e-9 ? fmin(fmax(share, -1), 1) : share, rgb);
-    if (error_image_unknown(p->solution, c->seen, c->mean, at->leaf)
+    if (error_image_unknown(p->solution, c->seen, at->leaf)
         && is_hatched(at->x / c->zoom, at->y / c->zoom))
         for (int k = 0; k < 3; k++)
             rgb[k] = hatch_line[k];

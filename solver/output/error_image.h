@@ -7,8 +7,8 @@
  * The light itself is seen faintly below, so that one knows what is where; a scale stands at the
  * lower edge.
  *
- * Places that reflect next to nothing would be off by any share: none counts as darker than
- * ERROR_IMAGE_DARK of the mean.
+ * Places that reflect next to nothing would be off by any share: for colours none counts as darker
+ * than ERROR_IMAGE_DARK of the mean. Whether light is known is asked of the place's own.
  * SPDX-License-Identifier: MIT */
 #ifndef ERROR_IMAGE_H
 #define ERROR_IMAGE_H
@@ -42,8 +42,9 @@ struct error_seen {
     const double *error, *limit;
 };
 
-/* Is no error told of an element, and yet its light not known to ERROR_IMAGE_KNOWN? */
-int error_image_unknown(const struct solution *solution, const struct error_seen *seen, double mean,
+/* Is no error told of an element, and yet its light, however dim, not known to ERROR_IMAGE_KNOWN?
+ */
+int error_image_unknown(const struct solution *solution, const struct error_seen *seen,
                         uint32_t element);
 
 /* Draw the error; all else as image_write. The scale covers the lower edge; it is left out of a
