@@ -370,10 +370,11 @@ static int build(struct builder *b, int threads)
         return fail(b->error, RAD_ERROR_INVALID_SCENE,
                     "all of its %u faces are degenerate; give one face with an area",
                     (unsigned)scene->dropped);
-    if (width_of_faces(scene) < SCENE_LEAST)
+    const double width = width_of_faces(scene);
+    if (width < SCENE_LEAST || width > SCENE_MOST)
         return fail(b->error, RAD_ERROR_INVALID_SCENE,
-                    "it is %g m wide, less than any scene; coordinates are metres: scale it",
-                    width_of_faces(scene));
+                    "it is %g m wide, %s than any scene; coordinates are metres: scale it", width,
+                    width < SCENE_LEAST ? "less" : "more");
     struct face *fitting = realloc(scene->faces, scene->face_count * sizeof *fitting);
     scene->faces = fitting ? fitting : scene->faces;
     scene->bands = bands(b);

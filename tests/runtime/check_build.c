@@ -224,6 +224,9 @@ START_TEST(test_refused)
     p = good;
     p.positions = at;
     expect_refusal(&p, &grey, 1, "it is 1e-30 m wide");
+    for (int i = 0; i < 12; i++)
+        at[i] = 1e17 * square[i];
+    expect_refusal(&p, &grey, 1, "it is 1e+17 m wide, more than any scene");
     m.reflectance[2] = 1;
     expect_refusal(&good, &m, 1, "material 0 has reflectance 1;");
     m.reflectance[2] = NAN;
