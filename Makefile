@@ -68,8 +68,8 @@ $(warning HDF5=1: pkg-config finds no hdf5-serial, hdf5 or hdf5-openmpi yet: pac
 endif
 endif
 # What the library is linked with, and what the command needs besides.
-ENGINE_LIBS = $(EMBREE) -llapacke $(PETSC_LIBS) $(MPI_LIBS) -lpthread -ldl -lm
-LIBS     = $(EMBREE) -llapacke $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lexpat -ljansson -lpng -lz -ldl -lm
+ENGINE_LIBS = $(EMBREE) $(PETSC_LIBS) $(MPI_LIBS) -lpthread -ldl -lm
+LIBS     = $(EMBREE) $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lexpat -ljansson -lpng -lz -ldl -lm
 
 # By what name a library is loaded while running: that of the version that is linked, of the headers.
 SONAME_OF = $(shell readelf -d "$$($(CC) -print-file-name=lib$(1).so)" | sed -n 's/.*SONAME.*\[\(.*\)\].*/\1/p')
@@ -177,6 +177,7 @@ $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUI
 
 $(foreach room,$(ROOMS),$(eval $(BUILD)/runtime/$(room)/%.o: CPPFLAGS += -I$(WALLS)/$(room)))
 $(BUILD)/runtime/oracle/%.o $(BUILD)/runtime/engine/%.o: CPPFLAGS += -Idagc
+$(BUILD)/runtime/util/lapack_library.o: CPPFLAGS += -DLAPACK_LIBRARY='"$(call SONAME_OF,lapacke)"'
 $(BUILD)/dagc/%.o: CPPFLAGS += -Idagc
 # dagc needs a C compiler and nothing else.
 DAGC_OBJECTS = $(call objects,$(wildcard dagc/*/)) $(BUILD)/dagc/command/main.o $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
