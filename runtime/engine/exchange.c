@@ -31,6 +31,7 @@ void exchange_set_tolerance(struct refiner *refiner, double tolerance)
         (void)refiner_set(refiner, refiner->parameters[i].name,
                           refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
     (void)refiner_set(refiner, "shadow", INFINITY, NULL);
+    (void)refiner_set(refiner, "cut_out", INFINITY, NULL);
     (void)refiner_set(refiner, "exact", INFINITY, NULL);
 }
 
