@@ -68,8 +68,11 @@ $(warning HDF5=1: pkg-config finds no hdf5-serial, hdf5 or hdf5-openmpi yet: pac
 endif
 endif
 # What the library is linked with, and what the command needs besides.
-ENGINE_LIBS = $(EMBREE) -llapacke $(PETSC_LIBS) $(MPI_LIBS) -lpthread -ldl -lm
-LIBS     = $(EMBREE) -llapacke $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lassimp -lexpat -ljansson -lpng -lz -ldl -lm
+ENGINE_LIBS = $(EMBREE) $(PETSC_LIBS) $(MPI_LIBS) -lpthread -ldl -lm
+LIBS     = $(EMBREE) $(HDF5_LIBS) $(PETSC_LIBS) $(MPI_LIBS) -lexpat -ljansson -lpng -lz -ldl -lm
+
+# By what name a library is loaded while running: that of the version that is linked, of the headers.
+SONAME_OF = $(shell readelf -d "$$($(CC) -print-file-name=lib$(1).so)" | sed -n 's/.*SONAME.*\[\(.*\)\].*/\1/p')
 
 # Walls: what a folder may include it finds in $(WALLS)/FOLDER, links to the folders it may use, and nowhere else.
 WALLS     = $(BUILD)/walls
@@ -167,17 +170,19 @@ BY_API    = $(BUILD)/tests/runtime/check_api
 $(BY_API): %: %.o $(ARCHIVE)
 	$(CC) $(LDFLAGS) -o $@ $^ $(ENGINE_LIBS) $$(pkg-config --libs check)
 $(filter-out $(BY_API),$(TESTS)) $(BUILD)/tests/runtime/width_rooms: %: %.o $(SUPPORT) $(SOLVER) $(RUNTIME) $(LIBDAGC)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) $$(pkg-config --libs check)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $^ $(LIBS) -lassimp $$(pkg-config --libs check)
 
 $(BUILD)/tests/runtime/embed_engine: $(BUILD)/tests/runtime/embed_engine.o $(BUILD)/examples/embed/mesh.o $(RUNTIME) $(LIBDAGC)
 	$(CC) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 $(foreach room,$(ROOMS),$(eval $(BUILD)/runtime/$(room)/%.o: CPPFLAGS += -I$(WALLS)/$(room)))
 $(BUILD)/runtime/oracle/%.o $(BUILD)/runtime/engine/%.o: CPPFLAGS += -Idagc
+$(BUILD)/runtime/util/lapack_library.o: CPPFLAGS += -DLAPACK_LIBRARY='"$(call SONAME_OF,lapacke)"'
 $(BUILD)/dagc/%.o: CPPFLAGS += -Idagc
 # dagc needs a C compiler and nothing else.
 DAGC_OBJECTS = $(call objects,$(wildcard dagc/*/)) $(BUILD)/dagc/command/main.o $(BUILD)/gen/catalog_text.o $(BUILD)/gen/headers_text.o
 $(DAGC_OBJECTS): PARALLEL =
+$(BUILD)/solver/util/assimp_library.o: CPPFLAGS += -DASSIMP_LIBRARY='"$(call SONAME_OF,assimp)"'
 $(BUILD)/solver/%.o: CPPFLAGS += -Isolver -I$(WALLS)/solver -Itests/hand
 $(BUILD)/tests/%.o: CPPFLAGS += -Itests -Itests/support -Itests/hand -Isolver -Iruntime -Idagc
 $(BUILD)/examples/%.o: CPPFLAGS += -Iruntime

@@ -1,7 +1,7 @@
 """setup.py - what pyproject.toml cannot say: make builds libradiosity.a, and cffi an extension that holds it.
 
 The engine is linked into the extension, so that there is no second file to find when it is imported; of the
-system it needs what the archive is linked with (Embree, LAPACKE). BUILD names another build folder, as it does
+system it needs what the archive is linked with (Embree). BUILD names another build folder, as it does
 to make; CC, where it is set, is make's too. What setuptools leaves behind stays below the build folder.
 SPDX-License-Identifier: MIT
 """

@@ -112,7 +112,7 @@ extern "Python" int radiosity_state_write(void *, const void *, size_t);
 def engine_libraries():
     """What the archive is linked with: ENGINE_LIBS of the Makefile."""
     embree = "embree4" if os.path.exists("/usr/include/embree4/rtcore.h") else "embree3"
-    return [embree, "lapacke", "pthread", "dl", "m"]
+    return [embree, "pthread", "dl", "m"]
 
 
 binding = FFI()

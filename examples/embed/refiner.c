@@ -514,6 +514,10 @@
 /* of distance squared: the variance of two faces' points together. Above it rules of points say
  * nothing; chosen: nearer, the series in size over distance need not converge */
 #define REFINER_CLEAR_RULES_NEAR 0.1
+/* radii of the face with the points: nearer faces are not smooth enough along it; chosen, with the
+ * estimate's excess in random pairs (clear_points.h), which is the next */
+#define REFINER_CLEAR_POINTS_NEAR 1.5
+#define REFINER_CLEAR_POINTS_REST 5.0
 /* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
 #define REFINER_SIGHT_FLOOR 1e-4
 /* faces. In larger scenes it is a share of so much over the root of their number: errors of a row's
@@ -1661,8 +1665,10 @@ static inline void refiner_polygon_factor_normal(double n[3], const struct refin
         n[k] = e->normal[k] - (off != 0 && !bent ? off / square * longest[k] : 0);
 }
 
-/* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
-REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, const struct refiner_element *s, int exact)
+/* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5; where contours are
+ * integrated, to `error` of F, by one pair of edges. */
+REFINER_OUTLINE double refiner_polygon_factor_within(const struct refiner_element *r, const struct refiner_element *s, int exact,
+                                     double error)
 {
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct refiner_element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
@@ -1693,8 +1699,7 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     double least = r->area < s->area ? r->area : s->area;
     double exchange;
     if (distance <= (exact ? REFINER_POLYGON_FACTOR_EXACT : REFINER_POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least,
-                                             exact ? REFINER_CONTOUR_FACTOR_EXACT : REFINER_CONTOUR_FACTOR_FAIR);
+        exchange = refiner_polygon_factor_contour_at(&p, &q, large->radius, least, error);
     else
         exchange =
             refiner_polygon_factor_rule(&p, small->normal, &q,
@@ -1704,6 +1709,11 @@ REFINER_OUTLINE double refiner_polygon_factor(const struct refiner_element *r, c
     if (!(exchange > 0 && least > 0) || refiner_polygon_factor_hidden(r, s, exchange))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
+}
+
+static inline double refiner_polygon_factor(const struct refiner_element *r, const struct refiner_element *s, int exact)
+{
+    return refiner_polygon_factor_within(r, s, exact, exact ? REFINER_CONTOUR_FACTOR_EXACT : REFINER_CONTOUR_FACTOR_FAIR);
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include "engine/dense.h"
 #include "engine/petsc_solution.h"
 #include "kernel/constants.h"
+#include "util/lapack_library.h"
 
 /* What programs see is what the engine has, under other names. */
 _Static_assert(sizeof(struct RadLink) == sizeof(struct link)
@@ -116,6 +117,11 @@ static int check_options(RadDevice device, const struct RadSolveOptions *o)
                         "RadSolveOptions.limits.depth is %d; it takes 1 to %d, or 0 for the "
                         "default",
                         o->limits.depth, LIMIT_DEPTH_MOST);
+    struct lapack lapack;
+    const char *cause = o->solver == RAD_SOLVER_LU ? lapack_load(&lapack) : NULL;
+    if (cause)
+        return api_fail(device, RAD_ERROR_INVALID_ARGUMENT,
+                        "RAD_SOLVER_LU needs LAPACKE, which does not load: %s", cause);
     return o->camera ? check_camera(device, o->camera) : 0;
 }
 

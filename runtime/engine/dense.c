@@ -11,14 +11,15 @@
  * loses digits. The matrix is made anew for each band, since no room is had for two.
  * [Dense solution: Goral et al. 1984; LAPACK for LU]
  * SPDX-License-Identifier: MIT */
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "engine/dense.h"
 #include "engine/push_pull.h"
+#include "util/lapack_library.h"
 
 struct dense {
+    struct lapack lapack;
     const struct light_operator *op;
     uint32_t count;
     uint32_t *leaf;      /* [count]: elements; those of one element follow each other */
@@ -160,8 +161,8 @@ static int solve_band(struct dense *d, const struct transport *x, uint32_t k, do
         solution[i] = x->source[of * x->bands + k];
     }
     /* rows of ours are columns of LAPACK's: it has the transposed matrix */
-    if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, d->matrix, n, pivots) != 0
-        || LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', n, 1, d->matrix, n, pivots, solution, n) != 0)
+    if (d->lapack.factor(LAPACK_COL_MAJOR, n, n, d->matrix, n, pivots) != 0
+        || d->lapack.solve(LAPACK_COL_MAJOR, 'T', n, 1, d->matrix, n, pivots, solution, n) != 0)
         return -1;
     for (uint32_t i = 0; i < d->count; i++)
         x->value[(size_t)d->leaf[i] * x->bands + k] = solution[i];
@@ -181,8 +182,8 @@ int dense_solve(const struct light_operator *op, struct transport *x)
     double *solution = malloc(leaves * sizeof *solution);
     lapack_int *pivots = malloc(leaves * sizeof *pivots);
     int status = -1;
-    if (leaves <= DENSE_LEAVES && d.leaf && d.from && d.to && d.matrix && d.shared && solution
-        && pivots) {
+    if (leaves <= DENSE_LEAVES && !lapack_load(&d.lapack) && d.leaf && d.from && d.to && d.matrix
+        && d.shared && solution && pivots) {
         for (uint32_t i = 0; i < h->face_count; i++)
             number(&d, h->face_element[i]);
         status = 0;

@@ -12,7 +12,8 @@ enum { DENSE_LEAVES = 5000 };
 uint32_t dense_leaves(const struct hierarchy *h);
 
 /* Set x->value to the solution, of at most DENSE_LEAVES leaves. Its irradiance is left to the sweep
- * that follows. Returns 0, or -1 when out of memory. */
+ * that follows. Returns 0, or -1 when out of memory. Loads LAPACK, which whoever asks for LU has
+ * tried. */
 int dense_solve(const struct light_operator *op, struct transport *x);
 
 #endif

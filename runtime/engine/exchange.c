@@ -31,6 +31,7 @@ void exchange_set_tolerance(struct refiner *refiner, double tolerance)
         (void)refiner_set(refiner, refiner->parameters[i].name,
                           refiner_get(refiner, i) * tolerance / EXCHANGE_TOLERANCE, NULL);
     (void)refiner_set(refiner, "shadow", INFINITY, NULL);
+    (void)refiner_set(refiner, "cut_out", INFINITY, NULL);
     (void)refiner_set(refiner, "exact", INFINITY, NULL);
 }
 
@@ -184,20 +185,39 @@ struct asking {
     struct exchange_loss *ways; /* [input] */
 };
 
+/* Must rays say where the light of row i goes? */
+static int is_asked(const struct asking *a, size_t i)
+{
+    return a->exchange->areas.area[i] > 0
+           && (a->options->closure != CLOSURE_NONE
+               || !(fabs(1 - a->share[i]) <= a->options->tolerance));
+}
+
 /* A row that lacks more than a cell of the finer grid, where the coarse one shows no way out, may
  * stand on feet smaller than the coarse one's cells. */
 static void ask_rows(const void *asking, size_t from, size_t to)
 {
     const struct asking *a = asking;
     for (size_t i = from; i < to; i++) {
-        if (!(a->exchange->areas.area[i] > 0)
-            || (a->options->closure == CLOSURE_NONE
-                && fabs(1 - a->share[i]) <= a->options->tolerance))
+        if (!is_asked(a, i))
             continue;
         a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_COARSE);
         if (is_closed(&a->ways[i]) && 1 - a->share[i] > 1.0 / (ENVIRONMENT_FINE * ENVIRONMENT_FINE))
             a->ways[i] = ask_row(a->exchange, (uint32_t)i, ENVIRONMENT_FINE);
     }
+}
+
+/* Rays are built when a row is asked that nothing stands before. Returns -1 on all ranks when any
+ * has none. */
+static int build_rays(struct exchange *x, const struct asking *a)
+{
+    int failed = 0;
+    for (size_t i = 0; i < x->areas.rows; i++)
+        if (is_asked(a, i)) {
+            failed = rays_build(x->tree.rays, &x->no_rays) < 0;
+            break;
+        }
+    return ranks_any(x->ranks, failed) ? -1 : 0;
 }
 
 /* Row sums, their account, and closure. */
@@ -216,10 +236,13 @@ static int close_rows(struct exchange *x, const struct exchange_options *o)
             share[i] = m->area[i] > 0 ? sums[i] / m->area[i] : 1;
         }
         const struct asking a = {x, o, share, x->losses};
-        ranks_loop_run(x->ranks, RANKS_VALUES, o->threads, m->rows, 16, ask_rows, &a, x->losses,
-                       sizeof *x->losses);
-        account(x, share, closed);
-        status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, closed);
+        status = build_rays(x, &a);
+        if (status == 0) {
+            ranks_loop_run(x->ranks, RANKS_VALUES, o->threads, m->rows, 16, ask_rows, &a, x->losses,
+                           sizeof *x->losses);
+            account(x, share, closed);
+            status = exchange_closure_make(&x->closure, o->closure, m, x->threads, sums, closed);
+        }
         if (status == 0)
             status = follow_closure(x, sums);
     }
@@ -276,6 +299,7 @@ int exchange_open(struct exchange *x, const struct scene *scene, const struct re
         return 0;
     const int cancelled = x->cancelled, refused = x->state.cause != NULL;
     *cause = x->state.cause                     ? x->state.cause
+             : x->no_rays                       ? x->no_rays
              : x->cancelled || x->state.stopped ? NULL
              : x->refinement.met
                  ? "refinement for view factors does not end; a larger tolerance needs less"

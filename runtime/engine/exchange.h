@@ -71,6 +71,7 @@ struct exchange {
     uint64_t rays;       /* that this rank has cast */
     int resumed;         /* a run before this one has begun, and nobody has been told */
     int refused;         /* the state is no good, as *cause says */
+    const char *no_rays; /* why there are none, though rows ask for them */
 };
 
 /* Parameters of the oracle viewfactors whose defaults are made for EXCHANGE_TOLERANCE become what

@@ -11,7 +11,6 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_clear.h"
-#include "engine/face_rule.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/lanes.h"
@@ -34,6 +33,7 @@ int exchange_faces_open(struct exchange_faces *p, const struct exchange_tree *t)
     p->all = malloc((5 + MOMENTS) * (size_t)n * sizeof *p->all);
     if (!p->all)
         return -1;
+    clear_rules_open(p->rules);
     for (int k = 0; k < 3; k++)
         p->c[k] = p->all + (size_t)k * n;
     p->area = p->all + 3 * (size_t)n;
@@ -81,11 +81,19 @@ void exchange_faces_close(struct exchange_faces *p)
     free(p->all);
 }
 
+/* Points of a face, for kernels, and how much of it each stands for. */
+enum { KERNEL_POINTS = 8 };
+struct kernel_rule {
+    int count;
+    double x[3][KERNEL_POINTS], weight[KERNEL_POINTS];
+};
+
 /* What a line of pairs needs of the faces across. */
 struct line {
     double shift[3][TILE]; /* M_j n */
     double doubt[TILE];    /* of its pairs, how much of the tolerance the error may be, squared */
-    unsigned char crosses[TILE]; /* whether the plane of the own group runs through them */
+    unsigned char crosses[TILE];   /* whether the plane of the own group runs through them */
+    struct kernel_rule rule[TILE]; /* their points, once asked for */
 };
 
 /* M_i v. */
@@ -117,6 +125,7 @@ static void open_line(const struct exchange_faces *p, const struct exchange_pair
         moment_times(p, j, own->normal, shift);
         for (int k = 0; k < 3; k++)
             line->shift[k][j - range.from] = shift[k];
+        line->rule[j - range.from].count = 0;
         line->crosses[j - range.from] =
             (unsigned char)crosses(exchange_tree_face(pair->tree, j), own, pair->tree->host.flat);
     }
@@ -222,32 +231,84 @@ static void second_order_row(const struct exchange_faces *p, uint32_t i, const d
 
 /* ---- pairs that second order may not do for */
 
-/* The points within a face, and which share of it each stands for. */
-static void rule_of(struct face_rule *rule, const struct element *e)
+/* Points of a face, and which share of it each stands for: six of a triangle, seven of a quad. What
+ * is left of the lanes is the first again, and stands for nothing. */
+static void rule_of(struct kernel_rule *rule, const struct element *e)
 {
-    face_rule_of(rule, e, 0);
-    for (int i = 0; i < rule->count; i++)
-        rule->weight[i] /= rule->all;
+    static const double corner[2] = {0.10810301816807022736, 0.81684757298045851308};
+    static const double of_triangle[2] = {0.22338158967801146570, 0.10995174365532186764};
+    /* of a square from -1 to 1 [Radon 1948] */
+    static const double of_quad[7][3] = {
+        {0, 0, 2 / 7.0},
+        {0, 0.96609178307929590, 5 / 63.0},
+        {0, -0.96609178307929590, 5 / 63.0},
+        {0.77459666924148337704, 0.57735026918962576451, 5 / 36.0},
+        {0.77459666924148337704, -0.57735026918962576451, 5 / 36.0},
+        {-0.77459666924148337704, 0.57735026918962576451, 5 / 36.0},
+        {-0.77459666924148337704, -0.57735026918962576451, 5 / 36.0}};
+    const double(*v)[3] = (const double(*)[3])e->vertex;
+    rule->count = e->vertices == 3 ? 6 : 7;
+    for (int i = 0; i < KERNEL_POINTS; i++) {
+        const int at = i < rule->count ? i : 0;
+        double own = 0, s[3], t[3], jacobian[3];
+        if (e->vertices == 3) {
+            const double w = corner[at / 3], u = 0.5 * (1 - w);
+            for (int k = 0; k < 3; k++)
+                rule->x[k][i] = w * v[at % 3][k] + u * (v[(at + 1) % 3][k] + v[(at + 2) % 3][k]);
+            own = of_triangle[at / 3];
+        } else {
+            const double a = 0.5 * (1 + of_quad[at][0]), b = 0.5 * (1 + of_quad[at][1]);
+            for (int k = 0; k < 3; k++) {
+                s[k] = (1 - b) * (v[1][k] - v[0][k]) + b * (v[2][k] - v[3][k]);
+                t[k] = (1 - a) * (v[3][k] - v[0][k]) + a * (v[2][k] - v[1][k]);
+                rule->x[k][i] = v[0][k] + a * (v[1][k] - v[0][k]) + b * t[k];
+            }
+            cross3(jacobian, s, t);
+            own = of_quad[at][2] * dot3(jacobian, e->normal) / e->area;
+        }
+        rule->weight[i] = i < rule->count ? own : 0;
+    }
 }
 
-/* The mean kernel (1/m2) of the points of two faces with normals n and -m. */
-static double rule_kernel(const struct face_rule *p, const double n[3], const struct face_rule *q,
-                          const double m[3])
+/* The mean kernel (pi / m2) of the points of two faces with normals n and -m. */
+TOOL double rule_kernel_body(const struct kernel_rule *p, const double n[3],
+                             const struct kernel_rule *q, const double m[3])
 {
-    double sum = 0;
+    const double n0 = n[0], n1 = n[1], n2 = n[2], m0 = m[0], m1 = m[1], m2 = m[2];
+    double part[KERNEL_POINTS] = {0}, sum = 0;
     for (int i = 0; i < p->count; i++) {
-        double part = 0;
-#pragma omp simd reduction(+ : part)
-        for (int j = 0; j < q->count; j++) {
-            double r0 = q->x[0][j] - p->x[0][i], r1 = q->x[1][j] - p->x[1][i],
-                   r2 = q->x[2][j] - p->x[2][i];
-            double s = r0 * r0 + r1 * r1 + r2 * r2;
-            part += q->weight[j] * (n[0] * r0 + n[1] * r1 + n[2] * r2)
-                    * (m[0] * r0 + m[1] * r1 + m[2] * r2) / (s * s);
+        const double x = p->x[0][i], y = p->x[1][i], z = p->x[2][i], weight = p->weight[i];
+        for (int j = 0; j < KERNEL_POINTS; j++) {
+            const double r0 = q->x[0][j] - x, r1 = q->x[1][j] - y, r2 = q->x[2][j] - z,
+                         s = r0 * r0 + r1 * r1 + r2 * r2;
+            part[j] +=
+                weight * (n0 * r0 + n1 * r1 + n2 * r2) * (m0 * r0 + m1 * r1 + m2 * r2) / (s * s);
         }
-        sum += p->weight[i] * part;
     }
-    return sum * (1 / LAMBERT_PI);
+    for (int j = 0; j < KERNEL_POINTS; j++)
+        sum += q->weight[j] * part[j];
+    return sum;
+}
+
+#if LANES_CHOSEN
+LANES_AVX512 double rule_kernel_8(const struct kernel_rule *p, const double n[3],
+                                  const struct kernel_rule *q, const double m[3])
+{
+    return rule_kernel_body(p, n, q, m);
+}
+LANES_AVX2 double rule_kernel_4(const struct kernel_rule *p, const double n[3],
+                                const struct kernel_rule *q, const double m[3])
+{
+    return rule_kernel_body(p, n, q, m);
+}
+#endif
+
+/* The same (1/m2). */
+static double rule_kernel(const struct kernel_rule *p, const double n[3],
+                          const struct kernel_rule *q, const double m[3])
+{
+    return LANES_RUN(lanes_width(), rule_kernel_8, rule_kernel_4, rule_kernel_body, (p, n, q, m))
+           * (1 / LAMBERT_PI);
 }
 
 /* What the rules leave out is of two orders more: as much less than the estimate as all that the
@@ -264,6 +325,38 @@ static int rules_do(const struct exchange_faces *p, uint32_t i, uint32_t j, doub
     return less < CLEAR_RULES_NEAR && doubt * less * less < 1;
 }
 
+/* Is every edge of the one parallel to every edge of the other, or at a right angle? Then the
+ * contour integral is closed, and costs less than points. */
+static int is_closed(const struct element *a, const struct element *b)
+{
+    for (int i = 0; i < a->vertices; i++)
+        for (int j = 0; j < b->vertices; j++) {
+            double u[3], v[3], c[3];
+            sub3(u, a->vertex[i + 1 < a->vertices ? i + 1 : 0], a->vertex[i]);
+            sub3(v, b->vertex[j + 1 < b->vertices ? j + 1 : 0], b->vertex[j]);
+            cross3(c, u, v);
+            const double along = dot3(u, v), sizes = dot3(u, u) * dot3(v, v);
+            if (along * along > CONTOUR_FACTOR_PERPENDICULAR * CONTOUR_FACTOR_PERPENDICULAR * sizes
+                && dot3(c, c) > CONTOUR_FACTOR_PARALLEL * sizes)
+                return 0;
+        }
+    return 1;
+}
+
+/* What two faces exchange that are too near each other for their kernels' mean. `smooth`: each lies
+ * in front of the other. */
+static double near_area(const struct exchange_faces *p, const struct element *a,
+                        const struct element *b, double tolerance, int smooth)
+{
+    const double least = SIGHT_FLOOR * fmin(a->area, b->area);
+    if (smooth && !is_closed(a, b)) {
+        double error, e = clear_points(p->rules, a, b, &error);
+        if (CLEAR_POINTS_REST * error <= tolerance * fmax(e, least))
+            return e;
+    }
+    return a->area * polygon_factor_within(a, b, 1, tolerance * SIGHT_FLOOR / CLEAR_REST);
+}
+
 /* The line of the face at place i, `line` with the shifts of the faces across. */
 static void make_line(const struct exchange_faces *p, const struct exchange_pair *pair,
                       double tolerance, uint32_t i, int column, struct line *line, double *out)
@@ -274,7 +367,7 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
     const double turned[3] = {-other->normal[0], -other->normal[1], -other->normal[2]},
                  m[3] = {-s->normal[0], -s->normal[1], -s->normal[2]};
     const int cut = crosses(exchange_tree_face(pair->tree, i), other, pair->tree->host.flat);
-    struct face_rule rule[2] = {{.count = 0}, {.count = 0}};
+    struct kernel_rule rule = {.count = 0};
     second_order_row(p, i, own->normal, range, turned, tolerance, line, out);
     for (uint32_t j = range.from; j < range.to; j++) {
         double doubt =
@@ -285,12 +378,15 @@ static void make_line(const struct exchange_faces *p, const struct exchange_pair
         const struct element *a = exchange_tree_face(pair->tree, column ? j : i),
                              *b = exchange_tree_face(pair->tree, column ? i : j);
         if (rules_do(p, i, j, doubt)) {
-            if (rule[column].count == 0)
-                rule_of(&rule[column], column ? b : a);
-            rule_of(&rule[!column], column ? a : b);
-            e = a->area * b->area * rule_kernel(&rule[0], r->normal, &rule[1], m);
+            struct kernel_rule *across = &line->rule[j - range.from];
+            if (rule.count == 0)
+                rule_of(&rule, column ? b : a);
+            if (across->count == 0)
+                rule_of(across, column ? a : b);
+            e = a->area * b->area
+                * rule_kernel(column ? across : &rule, r->normal, column ? &rule : across, m);
         } else {
-            e = a->area * polygon_factor(a, b, 1);
+            e = near_area(p, a, b, tolerance, doubt < INFINITY);
         }
         out[j - range.from] = e > 0 ? fmin(e, fmin(a->area, b->area)) : 0;
     }

@@ -3,6 +3,7 @@
 #ifndef EXCHANGE_CLEAR_H
 #define EXCHANGE_CLEAR_H
 
+#include "engine/clear_points.h"
 #include "engine/exchange_tree.h"
 
 /* Blocks are no larger than that on a side, so that a column's values are in the cache while its
@@ -17,6 +18,7 @@ struct exchange_faces {
     double *lopsided;        /* how large third moments are: 0 to 1 */
     double *moment[MOMENTS]; /* mean of d d over the face, d from the centroid (m2) */
     double *all;             /* where they stand */
+    struct clear_rule rules[2];
 };
 
 /* Returns 0, or -1 when out of memory; close is fine then too. */

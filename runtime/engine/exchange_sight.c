@@ -32,6 +32,7 @@ struct sight_node {
     struct element piece;
     double clear; /* with nothing between (m2); where its points see nothing, by these */
     double points, value, error; /* by its own points; by its quarters' (m2) */
+    double rest;                 /* of what its points and those on its rim see (m2) */
     int count, quarters; /* how many blockers, 0 when proved, MANY; index of the first quarter */
     double seen[FACE_RULE], whole[FACE_RULE]; /* of the other face, by the points inside */
 };
@@ -66,7 +67,8 @@ int sight_scratch_open(struct sight_scratch *scratch, const struct sight_limits 
     scratch->heap = malloc(most * sizeof *scratch->heap);
     scratch->between = malloc(sizeof *scratch->between);
     for (int i = 0; i < 2; i++)
-        face_fit_open(&scratch->fit[i], 3 + i);
+        face_fit_open(&scratch->fit[i], 3 + i, 2);
+    face_fit_open(&scratch->inside, 4, 1);
     return scratch->nodes && scratch->lists && scratch->heap && scratch->between ? 0 : -1;
 }
 
@@ -254,49 +256,46 @@ static void measure(struct looking *l, int at, int all, const uint32_t *list, in
     }
 }
 
+/* What the best quadratic leaves of what is hidden from a piece's points (m2). */
+static double fit_rest(const struct face_fit *fit, const struct sight_node *node,
+                       const double *seen, const double *whole)
+{
+    const double mean_share = node->clear > 0 ? node->points / node->clear : 0;
+    double hidden[2 * FACE_RULE], all = 0;
+    for (int i = 0; i < fit->count; i++) {
+        hidden[i] = seen[i] - mean_share * whole[i];
+        all += whole[i] / fit->count;
+    }
+    return all > 0 ? face_fit_rest(fit, hidden) * node->clear / all : 0;
+}
+
 /* How far a piece's points are from telling its exchange (m2): what the two rules differ by, or
- * what the best quadratic leaves of what is hidden from their points. */
+ * what the best quadratic leaves. */
 static double rest_of(struct looking *l, struct sight_node *node, double *differ)
 {
-    const struct face_fit *fit = &l->scratch->fit[node->piece.vertices - 3];
-    const double mean_share = node->clear > 0 ? node->points / node->clear : 0;
-    double seen[2 * FACE_RULE], whole[2 * FACE_RULE], all = 0;
+    double seen[2 * FACE_RULE], whole[2 * FACE_RULE];
     const int inside = node->piece.vertices == 3 ? 6 : FACE_RULE;
     memcpy(seen, node->seen, sizeof node->seen);
     memcpy(whole, node->whole, sizeof node->whole);
     seen[inside + FACE_RULE / 2] = seen[FACE_RULE / 2];
     whole[inside + FACE_RULE / 2] = whole[FACE_RULE / 2];
     const struct mean rim = by_points(l, &node->piece, 1, seen + inside, whole + inside);
-    for (int i = 0; i < fit->count; i++) {
-        seen[i] -= mean_share * whole[i];
-        all += whole[i] / fit->count;
-    }
     if (rim.seen > 0 && !(node->points > 0))
         node->clear = node->piece.area * polygon_factor(&node->piece, l->to, 1);
     *differ = fabs(node->points - node->clear * share(rim));
-    return all > 0 ? face_fit_rest(fit, seen) * node->clear / all : 0;
+    return fit_rest(&l->scratch->fit[node->piece.vertices - 3], node, seen, whole);
 }
 
-/* Hold a piece against its quarters; in scenes of many faces, whose entries are many, not where its
- * points tell it to its share of what is aimed at, `aim` per area. */
-static void compare(struct looking *l, int at, double aim)
+/* Hold a piece against its quarters, which count from now on. */
+static void divide(struct looking *l, int at)
 {
     struct sight_node *nodes = l->scratch->nodes, *node = &nodes[at];
-    if (node->count == 0)
-        return;
+    const double before = node->error;
+    double noise = 0;
     if (l->nodes + QUARTERS > l->scratch->limits.pieces) {
         if (node->count < MANY) /* the pieces have run out: as far as is known */
             node->error = SIGHT_UNKNOWN * node->points;
         return;
-    }
-    double noise = 0, rest = 0, differ;
-    if (node->count < MANY) {
-        if (l->between_of != at)
-            (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
-        rest = rest_of(l, node, &differ);
-        node->error = SIGHT_REST * fmax(rest, differ);
-        if (node->error <= aim * node->piece.area)
-            return;
     }
     node->quarters = l->nodes;
     node->value = 0;
@@ -305,14 +304,39 @@ static void compare(struct looking *l, int at, double aim)
         make_quarter(&quarter->piece, &node->piece, q);
         measure(l, l->nodes - 1, 0, list_of(l, at), node->count);
         node->value += quarter->value;
-        double of = quarter->count == MANY ? quarter->error : node->error;
+        const double of = quarter->count == MANY ? quarter->error : before;
         noise += of * of;
     }
     if (node->count == MANY) {
         node->error = sqrt(noise); /* few rays agree by chance, and quarters may be new */
         return;
     }
-    node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * rest);
+    node->error = fmax(fabs(node->value - node->points), SIGHT_REST_QUARTERS * node->rest);
+}
+
+/* Hold a piece against its rim and its quarters; in scenes of many faces, whose entries are many,
+ * not where its points tell it to its share of what is aimed at, `aim` per area, and without its
+ * rim where those inside tell of more than all that is allowed. */
+static void compare(struct looking *l, int at, double aim)
+{
+    struct sight_node *node = &l->scratch->nodes[at];
+    double differ;
+    int known = 0;
+    if (node->count == 0)
+        return;
+    if (l->scratch->limits.many && node->count < MANY && node->piece.vertices == 4) {
+        node->rest = fit_rest(&l->scratch->inside, node, node->seen, node->whole);
+        known = SIGHT_BELIEVED * SIGHT_REST * node->rest > aim * l->from->area;
+    }
+    if (node->count < MANY && !known && l->nodes + QUARTERS <= l->scratch->limits.pieces) {
+        if (l->between_of != at)
+            (void)find_between(l, &node->piece, 0, list_of(l, at), node->count);
+        node->rest = rest_of(l, node, &differ);
+        node->error = SIGHT_REST * fmax(node->rest, differ);
+        if (node->error <= aim * node->piece.area)
+            return;
+    }
+    divide(l, at);
 }
 
 /* The heap: the node with the largest error first. */

@@ -24,6 +24,7 @@ struct sight_scratch {
     int *heap;
     struct sight_between *between;
     struct face_fit fit[2]; /* of triangles, of quads */
+    struct face_fit inside; /* of a quad, without its rim */
     struct sight_limits limits;
 };
 

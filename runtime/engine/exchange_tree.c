@@ -53,19 +53,19 @@ static void corners(const struct host *host, uint32_t element, struct polygon *p
 int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32_t face_count,
                        int threads, const char **cause)
 {
-    struct hierarchy plain = {0};
     double *unit = malloc(face_count * sizeof *unit), *black = calloc(face_count, sizeof *black);
     memset(t, 0, sizeof *t);
     *cause = "out of memory";
     if (!unit || !black || face_count > UINT32_MAX / 16
-        || hierarchy_build(&plain, faces, face_count) < 0)
+        || hierarchy_build(&t->plain, faces, face_count) < 0)
         goto fail;
     for (uint32_t i = 0; i < face_count; i++)
         unit[i] = 1;
-    t->rays = rays_open(&plain, unit, black, threads, cause);
-    if (!t->rays)
+    t->rays = rays_prepare(&t->plain, unit, black, threads, cause);
+    if (!t->rays || (rays_in_the_way(t->rays) && rays_build(t->rays, cause) < 0))
         goto fail;
-    if (hierarchy_build_groups(&t->h, &plain, rays_host(t->rays)->flat) < 0
+    *cause = "out of memory";
+    if (hierarchy_build_groups(&t->h, &t->plain, rays_host(t->rays)->flat) < 0
         || mates_open(&t->mates, &t->h) < 0)
         goto fail;
     t->host = *rays_host(t->rays);
@@ -74,13 +74,13 @@ int exchange_tree_open(struct exchange_tree *t, const struct face *faces, uint32
     t->host.corners = corners;
     t->host.optical_depth = NULL;
     t->host.elements = (const struct element *const *)&t->h.elements;
-    hierarchy_free(&plain); /* of the rays' host, only rays are asked from here on */
+    if (rays_in_the_way(t->rays))
+        hierarchy_free(&t->plain); /* of the rays' host, only rays are asked from here on */
     free(unit);
     free(black);
     return 0;
 fail:
     exchange_tree_close(t);
-    hierarchy_free(&plain);
     free(unit);
     free(black);
     return -1;
@@ -91,5 +91,6 @@ void exchange_tree_close(struct exchange_tree *t)
     rays_close(t->rays);
     mates_close(&t->mates);
     hierarchy_free(&t->h);
+    hierarchy_free(&t->plain);
     memset(t, 0, sizeof *t);
 }

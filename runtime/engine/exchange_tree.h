@@ -13,7 +13,9 @@ struct exchange_tree {
     struct host host;
     struct hierarchy h;
     struct mates mates; /* of what stands in shafts */
+    /* not built where nothing is in the way: who asks what they meet builds them before */
     struct rays *rays;
+    struct hierarchy plain; /* what they are built of; empty when they are */
 };
 
 /* The faces are borrowed and must outlive the tree. Every face has B = 1 and reflects nothing.

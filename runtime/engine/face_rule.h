@@ -78,17 +78,17 @@ static inline void face_rule_of(struct face_rule *rule, const struct element *e,
         face_rule_of_quad(rule, e, rim);
 }
 
-/* Polynomials of degree 2 at the points of both rules, orthonormal. */
+/* Polynomials of degree 2 at the points of both rules, or of the first alone, orthonormal. */
 enum { FACE_FIT = 6 };
 struct face_fit {
     int count; /* of points: those inside, then those on the rim */
     double basis[FACE_FIT][2 * FACE_RULE];
 };
 
-static inline void face_fit_open(struct face_fit *fit, int vertices)
+static inline void face_fit_open(struct face_fit *fit, int vertices, int rules)
 {
     fit->count = 0;
-    for (int rim = 0; rim < 2; rim++) {
+    for (int rim = 0; rim < rules; rim++) {
         const double *node = face_rule_nodes(vertices, rim);
         for (int i = 0; i < (vertices == 3 ? 6 + rim : 9); i++) {
             double w = node[i / 3], u = 0.5 * (1 - w), x = w, y = node[i % 3];

@@ -489,6 +489,10 @@
 /* of distance squared: the variance of two faces' points together. Above it rules of points say
  * nothing; chosen: nearer, the series in size over distance need not converge */
 #define CLEAR_RULES_NEAR 0.1
+/* radii of the face with the points: nearer faces are not smooth enough along it; chosen, with the
+ * estimate's excess in random pairs (clear_points.h), which is the next */
+#define CLEAR_POINTS_NEAR 1.5
+#define CLEAR_POINTS_REST 5.0
 /* of F. Of smaller entries the tolerance is a share of this, not of themselves; chosen */
 #define SIGHT_FLOOR 1e-4
 /* faces. In larger scenes it is a share of so much over the root of their number: errors of a row's

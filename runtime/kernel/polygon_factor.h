@@ -179,8 +179,10 @@ static inline void polygon_factor_normal(double n[3], const struct element *e)
         n[k] = e->normal[k] - (off != 0 && !bent ? off / square * longest[k] : 0);
 }
 
-/* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5. */
-OUTLINE double polygon_factor(const struct element *r, const struct element *s, int exact)
+/* F_rs of two surfaces. `exact`: as many points as give about 1e-9, not 1e-5; where contours are
+ * integrated, to `error` of F, by one pair of edges. */
+OUTLINE double polygon_factor_within(const struct element *r, const struct element *s, int exact,
+                                     double error)
 {
     int r_is_small = r->radius < s->radius || (r->radius == s->radius && r->id < s->id);
     const struct element *small = r_is_small ? r : s, *large = r_is_small ? s : r;
@@ -211,8 +213,7 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     double least = r->area < s->area ? r->area : s->area;
     double exchange;
     if (distance <= (exact ? POLYGON_FACTOR_EXACT : POLYGON_FACTOR_NEAR) * small->radius)
-        exchange = polygon_factor_contour_at(&p, &q, large->radius, least,
-                                             exact ? CONTOUR_FACTOR_EXACT : CONTOUR_FACTOR_FAIR);
+        exchange = polygon_factor_contour_at(&p, &q, large->radius, least, error);
     else
         exchange =
             polygon_factor_rule(&p, small->normal, &q,
@@ -222,6 +223,11 @@ OUTLINE double polygon_factor(const struct element *r, const struct element *s, 
     if (!(exchange > 0 && least > 0) || polygon_factor_hidden(r, s, exchange))
         return 0;
     return (exchange < least ? exchange : least) / r->area;
+}
+
+static inline double polygon_factor(const struct element *r, const struct element *s, int exact)
+{
+    return polygon_factor_within(r, s, exact, exact ? CONTOUR_FACTOR_EXACT : CONTOUR_FACTOR_FAIR);
 }
 
 #endif

@@ -14,6 +14,12 @@ struct free_space {
 
 void free_space_find(struct free_space *space, const struct hierarchy *h, double flat, double off);
 
+/* Can nothing stand in the way anywhere? */
+static inline int free_space_is_all(const struct free_space *space)
+{
+    return space->low[0] > space->high[0];
+}
+
 /* Does the segment stay out of the box, for sure? */
 static inline int free_space_passes(const struct free_space *space, const double from[3],
                                     const double to[3])

@@ -265,8 +265,8 @@ static RTCGeometry faces_geometry(struct rays *rays, const struct hierarchy *h)
     return geometry;
 }
 
-struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
-                       int threads, const char **cause)
+struct rays *rays_prepare(const struct hierarchy *h, const double *exitance,
+                          const double *reflectance, int threads, const char **cause)
 {
     struct rays *rays = calloc(1, sizeof *rays);
     *cause = "out of memory";
@@ -281,14 +281,21 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     }
     totals(rays, h, exitance, reflectance);
     free_space_find(&rays->free, h, rays->host.flat, 2 * rays->host.ray_offset);
-    rays->device = rtcNewDevice(threads == 1 ? "threads=1,set_affinity=0" : NULL);
+    return rays;
+}
+
+int rays_build(struct rays *rays, const char **cause)
+{
+    const struct hierarchy *h = rays->hierarchy;
+    if (rays->scene)
+        return 0;
+    rays->device = rtcNewDevice(rays->threads == 1 ? "threads=1,set_affinity=0" : NULL);
     if (!rays->device) {
         if (rtcGetDeviceError(NULL) == RTC_ERROR_UNSUPPORTED_CPU)
             *cause = "Embree finds no device on this processor";
         else
             *cause = "out of memory for Embree, which needs 200 MB of address space to begin";
-        rays_close(rays);
-        return NULL;
+        return -1;
     }
     rays->scene = rtcNewScene(rays->device);
 #if EMBREE == 4
@@ -308,10 +315,25 @@ struct rays *rays_open(const struct hierarchy *h, const double *exitance, const 
     }
     if (!geometry || !room || rtcGetDeviceError(rays->device) != RTC_ERROR_NONE) {
         *cause = "out of memory for Embree's structure over the scene; fewer faces need less";
+        return -1;
+    }
+    return 0;
+}
+
+struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
+                       int threads, const char **cause)
+{
+    struct rays *rays = rays_prepare(h, exitance, reflectance, threads, cause);
+    if (rays && rays_build(rays, cause) < 0) {
         rays_close(rays);
-        return NULL;
+        rays = NULL;
     }
     return rays;
+}
+
+int rays_in_the_way(const struct rays *rays)
+{
+    return !free_space_is_all(&rays->free);
 }
 
 /* A coordinate of a point (m), and of a direction, in Embree's coordinates. */

@@ -24,6 +24,17 @@ struct rays_count {
 struct rays *rays_open(const struct hierarchy *h, const double *exitance, const double *reflectance,
                        int threads, const char **cause);
 
+/* The same without the structure, which takes longer than a matrix of a few hundred faces: until
+ * rays_build, hosts answer, and nothing else may be asked of the rays. Where rays_in_the_way, build
+ * before any host is asked what occludes. */
+struct rays *rays_prepare(const struct hierarchy *h, const double *exitance,
+                          const double *reflectance, int threads, const char **cause);
+/* Nothing when it is there. Returns 0; -1 when Embree fails, with *cause set. Not while others ask.
+ */
+int rays_build(struct rays *rays, const char **cause);
+/* 0: nothing stands between any two surfaces, and no host ever casts a ray. */
+int rays_in_the_way(const struct rays *rays);
+
 /* What the ray from a point into a direction (any length) meets first; the sides of a two-sided
  * face are both fronts. The caller keeps the point off the surface it stands on (host.ray_offset).
  * Where it meets something goes to `at`, as well as single precision knows, and the unit normal of

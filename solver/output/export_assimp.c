@@ -9,13 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <assimp/cexport.h>
-#include <assimp/cfileio.h>
-#include <assimp/cimport.h>
-#include <assimp/material.h>
-#include <assimp/scene.h>
-
 #include "output/view.h"
+#include "util/assimp_library.h"
 #include "util/atomic_file.h"
 #include "util/ends_with.h"
 #include "util/material_name.h"
@@ -255,7 +250,7 @@ static int fill_scene(struct written_scene *w, const struct surfaces *s, int obj
     for (uint32_t i = 0; i < corners && !failed; i++)
         w->index[i] = i;
     free(used);
-    aiIdentityMatrix4(&w->node.mTransformation);
+    w->node.mTransformation = (struct aiMatrix4x4){1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     if (!obj && view_up_axis(s) == 2) /* to y up: (x, y, z) becomes (x, z, -y) */
         w->node.mTransformation =
             (struct aiMatrix4x4){1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
@@ -287,6 +282,9 @@ int export_assimp(const char *path, const char *id, const struct surfaces *surfa
                   const struct leaf_mesh *mesh, const struct vertex_values *values,
                   const float *colour)
 {
+    const struct assimp *assimp = assimp_load(path);
+    if (!assimp)
+        return -1;
     struct written_scene *w = calloc(1, sizeof *w);
     struct written_files *files = calloc(1, sizeof *files);
     int result = -1;
@@ -294,11 +292,13 @@ int export_assimp(const char *path, const char *id, const struct surfaces *surfa
         report_error(path, 0, "out of memory for the mesh; write .ply, which needs less");
     } else {
         struct aiFileIO io = {open_file, close_file, (aiUserData)(void *)files};
-        result = aiExportSceneEx(&w->scene, id, path, &io, 0) == aiReturn_SUCCESS && !files->failed
+        result = assimp->aiExportSceneEx(&w->scene, id, path, &io, 0) == aiReturn_SUCCESS
+                         && !files->failed
                      ? 0
                      : -1;
         if (result && !files->failed)
-            report_error(path, 0, "cannot be written: %s; write .ply instead", aiGetErrorString());
+            report_error(path, 0, "cannot be written: %s; write .ply instead",
+                         assimp->aiGetErrorString());
     }
     temporary_lock(); /* a signal takes both or none */
     for (int i = 0; files && i < files->count; i++) {

@@ -11,36 +11,35 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <assimp/cimport.h>
-#include <assimp/material.h>
-#include <assimp/scene.h>
-
 #include "scene/import_child.h"
+#include "util/assimp_library.h"
 #include "util/report.h"
 
 struct reader {
+    const struct assimp *assimp;
     struct scene_file *file;
     const char *path;
 };
 
-static void read_material(const struct aiMaterial *from, struct RadMaterial *to)
+static void read_material(const struct assimp *assimp, const struct aiMaterial *from,
+                          struct RadMaterial *to)
 {
     struct aiColor4D colour;
     float strength = 1;
-    if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour) == aiReturn_SUCCESS
-        || aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
+    if (assimp->aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour) == aiReturn_SUCCESS
+        || assimp->aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
         to->reflectance[0] = (double)colour.r;
         to->reflectance[1] = (double)colour.g;
         to->reflectance[2] = (double)colour.b;
     }
-    if (aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &colour) == aiReturn_SUCCESS) {
-        aiGetMaterialFloatArray(from, AI_MATKEY_EMISSIVE_INTENSITY, &strength, NULL);
+    if (assimp->aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &colour) == aiReturn_SUCCESS) {
+        assimp->aiGetMaterialFloatArray(from, AI_MATKEY_EMISSIVE_INTENSITY, &strength, NULL);
         to->exitance[0] = (double)colour.r * (double)strength;
         to->exitance[1] = (double)colour.g * (double)strength;
         to->exitance[2] = (double)colour.b * (double)strength;
     }
     int two_sided = 0;
-    aiGetMaterialIntegerArray(from, AI_MATKEY_TWOSIDED, &two_sided, NULL);
+    assimp->aiGetMaterialIntegerArray(from, AI_MATKEY_TWOSIDED, &two_sided, NULL);
     to->two_sided = !!two_sided;
 }
 
@@ -57,9 +56,9 @@ static int read_materials(struct reader *r, const struct aiScene *from)
     for (uint32_t i = 0; i < from->mNumMaterials; i++) {
         struct RadMaterial material = {0};
         struct aiString name = {0};
-        aiGetMaterialString(from->mMaterials[i], AI_MATKEY_NAME, &name);
+        r->assimp->aiGetMaterialString(from->mMaterials[i], AI_MATKEY_NAME, &name);
         to_one_line(name.data);
-        read_material(from->mMaterials[i], &material);
+        read_material(r->assimp, from->mMaterials[i], &material);
         if (scene_file_add_material(r->file, name.length ? name.data : "unnamed", &material))
             return scene_file_no_memory(r->path);
     }
@@ -116,9 +115,9 @@ static int read_node(struct reader *r, const struct aiScene *from, const struct 
                      const struct aiMatrix4x4 *above)
 {
     struct aiMatrix4x4 m = *above;
-    aiMultiplyMatrix4(&m, &node->mTransformation);
+    r->assimp->aiMultiplyMatrix4(&m, &node->mTransformation);
     /* A mirror turns the sense of rotation, hence the front; turn it back. */
-    int mirrored = aiMatrix4Determinant(&m) < 0;
+    int mirrored = r->assimp->aiMatrix4Determinant(&m) < 0;
     if (node->mNumMeshes && scene_file_use_object(r->file, node->mName.data, node->mName.length))
         return scene_file_no_memory(r->path);
     for (uint32_t i = 0; i < node->mNumMeshes; i++)
@@ -134,18 +133,18 @@ static int read_node(struct reader *r, const struct aiScene *from, const struct 
 static int convert(struct reader *r, const struct aiScene *from)
 {
     struct aiMatrix4x4 identity;
-    aiIdentityMatrix4(&identity);
+    r->assimp->aiIdentityMatrix4(&identity);
     if (read_materials(r, from) || read_node(r, from, from->mRootNode, &identity))
         return -1;
     return 0;
 }
 
 /* A library that aborts says so on standard error, in words that help nobody. */
-static const struct aiScene *import_in_silence(const char *path)
+static const struct aiScene *import_in_silence(const struct assimp *assimp, const char *path)
 {
     const int kept = dup(STDERR_FILENO), nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDERR_FILENO);
-    const struct aiScene *scene = aiImportFile(path, 0);
+    const struct aiScene *scene = assimp->aiImportFile(path, 0);
     dup2(kept, STDERR_FILENO);
     close(nowhere);
     close(kept);
@@ -155,12 +154,12 @@ static const struct aiScene *import_in_silence(const char *path)
 /* In a process of its own, which ends behind it. */
 static int import(struct scene_file *file, const char *path)
 {
-    struct reader r = {.file = file, .path = path};
-    const struct aiScene *from = import_in_silence(path);
+    struct reader r = {.assimp = assimp_load(path), .file = file, .path = path};
+    const struct aiScene *from = import_in_silence(r.assimp, path);
     file->single_precision = sizeof(ai_real) == sizeof(float);
     if (from && from->mRootNode)
         return convert(&r, from);
-    const char *cause = aiGetErrorString();
+    const char *cause = r.assimp->aiGetErrorString();
     if (strstr(cause, "bad_alloc") || strstr(cause, "length_error"))
         return IMPORT_MEMORY;
     char words[512];
@@ -173,5 +172,7 @@ static int import(struct scene_file *file, const char *path)
 
 int read_assimp(struct scene_file *file, const char *path)
 {
+    if (!assimp_load(path)) /* which the child's limits are not for */
+        return -1;
     return import_in_child(file, path, import);
 }

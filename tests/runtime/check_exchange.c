@@ -244,13 +244,42 @@ START_TEST(test_tolerance)
         const struct oracle_parameter *p = &refiner->parameters[i];
         int limit = strcmp(p->name, "group_shadow") == 0;
         /* integrated, not split; integrated for the entry, not for the link */
-        if (strcmp(p->name, "shadow") == 0 || strcmp(p->name, "exact") == 0)
+        if (strcmp(p->name, "shadow") == 0 || strcmp(p->name, "cut_out") == 0
+            || strcmp(p->name, "exact") == 0)
             ck_assert_double_infinite(refiner_get(refiner, i));
         else
             ck_assert_double_eq_tol(refiner_get(refiner, i), p->value * (limit ? 0.1 : 1),
                                     1e-12 * p->value);
     }
     refiner_close(refiner);
+}
+END_TEST
+
+/* Half shadow that is integrated has no sample besides, though the oracle takes some by default; the
+ * entries are the same. */
+START_TEST(test_looks_once)
+{
+    enum { CELLS = 3, N = 2 * CELLS * CELLS + 12 };
+    static double row[2][N][N];
+    struct scene scene;
+    plates(&scene, CELLS);
+    for (int k = 0; k < 2; k++) {
+        struct refiner *refiner = oracles_open("viewfactors", RELEASE_FLAT);
+        const struct exchange_options options = {.tolerance = EXCHANGE_TOLERANCE, .threads = 1};
+        struct exchange x;
+        const char *cause;
+        exchange_set_tolerance(refiner, EXCHANGE_TOLERANCE);
+        if (k == 1)
+            ck_assert_int_eq(refiner_set(refiner, "cut_out", 0, NULL), 0);
+        ck_assert_int_eq(exchange_open(&x, &scene, refiner, &options, &cause), 0);
+        ck_assert(k == 0 ? x.report.rays == 0 : x.report.rays > 0);
+        for (uint32_t r = 0; r < N; r++)
+            (void)exchange_row(&x, r, row[k][r]);
+        exchange_close(&x);
+        refiner_close(refiner);
+    }
+    ck_assert_int_eq(memcmp(row[0], row[1], sizeof row[0]), 0);
+    made_close(&scene);
 }
 END_TEST
 
@@ -275,6 +304,7 @@ int main(void)
     tcase_add_test(c, test_product);
     tcase_add_test(c, test_made_anew);
     tcase_add_test(c, test_tolerance);
+    tcase_add_test(c, test_looks_once);
     tcase_add_test(c, test_row_scale);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;

@@ -75,7 +75,7 @@ check "it needs no OpenMP" none openmp
 flags="-std=c11 -Wall -Wextra -Werror ${SANITIZE-} -I$top/runtime -I$top/dagc -I$build/gen"
 # shellcheck disable=SC2086
 check "a program with names of the engine's, and its own libdagc" \
-    cc $flags -o own own.c "$build/libradiosity.a" "$build/libdagc.a" -l"$embree" -llapacke -lpthread -ldl -lm
+    cc $flags -o own own.c "$build/libradiosity.a" "$build/libdagc.a" -l"$embree" -lpthread -ldl -lm
 check "it runs" ./own
 # shellcheck disable=SC2086
 check "the same by the shared library" cc $flags -o shared_own own.c "$build/libradiosity.so" "$build/libdagc.a" -ldl -lm
