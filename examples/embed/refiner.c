@@ -167,8 +167,8 @@
  * none longer than 1.8e18 (2 / 1e-17 is less); what is a hundredth of a proton wide has mistaken
  * its unit */
 #define REFINER_SCENE_LEAST 1e-17
-/* m. A scene wider is refused: Embree takes no distance beyond 1.8e18, and misses faces from a tenth
- * of that on; what is a light year wide has mistaken its unit, too */
+/* m. A scene wider is refused: Embree takes no distance beyond 1.8e18, and misses faces from a
+ * tenth of that on; what is a light year wide has mistaken its unit, too */
 #define REFINER_SCENE_MOST 1e16
 /* Coordinates are off by at most their relative rounding times the largest of them. */
 /* relative. Rounding of a float: half a unit in its last place [IEEE 754] */
