@@ -191,7 +191,8 @@ $(BUILD)/gen/%.o: CPPFLAGS += -Iruntime -Iruntime/oracle -Idagc
 $(WALLS)/made: Makefile
 	@rm -rf $(WALLS)
 	@$(foreach room,$(ROOMS) solver,mkdir -p $(WALLS)/$(room) && ln -s $(wall_$(room):%=$(CURDIR)/runtime/%) $(WALLS)/$(room) &&) \
-	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/array.h $(CURDIR)/runtime/util/clock.h $(WALLS)/solver/util && touch $@
+	mkdir -p $(WALLS)/solver/util && ln -s $(CURDIR)/runtime/util/array.h $(CURDIR)/runtime/util/clock.h $(CURDIR)/runtime/util/loaded_symbol.h \
+		$(WALLS)/solver/util && touch $@
 $(filter $(BUILD)/runtime/%,$(RUNTIME)) $(filter $(BUILD)/solver/%,$(SOLVER)) $(BUILD)/solver/main.o: | $(WALLS)/made
 $(SHARED): CFLAGS += -fPIC
 $(RUNTIME): CFLAGS += -fvisibility=hidden

@@ -11,6 +11,7 @@
  * SPDX-License-Identifier: MIT */
 #include <stdlib.h>
 #include "engine/exchange_clear.h"
+#include "engine/face_rule.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "kernel/lanes.h"
@@ -231,14 +232,11 @@ static void second_order_row(const struct exchange_faces *p, uint32_t i, const d
 
 /* ---- pairs that second order may not do for */
 
-/* Points of a face, and which share of it each stands for: six of a triangle, seven of a quad. What
- * is left of the lanes is the first again, and stands for nothing. */
-static void rule_of(struct kernel_rule *rule, const struct element *e)
+/* Seven points of a quad. */
+static void rule_of_quad(struct kernel_rule *rule, const struct element *e)
 {
-    static const double corner[2] = {0.10810301816807022736, 0.81684757298045851308};
-    static const double of_triangle[2] = {0.22338158967801146570, 0.10995174365532186764};
     /* of a square from -1 to 1 [Radon 1948] */
-    static const double of_quad[7][3] = {
+    static const double point[7][3] = {
         {0, 0, 2 / 7.0},
         {0, 0.96609178307929590, 5 / 63.0},
         {0, -0.96609178307929590, 5 / 63.0},
@@ -247,26 +245,44 @@ static void rule_of(struct kernel_rule *rule, const struct element *e)
         {-0.77459666924148337704, 0.57735026918962576451, 5 / 36.0},
         {-0.77459666924148337704, -0.57735026918962576451, 5 / 36.0}};
     const double(*v)[3] = (const double(*)[3])e->vertex;
-    rule->count = e->vertices == 3 ? 6 : 7;
-    for (int i = 0; i < KERNEL_POINTS; i++) {
-        const int at = i < rule->count ? i : 0;
-        double own = 0, s[3], t[3], jacobian[3];
-        if (e->vertices == 3) {
-            const double w = corner[at / 3], u = 0.5 * (1 - w);
-            for (int k = 0; k < 3; k++)
-                rule->x[k][i] = w * v[at % 3][k] + u * (v[(at + 1) % 3][k] + v[(at + 2) % 3][k]);
-            own = of_triangle[at / 3];
-        } else {
-            const double a = 0.5 * (1 + of_quad[at][0]), b = 0.5 * (1 + of_quad[at][1]);
-            for (int k = 0; k < 3; k++) {
-                s[k] = (1 - b) * (v[1][k] - v[0][k]) + b * (v[2][k] - v[3][k]);
-                t[k] = (1 - a) * (v[3][k] - v[0][k]) + a * (v[2][k] - v[1][k]);
-                rule->x[k][i] = v[0][k] + a * (v[1][k] - v[0][k]) + b * t[k];
-            }
-            cross3(jacobian, s, t);
-            own = of_quad[at][2] * dot3(jacobian, e->normal) / e->area;
+    rule->count = 7;
+    for (int i = 0; i < rule->count; i++) {
+        const double a = 0.5 * (1 + point[i][0]), b = 0.5 * (1 + point[i][1]);
+        double s[3], t[3], jacobian[3];
+        for (int k = 0; k < 3; k++) {
+            s[k] = (1 - b) * (v[1][k] - v[0][k]) + b * (v[2][k] - v[3][k]);
+            t[k] = (1 - a) * (v[3][k] - v[0][k]) + a * (v[2][k] - v[1][k]);
+            rule->x[k][i] = v[0][k] + a * (v[1][k] - v[0][k]) + b * t[k];
         }
-        rule->weight[i] = i < rule->count ? own : 0;
+        cross3(jacobian, s, t);
+        rule->weight[i] = point[i][2] * dot3(jacobian, e->normal) / e->area;
+    }
+}
+
+static void rule_of_triangle(struct kernel_rule *rule, const struct element *e)
+{
+    struct face_rule six;
+    face_rule_of(&six, e, 0);
+    rule->count = six.count;
+    for (int i = 0; i < six.count; i++) {
+        for (int k = 0; k < 3; k++)
+            rule->x[k][i] = six.x[k][i];
+        rule->weight[i] = six.weight[i];
+    }
+}
+
+/* Points of a face, and which share of it each stands for. What is left of the lanes is the first
+ * again, and stands for nothing. */
+static void rule_of(struct kernel_rule *rule, const struct element *e)
+{
+    if (e->vertices == 3)
+        rule_of_triangle(rule, e);
+    else
+        rule_of_quad(rule, e);
+    for (int i = rule->count; i < KERNEL_POINTS; i++) {
+        for (int k = 0; k < 3; k++)
+            rule->x[k][i] = rule->x[k][0];
+        rule->weight[i] = 0;
     }
 }
 

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include "util/loaded_symbol.h"
 
 /* What the loader and the compiler say of a missing file is less plain. 0, or -1 after a message.
  */
@@ -96,12 +97,9 @@ struct plugin *plugin_load(const char *path, const struct dag_compiler *compiler
 extern_function *plugin_find(const void *plugins, const char *name)
 {
     for (const struct plugin *p = plugins; p; p = p->next) {
-        void *symbol = dlsym(p->library, name);
-        extern_function *function = NULL;
-        if (!symbol)
-            continue;
-        memcpy(&function, &symbol, sizeof function); /* as POSIX allows, and C does not */
-        return function;
+        extern_function *function;
+        if (loaded_symbol(p->library, name, &function) == 0)
+            return function;
     }
     return NULL;
 }

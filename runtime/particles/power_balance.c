@@ -14,9 +14,10 @@
  * Fails: nothing is gained for how light is spread over faces.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <string.h>
 #include "particles/power_balance.h"
 
-/* By replicate (W): reflected; absorbed or lost. */
+/* By replicate, as counted (W): reflected; absorbed or lost. */
 struct balance {
     double reflected[REPLICATES], ended[REPLICATES], emitted;
 };
@@ -24,21 +25,17 @@ struct balance {
 static void add_faces(const struct tally *tally, const struct tracer *t, uint32_t band,
                       struct balance *b)
 {
-    const double unit = tally_unit(tally);
     *b = (struct balance){{0}, {0}, 0};
     for (uint32_t f = 0; f < tally->faces; f++)
         b->emitted += t->exitance[(size_t)f * tally->bands + band] * tracer_surface(t, f)->area;
     for (int r = 0; r < REPLICATES; r++) {
         for (uint32_t f = 0; f < tally->faces; f++) {
-            const size_t at = (size_t)f * tally->bands + band;
-            const double rho = t->reflectance[at],
-                         power =
-                             unit
-                             * (double)tally->face[(size_t)r * tally->faces * tally->bands + at];
+            const double rho = t->reflectance[(size_t)f * tally->bands + band],
+                         power = tally_face(tally, r, f, band);
             b->reflected[r] += rho * power;
             b->ended[r] += (1 - rho) * power;
         }
-        b->ended[r] += unit * (double)tally->lost[r][band];
+        b->ended[r] += tally_unit(tally) * (double)tally->lost[r][band];
     }
 }
 
@@ -55,6 +52,7 @@ static double correct(const struct balance *b, double ended, double reflected, d
 
 void power_balance(struct tally *tally, const struct tracer *t)
 {
+    memset(tally->correction, 0, sizeof tally->correction);
     for (uint32_t k = 0; k < tally->bands && tally->particles > 0; k++) {
         struct balance b;
         double reflected = 0, ended = 0, both = 0, square = 0;
