@@ -79,11 +79,13 @@ parts that are right stay parts | runtime/engine/element_error.c | s/s->told = i
 limits without noise | runtime/engine/element_error.c | s/ELEMENT_ERROR_LIMIT \* sqrt/0.01 * sqrt/ | runtime/check_element_error
 bands by themselves | runtime/engine/face_error.c | s/noise += c->deviation\[j\]/noise = hypot(noise, c->deviation[j])/ | runtime/check_element_error
 what is covered is handed light | runtime/engine/operator.h | s/return op->uncovered\[e\] > 0 ? op->uncovered\[j\] \/ op->uncovered\[e\] : 1;/return 1 + 0 * op->uncovered[e + 0 * j];/ | runtime/check_transport
-what leaves is still here | runtime/particles/power_balance.c | s/b->ended\[r\] += unit/b->ended[r] += 0 * unit/ | runtime/check_power_balance
+what leaves is still here | runtime/particles/power_balance.c | s/b->ended\[r\] += tally_unit/b->ended[r] += 0 * tally_unit/ | runtime/check_power_balance
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
 counted by nobody, surely nothing | runtime/engine/mend.c | s/if (m->tally->by_paths)$/if (1)/ | runtime/check_measured_error
 a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
 what is dark is known | solver/output/error_image.c | s/fmax(truth_of(s, seen->error, element), 0)/fmax(truth_of(s, seen->error, element), 1)/ | solver/check_error_image
+clusters keep what they were | runtime/hierarchy/children_first.c | s/e = h->built; e-- > 0;/e = 0; e-- > 1;/ | runtime/check_measured_error runtime/check_transport
+halves are added | runtime/engine/face_error.c | s/x\[i + step\] = a - b/x[i + step] = a + b/ | runtime/check_measured_error
 sums of groups run over | runtime/engine/separable_sums.c | s/            value\[j\] = 0;/            value[j] += 0;/ | runtime/check_separable_links
 END
 }

@@ -457,14 +457,6 @@ const struct host *radGetHost(RadSolution solution)
     return solution && !solution->dead ? rays_host(solution->solve.problem.rays) : NULL;
 }
 
-static uint32_t count_leaves(const struct hierarchy *h)
-{
-    uint32_t leaves = 0;
-    for (uint32_t i = 0; i < h->count; i++)
-        leaves += !h->elements[i].children;
-    return leaves;
-}
-
 void radGetReport(RadSolution solution, struct RadReport *report)
 {
     if (!report)
@@ -477,7 +469,6 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     const struct pass_counts *counts = &s->report.counts;
     *report = (struct RadReport){
         .elements = s->hierarchy.count,
-        .leaves = count_leaves(&s->hierarchy),
         .bands = s->problem.bands,
         .links = counts->links,
         .pairs = counts->pairs,
@@ -510,7 +501,10 @@ void radGetReport(RadSolution solution, struct RadReport *report)
         .linear = {s->linear.sweeps, s->linear.limited, s->linear.flat, s->linear.lowered,
                    s->linear.seconds}};
     memcpy(report->marked, counts->marked, sizeof report->marked);
-    for (uint32_t i = 0; i < s->hierarchy.count; i++)
-        report->marked_elements[s->hierarchy.elements[i].mark % RAD_LINK_MARKS]++;
+    for (uint32_t i = 0; i < s->hierarchy.count; i++) {
+        const struct element *e = &s->hierarchy.elements[i];
+        report->leaves += !e->children;
+        report->marked_elements[e->mark % RAD_LINK_MARKS]++;
+    }
     memcpy(report->decided, counts->decided, sizeof report->decided);
 }

@@ -17,6 +17,7 @@
 #include <string.h>
 #include "engine/detail.h"
 #include "kernel/constants.h"
+#include "util/thread_pool.h"
 
 /* What a leaf receives, of all bands (W). */
 static double received(const struct solve *s, uint32_t leaf)
@@ -53,7 +54,7 @@ static int split(struct hierarchy *h, uint32_t leaf, double parts)
 }
 
 /* The light of a new element, from its parent's. */
-static void inherit(struct solve *s, uint32_t i)
+static void inherit(const struct solve *s, uint32_t i)
 {
     const struct element *e = &s->hierarchy.elements[i],
                          *parent = &s->hierarchy.elements[e->parent];
@@ -73,6 +74,29 @@ static void inherit(struct solve *s, uint32_t i)
     }
 }
 
+/* New elements, and what they are made from. */
+struct inheriting {
+    const struct solve *s;
+    uint32_t first;
+};
+
+static void inherit_below(const struct solve *s, uint32_t i)
+{
+    const struct element *e = &s->hierarchy.elements[i];
+    for (uint32_t j = e->child; j < e->child + e->children; j++) {
+        inherit(s, j);
+        inherit_below(s, j);
+    }
+}
+
+static void inherit_some(const void *inheriting, size_t from, size_t to)
+{
+    const struct inheriting *x = inheriting;
+    for (uint32_t i = (uint32_t)from; i < to; i++)
+        if (x->s->hierarchy.elements[i].child >= x->first)
+            inherit_below(x->s, i);
+}
+
 /* Room for new elements, from `first` on, and their light. Returns 0, or -1 when out of memory. */
 static int light(struct solve *s, uint32_t first)
 {
@@ -88,8 +112,8 @@ static int light(struct solve *s, uint32_t first)
     for (uint32_t i = first; i < h->count; i++) /* children follow their parents */
         s->operator.uncovered[i] = s->operator.uncovered[h->elements[i].parent];
     solve_measure_contact(s, first, 1);
-    for (uint32_t i = first; i < h->count; i++)
-        inherit(s, i);
+    const struct inheriting x = {s, first};
+    thread_pool_run(s->problem.options.threads, first, 256, inherit_some, &x);
     return 0;
 }
 

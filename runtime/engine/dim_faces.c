@@ -34,6 +34,7 @@
 #include <stdlib.h>
 #include "engine/dim_faces.h"
 #include "engine/dim_split.h"
+#include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 
 enum {
@@ -342,33 +343,46 @@ static double power_of(const struct dim_faces *d, uint32_t element, uint32_t ban
            * d->solve->mended.irradiance[(size_t)element * d->tracer->bands + band];
 }
 
-/* Change them, and all others by one factor; then clusters as their children. */
-static void change(const struct dim_faces *d, uint32_t band, double *irradiance)
+struct changing {
+    const struct dim_faces *d;
+    double others[3], *irradiance;
+};
+
+static void change_element(const void *changing, uint32_t e)
 {
-    const struct hierarchy *h = d->tracer->hierarchy;
-    uint32_t bands = d->tracer->bands;
-    double before = 0, after = 0, whole = power_of(d, 0, band);
-    for (uint32_t j = 0; j < d->count; j++) {
-        before += d->polygon[j].mended[band] * d->polygon[j].area;
-        after += dim_mean(d, &d->polygon[j], band) * d->polygon[j].area;
-    }
-    double others = before < whole ? fmax(whole - after, 0) / (whole - before) : 1;
-    for (uint32_t e = h->count; e-- > 0;) { /* children follow their parents */
-        double *H = &irradiance[(size_t)e * bands + band];
-        if (h->elements[e].vertices) {
-            const struct dim_polygon *p = polygon_of(d, h->elements[e].face);
-            double mean = p ? dim_mean(d, p, band) : 0;
-            if (p && !(p->mended[band] > 0))
+    const struct changing *x = changing;
+    const struct dim_faces *d = x->d;
+    const struct element *at = &d->tracer->hierarchy->elements[e];
+    const struct dim_polygon *p = at->vertices ? polygon_of(d, at->face) : NULL;
+    for (uint32_t k = 0; k < d->tracer->bands; k++) {
+        double *H = &x->irradiance[(size_t)e * d->tracer->bands + k], sum = 0;
+        if (at->vertices) {
+            double mean = p ? dim_mean(d, p, k) : 0;
+            if (p && !(p->mended[k] > 0))
                 *H = mean; /* nothing is known of how it is spread */
             else
-                *H *= p ? mean / p->mended[band] : others;
+                *H *= p ? mean / p->mended[k] : x->others[k];
             continue;
         }
-        double sum = 0;
-        for (uint32_t c = 0; c < h->elements[e].children; c++)
-            sum += power_of(d, h->elements[e].child + c, band);
-        *H = sum / h->elements[e].area;
+        for (uint32_t c = 0; c < at->children; c++)
+            sum += power_of(d, at->child + c, k);
+        *H = sum / at->area;
     }
+}
+
+/* Change them, and all others by one factor; then clusters as their children. */
+static void change(const struct dim_faces *d, double *irradiance)
+{
+    struct changing x = {.d = d, .irradiance = irradiance};
+    for (uint32_t k = 0; k < d->tracer->bands; k++) {
+        double before = 0, after = 0, whole = power_of(d, 0, k);
+        for (uint32_t j = 0; j < d->count; j++) {
+            before += d->polygon[j].mended[k] * d->polygon[j].area;
+            after += dim_mean(d, &d->polygon[j], k) * d->polygon[j].area;
+        }
+        x.others[k] = before < whole ? fmax(whole - after, 0) / (whole - before) : 1;
+    }
+    children_first(d->tracer->hierarchy, d->tracer->threads, change_element, &x);
 }
 
 static void close_all(struct dim_faces *d)
@@ -407,8 +421,8 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
                             / t->hierarchy->elements[0].area;
         failed = d.count > 0 && trace_all(&d, (double)paths, (double)both, (double)tally->rays) < 0;
     }
-    for (uint32_t k = 0; k < t->bands && !failed && d.count > 0; k++)
-        change(&d, k, s->mended.irradiance);
+    if (!failed && d.count > 0)
+        change(&d, s->mended.irradiance);
     count->unsure = failed ? 0 : count_unsure(&d);
     int changed = failed ? -1 : (int)d.count;
     close_all(&d);

@@ -262,10 +262,17 @@ static void find_deviations(struct counted *c, const struct problem *p, const st
     }
 }
 
-static unsigned odd_bits(unsigned x)
+/* Of all ways to part x[REPLICATES] in halves that rows of Hadamard's matrix are: one half less the
+ * other; the sum of all in x[0]. */
+static void all_splits(double x[REPLICATES])
 {
-    x ^= x >> 2;
-    return (x ^ x >> 1) & 1;
+    for (int step = 1; step < REPLICATES; step *= 2)
+        for (int i = 0; i < REPLICATES; i++)
+            if (!(i & step)) {
+                double a = x[i], b = x[i + step];
+                x[i] = a + b;
+                x[i + step] = a - b;
+            }
 }
 
 /* How uncertain the moduli of noise are in a class, whose polygons have 4^class particles or more,
@@ -285,14 +292,12 @@ static void find_scales(struct counted *c)
         double sum = 0;
         if (!(c->deviation[i] > 0))
             continue;
-        for (unsigned split = 1; split < REPLICATES; split++) {
-            double off = 0;
-            for (unsigned r = 0; r < REPLICATES; r++) { /* rows of Hadamard's matrix */
-                double one = c->replicate[(size_t)r * c->values + i] / REPLICATES;
-                off += odd_bits(split & r) ? one : -one;
-            }
-            sum += fabs(off) / (REPLICATES - 1);
-        }
+        double off[REPLICATES];
+        for (unsigned r = 0; r < REPLICATES; r++)
+            off[r] = c->replicate[(size_t)r * c->values + i] / REPLICATES;
+        all_splits(off);
+        for (unsigned split = 1; split < REPLICATES; split++)
+            sum += fabs(off[split]) / (REPLICATES - 1);
         apart[c->class[i]] += sum;
         normal[c->class[i]] += sqrt(2 / LAMBERT_PI) * c->deviation[i];
         count[c->class[i]]++;

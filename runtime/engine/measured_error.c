@@ -11,15 +11,17 @@
 #include "engine/measured_error.h"
 #include "engine/mend.h"
 #include "engine/path_mending.h"
-#include "particles/power_balance.h"
 #include "engine/ray_split.h"
 #include "engine/solve_tracer.h"
 #include "engine/surface_error.h"
 #include "engine/tail_error.h"
 #include "engine/transport.h"
+#include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
+#include "particles/power_balance.h"
 #include "util/clock.h"
+#include "util/thread_pool.h"
 
 /* particles of each replicate in a first look, which tells how many rays one takes */
 enum { FIRST = 64 };
@@ -167,46 +169,38 @@ void measured_error_free(struct measured_error *m)
     *m = (struct measured_error){0};
 }
 
-/* The radiosities that the irradiances of all elements make. */
-static void set_radiosity(const struct light_operator *op, struct state *state,
-                          const double *by_links)
+/* The radiosity that the irradiances of all elements make of one, which knows its children's. */
+static void set_radiosity(const void *solve, uint32_t e)
 {
-    const struct problem *p = op->problem;
-    const struct hierarchy *h = op->hierarchy;
-    for (uint32_t e = h->count; e-- > 0;) { /* children follow their parents */
-        const struct element *at = &h->elements[e];
-        for (uint32_t k = 0; k < p->bands; k++) {
-            size_t i = (size_t)e * p->bands + k, of_face = (size_t)at->face * p->bands + k;
-            double *B = &state->radiosity[i];
-            if (at->children) {
-                *B = 0;
-                for (int c = 0; c < at->children; c++) {
-                    uint32_t j = at->child + (uint32_t)c;
-                    *B += operator_share(op, j, e) * state->radiosity[(size_t)j * p->bands + k];
-                }
-            } else {
-                *B = op->uncovered[e] > 0
-                         ? p->exitance[of_face]
-                               + p->reflectance[of_face] * state->irradiance[i] / op->uncovered[e]
-                         : by_links[i];
+    const struct solve *s = solve;
+    const struct problem *p = &s->problem;
+    const struct light_operator *op = &s->operator;
+    const struct element *at = &s->hierarchy.elements[e];
+    for (uint32_t k = 0; k < p->bands; k++) {
+        size_t i = (size_t)e * p->bands + k, of_face = (size_t)at->face * p->bands + k;
+        double *B = &s->mended.radiosity[i];
+        if (at->children) {
+            *B = 0;
+            for (int c = 0; c < at->children; c++) {
+                uint32_t j = at->child + (uint32_t)c;
+                *B += operator_share(op, j, e) * s->mended.radiosity[(size_t)j * p->bands + k];
             }
+        } else {
+            *B = op->uncovered[e] > 0
+                     ? p->exitance[of_face]
+                           + p->reflectance[of_face] * s->mended.irradiance[i] / op->uncovered[e]
+                     : s->state.radiosity[i];
         }
     }
 }
 
 /* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
- * emitter's are made no steeper. Returns 0, or -1 when out of memory. */
-static int mend_gradient(struct solve *s)
+ * emitter's are made no steeper. */
+static void mend_gradients(const void *solve, size_t from, size_t to)
 {
+    const struct solve *s = solve;
     const struct problem *p = &s->problem;
-    size_t values = (size_t)s->hierarchy.count * p->bands;
-    if (!s->linear.gradient)
-        return 0;
-    if (!s->mended_gradient)
-        s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
-    if (!s->mended_gradient)
-        return -1;
-    for (size_t i = 0; i < values; i++) {
+    for (size_t i = from; i < to; i++) {
         const struct element *e = &s->hierarchy.elements[i / p->bands];
         if (!e->vertices)
             continue;
@@ -217,15 +211,22 @@ static int mend_gradient(struct solve *s)
             s->mended_gradient[3 * i + c] =
                 s->linear.gradient[3 * i + c] * (exitance > 0 ? fmin(ratio, 1) : ratio);
     }
-    return 0;
 }
 
 /* What goes with the irradiances of the mended solution. Returns 0, or -1 when out of memory. */
 static int follow_irradiance(struct solve *s)
 {
-    struct state *mended = &s->mended;
-    set_radiosity(&s->operator, mended, s->state.radiosity);
-    return mend_gradient(s);
+    const size_t values = (size_t)s->hierarchy.count * s->problem.bands;
+    const int threads = s->problem.options.threads;
+    children_first(&s->hierarchy, threads, set_radiosity, s);
+    if (!s->linear.gradient)
+        return 0;
+    if (!s->mended_gradient)
+        s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
+    if (!s->mended_gradient)
+        return -1;
+    thread_pool_run(threads, values, 1024, mend_gradients, s);
+    return 0;
 }
 
 /* Polygons of a size, and what goes with them. Returns 0, or -1 when out of memory or cancelled. */

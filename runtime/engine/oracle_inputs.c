@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include "engine/oracle_inputs.h"
+#include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 
 /* What the oracles see of the radiosity of an element at the least. Where rows are closed they are
@@ -100,20 +101,33 @@ static int follow(double *seen, double now, double within, double unknown)
     return grew;
 }
 
+struct showing {
+    struct oracle_inputs *in;
+    const struct light_operator *op;
+    const double *radiosity;
+    struct element *elements;
+};
+
+static void show(const void *showing, uint32_t i)
+{
+    const struct showing *s = showing;
+    struct element *e = &s->elements[i];
+    uint32_t b = s->op->problem->bands;
+    double brightest = least_radiosity(s->op->problem);
+    for (uint32_t k = 0; k < b; k++)
+        brightest = fmax(brightest, s->radiosity[(size_t)i * b + k]);
+    double unknown = s->in->known * brightest,
+           spread = measure_spread(s->in, s->op, s->radiosity, i),
+           deviation = measure_deviation(s->in, s->op, s->radiosity, i);
+    int grew = follow(&e->radiosity, brightest, HYSTERESIS, 0);
+    grew |= follow(&e->spread, spread, HYSTERESIS, unknown);
+    grew |= follow(&e->deviation, deviation, DEVIATION_HYSTERESIS, unknown);
+    s->in->changed[i] = (unsigned char)grew;
+}
+
 void oracle_inputs_update(struct oracle_inputs *in, const struct light_operator *op,
                           const double *radiosity, struct hierarchy *h)
 {
-    uint32_t b = op->problem->bands;
-    for (uint32_t i = h->count; i-- > 0;) {
-        struct element *e = &h->elements[i];
-        double brightest = least_radiosity(op->problem);
-        for (uint32_t k = 0; k < b; k++)
-            brightest = fmax(brightest, radiosity[(size_t)i * b + k]);
-        double unknown = in->known * brightest;
-        int grew = follow(&e->radiosity, brightest, HYSTERESIS, 0);
-        grew |= follow(&e->spread, measure_spread(in, op, radiosity, i), HYSTERESIS, unknown);
-        grew |= follow(&e->deviation, measure_deviation(in, op, radiosity, i), DEVIATION_HYSTERESIS,
-                       unknown);
-        in->changed[i] = (unsigned char)grew;
-    }
+    const struct showing s = {in, op, radiosity, h->elements};
+    children_first(h, op->problem->options.threads, show, &s);
 }

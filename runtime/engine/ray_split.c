@@ -16,22 +16,19 @@
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
-static int is_place(const struct hierarchy *h, uint32_t e)
-{
-    double most = PLACE_SHARE * h->elements[0].area;
-    const struct element *at = &h->elements[e];
-    if (!at->vertices || (at->area > most && at->children))
-        return 0;
-    const struct element *parent = &h->elements[at->parent];
-    return !parent->vertices || parent->area > most;
-}
+/* Of some places: squares of what particles differ by, what of that chance tells, squares of that,
+ * and of light; each over the light there (W). */
+struct split_sums {
+    double seen, noise, square, light;
+};
 
-/* Places, and the power counted on them: [place * bands + band] (W). */
+enum { RUN = 16 }; /* faces that are added up as one, by whichever thread */
+
 struct places {
     const struct hierarchy *h;
     const struct tally *tally;
-    uint32_t *element, count;
-    double *power;
+    const double *irradiance;
+    struct split_sums *sums; /* [run] */
 };
 
 /* Add what has been counted below an element: children last to first, each once it is whole. */
@@ -48,70 +45,67 @@ static void add_power(const struct places *p, uint32_t e, double power[3])
     }
 }
 
-static void add_powers(const void *places, size_t from, size_t to)
+static void add_place(const struct places *p, uint32_t e, struct split_sums *sums)
 {
-    const struct places *p = places;
-    for (size_t i = from; i < to; i++) {
-        double power[3] = {0, 0, 0};
-        add_power(p, p->element[i], power);
-        for (uint32_t k = 0; k < p->tally->bands; k++)
-            p->power[i * p->tally->bands + k] = power[k];
+    const struct tally *tally = p->tally;
+    const double area = p->h->elements[e].area, one = tally_power_of_one(tally);
+    double power[3] = {0, 0, 0};
+    add_power(p, e, power);
+    for (uint32_t k = 0; k < tally->bands; k++) {
+        double linked = p->irradiance[(size_t)e * tally->bands + k] * area, off = power[k] - linked,
+               weight = 1 / (linked + p->irradiance[k] * area + one);
+        /* chance is that of the light that links expect: of what landed it would be small wherever
+         * little happened to */
+        double chance = one * tally->square[k] * linked * weight;
+        sums->seen += off * off * weight;
+        sums->noise += chance;
+        sums->square += chance * chance;
+        sums->light += linked * linked * weight;
     }
 }
 
-/* Returns 0, or -1 when out of memory; either way places_close. */
-static int places_open(struct places *p, const struct hierarchy *h, const struct tally *tally,
-                       int threads)
+/* The places of an element. */
+static void add_places(const struct places *p, uint32_t e, struct split_sums *sums)
 {
-    *p = (struct places){.h = h, .tally = tally};
-    p->element = malloc((size_t)h->count * sizeof *p->element);
-    for (uint32_t e = 0; p->element && e < h->count; e++)
-        if (is_place(h, e))
-            p->element[p->count++] = e;
-    p->power = malloc(((size_t)p->count * tally->bands + 1) * sizeof *p->power);
-    if (!p->element || !p->power)
-        return -1;
-    thread_pool_run(threads, p->count, 64, add_powers, p);
-    return 0;
+    const struct element *at = &p->h->elements[e];
+    if (!at->children || at->area <= PLACE_SHARE * p->h->elements[0].area)
+        add_place(p, e, sums);
+    else
+        for (uint32_t j = at->child; j < at->child + at->children; j++)
+            add_places(p, j, sums);
 }
 
-static void places_close(struct places *p)
+static void add_faces(const void *places, size_t from, size_t to)
 {
-    free(p->element);
-    free(p->power);
+    const struct places *p = places;
+    for (size_t i = from; i < to; i++)
+        add_places(p, p->h->face_element[i], &p->sums[from / RUN]);
 }
 
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
                       const double *irradiance, struct ray_split *split)
 {
-    const struct hierarchy *h = op->hierarchy;
-    double seen = 0, noise = 0, square = 0, light = 0; /* W */
-    double one = tally_power_of_one(tally);
-    struct places places;
-    int result = places_open(&places, h, tally, op->problem->options.threads);
+    const uint32_t faces = op->hierarchy->face_count;
+    struct split_sums all = {0, 0, 0, 0}, *sums = calloc(faces / RUN + 1, sizeof *sums);
+    const struct places places = {op->hierarchy, tally, irradiance, sums};
     *split = (struct ray_split){.rays = tally->rays};
-    for (uint32_t i = 0; result == 0 && i < places.count; i++)
-        for (uint32_t k = 0; k < tally->bands; k++) {
-            const uint32_t e = places.element[i];
-            double area = h->elements[e].area,
-                   linked = irradiance[(size_t)e * tally->bands + k] * area,
-                   off = places.power[(size_t)i * tally->bands + k] - linked,
-                   weight = 1 / (linked + irradiance[k] * area + one);
-            /* chance is that of the light that links expect: of what landed it would be small
-             * wherever little happened to */
-            double chance = one * tally->square[k] * linked * weight;
-            seen += off * off * weight;
-            noise += chance;
-            square += chance * chance;
-            light += linked * linked * weight;
-        }
-    places_close(&places);
-    if (light > 0 && tally->rays > 0) {
-        split->links = (seen - noise) / light;
-        split->deviation = sqrt(2 * square) / light; /* of squares of normal variables */
-        split->ray = noise / light * (double)tally->rays;
+    if (!sums)
+        return -1;
+    thread_pool_run(op->problem->options.threads, faces, RUN, add_faces, &places);
+    for (uint32_t i = 0; i < faces; i += RUN) {
+        const struct split_sums *of = &sums[i / RUN];
+        all.seen += of->seen;
+        all.noise += of->noise;
+        all.square += of->square;
+        all.light += of->light;
     }
-    return result;
+    free(sums);
+    if (all.light > 0 && tally->rays > 0) {
+        split->links = (all.seen - all.noise) / all.light;
+        split->deviation = sqrt(2 * all.square) / all.light; /* of squares of normal variables */
+        split->ray = all.noise / all.light * (double)tally->rays;
+    }
+    return 0;
 }
 
 double ray_split_wanted(const struct ray_split *split, double wanted)

@@ -21,11 +21,13 @@
 #include "engine/trace.h"
 #include "engine/transport.h"
 #include "engine/variation.h"
+#include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "util/array.h"
 #include "util/clock.h"
 #include "util/ranks_loop.h"
+#include "util/thread_pool.h"
 #include "visibility/contact_fraction.h"
 #include "visibility/enclosure.h"
 
@@ -89,24 +91,26 @@ static void measure_leaves(const void *contacts, size_t from, size_t to)
     }
 }
 
+static void measure_parent(const void *contacts, uint32_t i)
+{
+    const struct contacts *c = contacts;
+    const struct element *elements = c->h->elements, *e = &elements[i];
+    double sum = 0;
+    for (uint32_t j = e->child; j < e->child + e->children; j++)
+        sum += c->uncovered[j] * elements[j].area / e->area;
+    if (e->children)
+        c->uncovered[i] = sum;
+}
+
 void solve_measure_contact(struct solve *s, uint32_t first, int known)
 {
     const struct hierarchy *h = &s->hierarchy;
     const struct problem *p = &s->problem;
-    const struct element *elements = h->elements;
     double *uncovered = s->operator.uncovered;
     const struct contacts contacts = {h, p->rays, uncovered, first, known};
     ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
                    measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
-    for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
-        if (!elements[i].children)
-            continue;
-        uncovered[i] = 0;
-        for (int c = 0; c < elements[i].children; c++) {
-            uint32_t j = elements[i].child + (uint32_t)c;
-            uncovered[i] += uncovered[j] * elements[j].area / elements[i].area;
-        }
-    }
+    children_first(h, p->options.threads, measure_parent, &contacts);
 }
 
 /* Returns 0, or -1 when out of memory. */
@@ -262,6 +266,39 @@ static int fail(const struct solve *s, const char *memory, const char **cause)
 
 /* ---- passes */
 
+/* Links, added up by threads. */
+struct link_counts {
+    _Atomic uint64_t links, marked[LINK_MARKS], fingerprint;
+};
+
+struct link_counting {
+    const struct solve *s;
+    struct link_counts *all;
+};
+
+static void count_links(const void *counting, size_t from, size_t to)
+{
+    const struct link_counting *x = counting;
+    const struct solve *s = x->s;
+    struct pass_counts c = {0};
+    for (size_t i = from; i < to; i++) {
+        const struct link *l = &s->refinement.links[i];
+        if (!shares_counts(&s->operator.shares, l->receiver))
+            continue;
+        uint64_t bits = 0;
+        memcpy(&bits, &l->form_factor, sizeof l->form_factor);
+        bits |= (uint64_t)l->visibility << 32 | (uint64_t)l->levels << 48 | (uint64_t)l->mark << 56;
+        c.links++;
+        c.marked[l->mark]++;
+        c.fingerprint += hash64(s->hierarchy.elements[l->receiver].id
+                                + hash64(s->hierarchy.elements[l->emitter].id + hash64(bits)));
+    }
+    x->all->links += c.links;
+    x->all->fingerprint += c.fingerprint;
+    for (int i = 0; i < LINK_MARKS; i++)
+        x->all->marked[i] += c.marked[i];
+}
+
 /* What all ranks have come to. */
 static void sum_counts(struct solve *s)
 {
@@ -272,18 +309,13 @@ static void sum_counts(struct solve *s)
     *c = (struct pass_counts){.pairs = r->pairs,
                               .rays = rays_count(s->problem.rays).rays - r->common};
     memcpy(c->decided, r->decided, sizeof c->decided);
-    for (size_t i = 0; i < r->link_count; i++) {
-        const struct link *l = &r->links[i];
-        if (!shares_counts(&s->operator.shares, l->receiver))
-            continue;
-        uint64_t bits = 0;
-        memcpy(&bits, &l->form_factor, sizeof l->form_factor);
-        bits |= (uint64_t)l->visibility << 32 | (uint64_t)l->levels << 48 | (uint64_t)l->mark << 56;
-        c->links++;
-        c->marked[l->mark]++;
-        c->fingerprint += hash64(s->hierarchy.elements[l->receiver].id
-                                 + hash64(s->hierarchy.elements[l->emitter].id + hash64(bits)));
-    }
+    struct link_counts all = {0};
+    const struct link_counting counting = {s, &all};
+    thread_pool_run(s->problem.options.threads, r->link_count, 4096, count_links, &counting);
+    c->links = all.links;
+    c->fingerprint = all.fingerprint;
+    for (int i = 0; i < LINK_MARKS; i++)
+        c->marked[i] = all.marked[i];
     ranks_add_counts(ranks, RANKS_VALUES, (uint64_t *)c, sizeof *c / sizeof(uint64_t));
     ranks_most(ranks, RANKS_VALUES, &rounds, 1);
     s->report.rounds = (uint64_t)rounds;

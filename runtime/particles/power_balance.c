@@ -16,27 +16,44 @@
 #include <math.h>
 #include <string.h>
 #include "particles/power_balance.h"
+#include "util/thread_pool.h"
 
 /* By replicate, as counted (W): reflected; absorbed or lost. */
 struct balance {
     double reflected[REPLICATES], ended[REPLICATES], emitted;
 };
 
-static void add_faces(const struct tally *tally, const struct tracer *t, uint32_t band,
-                      struct balance *b)
+struct balancing {
+    const struct tally *tally;
+    const struct tracer *t;
+    struct balance *balance; /* [band] */
+};
+
+/* For sets of particles: what has come of each; */
+static void add_faces(const void *balancing, size_t from, size_t to)
 {
-    *b = (struct balance){{0}, {0}, 0};
-    for (uint32_t f = 0; f < tally->faces; f++)
-        b->emitted += t->exitance[(size_t)f * tally->bands + band] * tracer_surface(t, f)->area;
-    for (int r = 0; r < REPLICATES; r++) {
-        for (uint32_t f = 0; f < tally->faces; f++) {
-            const double rho = t->reflectance[(size_t)f * tally->bands + band],
-                         power = tally_face(tally, r, f, band);
-            b->reflected[r] += rho * power;
-            b->ended[r] += (1 - rho) * power;
+    const struct balancing *x = balancing;
+    const struct tally *tally = x->tally;
+    for (size_t r = from; r < to; r++)
+        for (uint32_t k = 0; k < tally->bands; k++) {
+            struct balance *b = &x->balance[k];
+            for (uint32_t f = 0; f < tally->faces; f++) {
+                const double rho = x->t->reflectance[(size_t)f * tally->bands + k],
+                             power = tally_face(tally, (int)r, f, k);
+                b->reflected[r] += rho * power;
+                b->ended[r] += (1 - rho) * power;
+            }
+            b->ended[r] += tally_unit(tally) * (double)tally->lost[r][k];
         }
-        b->ended[r] += tally_unit(tally) * (double)tally->lost[r][band];
-    }
+}
+
+/* and what they were sent out with. */
+static double emitted(const struct tally *tally, const struct tracer *t, uint32_t band)
+{
+    double sum = 0;
+    for (uint32_t f = 0; f < tally->faces; f++)
+        sum += t->exitance[(size_t)f * tally->bands + band] * tracer_surface(t, f)->area;
+    return sum;
 }
 
 /* What is counted too little, as a share; the slope is both / square. */
@@ -52,11 +69,16 @@ static double correct(const struct balance *b, double ended, double reflected, d
 
 void power_balance(struct tally *tally, const struct tracer *t)
 {
+    struct balance balance[3] = {{{0}, {0}, 0}};
     memset(tally->correction, 0, sizeof tally->correction);
-    for (uint32_t k = 0; k < tally->bands && tally->particles > 0; k++) {
-        struct balance b;
+    if (tally->particles == 0)
+        return;
+    const struct balancing balancing = {tally, t, balance};
+    thread_pool_run(t->threads, REPLICATES, 1, add_faces, &balancing);
+    for (uint32_t k = 0; k < tally->bands; k++) {
+        struct balance b = balance[k];
         double reflected = 0, ended = 0, both = 0, square = 0;
-        add_faces(tally, t, k, &b);
+        b.emitted = emitted(tally, t, k);
         for (int r = 0; r < REPLICATES; r++) {
             reflected += b.reflected[r] / REPLICATES;
             ended += b.ended[r] / REPLICATES;
