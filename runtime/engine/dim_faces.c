@@ -166,6 +166,14 @@ static void keep_dim(struct dim_faces *d, const struct tally *tally)
     d->count = kept;
 }
 
+/* The irradiance (all bands, W/m2) that brings DIM_BELIEVED particles to DIM_LARGE of the area.
+ * Where paths have mended, and no particles: any. */
+static double believed(const struct dim_faces *d, const struct tally *tally)
+{
+    double met = DIM_LARGE * (double)tally->particles * REPLICATES;
+    return tally->by_paths ? 0 : mended_irradiance(d, 0) * DIM_BELIEVED / met;
+}
+
 /* ---- how many, and what they say */
 
 /* Its light as far as is known by now, but no less than how uncertain that is (W/m2). */
@@ -414,6 +422,7 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         list_faces(&d);
         count->large = d.count;
         keep_dim(&d, tally);
+        d.believed = believed(&d, tally);
         for (uint32_t i = 0; i < t->hierarchy->face_count; i++)
             for (uint32_t k = 0; k < t->bands; k++)
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]

@@ -40,12 +40,16 @@ struct dim_faces {
     uint32_t *of;               /* [polygons of the scene]: place in `polygon`; or NOT_DIM */
     struct dim_polygon *polygon;
     uint32_t count;
-    uint32_t *face; /* [faces]: by polygon */
-    double *until;  /* [faces]: running sums of their areas in the polygon (m2) */
-    double unseen;  /* light reflected, mean over the scene, all bands (W/m2) */
+    uint32_t *face;  /* [faces]: by polygon */
+    double *until;   /* [faces]: running sums of their areas in the polygon (m2) */
+    double believed; /* where less falls B~ is not asked: irradiance, all bands (W/m2) */
+    double unseen;   /* light reflected, mean over the scene, all bands (W/m2) */
     const struct watch *watch;
     uint64_t *rays;
 };
+
+/* Once mended, all bands (W/m2). */
+double mended_irradiance(const struct dim_faces *d, uint32_t element);
 
 /* Trace until each polygon has the paths it wants, in whole blocks. Returns 0, or -1 when out of
  * memory or stopped. */

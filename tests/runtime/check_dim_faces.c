@@ -259,6 +259,23 @@ START_TEST(test_small)
 }
 END_TEST
 
+/* What surrounds the wall is ten times too bright, and too dim for particles to tell: paths go on
+ * from there and end in nothing that nobody knows. */
+START_TEST(test_dim_places)
+{
+    struct scene scene;
+    struct solve s;
+    uint64_t rays;
+    double root;
+    two_furnaces(&s, &scene, DARK, 2);
+    spoil(&s, WALL + 1, scene.face_count, 10);
+    ck_assert_int_eq(mend_apart(&s, 20000, 400000, &rays, &root), 1);
+    ck_assert_double_eq_tol(of_face(&s, WALL) / DARK, 1, 0.05);
+    solve_close(&s);
+    made_close(&scene);
+}
+END_TEST
+
 /* Where every large face is met by particles enough, nothing is asked and nothing paid. */
 START_TEST(test_bright)
 {
@@ -285,6 +302,7 @@ int main(void)
     tcase_add_test(tests, test_same_bits);
     tcase_add_test(tests, test_large_budget);
     tcase_add_test(tests, test_small);
+    tcase_add_test(tests, test_dim_places);
     tcase_add_test(tests, test_bright);
     suite_add_tcase(suite, tests);
     return suite_failures(suite) > 0;
