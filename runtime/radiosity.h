@@ -449,6 +449,10 @@ struct RadSolveOptions {
     int unit; /* 1: every face has B = 1 and stays so: links and rows alone */
     enum RadBasis basis;
     struct RadLimits limits;
+    /* 1: nothing is discussed, no links are made: every surface receives the mean irradiance, what
+     * emitters send out over what surfaces absorb at one reflection, and radCorrect has particles
+     * measure all light. [Cohen et al. 1988, the ambient term] */
+    int no_links;
 };
 /* NULL-terminated; constant. */
 RAD_API const char *const *radGetClusteringNames(void);
@@ -762,6 +766,7 @@ struct RadPlaces {
     double links;     /* of links; by chance it may come out below 0 */
     double deviation; /* standard deviation of that */
     double ray;       /* of particles of one ray; of r rays a share 1 / r of it */
+    double face;      /* the same in the L1 error of polygons, if noise were chance alone */
     uint64_t rays;    /* that told it */
 };
 #define RAD_PLACES_SHARE 0.1

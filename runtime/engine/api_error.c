@@ -117,6 +117,7 @@ int radMeasurePlaces(RadSolution solution, uint64_t rays, struct RadPlaces *plac
         *places = (struct RadPlaces){.links = solution->places.links,
                                      .deviation = solution->places.deviation,
                                      .ray = solution->places.ray,
+                                     .face = solution->places.face,
                                      .rays = solution->places.rays};
     return 0;
 }

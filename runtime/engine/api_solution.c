@@ -174,6 +174,7 @@ static struct solve_options engine_options(RadSolution solution, const struct Ra
         .clusters = o->clustering ? 1 + clustering_of(o->clustering) : 0,
         .linear = o->basis == RAD_BASIS_LINEAR,
         .unit = o->unit != 0,
+        .no_links = o->no_links != 0,
         .limits = {o->limits.depth, o->limits.elements, o->limits.links, o->limits.pairs,
                    o->limits.rounds, 0},
         .ranks = solution->scene->device->ranks,

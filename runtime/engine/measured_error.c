@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/ambient.h"
 #include "engine/detail.h"
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
@@ -16,7 +17,6 @@
 #include "engine/surface_error.h"
 #include "engine/tail_error.h"
 #include "engine/transport.h"
-#include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
 #include "particles/power_balance.h"
@@ -169,31 +169,6 @@ void measured_error_free(struct measured_error *m)
     *m = (struct measured_error){0};
 }
 
-/* The radiosity that the irradiances of all elements make of one, which knows its children's. */
-static void set_radiosity(const void *solve, uint32_t e)
-{
-    const struct solve *s = solve;
-    const struct problem *p = &s->problem;
-    const struct light_operator *op = &s->operator;
-    const struct element *at = &s->hierarchy.elements[e];
-    for (uint32_t k = 0; k < p->bands; k++) {
-        size_t i = (size_t)e * p->bands + k, of_face = (size_t)at->face * p->bands + k;
-        double *B = &s->mended.radiosity[i];
-        if (at->children) {
-            *B = 0;
-            for (int c = 0; c < at->children; c++) {
-                uint32_t j = at->child + (uint32_t)c;
-                *B += operator_share(op, j, e) * s->mended.radiosity[(size_t)j * p->bands + k];
-            }
-        } else {
-            *B = op->uncovered[e] > 0
-                     ? p->exitance[of_face]
-                           + p->reflectance[of_face] * s->mended.irradiance[i] / op->uncovered[e]
-                     : s->state.radiosity[i];
-        }
-    }
-}
-
 /* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
  * emitter's are made no steeper. */
 static void mend_gradients(const void *solve, size_t from, size_t to)
@@ -218,7 +193,7 @@ static int follow_irradiance(struct solve *s)
 {
     const size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     const int threads = s->problem.options.threads;
-    children_first(&s->hierarchy, threads, set_radiosity, s);
+    light_follows(s, &s->mended);
     if (!s->linear.gradient)
         return 0;
     if (!s->mended_gradient)
@@ -347,6 +322,35 @@ static double landings(const struct mending_goal *goal)
     return goal->places > 0 ? fmin(expected, (double)goal->most) : (double)goal->most;
 }
 
+/* Without links nobody knows where leaves should be small. So before any that count a few particles
+ * are traced, then eight times as many and so on, as long as all of them are a small part of the
+ * rays to come: each look sets the light of leaves, which the next ones are made by, and says how
+ * far off that is. Their rays are added to *spent; goal->expected becomes what is left to do.
+ * Returns 0, or -1 when cancelled or out of memory. */
+static int look_ahead(struct solve *s, const struct tracer *t, struct mending_goal *goal,
+                      uint64_t *spent)
+{
+    enum { STREAM = 0x6c6f6f6b, SMALL = 16, MORE = 8 };
+    uint64_t stream = STREAM;
+    for (double rays = LOOK; rays * SMALL <= landings(goal); rays *= MORE, stream++) {
+        struct tally tally = {0};
+        struct ray_split split;
+        int failed = detail_leaves(s, rays) < 0 || tally_open(&tally, t, stream, 1) < 0
+                     || trace_rays(s, t, &tally, (uint64_t)rays, landings(goal)) < 0
+                     || ray_split_measure(&s->operator, & tally, s->state.irradiance, &split) < 0
+                     || mend_irradiance(&s->operator, & tally, s->state.irradiance) < 0;
+        *spent += tally.rays;
+        tally_close(&tally);
+        if (failed)
+            return -1;
+        if (split.links > 0 && split.ray > 0)
+            split.links = 1 / (1 / split.links + (double)split.rays / split.ray);
+        goal->expected = ray_split_wanted(&split, goal->places);
+        light_follows(s, &s->state);
+    }
+    return 0;
+}
+
 /* A first look by particles; then paths, if they are much cheaper for polygons: s->by_paths.
  * Returns 0, or -1 when cancelled or out of memory. */
 static int look(struct solve *s, const struct tracer *t, struct tally *tally,
@@ -385,20 +389,22 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     struct path_tally paths = {.tally = {0}};
+    struct mending_goal left = *goal;
     uint64_t spent = 0;
     uint32_t elements = s->hierarchy.count;
     s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
     s->by_paths = 0;
-    int failed = tracer_open(&t) < 0 || detail_leaves(s, landings(goal)) < 0
-                 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || look(s, &t, &tally, &paths, goal) < 0
-                 || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
-                 || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
-                 || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
-                 || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
-                 || detail_merge(s, elements) < 0;
+    int failed =
+        tracer_open(&t) < 0 || (s->problem.options.no_links && look_ahead(s, &t, &left, &spent) < 0)
+        || detail_leaves(s, landings(&left)) < 0 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+        || look(s, &t, &tally, &paths, goal) < 0
+        || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
+        || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
+        || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
+        || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
+        || detail_merge(s, elements) < 0;
     s->report.particles =
         failed ? 0 : fingerprint(&tally) + (s->by_paths ? fingerprint(&paths.tally) : 0);
     alone->rays = tally.rays + paths.paths.rays;

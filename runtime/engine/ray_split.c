@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include "engine/ray_split.h"
 #include "kernel/constants.h"
+#include "kernel/lambert.h"
 #include "util/thread_pool.h"
 
 /* Of some places: squares of what particles differ by, what of that chance tells, squares of that,
@@ -82,6 +83,35 @@ static void add_faces(const void *places, size_t from, size_t to)
         add_places(p, p->h->face_element[i], &p->sums[from / RUN]);
 }
 
+/* The squared noise in the L1 error of polygons, as a share of the reflected light, if chance alone
+ * spread particles over them by what links say. Returns 0, or -1 when out of memory. */
+static int measure_faces(const struct light_operator *op, const struct tally *tally,
+                         const double *irradiance, double *square)
+{
+    const struct problem *p = op->problem;
+    const struct hierarchy *h = op->hierarchy;
+    const uint32_t bands = tally->bands, polygons = p->scene->input_count;
+    const double one = tally_power_of_one(tally);
+    double *reflected = calloc((size_t)polygons * bands + 1, sizeof *reflected), noise = 0, all = 0;
+    double *rho = calloc((size_t)polygons * bands + 1, sizeof *rho);
+    for (uint32_t i = 0; reflected && rho && i < h->face_count; i++)
+        for (uint32_t k = 0; k < bands; k++) {
+            const uint32_t e = h->face_element[i];
+            const size_t at = (size_t)h->faces[i].input * bands + k;
+            rho[at] = p->reflectance[(size_t)i * bands + k];
+            reflected[at] += rho[at] * irradiance[(size_t)e * bands + k] * h->elements[e].area;
+        }
+    for (size_t i = 0; reflected && rho && i < (size_t)polygons * bands; i++) {
+        noise += sqrt(2 / LAMBERT_PI * rho[i] * one * tally->square[i % bands] * reflected[i]);
+        all += reflected[i];
+    }
+    *square = all > 0 ? noise / all * (noise / all) : 0;
+    int failed = !reflected || !rho;
+    free(reflected);
+    free(rho);
+    return failed ? -1 : 0;
+}
+
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
                       const double *irradiance, struct ray_split *split)
 {
@@ -105,6 +135,9 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
         split->deviation = sqrt(2 * all.square) / all.light; /* of squares of normal variables */
         split->ray = all.noise / all.light * (double)tally->rays;
     }
+    if (measure_faces(op, tally, irradiance, &split->face) < 0)
+        return -1;
+    split->face *= (double)tally->rays;
     return 0;
 }
 

@@ -11,6 +11,7 @@ struct ray_split {
     double links;     /* of links; by chance it may come out below 0 */
     double deviation; /* standard deviation of that */
     double ray;       /* of particles of one ray; of r rays a share 1 / r of it */
+    double face;      /* the same in the L1 error of polygons, noise by chance alone */
     uint64_t rays;    /* that told it; 0: nothing is known */
 };
 

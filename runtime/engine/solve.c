@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "engine/ambient.h"
 #include "engine/collocation.h"
 #include "engine/dense.h"
 #include "engine/solve.h"
@@ -367,7 +368,9 @@ int solve_refine(struct solve *s, const struct refiner *refiner, const char **ca
         return -1;
     if (s->trace)
         s->trace->pass = 1;
-    if (ranks_any(p->options.ranks, refinement_start(&s->refinement) < 0)
+    if (ranks_any(p->options.ranks, (p->options.no_links ? refinement_resume(&s->refinement)
+                                                         : refinement_start(&s->refinement))
+                                        < 0)
         || shares_settle(&s->operator.shares, &s->refinement, s->hierarchy.built) < 0
         || ranks_any(p->options.ranks, solve_make_room(s) < 0))
         return fail(s, refining, cause);
@@ -541,8 +544,12 @@ int solve_step(struct solve *s, const char **cause)
     s->report.seconds.iterate += middle - start;
     s->report.seconds.refine += seconds() - middle;
     s->report.seconds.in_rays = rays_count(p->rays).seconds / p->options.threads;
+    if (done && p->options.linear && solve_linear(s, cause) < 0)
+        return -1;
+    if (p->options.no_links && !p->options.unit)
+        ambient_light(s);
     solve_sum_power(s);
-    return done && p->options.linear && solve_linear(s, cause) < 0 ? -1 : !done;
+    return !done;
 }
 
 int solve_with_factors(struct solve *s, const float *form_factors, const char **cause)

@@ -40,7 +40,7 @@ static uint64_t hash_options(const struct solve_options *o)
 {
     const int words[] = {o->iterations,   (int)o->solver, (int)o->projection,
                          (int)o->closure, o->clusters,    o->linear,
-                         o->unit};
+                         o->unit,         o->no_links};
     const uint64_t hash = state_mix(0, &o->tolerance, sizeof o->tolerance);
     return state_mix(hash, words, sizeof words);
 }

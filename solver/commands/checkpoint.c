@@ -182,5 +182,6 @@ int checkpoint_solve(struct checkpoint *c, struct solved *s, RadDevice device, R
         (void)radGetDeviceError(device);
         return -1;
     }
-    return report_device(device, c->where);
+    return c->dear ? report_unless(device, c->where, RAD_ERROR_LIMIT)
+                   : report_device(device, c->where);
 }

@@ -18,6 +18,7 @@ struct checkpoint {
     int chosen;            /* 1: that is not said by whoever called */
     double rays;           /* cast for the choice so far */
     int passes;            /* that the state taken had; -1: none was taken */
+    int dear;              /* 1: a limit is met without a word */
     int quiet, failed;     /* failed: it could not be written, which is told */
 };
 
@@ -26,7 +27,8 @@ struct checkpoint {
 int checkpoint_open(struct checkpoint *c, const struct options *o);
 
 /* Make a solution, go on from the file where there is one, and solve, writing checkpoints. Returns
- * 0, or -1 after a message, with nothing to close. */
+ * 0; -1 after a message, with nothing to close; or 1, the same, where refinement has met a limit
+ * and `dear` expects it to. */
 int checkpoint_solve(struct checkpoint *c, struct solved *s, RadDevice device, RadScene scene,
                      RadOracle oracle, const struct RadSolveOptions *how);
 

@@ -95,12 +95,13 @@ static void print_unsure(const struct measured *m)
                (unsigned)m->alone.unsure, (unsigned)m->alone.large);
 }
 
-void measured_print(const struct measured *m, uint32_t polygons)
+void measured_print(const struct measured *m, uint32_t polygons, int no_links)
 {
     const struct RadErrorReport *e = &m->error;
     if (m->mended && m->alone.reflected > 0) {
-        printf("mended    by %s (%.3g rays); the links alone are off by ",
-               m->alone.by_paths ? "paths" : "particles", (double)m->alone.rays);
+        printf("mended    by %s (%.3g rays); %s alone are off by ",
+               m->alone.by_paths ? "paths" : "particles", (double)m->alone.rays,
+               no_links ? "the first few" : "the links");
         print_share(stdout, &m->alone.l1_faces);
         fputs(" per face", stdout);
         print_power(stdout, &m->alone);

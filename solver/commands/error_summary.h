@@ -29,9 +29,9 @@ int measured_account(struct measured *m, const struct options *o, RadDevice devi
 /* Warn of a large error. */
 void measured_warn(const struct measured *m, const char *where);
 
-/* What the links alone were off by, where that was mended; what is left; and how many large faces
- * are too dim to be sure of, if any. */
-void measured_print(const struct measured *m, uint32_t polygons);
+/* What the links alone were off by, or where there are none the first few particles, and that was
+ * mended; what is left; and how many large faces are too dim to be sure of, if any. */
+void measured_print(const struct measured *m, uint32_t polygons, int no_links);
 
 /* What mending and measuring took. */
 double measured_seconds(const struct measured *m);

@@ -259,6 +259,26 @@ static void print_aims(const struct options *o, const struct RadReport *r)
                r->tolerance.area > 0 ? ", which nothing more can split" : "");
 }
 
+static void print_links(const struct options *o, const struct RadReport *r)
+{
+    char cause[SOLVED_CAUSE] = "";
+    if (!r->converged)
+        solved_cause(r, cause);
+    printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n",
+           (unsigned long long)r->links, (unsigned long long)r->pairs,
+           (unsigned long long)r->rounds, (double)r->rays);
+    print_marks(r);
+    printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
+           r->residual, r->converged ? "converged" : "NOT converged: ", cause);
+    print_solver(o, r);
+    if (r->linear.sweeps)
+        printf(
+            "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
+            "area, where a solid stands on a part\n",
+            r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
+    print_aims(o, r);
+}
+
 void summary_print(const struct summary *s)
 {
     const struct RadReport *r = &s->solved->report;
@@ -274,29 +294,19 @@ void summary_print(const struct summary *s)
     for (int i = 0; i < s->options->replacement_count; i++)
         printf("replaced  %s\n", s->options->replacements[i]);
     printf("mesh      %u elements, of which %u leaves\n", r->elements, r->leaves);
-    printf("links     %llu from %llu discussions in %llu rounds; %.3g rays\n",
-           (unsigned long long)r->links, (unsigned long long)r->pairs,
-           (unsigned long long)r->rounds, (double)r->rays);
-    print_marks(r);
-    char cause[SOLVED_CAUSE] = "";
-    if (!r->converged)
-        solved_cause(r, cause);
-    printf("solution  %d passes, %d sweeps, residual %.1e, %s%s\n", r->passes, r->iterations,
-           r->residual, r->converged ? "converged" : "NOT converged: ", cause);
-    print_solver(s->options, r);
-    if (r->linear.sweeps)
-        printf(
-            "basis     linear over the last links: %d sweeps, %.2f s; constant on %.2g %% of the "
-            "area, where a solid stands on a part\n",
-            r->linear.sweeps, r->linear.seconds, 100 * r->linear.flat);
-    print_aims(s->options, r);
+    const int no_links = s->coarse && s->coarse->no_links;
+    if (no_links)
+        printf("links     none: the same light on all surfaces, and what particles add\n");
+    else
+        print_links(s->options, r);
     printf("power     %.6g W emitted, %.6g W absorbed: %.2f %% %s\n", r->emitted, r->absorbed,
            100 * fabs(imbalance(r)),
            imbalance(r) < 0 ? "gained, which is error" : "leave the scene or are lost to error");
-    print_rows(s->options, r);
+    if (!no_links)
+        print_rows(s->options, r);
     if (s->coarse)
         coarse_first_print(s->coarse);
-    measured_print(s->measured, scene->polygons);
+    measured_print(s->measured, scene->polygons, no_links);
     if (s->measured->accounted)
         account_print(&s->measured->account);
     power_promise_print(s->promise);

@@ -65,6 +65,9 @@ static int read_scale(struct options *o, const struct option_row *row, const cha
 {
     (void)row;
     char *end;
+    o->no_links = strcmp(value, "none") == 0;
+    if (o->no_links)
+        return 0;
     o->scale = strtod(value, &end);
     return end == value || *end || !(o->scale >= 1e-6 && o->scale <= 1e6) ? -1 : 0;
 }
@@ -581,8 +584,8 @@ const struct option_row option_rows[] = {
      "a whole number from 1", WHOLE(limit_seconds, 1, INT_MAX)},
     {"clusters", "NAME", SOLVE, NULL, "how faces are grouped; see study clustering --help", NULL,
      .read = read_clustering, IN(clusters), .rare = 1},
-    {"scale", "X", SOLVE, NULL, "thresholds times X (measured; 1 where any is set)",
-     "a number from 1e-6 to 1e6", .read = read_scale, .rare = 1},
+    {"scale", "X|none", SOLVE, NULL, "thresholds times X, no links (measured; 1 if any is set)",
+     "a number from 1e-6 to 1e6, or none", .read = read_scale, .rare = 1},
     {"tolerance", "X", MATRICES, NULL, "relative error of B that iteration may leave",
      "a number above 0 and below 1", .read = read_tolerance},
     /* Below what the best kinds differ by. */

@@ -453,8 +453,10 @@ static int check_together(struct options *o)
                       && !o->setting_count && !o->params && !o->replacement_count && !o->trace
                       && !o->statistics && !o->no_correct && !(o->accuracy > 0)
                       && o->basis == RAD_BASIS_LINEAR;
-    if (o->scale > 0 && o->accuracy > 0)
+    if ((o->scale > 0 || o->no_links) && o->accuracy > 0)
         return wrong(c->name, "--accuracy chooses the scale: it does not go with --scale");
+    if (o->no_links && o->errors == ERRORS_ALL)
+        return wrong(c->name, "--errors=all accounts for links: it does not go with --scale none");
     if (o->correct && o->no_correct)
         return wrong(c->name, "--correct and --no-correct contradict each other");
     if (o->mesh && !o->image && !o->image_error)

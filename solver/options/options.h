@@ -77,6 +77,7 @@ struct options {
     int basis_given;
     double scale;     /* of the oracle's thresholds; 0: not given */
     int choose_scale; /* it is chosen then; else 1 */
+    int no_links;     /* instead: particles alone */
     double tolerance;
     enum RadSolver solver;
     enum RadProjection projection;
@@ -142,7 +143,8 @@ static inline struct RadSolveOptions solve_options(const struct options *o)
                                     .closure = o->closure,
                                     .basis = o->basis,
                                     .clustering = o->clusters,
-                                    .limits = o->limits};
+                                    .limits = o->limits,
+                                    .no_links = o->no_links};
 }
 
 /* The files that shall be written, "-" for standard output among them. Returns how many. */

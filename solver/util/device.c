@@ -72,12 +72,12 @@ int report_device(RadDevice device, const char *where)
     return -1;
 }
 
-int report_unless_cancelled(RadDevice device, const char *where)
+int report_unless(RadDevice device, const char *where, enum RadError expected)
 {
     char *message = strdup(radGetDeviceErrorMessage(device)); /* asking for the code forgets it */
-    int cancelled = radGetDeviceError(device) == RAD_ERROR_CANCELLED;
-    if (!cancelled)
+    int met = radGetDeviceError(device) == expected;
+    if (!met)
         report_error(where, 0, "%s", message && *message ? message : "out of memory");
     free(message);
-    return cancelled ? 1 : -1;
+    return met ? 1 : -1;
 }

@@ -19,8 +19,7 @@ RadDevice open_device(const char *where, int threads);
 /* Say what the device's last call could not do, as "where: error: sentence". Returns -1. */
 int report_device(RadDevice device, const char *where);
 
-/* The same, but not a word where the progress function has cancelled it. Returns 1 then, else -1.
- */
-int report_unless_cancelled(RadDevice device, const char *where);
+/* The same, but not a word where it is the error `expected`. Returns 1 then, else -1. */
+int report_unless(RadDevice device, const char *where, enum RadError expected);
 
 #endif

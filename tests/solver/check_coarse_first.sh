@@ -28,6 +28,16 @@ wrong() {
 printf 'newmtl wall\nKd .7 .7 .7\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n' >boxes.mtl
 awk -v N=3 -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
 scaled boxes.obj 16 true
+awk -v N=7 -f "$top/tests/solver/hanging_boxes.awk" >boxes.obj
+scaled boxes.obj null true
+cp faces once
+count=$((count + 1))
+[ "$(value links)" = 0 ] || failed "links, though there should be none"
+count=$((count + 1))
+solve boxes.obj --threads 1 && cmp -s faces once || failed "without links, another number of threads, another answer"
+# Links that are asked for, or how they are solved, are made.
+scaled boxes.obj 16 true --solver jacobi
+scaled boxes.obj 16 true --closure rows
 scaled "$scenes/room.obj" 1 true
 cp faces once
 scaled "$scenes/room.obj" 1 true --threads 1
@@ -43,11 +53,16 @@ count=$((count + 1))
 cp faces by_scale
 solve "$scenes/room.obj" --no-correct --set energy=8e-5 --set bend=2e-5 --set shadow=1.2e-4 --set noise=3.2e-5 --set spot=1.2e-6 \
     --set product=1e-4 && cmp -s faces by_scale || failed "--scale 4 is not all thresholds times 4"
+scaled "$scenes/room.obj" null false --scale none
 wrong "--scale" --scale 0
+wrong "--errors=all accounts for links" --scale none --errors=all
 wrong "--scale" --scale 1e9
 wrong "--scale" --scale x
 count=$((count + 1))
 "$radiosity" solve "$scenes/furnace.obj" --scale 2 --accuracy 1% 2>err
 [ $? = 2 ] && grep -qF -- "--accuracy chooses the scale" err || failed "--scale goes with --accuracy"
+count=$((count + 1))
+"$radiosity" solve "$scenes/furnace.obj" --scale none --accuracy 1% 2>err
+[ $? = 2 ] && grep -qF -- "--accuracy chooses the scale" err || failed "--scale none goes with --accuracy"
 
 finish "coarse first"

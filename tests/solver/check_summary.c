@@ -166,7 +166,7 @@ static void print_worst(char *text, size_t size, double share)
     fflush(stdout);
     int before = dup(STDOUT_FILENO);
     dup2(fileno(file), STDOUT_FILENO);
-    measured_print(&measured, 4);
+    measured_print(&measured, 4, 0);
     fflush(stdout);
     dup2(before, STDOUT_FILENO);
     close(before);
