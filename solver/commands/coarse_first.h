@@ -15,9 +15,9 @@ struct coarse_first {
     double seconds; /* for these */
 };
 
-/* Solve with the thresholds times o->scale; where that is 0 and o->choose_scale, none, coarse or as
- * they are set, whichever leaves less to do for links and particles together. The oracle's thresholds
- * are set. Returns 0, or -1 after a message, with nothing to close. */
+/* Solve with the thresholds times o->scale; where that is 0 and o->choose_scale, with no links,
+ * coarse ones or as they are set, whichever leaves less to do for links and particles together. The
+ * oracle's thresholds are set. Returns 0, or -1 after a message, with nothing to close. */
 int coarse_first_solve(struct coarse_first *c, struct solved *s, const struct options *o,
                        RadDevice device, RadScene scene, RadOracle oracle,
                        const struct RadSolveOptions *how);
