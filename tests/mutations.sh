@@ -48,6 +48,12 @@ times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)t
 rays of all nodes before | runtime/oracle/counting.c | s/t->host.rays - rays/t->host.rays + 0 * rays/ | runtime/check_instrumented
 dead arcs alive | solver/output/graph_drawing.c | s/.dead = counted \&\& count == 0/.dead = 0/ | solver/check_draw
 arcs to the first leaf | solver/output/graph_drawing.c | s/            a->leaf = (int)i;/            a->leaf = 0;/ | solver/check_draw
+pierced through edges' lines | runtime/kernel/shaft_pierced.h | s/+ g.z\[1\] \* c2 > g.at\[1\]/+ g.z[1] * c2 > g.at[1] - 0.3/ | runtime/check_pierced
+pierced from one side | runtime/kernel/shaft_pierced.h | s/(a \* other < 0)/(a * other != 0)/ | runtime/check_pierced
+bent and pierced | runtime/kernel/shaft_pierced.h | s/0.25 \* shaft->slack/shaft->flat/ | runtime/check_pierced
+kept for another cluster | runtime/tools/cluster_visibility.h | s/if (w->child\[at\] != e->child)/if (!w->child[at])/ | runtime/check_cluster_walk
+the last child is passed by | runtime/tools/cluster_visibility.h | s/place\[k\] < last/place[k] <= last/ | runtime/check_cluster_walk
+no chance of a child's | runtime/tools/cluster_visibility.h | s/all \*= p->share\[k\];/all *= p->share[0];/ | runtime/check_cluster_walk
 an interpreter that links | runtime/oracle/interpreter.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | dagc/check_prove
 interpreter: arcs of the first | runtime/oracle/interpreter.c | s/: dag->nodes\[t->index\].order;/: dag->nodes[t->index].order + (i == 0 \&\& k == 0);/ | dagc/check_prove
 defaults emitted 7 | dagc/emit/emit_c.c | /static void print_value/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove

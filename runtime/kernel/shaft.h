@@ -40,6 +40,7 @@
 #include "discussion.h"
 #include "kernel/constants.h"
 #include "kernel/cut.h"
+#include "kernel/shaft_pierced.h"
 #include "kernel/shaft_planes.h"
 
 enum { SHAFT_DEPTHS = 48 }; /* splits below two faces (tools/can_split.h) */
@@ -327,6 +328,8 @@ static inline int shaft_meets_flat(const struct shaft *shaft, const double (*v)[
     const int side = shaft_side(shaft, v, n, normal);
     if (side > 0)
         return 0;
+    if (!inside && (side < 0 || shaft_pierced(shaft, v, n, normal)))
+        return 1;
     shaft_enlarge(&large, v, n, normal, shaft->grow);
     if (side < 0) {
         if (inside)

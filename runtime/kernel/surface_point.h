@@ -14,13 +14,18 @@
 
 static inline void surface_point(double p[3], const struct element *e, double s, double t)
 {
-    if (e->vertices == 3)
+    if (e->vertices == 3) {
         s = sqrt(s);
-    for (int k = 0; k < 3; k++) {
-        const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k],
-                     d = e->vertex[3][k];
-        p[k] = e->vertices == 3 ? a + s * (b - a) + s * t * (c - b)
-                                : (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
+        for (int k = 0; k < 3; k++) {
+            const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k];
+            p[k] = a + s * (b - a) + s * t * (c - b);
+        }
+    } else {
+        for (int k = 0; k < 3; k++) {
+            const double a = e->vertex[0][k], b = e->vertex[1][k], c = e->vertex[2][k],
+                         d = e->vertex[3][k];
+            p[k] = (1 - t) * (a + s * (b - a)) + t * (d + s * (c - d));
+        }
     }
 }
 

@@ -16,79 +16,137 @@
 #ifndef TOOL_CLUSTER_VISIBILITY_H
 #define TOOL_CLUSTER_VISIBILITY_H
 
+#include <string.h>
 #include "discussion.h"
 #include "kernel/cluster_facing.h"
 #include "kernel/constants.h"
 #include "kernel/hash.h"
+#include "kernel/lanes.h"
 #include "kernel/segments.h"
 #include "kernel/surface_point.h"
 #include "terms/visibility.h"
 
-/* The most children that a cluster has. */
-enum { CLUSTER_CHILDREN = 8 };
+/* The most children that a cluster has; of how many clusters a walk remembers what it computed. */
+enum { CLUSTER_CHILDREN = 8, CLUSTER_KEPT = 128, CLUSTER_KEPT_BITS = 7 };
 
-/* Faces chosen from one element: of each, what is left of its u in [0, 1) once the choice has used
- * it up, and the chance that it was chosen. */
-struct cluster_choice {
-    const struct element *face[SEGMENTS_MAX]; /* NULL: none faces v */
-    double u[SEGMENTS_MAX], chance[SEGMENTS_MAX];
+/* Of a cluster's children: what each may turn to v (cluster_facing), its share of the sum, and what
+ * u must reach to pass it by: its part, but of the last child and behind it nothing does. */
+struct cluster_parts {
+    double part[CLUSTER_CHILDREN], share[CLUSTER_CHILDREN], pass[CLUSTER_CHILDREN], sum;
 };
 
-/* Choose `count` faces of e by c->u. All go down the tree together, so that what a cluster's
- * children may turn to v is computed once for all that pass it. */
-static inline void cluster_choose(struct cluster_choice *c, int count, const struct element *e,
-                                  const struct element *all, const double v[3], double slope)
+/* One element of the pair as seen from the other, for all walks down from it. */
+struct cluster_walk {
+    const struct element *all;
+    double v[3], slope;
+    int width;                    /* of vectors */
+    uint32_t child[CLUSTER_KEPT]; /* whose parts these are, by the first child; 0: nobody's */
+    struct cluster_parts parts[CLUSTER_KEPT];
+};
+
+static inline void cluster_walk_open(struct cluster_walk *w, const struct element *all,
+                                     const double v[3], double slope)
 {
-    /* those at one element stand together in `order` */
-    unsigned char order[SEGMENTS_MAX], moved[SEGMENTS_MAX], went[SEGMENTS_MAX];
-    int open = !e->vertices;
-    for (int i = 0; i < count; i++) {
-        c->face[i] = e;
-        c->chance[i] = 1;
-        order[i] = (unsigned char)i;
-    }
-    int k;
-    while (open) {
-        open = 0;
-        int to;
-        for (int from = 0; from < count; from = to) {
-            const struct element *at = c->face[order[from]];
-            double part[CLUSTER_CHILDREN], sum = 0;
-            int n[CLUSTER_CHILDREN + 1] = {0};
-            for (to = from + 1; to < count && c->face[order[to]] == at; to++)
-                ;
-            if (!at || at->vertices)
-                continue;
-            const struct element *child = &all[at->child];
-            for (k = 0; k < at->children; k++) {
-                part[k] = cluster_facing(&child[k], v, slope);
-                sum += part[k];
-            }
-            for (int i = from; i < to; i++) {
-                int j = order[i];
-                double u = c->u[j] * sum;
-                for (k = 0; k < at->children - 1 && u >= part[k]; k++)
-                    u -= part[k];
-                /* else nothing faces v, or rounding led past the last that does */
-                if (part[k] > 0) {
-                    c->u[j] = u < part[k] ? u / part[k] : 0.5;
-                    c->chance[j] *= part[k] / sum;
-                    c->face[j] = &child[k];
-                    open |= !child[k].vertices;
-                } else {
-                    c->face[j] = NULL;
-                }
-                went[i] = (unsigned char)k;
-                n[k + 1]++;
-            }
-            for (k = 0; k < at->children; k++)
-                n[k + 1] += n[k];
-            for (int i = from; i < to; i++)
-                moved[from + n[went[i]]++] = order[i];
-            for (int i = from; i < to; i++)
-                order[i] = moved[i];
+    w->all = all;
+    w->width = lanes_width();
+    w->slope = slope;
+    for (int k = 0; k < 3; k++)
+        w->v[k] = v[k];
+    for (int i = 0; i < CLUSTER_KEPT; i++)
+        w->child[i] = 0;
+}
+
+/* By fours: few clusters have more children. */
+TOOL void cluster_parts_body(const struct element *child, int children, const double v[3],
+                             double slope, struct cluster_parts *p)
+{
+    static const double place[CLUSTER_CHILDREN] = {0, 1, 2, 3, 4, 5, 6, 7};
+    _Static_assert(offsetof(struct element, normal) == 0
+                       && offsetof(struct element, area) == 3 * sizeof(double),
+                   "a row is the normal and the area");
+    const double v0 = v[0], v1 = v[1], v2 = v[2], last = children - 1;
+    double sum = 0;
+    for (int i = 0; i < children; i += 4) {
+        double row[4][4], cone[4], flat[4]; /* the normal and the area, which lie side by side */
+        const struct element *e = &child[i];
+        for (int k = 0; k < 4; k++) {
+            memcpy(row[k], e, sizeof row[k]);
+            cone[k] = e->cone;
+            flat[k] = e->vertices;
+            e += i + k + 1 < children;
+        }
+        for (int k = 0; k < 4; k++) {
+            const double d = row[k][0] * v0 + row[k][1] * v1 + row[k][2] * v2, across = 1 - d * d,
+                         sine = 1 - cone[k] * cone[k], turned = across * sine,
+                         root = sqrt(turned > 0 ? turned : 0), some = across > 0 ? root : 0;
+            double c = d * cone[k] + (sine > 0 ? some : 0);
+            c = d < cone[k] ? c : 1;
+            c = (flat[k] > 0 ? d : c) + slope;
+            c = c < 1 ? c : 1;
+            p->part[i + k] = row[k][3] * (c < 0 ? 0 : c);
         }
     }
+    for (int k = 0; k < children; k++)
+        sum += p->part[k];
+    for (int i = 0; i < children; i += 4)
+        for (int k = i; k < i + 4; k++) {
+            p->share[k] = p->part[k] / sum;
+            p->pass[k] = place[k] < last ? p->part[k] : INFINITY;
+        }
+    p->sum = sum;
+}
+
+#if LANES_CHOSEN
+LANES_AVX2 void cluster_parts_4(const struct element *child, int children, const double v[3],
+                                double slope, struct cluster_parts *p)
+{
+    cluster_parts_body(child, children, v, slope, p);
+}
+#endif
+
+/* Keep the parts of cluster e at its place, where another's may be. */
+OUTLINE void cluster_keep(struct cluster_walk *w, const struct element *e, uint32_t at)
+{
+    w->child[at] = e->child;
+    LANES_RUN(w->width, cluster_parts_4, cluster_parts_4, cluster_parts_body,
+              (&w->all[e->child], e->children, w->v, w->slope, &w->parts[at]));
+}
+
+/* The face that *u in [0, 1) chooses below e; what is left of u once the choice has used it up, and
+ * the chance that the face was chosen. NULL: none faces v. */
+static inline const struct element *cluster_face(struct cluster_walk *w, const struct element *e,
+                                                 double *left, double *chance)
+{
+    double u = *left, all = 1;
+    while (!e->vertices) {
+        const uint32_t at = e->child * 2654435769u >> (32 - CLUSTER_KEPT_BITS);
+        const struct cluster_parts *p = &w->parts[at];
+        if (w->child[at] != e->child)
+            cluster_keep(w, e, at);
+        double rest[4];
+        rest[0] = u * p->sum;
+        int k = rest[0] >= p->pass[0], on = k;
+        rest[1] = rest[0] - p->part[0];
+        on &= rest[1] >= p->pass[1];
+        k += on;
+        rest[2] = rest[1] - p->part[1];
+        on &= rest[2] >= p->pass[2];
+        k += on;
+        rest[3] = rest[2] - p->part[2];
+        u = rest[k];
+        if (k == 3) /* eight children, of an octree */
+            for (; u >= p->pass[k]; k++)
+                u -= p->part[k];
+        const double part = p->part[k];
+        if (!(part > 0)) /* nothing faces v, or rounding led past the last that does */
+            return NULL;
+        u = u < part ? u / part : 0.5;
+        all *= p->share[k];
+        e = &w->all[e->child + (uint32_t)k];
+    }
+    *left = u;
+    *chance = all;
+    return e;
 }
 
 /* The visible fraction by at most `count` segments, up to SEGMENTS_MAX. */
@@ -100,8 +158,8 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
     const struct element *r = receiver->id < emitter->id ? receiver : emitter,
                          *s = r == receiver ? emitter : receiver;
     const struct element *all = *host->elements;
-    struct cluster_choice of_r, of_s;
-    double weight[SEGMENTS_MAX], across[2][SEGMENTS_MAX], seen = 0, whole = 0, v[3], back[3];
+    struct cluster_walk from_r, from_s;
+    double weight[SEGMENTS_MAX], seen = 0, whole = 0, v[3], back[3];
     uint64_t hash = hash64(r->id + hash64(s->id));
     int n = 0;
     sub3(v, s->centre, r->centre);
@@ -117,40 +175,36 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
     int one = count == 1;
     if (one)
         count = VISIBILITY_CHOICE;
-    for (int tried = 0; n < count && tried < CLUSTER_TRIES * count; tried += count) {
-        for (int i = 0; i < count; i++) {
-            double u[4];
-            for (int k = 0; k < 4; k++) {
-                u[k] =
-                    (double)(hash >> 16 * k & 0xffff) * (1 / 65536.0) + (tried + i + 0.5) * step[k];
-                u[k] -= floor(u[k]);
-            }
-            of_r.u[i] = u[0];
-            across[0][i] = u[1];
-            of_s.u[i] = u[2];
-            across[1][i] = u[3];
+    double first[4];
+    for (int k = 0; k < 4; k++)
+        first[k] = (double)(hash >> 16 * k & 0xffff) * (1 / 65536.0);
+    cluster_walk_open(&from_r, all, v, slope);
+    cluster_walk_open(&from_s, all, back, slope);
+    for (int tried = 0; n < count && tried < CLUSTER_TRIES * count; tried++) {
+        struct segment *g = &segments[n];
+        double u[4], w[3], chance[2];
+        for (int k = 0; k < 4; k++) {
+            u[k] = first[k] + (tried + 0.5) * step[k];
+            u[k] -= (int)u[k];
         }
-        cluster_choose(&of_r, count, r, all, v, slope);
-        cluster_choose(&of_s, count, s, all, back, slope);
-        for (int i = 0; i < count && n < count; i++) {
-            struct segment *g = &segments[n];
-            const struct element *a = of_r.face[i], *b = of_s.face[i];
-            double w[3];
-            if (!a || !b)
-                continue;
-            surface_point(g->from, a, of_r.u[i], across[0][i]);
-            surface_point(g->to, b, of_s.u[i], across[1][i]);
-            sub3(w, g->to, g->from);
-            double cos_a = dot3(a->normal, w);
-            double cos_b = -dot3(b->normal, w);
-            double square = dot3(w, w) / (distance * distance);
-            if (!(cos_a > 0) || !(cos_b > 0))
-                continue;
-            weight[n] = cos_a * cos_b * (a->area / r->area) * (b->area / s->area)
-                        / (square * square * of_r.chance[i] * of_s.chance[i]);
-            segment_clear(g, a->normal, b->normal, host);
-            n++;
-        }
+        const struct element *a = cluster_face(&from_r, r, &u[0], &chance[0]);
+        if (!a)
+            continue;
+        const struct element *b = cluster_face(&from_s, s, &u[2], &chance[1]);
+        if (!b)
+            continue;
+        surface_point(g->from, a, u[0], u[1]);
+        surface_point(g->to, b, u[2], u[3]);
+        sub3(w, g->to, g->from);
+        double cos_a = dot3(a->normal, w);
+        double cos_b = -dot3(b->normal, w);
+        double square = dot3(w, w) / (distance * distance);
+        if (!(cos_a > 0) || !(cos_b > 0))
+            continue;
+        weight[n] = cos_a * cos_b * (a->area / r->area) * (b->area / s->area)
+                    / (square * square * chance[0] * chance[1]);
+        segment_clear(g, a->normal, b->normal, host);
+        n++;
     }
     if (n == 0)
         return 0;

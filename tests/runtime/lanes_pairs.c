@@ -66,8 +66,9 @@ static void mix(uint64_t *hash, double x)
     *hash ^= *hash >> 29;
 }
 
-/* Of shafts: how many there are, faces that meet one, that cover it, and boxes that it misses. */
-static int shafts, met, covered, missed;
+/* Of shafts: how many there are, faces that meet one, for which a segment proves it, that cover it,
+ * and boxes that it misses. */
+static int shafts, met, pierced, covered, missed;
 
 /* The planes, and what they say of a face and of its box. */
 static void mix_shaft(uint64_t *hash, const struct element *a, const struct element *b,
@@ -87,6 +88,9 @@ static void mix_shaft(uint64_t *hash, const struct element *a, const struct elem
     const double(*v)[3] = (const double(*)[3])face->vertex;
     inside.n = 0;
     met += shaft_meets(&shaft, v, face->vertices, &inside);
+    double normal[3];
+    pierced +=
+        shaft_normal(v, face->vertices, normal) && shaft_pierced(&shaft, v, face->vertices, normal);
     for (int i = 0; i < inside.n; i++)
         for (int k = 0; k < 3; k++)
             mix(hash, inside.v[i][k]);
@@ -96,7 +100,7 @@ static void mix_shaft(uint64_t *hash, const struct element *a, const struct elem
         high[k] = face->centre[k] + 0.2 * face->radius;
     }
     missed += shaft_misses_box(&shaft, low, high);
-    mix(hash, met + 0.5 * covered + 0.25 * missed);
+    mix(hash, met + 0.5 * covered + 0.25 * missed + 0.125 * pierced);
 }
 
 /* What lies below z = .5 is hidden: where segments go shows in the answer. */
