@@ -49,7 +49,8 @@ int radGetRanks(RadSolution solution, struct RadRank *ranks, int most)
                                  .rays = rays_count(s->problem.rays).rays,
                                  .faces = here.to - here.from,
                                  .ghosts = shares->here.first[SWEEP_BLOCKS],
-                                 .named = shares->here.named};
+                                 .named = shares->here.named,
+                                 .elements = s->report.held};
     return tell(solution->scene->device, &mine, ranks, most);
 }
 

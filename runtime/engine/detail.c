@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/detail.h"
+#include "engine/own_quarters.h"
 #include "kernel/constants.h"
 
 /* What a leaf receives, of all bands (W). */
@@ -77,20 +78,34 @@ static void inherit(struct solve *s, uint32_t i)
 static int light(struct solve *s, uint32_t first)
 {
     struct hierarchy *h = &s->hierarchy;
-    if (h->count == first)
+    if ((own_quarters(s) ? s->quarters.count : h->count) == first)
         return 0;
     double *gradient =
         realloc(s->linear.gradient, (size_t)h->count * s->problem.bands * 3 * sizeof *gradient);
     if (gradient)
         s->linear.gradient = gradient;
-    if (!gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0)
+    if (ranks_any(s->problem.options.ranks,
+                  !gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0))
         return -1;
     for (uint32_t i = first; i < h->count; i++) /* children follow their parents */
         s->operator.uncovered[i] = s->operator.uncovered[h->elements[i].parent];
     solve_measure_contact(s, first, 1);
+    if (own_quarters(s)) {
+        if (own_quarters_tell(s, s->operator.uncovered, 1) < 0)
+            return -1;
+        solve_average_contact(s, first);
+    }
     for (uint32_t i = first; i < h->count; i++)
         inherit(s, i);
     return 0;
+}
+
+/* Split a leaf into so many parts; of several ranks that have their own, its owner makes them. */
+static int split_leaf(struct solve *s, uint32_t leaf, double parts)
+{
+    if (!own_quarters(s))
+        return split(&s->hierarchy, leaf, parts);
+    return quarters_split(&s->quarters, &s->hierarchy, leaf, parts, own_quarters_mine(s, leaf));
 }
 
 /* Split leaves into as many parts as what each receives and covers asks for. */
@@ -98,13 +113,13 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
 {
     struct hierarchy *h = &s->hierarchy;
     uint32_t first = h->count;
+    int failed = 0;
     if (!s->linear.gradient)
         return 0;
-    for (uint32_t i = 0; i < first; i++)
-        if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
-            && split(h, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0)
-            return -1;
-    return light(s, first);
+    for (uint32_t i = 0; i < first && !failed; i++)
+        failed = h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
+                 && split_leaf(s, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0;
+    return ranks_any(s->problem.options.ranks, failed) ? -1 : light(s, first);
 }
 
 int detail_leaves(struct solve *s, double landings)
@@ -113,7 +128,9 @@ int detail_leaves(struct solve *s, double landings)
     double whole = 0;
     for (uint32_t i = 0; i < h->count; i++)
         whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
-    return whole > 0 ? split_leaves(s, landings / MEND_DETAIL / whole, 0) : 0;
+    if (!(whole > 0) || !s->linear.gradient)
+        return 0;
+    return own_quarters_begin(s) < 0 ? -1 : split_leaves(s, landings / MEND_DETAIL / whole, 0);
 }
 
 int detail_places(struct solve *s)
@@ -160,7 +177,7 @@ int detail_merge(struct solve *s, uint32_t first)
     struct hierarchy *h = &s->hierarchy;
     uint32_t count = h->count;
     size_t bands = s->problem.bands;
-    if (count == first || !s->mended_gradient)
+    if ((!own_quarters(s) && count == first) || !s->mended_gradient)
         return 0;
     uint32_t *place = malloc((size_t)count * sizeof *place);
     if (place) {
@@ -179,9 +196,12 @@ int detail_merge(struct solve *s, uint32_t first)
         close_up(s->operator.uncovered, 1, first, count, place);
         s->started = h->count;
     }
-    int result = place ? refinement_sort(&s->refinement) : -1;
+    int failed = !place || refinement_sort(&s->refinement) < 0;
     free(place);
-    return result;
+    if (ranks_any(s->problem.options.ranks, failed))
+        return -1;
+    own_quarters_settle(s);
+    return 0;
 }
 
 int detail_drop(struct solve *s, uint32_t count)

@@ -10,6 +10,7 @@
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/own_quarters.h"
 #include "engine/path_mending.h"
 #include "particles/power_balance.h"
 #include "engine/ray_split.h"
@@ -87,6 +88,8 @@ int measured_elements(const struct solve *s, struct measured_error *m)
 {
     if (m->elements.error || !m->tally.face)
         return 0;
+    if (!m->tally.element && !m->by_paths)
+        return -1;
     if (element_error_open(&m->elements, &s->operator, & m->faces, &m->tally,
                            solve_shown(s)->irradiance)
         < 0)
@@ -120,14 +123,16 @@ static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t ra
     return tail_error_measure(s, t, &shown, rays, stream, &watch, &m->p999, &m->rays);
 }
 
-/* Particles, or paths where these have mended; about so many rays of `all`. Returns 0, or -1 when
- * cancelled or out of memory. */
+/* Particles, or paths where these have mended, on polygons, and on leaves where all have them;
+ * about so many rays of `all`. Returns 0, or -1 when cancelled or out of memory. */
 static int count(struct solve *s, const struct tracer *t, uint64_t rays, double all,
                  uint64_t stream, struct tally *tally)
 {
     if (!s->by_paths)
-        return tally_open(tally, t, stream, 1) < 0 || trace_rays(s, t, tally, rays, all) < 0 ? -1
-                                                                                             : 0;
+        return tally_open(tally, t, stream, !own_quarters(s)) < 0
+                       || trace_rays(s, t, tally, rays, all) < 0
+                   ? -1
+                   : 0;
     struct watched watched = {.solve = s, .now = (double)rays, .all = all};
     const struct watch watch = {tell, &watched};
     struct path_tally paths;
@@ -149,6 +154,7 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || count(s, &t, counted, (double)rays, stream, &m->tally) < 0
                          || measure_faces(s, &m->tally, m) < 0
+                         || (surfaces && own_quarters_share(s) < 0)
                          || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
                      : 0;
@@ -194,6 +200,22 @@ static void set_radiosity(const struct light_operator *op, struct state *state,
     }
 }
 
+/* The same of clusters alone. */
+static void average_clusters(const struct light_operator *op, double *radiosity)
+{
+    const struct hierarchy *h = op->hierarchy;
+    const uint32_t bands = op->problem->bands;
+    for (uint32_t e = h->built; e-- > 0;) {
+        const struct element *at = &h->elements[e];
+        for (uint32_t k = 0; k < bands && !at->vertices; k++) {
+            double sum = 0;
+            for (uint32_t j = at->child; j < at->child + at->children; j++)
+                sum += operator_share(op, j, e) * radiosity[(size_t)j * bands + k];
+            radiosity[(size_t)e * bands + k] = sum;
+        }
+    }
+}
+
 /* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
  * emitter's are made no steeper. Returns 0, or -1 when out of memory. */
 static int mend_gradient(struct solve *s)
@@ -225,7 +247,13 @@ static int follow_irradiance(struct solve *s)
 {
     struct state *mended = &s->mended;
     set_radiosity(&s->operator, mended, s->state.radiosity);
-    return mend_gradient(s);
+    if (own_quarters(
+            s)) { /* what is made of quarters their owners know, and then clusters follow */
+        if (own_quarters_tell(s, mended->radiosity, s->problem.bands) < 0)
+            return -1;
+        average_clusters(&s->operator, mended->radiosity);
+    }
+    return ranks_any(s->problem.options.ranks, mend_gradient(s) < 0) ? -1 : 0;
 }
 
 /* Polygons of a size, and what goes with them. Returns 0, or -1 when out of memory or cancelled. */
@@ -259,6 +287,14 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                     : 0;
 }
 
+static int mend_by(struct solve *s, const struct tally *tally, double *irradiance)
+{
+    return mend_irradiance(&s->operator, tally, irradiance) < 0
+                   || own_quarters_tell(s, irradiance, s->problem.bands) < 0
+               ? -1
+               : 0;
+}
+
 /* By what particles counted, and then by paths, if there are any. */
 static int mend(struct solve *s, const struct tracer *t, const struct tally *tally,
                 const struct tally *paths, struct measured_error *alone, uint64_t *spent)
@@ -268,11 +304,10 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
     solve_forget_mended(s);
     m->radiosity = malloc(values * sizeof *m->radiosity);
     m->irradiance = malloc(values * sizeof *m->irradiance);
-    if (m->radiosity && m->irradiance) {
+    if (!ranks_any(s->problem.options.ranks, !m->radiosity || !m->irradiance)) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
-        if (mend_irradiance(&s->operator, tally, m->irradiance) == 0
-            && (!paths || mend_irradiance(&s->operator, paths, m->irradiance) == 0)
-            && follow_irradiance(s) == 0
+        if (mend_by(s, tally, m->irradiance) == 0
+            && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_irradiance(s) == 0
             && mend_dim(s, t, paths ? paths : tally, alone, spent) == 0)
             return 0;
     }
@@ -282,14 +317,15 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
 
 int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause)
 {
-    uint32_t elements = s->hierarchy.count;
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     s->told = 0;
-    int failed = tracer_open(&t) < 0 || detail_places(s) < 0
-                 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || trace_rays(s, &t, &tally, rays, (double)rays) < 0
-                 || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0;
+    int failed = own_quarters_share(s) < 0;
+    const uint32_t elements = s->hierarchy.count;
+    failed = failed || tracer_open(&t) < 0 || detail_places(s) < 0
+             || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+             || trace_rays(s, &t, &tally, rays, (double)rays) < 0
+             || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0;
     tally_close(&tally);
     tracer_close(&t);
     failed |= detail_drop(s, elements) < 0;
@@ -385,19 +421,19 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     struct tally tally = {0};
     struct path_tally paths = {.tally = {0}};
     uint64_t spent = 0;
-    uint32_t elements = s->hierarchy.count;
     s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
     s->by_paths = 0;
-    int failed = tracer_open(&t) < 0 || detail_leaves(s, landings(goal)) < 0
-                 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || look(s, &t, &tally, &paths, goal) < 0
-                 || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
-                 || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
-                 || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
-                 || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
-                 || detail_merge(s, elements) < 0;
+    int failed = own_quarters_share(s) < 0;
+    const uint32_t elements = s->hierarchy.count;
+    failed = failed || tracer_open(&t) < 0 || detail_leaves(s, landings(goal)) < 0
+             || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0
+             || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
+             || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
+             || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
+             || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
+             || detail_merge(s, elements) < 0 || (!goal->own && own_quarters_share(s) < 0);
     s->report.particles =
         failed ? 0 : fingerprint(&tally) + (s->by_paths ? fingerprint(&paths.tally) : 0);
     alone->rays = tally.rays + paths.paths.rays;

@@ -32,7 +32,14 @@ struct places {
     const struct tally *tally;
     uint32_t *element, count;
     double *power;
+    const struct shares *shares; /* who looks at which; NULL: all at all */
 };
+
+/* Is it this rank's to look at? */
+static int is_counted(const struct places *p, uint32_t e)
+{
+    return !p->shares || shares_mine(p->shares, e);
+}
 
 /* Add what has been counted below an element: children last to first, each once it is whole. */
 static void add_power(const struct places *p, uint32_t e, double power[3])
@@ -60,13 +67,14 @@ static void add_powers(const void *places, size_t from, size_t to)
 }
 
 /* Returns 0, or -1 when out of memory; either way places_close. */
-static int places_open(struct places *p, const struct hierarchy *h, const struct tally *tally,
-                       int threads)
+static int places_open(struct places *p, const struct light_operator *op, const struct tally *tally)
 {
-    *p = (struct places){.h = h, .tally = tally};
+    const struct hierarchy *h = op->hierarchy;
+    const int threads = op->problem->options.threads;
+    *p = (struct places){.h = h, .tally = tally, .shares = op->shares.common ? &op->shares : NULL};
     p->element = malloc((size_t)h->count * sizeof *p->element);
     for (uint32_t e = 0; p->element && e < h->count; e++)
-        if (is_place(h, e))
+        if (is_place(h, e) && is_counted(p, e))
             p->element[p->count++] = e;
     p->power = malloc(((size_t)p->count * tally->bands + 1) * sizeof *p->power);
     if (!p->element || !p->power)
@@ -88,7 +96,7 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
     double seen = 0, noise = 0, square = 0, light = 0; /* W */
     double one = tally_power_of_one(tally);
     struct places places;
-    int result = places_open(&places, h, tally, op->problem->options.threads);
+    int result = ranks_any(op->shares.ranks, places_open(&places, op, tally) < 0) ? -1 : 0;
     *split = (struct ray_split){.rays = tally->rays};
     for (uint32_t i = 0; result == 0 && i < places.count; i++)
         for (uint32_t k = 0; k < tally->bands; k++) {
@@ -105,6 +113,14 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
             square += chance * chance;
             light += linked * linked * weight;
         }
+    if (result == 0 && places.shares) {
+        double sums[] = {seen, noise, square, light};
+        ranks_add(op->shares.ranks, RANKS_PARTICLES, sums, 4);
+        seen = sums[0];
+        noise = sums[1];
+        square = sums[2];
+        light = sums[3];
+    }
     places_close(&places);
     if (light > 0 && tally->rays > 0) {
         split->links = (seen - noise) / light;

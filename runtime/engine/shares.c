@@ -131,28 +131,35 @@ void shares_close(struct shares *s)
     *s = (struct shares){0};
 }
 
-/* All surfaces, rank by rank. */
+/* Elements that all ranks have. */
+static uint32_t common(const struct shares *s)
+{
+    return s->common ? s->common : s->hierarchy->count;
+}
+
+/* All surfaces of these, rank by rank. */
 static int list_elements(struct shares *s)
 {
     const struct hierarchy *h = s->hierarchy;
     const int ranks = ranks_count(s->ranks);
-    uint32_t *listed = realloc(s->listed, (h->count + 1) * sizeof *listed);
+    const uint32_t count = common(s);
+    uint32_t *listed = realloc(s->listed, (count + 1) * sizeof *listed);
     if (listed)
         s->listed = listed;
     if (ranks_any(s->ranks, !listed))
         return -1;
     memset(s->list_first, 0, ((size_t)ranks + 1) * sizeof *s->list_first);
-    for (uint32_t i = 0; i < h->count; i++)
+    for (uint32_t i = 0; i < count; i++)
         if (h->elements[i].vertices)
             s->list_first[s->owner[h->elements[i].face] + 1]++;
     for (int k = 0; k < ranks; k++)
         s->list_first[k + 1] += s->list_first[k];
-    for (uint32_t i = 0; i < h->count; i++)
+    for (uint32_t i = 0; i < count; i++)
         if (h->elements[i].vertices)
             s->listed[s->list_first[s->owner[h->elements[i].face]]++] = i;
     memmove(s->list_first + 1, s->list_first, (size_t)ranks * sizeof *s->list_first);
     s->list_first[0] = 0;
-    s->elements = h->count;
+    s->elements = count;
     return 0;
 }
 
@@ -161,7 +168,7 @@ int shares_complete(struct shares *s, double *values, size_t width)
     const int ranks = ranks_count(s->ranks), me = ranks_number(s->ranks);
     if (ranks == 1)
         return 0;
-    if (s->elements != s->hierarchy->count && list_elements(s) < 0)
+    if (s->elements != common(s) && list_elements(s) < 0)
         return -1;
     const size_t *first = s->list_first;
     double *packed = malloc((first[ranks] * width + 1) * sizeof *packed);

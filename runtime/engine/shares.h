@@ -45,7 +45,8 @@ struct shares {
     /* [elements]: surfaces, with their parts, rank by rank: listed[list_first[k]] ..; of `elements`
      * elements. Only where there are several ranks, as what follows */
     uint32_t *listed, elements;
-    size_t *list_first;        /* [ranks + 1] */
+    uint32_t common;    /* elements that all have; behind them own ones (own_quarters.h). 0: all */
+    size_t *list_first; /* [ranks + 1] */
     struct ghosts here, there; /* what this rank is told; what it tells */
 };
 

@@ -67,6 +67,7 @@ int solve_make_room(struct solve *s)
         op->uncovered[i] = 1;
     }
     s->started = count;
+    s->report.held = count > s->report.held ? count : s->report.held;
     return 0;
 }
 
@@ -93,12 +94,21 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
 {
     const struct hierarchy *h = &s->hierarchy;
     const struct problem *p = &s->problem;
-    const struct element *elements = h->elements;
     double *uncovered = s->operator.uncovered;
     const struct contacts contacts = {h, p->rays, uncovered, first, known};
-    ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
-                   measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
-    for (uint32_t i = h->count; i-- > 0;) { /* children follow their parents */
+    if (s->quarters.common) /* here each rank has others */
+        thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
+    else
+        ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
+                       measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
+    solve_average_contact(s, h->count);
+}
+
+void solve_average_contact(struct solve *s, uint32_t count)
+{
+    const struct element *elements = s->hierarchy.elements;
+    double *uncovered = s->operator.uncovered;
+    for (uint32_t i = count; i-- > 0;) { /* children follow their parents */
         if (!elements[i].children)
             continue;
         uncovered[i] = 0;
@@ -581,6 +591,7 @@ void solve_close(struct solve *s)
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]);
     free(s->inputs.changed);
+    quarters_close(&s->quarters);
     free(s->operator.collocated);
     memset(s, 0, sizeof *s);
 }

@@ -29,7 +29,11 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
                             .stream = stream,
                             .one = ONE_WHOLE,
                             .power = t->lights.power};
+    const struct quarters *q = t->quarters && t->quarters->common ? t->quarters : NULL;
     size_t bands = t->bands;
+    tally->quarters = q;
+    if (leaves && q)
+        tally->elements = q->count;
     tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
     tally->square = calloc(bands, sizeof *tally->square);
     if (leaves) {
@@ -40,7 +44,9 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
         tally_close(tally);
         return -1;
     }
-    for (uint32_t i = 0; leaves && i < tally->elements; i++) {
+    if (leaves && q)
+        memcpy(tally->first, q->child, tally->elements * sizeof *tally->first);
+    for (uint32_t i = 0; leaves && !q && i < tally->elements; i++) {
         const struct element *e = &t->hierarchy->elements[i];
         tally->first[i] = e->children ? e->child : 0;
     }
@@ -56,6 +62,17 @@ void tally_close(struct tally *tally)
     free(tally->until);
     free(tally->carried);
     *tally = (struct tally){0};
+}
+
+double tally_below(const struct tally *tally, uint32_t number, uint32_t band)
+{
+    const uint32_t child = tally->first[number];
+    double sum = 0;
+    if (!child)
+        return tally_numbered(tally, number, band);
+    for (uint32_t c = 4; c-- > 0;)
+        sum += tally_below(tally, child + c, band);
+    return sum;
 }
 
 /* From an emitter one carries what the window wants of those that leave its place, but no less than

@@ -32,7 +32,8 @@ enum { REPLICATES = 16 };
 
 /* What has been counted. */
 struct tally {
-    uint32_t faces, elements, bands;
+    uint32_t faces, elements, bands; /* elements: as they are numbered (quarters.h) */
+    const struct quarters *quarters; /* borrowed; NULL: the hierarchy has all */
     uint64_t stream;       /* which random numbers: tallies of two streams are independent */
     uint64_t particles;    /* of each replicate, so far */
     uint64_t rays;         /* cast for them */
@@ -90,12 +91,23 @@ static inline double tally_face(const struct tally *tally, int replicate, uint32
            * (1 + tally->correction[replicate][band]);
 }
 
+/* Of a leaf by its number. */
+static inline double tally_numbered(const struct tally *tally, uint32_t number, uint32_t band)
+{
+    return tally_unit(tally) / REPLICATES
+           * (double)tally->element[(size_t)number * tally->bands + band]
+           * (1 + tally->correction[REPLICATES][band]);
+}
+
+/* Of all leaves below what is split elsewhere, last to first, as it would be summed here (W). */
+double tally_below(const struct tally *tally, uint32_t number, uint32_t band);
+
 /* Power that the leaf receives in a band (W), mean of all replicates. */
 static inline double tally_leaf(const struct tally *tally, uint32_t element, uint32_t band)
 {
-    return tally_unit(tally) / REPLICATES
-           * (double)tally->element[(size_t)element * tally->bands + band]
-           * (1 + tally->correction[REPLICATES][band]);
+    if (tally->quarters && tally->quarters->common)
+        return tally_below(tally, quarters_number(tally->quarters, element), band);
+    return tally_numbered(tally, element, band);
 }
 
 /* W that one particle of all replicates stands for. */
