@@ -122,6 +122,33 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
     return ranks_any(s->problem.options.ranks, failed) ? -1 : light(s, first);
 }
 
+/* Of several ranks each makes the quarters of its own faces: as many, about, as any other. Returns
+ * 0 or -1, alike. */
+static int deal_out(struct solve *s, double per_watt)
+{
+    const struct hierarchy *h = &s->hierarchy;
+    struct ranks *ranks = s->problem.options.ranks;
+    if (ranks_count(ranks) == 1)
+        return 0;
+    double *quarters = calloc(h->face_count, sizeof *quarters);
+    if (ranks_any(ranks, !quarters)) {
+        free(quarters);
+        return -1;
+    }
+    for (uint32_t i = 0; i < h->count; i++) {
+        const struct element *e = &h->elements[i];
+        const double parts =
+            e->vertices && !e->children && may_split(s, i) ? per_watt * received(s, i) : 0;
+        for (double n = 1; n < parts; n *= 4)
+            quarters[e->face] += 4 * n;
+    }
+    for (uint32_t f = 0; f < h->face_count; f++) /* a face itself is looked at, too */
+        quarters[f]++;
+    const int result = own_quarters_begin(s, quarters);
+    free(quarters);
+    return result;
+}
+
 int detail_leaves(struct solve *s, double landings)
 {
     const struct hierarchy *h = &s->hierarchy;
@@ -130,7 +157,8 @@ int detail_leaves(struct solve *s, double landings)
         whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
     if (!(whole > 0) || !s->linear.gradient)
         return 0;
-    return own_quarters_begin(s) < 0 ? -1 : split_leaves(s, landings / MEND_DETAIL / whole, 0);
+    const double per_watt = landings / MEND_DETAIL / whole;
+    return deal_out(s, per_watt) < 0 ? -1 : split_leaves(s, per_watt, 0);
 }
 
 int detail_places(struct solve *s)

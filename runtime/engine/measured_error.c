@@ -49,7 +49,8 @@ static int tell(void *context, double share)
     return quit;
 }
 
-/* Trace until about so many rays are cast, of `all` that may follow. Returns 0, or -1 when
+/* Trace until about so many rays are cast, of `all` that may follow. Where there are several ranks
+ * counts are still to be added, as far as somebody asks for them. Returns 0, or -1 when
  * cancelled. */
 static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tally, uint64_t rays,
                       double all)
@@ -59,7 +60,6 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
     if (tally->particles == 0 && tally_trace_part(tally, t, FIRST, &watch) < 0)
         return -1;
     if (tally->rays == 0 || tally->rays >= rays) {
-        tally_add(tally, t->ranks);
         power_balance(tally, t);
         return 0;
     }
@@ -67,7 +67,7 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
     double more = (double)(rays - tally->rays) / each;
     watched.before = tally->rays;
     watched.now = (double)(rays - tally->rays);
-    if (tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch) < 0)
+    if (tally_trace_part(tally, t, more > 1 ? (uint64_t)more : 1, &watch) < 0)
         return -1;
     power_balance(tally, t);
     return 0;
@@ -75,8 +75,9 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
 
 /* What the tally, which nothing of the shown solution comes from, says of its polygons. Returns 0,
  * or -1 when out of memory. */
-static int measure_faces(struct solve *s, const struct tally *tally, struct measured_error *m)
+static int measure_faces(struct solve *s, struct tally *tally, struct measured_error *m)
 {
+    tally_add(tally, s->problem.options.ranks);
     m->rays = tally->rays;
     m->particles = tally->particles * REPLICATES;
     m->by_paths = tally->by_paths;
@@ -296,9 +297,10 @@ static int mend_by(struct solve *s, const struct tally *tally, double *irradianc
 }
 
 /* By what particles counted, and then by paths, if there are any. */
-static int mend(struct solve *s, const struct tracer *t, const struct tally *tally,
+static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
                 const struct tally *paths, struct measured_error *alone, uint64_t *spent)
 {
+    tally_add(tally, t->ranks);
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     struct state *m = &s->mended;
     solve_forget_mended(s);
@@ -313,6 +315,13 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
     }
     solve_forget_mended(s);
     return -1;
+}
+
+/* The noise that particles have on polygons. Returns 0, or -1 when out of memory. */
+static int find_noise(struct solve *s, struct tally *tally, double *noise)
+{
+    tally_add_faces(tally, s->problem.options.ranks);
+    return face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, noise);
 }
 
 int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause)
@@ -357,8 +366,7 @@ static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally
                            const struct mending_goal *goal)
 {
     double left = t->lights.power > 0 ? INFINITY : 0;
-    if (tally->particles > 0 && left > 0
-        && face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &left) < 0)
+    if (tally->particles > 0 && left > 0 && find_noise(s, tally, &left) < 0)
         return -1;
     while (left > goal->noise && tally->rays < goal->most) {
         /* noise falls with the root of the number, which doubles at the most */
@@ -367,7 +375,7 @@ static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally
         uint64_t before = tally->rays;
         if (trace_rays(s, t, tally, next > 1 ? (uint64_t)next : 1, fmin(all, (double)goal->most))
                 < 0
-            || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &left) < 0)
+            || find_noise(s, tally, &left) < 0)
             return -1;
         if (tally->rays == before)
             break;
@@ -396,7 +404,13 @@ static int look(struct solve *s, const struct tracer *t, struct tally *tally,
     const struct watch watch = {tell, &watched};
     if (tally->rays == 0)
         return 0;
+    tally_add_faces(tally, t->ranks);
     s->by_paths = path_mending_trace(paths, s, t, tally, goal->noise, goal->most, &watch);
+    if (s->by_paths == 0) { /* what they saw is forgotten, but for what it took */
+        const uint64_t spent = paths->paths.rays;
+        path_tally_close(paths);
+        paths->paths.rays = spent;
+    }
     return s->by_paths < 0 ? -1 : 0;
 }
 

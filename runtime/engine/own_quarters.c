@@ -8,18 +8,26 @@
 #include "engine/own_quarters.h"
 #include <stdlib.h>
 #include <string.h>
+#include "engine/row_sums.h"
 #include "engine/tree_bits.h"
 
-int own_quarters_begin(struct solve *s)
+int own_quarters_begin(struct solve *s, const double *work)
 {
     struct ranks *ranks = s->problem.options.ranks;
+    struct shares *shares = &s->operator.shares;
+    const size_t stretches = ((size_t)ranks_count(ranks) + 1) * sizeof *s->stretch;
     if (ranks_count(ranks) == 1)
         return 0;
-    if (ranks_any(ranks, quarters_open(&s->quarters, &s->hierarchy) < 0)) {
+    if (!s->stretch)
+        s->stretch = malloc(stretches);
+    if (ranks_any(ranks, quarters_open(&s->quarters, &s->hierarchy) < 0 || !s->stretch)) {
         quarters_close(&s->quarters);
         return -1;
     }
-    s->operator.shares.common = s->quarters.common;
+    memcpy(s->stretch, shares->stretch, stretches);
+    shares_divide(shares, work);
+    shares->common = s->quarters.common;
+    separable_links_close(&s->operator.separable);
     return 0;
 }
 
@@ -207,6 +215,9 @@ int own_quarters_share(struct solve *s)
     free(x.at);
     quarters_close(&s->quarters);
     s->operator.shares.common = 0;
-    return failed || ranks_any(s->problem.options.ranks, refinement_sort(&s->refinement) < 0) ? -1
-                                                                                              : 0;
+    shares_restore(&s->operator.shares, s->stretch);
+    return failed || ranks_any(s->problem.options.ranks, refinement_sort(&s->refinement) < 0)
+                   || row_sums_separate(&s->operator) < 0
+               ? -1
+               : 0;
 }

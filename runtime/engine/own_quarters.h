@@ -10,9 +10,10 @@
 #include "engine/solve.h"
 
 /* From here on each rank makes quarters of its own faces alone: by quarters_split, which all call
- * for all leaves. Where there is one rank nothing changes. Returns 0, or -1 on all ranks when any
- * is out of memory. */
-int own_quarters_begin(struct solve *s);
+ * for all leaves. Faces are dealt out anew, into stretches of about the same work[face]; links stay
+ * where they are, and those of groups are put away. Where there is one rank nothing changes.
+ * Returns 0, or -1 on all ranks when any is out of memory. */
+int own_quarters_begin(struct solve *s, const double *work);
 
 /* Are there such? */
 static inline int own_quarters(const struct solve *s)
@@ -33,8 +34,8 @@ int own_quarters_tell(struct solve *s, double *values, size_t width);
 /* No more will be made, and some have gone: numbers are forgotten, all count what is left. */
 void own_quarters_settle(struct solve *s);
 
-/* All ranks get the quarters of all, with the places and values that one process has. Nothing to do
- * where there are none. Returns 0 or -1, alike. */
+/* All ranks get the quarters of all, with the places and values that one process has, and faces are
+ * dealt out by links again. Nothing to do where there are none. Returns 0 or -1, alike. */
 int own_quarters_share(struct solve *s);
 
 #endif

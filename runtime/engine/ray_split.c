@@ -12,6 +12,7 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
+#include "engine/place_counts.h"
 #include "engine/ray_split.h"
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
@@ -66,6 +67,19 @@ static void add_powers(const void *places, size_t from, size_t to)
     }
 }
 
+/* The same where ranks have counted apart. */
+static int add_counts(const struct places *p, struct ranks *ranks)
+{
+    const uint32_t bands = p->tally->bands;
+    int64_t *count = place_counts(ranks, p->tally, p->element, p->count, p->shares != NULL);
+    if (!count)
+        return -1;
+    for (size_t i = 0; i < (size_t)p->count * bands; i++)
+        p->power[i] = tally_leaf_unit(p->tally, (uint32_t)(i % bands)) * (double)count[i];
+    free(count);
+    return 0;
+}
+
 /* Returns 0, or -1 when out of memory; either way places_close. */
 static int places_open(struct places *p, const struct light_operator *op, const struct tally *tally)
 {
@@ -77,8 +91,10 @@ static int places_open(struct places *p, const struct light_operator *op, const 
         if (is_place(h, e) && is_counted(p, e))
             p->element[p->count++] = e;
     p->power = malloc(((size_t)p->count * tally->bands + 1) * sizeof *p->power);
-    if (!p->element || !p->power)
+    if (ranks_any(op->shares.ranks, !p->element || !p->power))
         return -1;
+    if (tally->parted_leaves)
+        return add_counts(p, op->shares.ranks);
     thread_pool_run(threads, p->count, 64, add_powers, p);
     return 0;
 }
@@ -96,7 +112,7 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
     double seen = 0, noise = 0, square = 0, light = 0; /* W */
     double one = tally_power_of_one(tally);
     struct places places;
-    int result = ranks_any(op->shares.ranks, places_open(&places, op, tally) < 0) ? -1 : 0;
+    int result = places_open(&places, op, tally);
     *split = (struct ray_split){.rays = tally->rays};
     for (uint32_t i = 0; result == 0 && i < places.count; i++)
         for (uint32_t k = 0; k < tally->bands; k++) {

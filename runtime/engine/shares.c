@@ -61,6 +61,17 @@ static void list_own(struct shares *s)
     s->own_first[SWEEP_BLOCKS] = n;
 }
 
+/* Owners as stretches have them; the list of all elements is of other stretches. */
+static void own_stretches(struct shares *s)
+{
+    const struct hierarchy *h = s->hierarchy;
+    for (int k = 0; k < ranks_count(s->ranks) && s->owner; k++)
+        for (size_t i = s->stretch[k]; i < s->stretch[k + 1]; i++)
+            s->owner[h->order[i]] = (uint16_t)k;
+    list_own(s);
+    s->elements = 0;
+}
+
 void shares_divide(struct shares *s, const double *work)
 {
     const struct hierarchy *h = s->hierarchy;
@@ -73,13 +84,16 @@ void shares_divide(struct shares *s, const double *work)
         while (k < ranks && until >= all * k / ranks)
             s->stretch[k++] = i;
         until += work ? work[h->order[i]] : 1;
-        if (s->owner)
-            s->owner[h->order[i]] = (uint16_t)(k - 1);
     }
     while (k <= ranks)
         s->stretch[k++] = h->face_count;
-    list_own(s);
-    s->elements = 0; /* the list of all is of other stretches */
+    own_stretches(s);
+}
+
+void shares_restore(struct shares *s, const size_t *stretch)
+{
+    memcpy(s->stretch, stretch, ((size_t)ranks_count(s->ranks) + 1) * sizeof *stretch);
+    own_stretches(s);
 }
 
 void shares_take_all(struct shares *s)
@@ -89,9 +103,7 @@ void shares_take_all(struct shares *s)
         return;
     for (int k = 1; k <= ranks_count(s->ranks); k++)
         s->stretch[k] = faces;
-    memset(s->owner, 0, faces * sizeof *s->owner);
-    list_own(s);
-    s->elements = 0;
+    own_stretches(s);
 }
 
 int shares_open(struct shares *s, struct ranks *ranks, const struct hierarchy *h)

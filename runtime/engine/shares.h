@@ -56,6 +56,8 @@ void shares_close(struct shares *s);
 
 /* Stretches of about the same work: work[face], the same on all ranks; NULL: as many faces. */
 void shares_divide(struct shares *s, const double *work);
+/* Stretches that have been so before: stretch[ranks + 1]. */
+void shares_restore(struct shares *s, const size_t *stretch);
 
 /* All is rank 0's: until they are divided again each rank may tell of any links. */
 void shares_take_all(struct shares *s);

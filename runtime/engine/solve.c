@@ -592,6 +592,7 @@ void solve_close(struct solve *s)
         free(lists[i]);
     free(s->inputs.changed);
     quarters_close(&s->quarters);
+    free(s->stretch);
     free(s->operator.collocated);
     memset(s, 0, sizeof *s);
 }

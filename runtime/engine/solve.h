@@ -66,8 +66,10 @@ struct solve {
     /* grows with refinement; what oracles see of elements is set by what computes it */
     struct hierarchy hierarchy;
     struct refinement refinement; /* links and the queue of pairs */
-    struct quarters
-        quarters; /* of several ranks, those of which each has its own (own_quarters.h) */
+    /* of several ranks, those of which each has its own (own_quarters.h); where faces are dealt
+     * out by these, how they are by links: [ranks + 1] */
+    struct quarters quarters;
+    size_t *stretch;
     struct light_operator operator;
     struct state state;
     struct state mended;     /* of state, by particles (measured_error.h); NULLs: it is not */

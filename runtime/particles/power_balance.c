@@ -37,6 +37,10 @@ static void add_faces(const struct tally *tally, const struct tracer *t, uint32_
         }
         b->ended[r] += tally_unit(tally) * (double)tally->lost[r][band];
     }
+    if (tally->parted_faces) { /* sums of sums: nobody needs the counts themselves */
+        ranks_add(t->ranks, RANKS_PARTICLES, b->reflected, REPLICATES);
+        ranks_add(t->ranks, RANKS_PARTICLES, b->ended, REPLICATES);
+    }
 }
 
 /* What is counted too little, as a share; the slope is both / square. */
