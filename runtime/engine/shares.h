@@ -31,7 +31,6 @@ struct ghosts {
     uint32_t *element; /* [all]: by block, then by rank */
     /* [SWEEP_BLOCKS * ranks]: how many; [SWEEP_BLOCKS + 1]: where a block's begin in `element` */
     size_t *count, first[SWEEP_BLOCKS + 1];
-    size_t named; /* what links name: elements of others, and clusters as one each */
 };
 
 struct shares {
@@ -47,7 +46,9 @@ struct shares {
     uint32_t *listed, elements;
     uint32_t common;    /* elements that all have; behind them own ones (own_quarters.h). 0: all */
     size_t *list_first; /* [ranks + 1] */
-    struct ghosts here, there; /* what this rank is told; what it tells */
+    struct ghosts here, there;          /* what this rank is told; what it tells */
+    struct ghosts of_groups, to_groups; /* the same of what links of groups alone name: one block */
+    size_t named; /* what links name: elements of others, and clusters as one each */
 };
 
 /* Equal numbers of faces. Returns 0, or -1 when out of memory. */
@@ -119,8 +120,21 @@ int shares_find_ghosts(struct shares *s, const struct refinement *r);
 /* Tell of the block's values, `width` numbers for each element, those who take light from there. */
 void shares_tell_block(const struct shares *s, uint32_t block, double *values, size_t width,
                        double *room);
-/* What that needs room for: so many numbers for each of a value's. */
+/* After a sweep, of what links of groups alone take: single precision, which is all they read. */
+void shares_tell_groups(const struct shares *s, double *values, size_t width, void *room);
+/* What either needs room for: so many doubles for each of a value's numbers. */
 size_t shares_room(const struct shares *s);
+
+/* All that this rank is told of. */
+static inline size_t shares_ghosts(const struct shares *s)
+{
+    return s->here.first[SWEEP_BLOCKS] + s->of_groups.first[1];
+}
+static inline uint32_t shares_ghost(const struct shares *s, size_t i)
+{
+    const size_t by_surfaces = s->here.first[SWEEP_BLOCKS];
+    return i < by_surfaces ? s->here.element[i] : s->of_groups.element[i - by_surfaces];
+}
 
 /* Of values[element * width], each rank's own surfaces are right; then all surfaces are, on all
  * ranks. Returns 0 or -1, alike. */
