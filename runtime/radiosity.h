@@ -612,6 +612,7 @@ struct RadRank {
     uint64_t links, pairs, rays; /* kept; discussed; cast by these discussions */
     uint64_t faces, ghosts;      /* owned; elements of others that its links take light from */
     uint64_t named;              /* of what links name: elements of others, and clusters */
+    uint64_t elements;           /* that it has had at once, at the most */
     uint64_t sent[RAD_TRAFFICS]; /* bytes */
     double memory;               /* the most that the process has held, bytes */
     double seconds;              /* of processors, that the process has taken */
@@ -752,6 +753,11 @@ struct RadCorrectOptions {
      * RAD_CORRECT_OF_ONE for each polygon up to RAD_CORRECT_OF_ALL, or what the solution has cast,
      * whichever is the most */
     uint64_t rays;
+    /* 1: where there are several ranks the quarters of leaves may stay with the rank that owns
+     * their face: memory for all of them is most of what a solution takes. Then radGetElements
+     * shows, of leaves of other ranks, the whole, radGetElementErrors nothing, and links are not
+     * stepped on from there; until surfaces are measured, which all quarters are needed for */
+    int own;
 };
 #define RAD_CORRECT_NOISE 0.0065
 #define RAD_CORRECT_PLACES 0.065

@@ -148,7 +148,7 @@ int radCorrect(RadSolution solution, const struct RadCorrectOptions *given,
                         "for the default",
                         o->noise);
     double noise = o->noise > 0 ? o->noise : RAD_CORRECT_NOISE;
-    struct mending_goal goal = {.noise = noise, .most = o->rays};
+    struct mending_goal goal = {.noise = noise, .most = o->rays, .own = o->own};
     if (!o->rays) {
         goal.places = RAD_CORRECT_PLACES;
         goal.least = RAD_CORRECT_LEAST;

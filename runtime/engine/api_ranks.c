@@ -48,8 +48,9 @@ int radGetRanks(RadSolution solution, struct RadRank *ranks, int most)
                                  .pairs = s->refinement.pairs,
                                  .rays = rays_count(s->problem.rays).rays,
                                  .faces = here.to - here.from,
-                                 .ghosts = shares->here.first[SWEEP_BLOCKS],
-                                 .named = shares->here.named};
+                                 .ghosts = shares_ghosts(shares),
+                                 .named = shares->named,
+                                 .elements = s->report.held};
     return tell(solution->scene->device, &mine, ranks, most);
 }
 

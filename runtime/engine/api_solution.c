@@ -5,6 +5,7 @@
 #include <string.h>
 #include "engine/api.h"
 #include "engine/dense.h"
+#include "engine/own_quarters.h"
 #include "engine/petsc_solution.h"
 #include "kernel/constants.h"
 #include "util/lapack_library.h"
@@ -335,6 +336,8 @@ int radStep(RadSolution solution)
         && solve_refine(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return api_give_up(solution, cause);
     forget_measured(solution);
+    if (own_quarters_share(&solution->solve) < 0)
+        return api_give_up(solution, "out of memory");
     int more = solve_step(&solution->solve, &cause);
     solution->done = more == 0;
     return more < 0 ? api_give_up(solution, cause) : more;
@@ -348,6 +351,8 @@ int radSolve(RadSolution solution)
         return 0;
     const char *cause;
     forget_measured(solution);
+    if (own_quarters_share(&solution->solve) < 0)
+        return api_give_up(solution, "out of memory");
     if (solve_run(&solution->solve, solution->oracle->refiner, &cause) < 0)
         return api_give_up(solution, cause);
     solution->done = 1;
@@ -468,8 +473,10 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     const struct solve *s = &solution->solve;
     const struct row_report *rows = &s->report.rows;
     const struct pass_counts *counts = &s->report.counts;
+    const int own = own_quarters(s);
     *report = (struct RadReport){
-        .elements = s->hierarchy.count,
+        .elements = own ? s->quarters.count : s->hierarchy.count,
+        .leaves = own ? s->quarters.leaves : 0,
         .bands = s->problem.bands,
         .links = counts->links,
         .pairs = counts->pairs,
@@ -504,7 +511,7 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     memcpy(report->marked, counts->marked, sizeof report->marked);
     for (uint32_t i = 0; i < s->hierarchy.count; i++) {
         const struct element *e = &s->hierarchy.elements[i];
-        report->leaves += !e->children;
+        report->leaves += !own && !e->children;
         report->marked_elements[e->mark % RAD_LINK_MARKS]++;
     }
     memcpy(report->decided, counts->decided, sizeof report->decided);

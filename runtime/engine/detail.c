@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/detail.h"
+#include "engine/own_quarters.h"
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
@@ -101,20 +102,34 @@ static void inherit_some(const void *inheriting, size_t from, size_t to)
 static int light(struct solve *s, uint32_t first)
 {
     struct hierarchy *h = &s->hierarchy;
-    if (h->count == first)
+    if ((own_quarters(s) ? s->quarters.count : h->count) == first)
         return 0;
     double *gradient =
         realloc(s->linear.gradient, (size_t)h->count * s->problem.bands * 3 * sizeof *gradient);
     if (gradient)
         s->linear.gradient = gradient;
-    if (!gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0)
+    if (ranks_any(s->problem.options.ranks,
+                  !gradient || solve_make_room(s) < 0 || refinement_sort(&s->refinement) < 0))
         return -1;
     for (uint32_t i = first; i < h->count; i++) /* children follow their parents */
         s->operator.uncovered[i] = s->operator.uncovered[h->elements[i].parent];
     solve_measure_contact(s, first, 1);
+    if (own_quarters(s)) {
+        if (own_quarters_tell(s, s->operator.uncovered, 1) < 0)
+            return -1;
+        solve_average_contact(s, first);
+    }
     const struct inheriting x = {s, first};
     thread_pool_run(s->problem.options.threads, first, 256, inherit_some, &x);
     return 0;
+}
+
+/* Split a leaf into so many parts; of several ranks that have their own, its owner makes them. */
+static int split_leaf(struct solve *s, uint32_t leaf, double parts)
+{
+    if (!own_quarters(s))
+        return split(&s->hierarchy, leaf, parts);
+    return quarters_split(&s->quarters, &s->hierarchy, leaf, parts, own_quarters_mine(s, leaf));
 }
 
 /* Split leaves into as many parts as what each receives and covers asks for. */
@@ -122,13 +137,40 @@ static int split_leaves(struct solve *s, double per_watt, double per_m2)
 {
     struct hierarchy *h = &s->hierarchy;
     uint32_t first = h->count;
+    int failed = 0;
     if (!s->linear.gradient)
         return 0;
-    for (uint32_t i = 0; i < first; i++)
-        if (h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
-            && split(h, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0)
-            return -1;
-    return light(s, first);
+    for (uint32_t i = 0; i < first && !failed; i++)
+        failed = h->elements[i].vertices && !h->elements[i].children && may_split(s, i)
+                 && split_leaf(s, i, per_watt * received(s, i) + per_m2 * h->elements[i].area) < 0;
+    return ranks_any(s->problem.options.ranks, failed) ? -1 : light(s, first);
+}
+
+/* Of several ranks each makes the quarters of its own faces: as many, about, as any other. Returns
+ * 0 or -1, alike. */
+static int deal_out(struct solve *s, double per_watt)
+{
+    const struct hierarchy *h = &s->hierarchy;
+    struct ranks *ranks = s->problem.options.ranks;
+    if (ranks_count(ranks) == 1)
+        return 0;
+    double *quarters = calloc(h->face_count, sizeof *quarters);
+    if (ranks_any(ranks, !quarters)) {
+        free(quarters);
+        return -1;
+    }
+    for (uint32_t i = 0; i < h->count; i++) {
+        const struct element *e = &h->elements[i];
+        const double parts =
+            e->vertices && !e->children && may_split(s, i) ? per_watt * received(s, i) : 0;
+        for (double n = 1; n < parts; n *= 4)
+            quarters[e->face] += 4 * n;
+    }
+    for (uint32_t f = 0; f < h->face_count; f++) /* a face itself is looked at, too */
+        quarters[f]++;
+    const int result = own_quarters_begin(s, quarters);
+    free(quarters);
+    return result;
 }
 
 int detail_leaves(struct solve *s, double landings)
@@ -137,7 +179,10 @@ int detail_leaves(struct solve *s, double landings)
     double whole = 0;
     for (uint32_t i = 0; i < h->count; i++)
         whole += h->elements[i].vertices && !h->elements[i].children ? received(s, i) : 0;
-    return whole > 0 ? split_leaves(s, landings / MEND_DETAIL / whole, 0) : 0;
+    if (!(whole > 0) || !s->linear.gradient)
+        return 0;
+    const double per_watt = landings / MEND_DETAIL / whole;
+    return deal_out(s, per_watt) < 0 ? -1 : split_leaves(s, per_watt, 0);
 }
 
 int detail_places(struct solve *s)
@@ -184,7 +229,7 @@ int detail_merge(struct solve *s, uint32_t first)
     struct hierarchy *h = &s->hierarchy;
     uint32_t count = h->count;
     size_t bands = s->problem.bands;
-    if (count == first || !s->mended_gradient)
+    if ((!own_quarters(s) && count == first) || !s->mended_gradient)
         return 0;
     uint32_t *place = malloc((size_t)count * sizeof *place);
     if (place) {
@@ -203,9 +248,12 @@ int detail_merge(struct solve *s, uint32_t first)
         close_up(s->operator.uncovered, 1, first, count, place);
         s->started = h->count;
     }
-    int result = place ? refinement_sort(&s->refinement) : -1;
+    int failed = !place || refinement_sort(&s->refinement) < 0;
     free(place);
-    return result;
+    if (ranks_any(s->problem.options.ranks, failed))
+        return -1;
+    own_quarters_settle(s);
+    return 0;
 }
 
 int detail_drop(struct solve *s, uint32_t count)

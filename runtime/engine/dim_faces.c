@@ -34,6 +34,7 @@
 #include <stdlib.h>
 #include "engine/dim_faces.h"
 #include "engine/dim_split.h"
+#include "engine/own_quarters.h"
 #include "hierarchy/children_first.h"
 #include "kernel/constants.h"
 
@@ -423,12 +424,17 @@ int dim_faces_mend(struct solve *s, const struct tracer *t, const struct tally *
         count->large = d.count;
         keep_dim(&d, tally);
         d.believed = believed(&d, tally);
-        for (uint32_t i = 0; i < t->hierarchy->face_count; i++)
+        /* paths end in the light of all quarters, wherever they are */
+        failed = d.count > 0 && own_quarters_share(s) < 0;
+        d.light = element_light_shown(s);
+        for (uint32_t i = 0; i < t->hierarchy->face_count && !failed; i++)
             for (uint32_t k = 0; k < t->bands; k++)
                 d.unseen += t->reflectance[(size_t)i * t->bands + k]
                             * power_of(&d, t->hierarchy->face_element[i], k)
                             / t->hierarchy->elements[0].area;
-        failed = d.count > 0 && trace_all(&d, (double)paths, (double)both, (double)tally->rays) < 0;
+        failed =
+            failed
+            || (d.count > 0 && trace_all(&d, (double)paths, (double)both, (double)tally->rays) < 0);
     }
     if (!failed && d.count > 0)
         change(&d, s->mended.irradiance);

@@ -260,6 +260,7 @@ static void sweep(const struct sweep *s, struct change *change, double *room)
     }
     for (uint32_t i = 0; jacobi && i < SWEEP_BLOCKS; i++)
         tell_block(s, i, room);
+    shares_tell_groups(shares, s->x->means->value, s->bands, room);
 }
 
 /* Residual and estimate after a sweep; rho: the largest reflectance. */

@@ -11,6 +11,7 @@
 #include "engine/dim_faces.h"
 #include "engine/measured_error.h"
 #include "engine/mend.h"
+#include "engine/own_quarters.h"
 #include "engine/path_mending.h"
 #include "engine/ray_split.h"
 #include "engine/solve_tracer.h"
@@ -50,7 +51,8 @@ static int tell(void *context, double share)
     return quit;
 }
 
-/* Trace until about so many rays are cast, of `all` that may follow. Returns 0, or -1 when
+/* Trace until about so many rays are cast, of `all` that may follow. Where there are several ranks
+ * counts are still to be added, as far as somebody asks for them. Returns 0, or -1 when
  * cancelled. */
 static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tally, uint64_t rays,
                       double all)
@@ -60,7 +62,6 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
     if (tally->particles == 0 && tally_trace_part(tally, t, FIRST, &watch) < 0)
         return -1;
     if (tally->rays == 0 || tally->rays >= rays) {
-        tally_add(tally, t->ranks);
         power_balance(tally, t);
         return 0;
     }
@@ -68,7 +69,7 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
     double more = (double)(rays - tally->rays) / each;
     watched.before = tally->rays;
     watched.now = (double)(rays - tally->rays);
-    if (tally_trace(tally, t, more > 1 ? (uint64_t)more : 1, &watch) < 0)
+    if (tally_trace_part(tally, t, more > 1 ? (uint64_t)more : 1, &watch) < 0)
         return -1;
     power_balance(tally, t);
     return 0;
@@ -76,8 +77,9 @@ static int trace_rays(struct solve *s, const struct tracer *t, struct tally *tal
 
 /* What the tally, which nothing of the shown solution comes from, says of its polygons. Returns 0,
  * or -1 when out of memory. */
-static int measure_faces(struct solve *s, const struct tally *tally, struct measured_error *m)
+static int measure_faces(struct solve *s, struct tally *tally, struct measured_error *m)
 {
+    tally_add(tally, s->problem.options.ranks);
     m->rays = tally->rays;
     m->particles = tally->particles * REPLICATES;
     m->by_paths = tally->by_paths;
@@ -89,6 +91,8 @@ int measured_elements(const struct solve *s, struct measured_error *m)
 {
     if (m->elements.error || !m->tally.face)
         return 0;
+    if (!m->tally.element && !m->by_paths)
+        return -1;
     if (element_error_open(&m->elements, &s->operator, & m->faces, &m->tally,
                            solve_shown(s)->irradiance)
         < 0)
@@ -122,14 +126,16 @@ static int measure_surfaces(struct solve *s, const struct tracer *t, uint64_t ra
     return tail_error_measure(s, t, &shown, rays, stream, &watch, &m->p999, &m->rays);
 }
 
-/* Particles, or paths where these have mended; about so many rays of `all`. Returns 0, or -1 when
- * cancelled or out of memory. */
+/* Particles, or paths where these have mended, on polygons, and on leaves where all have them;
+ * about so many rays of `all`. Returns 0, or -1 when cancelled or out of memory. */
 static int count(struct solve *s, const struct tracer *t, uint64_t rays, double all,
                  uint64_t stream, struct tally *tally)
 {
     if (!s->by_paths)
-        return tally_open(tally, t, stream, 1) < 0 || trace_rays(s, t, tally, rays, all) < 0 ? -1
-                                                                                             : 0;
+        return tally_open(tally, t, stream, !own_quarters(s)) < 0
+                       || trace_rays(s, t, tally, rays, all) < 0
+                   ? -1
+                   : 0;
     struct watched watched = {.solve = s, .now = (double)rays, .all = all};
     const struct watch watch = {tell, &watched};
     struct path_tally paths;
@@ -151,6 +157,7 @@ int measure_error(struct solve *s, uint64_t rays, uint64_t stream, int surfaces,
     *m = (struct measured_error){0};
     int result = tracer_open(&t) < 0 || count(s, &t, counted, (double)rays, stream, &m->tally) < 0
                          || measure_faces(s, &m->tally, m) < 0
+                         || (surfaces && own_quarters_share(s) < 0)
                          || (surfaces && measure_surfaces(s, &t, each, stream, m) < 0)
                      ? give_up(s, cause)
                      : 0;
@@ -167,6 +174,22 @@ void measured_error_free(struct measured_error *m)
     tally_close(&m->tally);
     element_error_close(&m->elements);
     *m = (struct measured_error){0};
+}
+
+/* The radiosities of clusters, from those of faces. */
+static void average_clusters(const struct light_operator *op, double *radiosity)
+{
+    const struct hierarchy *h = op->hierarchy;
+    const uint32_t bands = op->problem->bands;
+    for (uint32_t e = h->built; e-- > 0;) {
+        const struct element *at = &h->elements[e];
+        for (uint32_t k = 0; k < bands && !at->vertices; k++) {
+            double sum = 0;
+            for (uint32_t j = at->child; j < at->child + at->children; j++)
+                sum += operator_share(op, j, e) * radiosity[(size_t)j * bands + k];
+            radiosity[(size_t)e * bands + k] = sum;
+        }
+    }
 }
 
 /* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
@@ -192,15 +215,19 @@ static void mend_gradients(const void *solve, size_t from, size_t to)
 static int follow_irradiance(struct solve *s)
 {
     const size_t values = (size_t)s->hierarchy.count * s->problem.bands;
-    const int threads = s->problem.options.threads;
+    const int threads = s->problem.options.threads, sloped = s->linear.gradient != NULL;
     light_follows(s, &s->mended);
-    if (!s->linear.gradient)
-        return 0;
-    if (!s->mended_gradient)
+    if (own_quarters(s)) { /* what is made of quarters owners know, and then clusters follow */
+        if (own_quarters_tell(s, s->mended.radiosity, s->problem.bands) < 0)
+            return -1;
+        average_clusters(&s->operator, s->mended.radiosity);
+    }
+    if (sloped && !s->mended_gradient)
         s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
-    if (!s->mended_gradient)
+    if (ranks_any(s->problem.options.ranks, sloped && !s->mended_gradient))
         return -1;
-    thread_pool_run(threads, values, 1024, mend_gradients, s);
+    if (sloped)
+        thread_pool_run(threads, values, 1024, mend_gradients, s);
     return 0;
 }
 
@@ -235,20 +262,28 @@ static int mend_dim(struct solve *s, const struct tracer *t, const struct tally 
                     : 0;
 }
 
+static int mend_by(struct solve *s, const struct tally *tally, double *irradiance)
+{
+    return mend_irradiance(&s->operator, tally, irradiance) < 0
+                   || own_quarters_tell(s, irradiance, s->problem.bands) < 0
+               ? -1
+               : 0;
+}
+
 /* By what particles counted, and then by paths, if there are any. */
-static int mend(struct solve *s, const struct tracer *t, const struct tally *tally,
+static int mend(struct solve *s, const struct tracer *t, struct tally *tally,
                 const struct tally *paths, struct measured_error *alone, uint64_t *spent)
 {
+    tally_add(tally, t->ranks);
     size_t values = (size_t)s->hierarchy.count * s->problem.bands;
     struct state *m = &s->mended;
     solve_forget_mended(s);
     m->radiosity = malloc(values * sizeof *m->radiosity);
     m->irradiance = malloc(values * sizeof *m->irradiance);
-    if (m->radiosity && m->irradiance) {
+    if (!ranks_any(s->problem.options.ranks, !m->radiosity || !m->irradiance)) {
         memcpy(m->irradiance, s->state.irradiance, values * sizeof *m->irradiance);
-        if (mend_irradiance(&s->operator, tally, m->irradiance) == 0
-            && (!paths || mend_irradiance(&s->operator, paths, m->irradiance) == 0)
-            && follow_irradiance(s) == 0
+        if (mend_by(s, tally, m->irradiance) == 0
+            && (!paths || mend_by(s, paths, m->irradiance) == 0) && follow_irradiance(s) == 0
             && mend_dim(s, t, paths ? paths : tally, alone, spent) == 0)
             return 0;
     }
@@ -256,16 +291,24 @@ static int mend(struct solve *s, const struct tracer *t, const struct tally *tal
     return -1;
 }
 
+/* The noise that particles have on polygons. Returns 0, or -1 when out of memory. */
+static int find_noise(struct solve *s, struct tally *tally, double *noise)
+{
+    tally_add_faces(tally, s->problem.options.ranks);
+    return face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, noise);
+}
+
 int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, const char **cause)
 {
-    uint32_t elements = s->hierarchy.count;
     struct tracer t = solve_tracer(s);
     struct tally tally = {0};
     s->told = 0;
-    int failed = tracer_open(&t) < 0 || detail_places(s) < 0
-                 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-                 || trace_rays(s, &t, &tally, rays, (double)rays) < 0
-                 || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0;
+    int failed = own_quarters_share(s) < 0;
+    const uint32_t elements = s->hierarchy.count;
+    failed = failed || tracer_open(&t) < 0 || detail_places(s) < 0
+             || tally_open(&tally, &t, MEND_STREAM, 1) < 0
+             || trace_rays(s, &t, &tally, rays, (double)rays) < 0
+             || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0;
     tally_close(&tally);
     tracer_close(&t);
     failed |= detail_drop(s, elements) < 0;
@@ -297,8 +340,7 @@ static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally
                            const struct mending_goal *goal)
 {
     double left = t->lights.power > 0 ? INFINITY : 0;
-    if (tally->particles > 0 && left > 0
-        && face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &left) < 0)
+    if (tally->particles > 0 && left > 0 && find_noise(s, tally, &left) < 0)
         return -1;
     while (left > goal->noise && tally->rays < goal->most) {
         /* noise falls with the root of the number, which doubles at the most */
@@ -307,7 +349,7 @@ static int trace_for_faces(struct solve *s, const struct tracer *t, struct tally
         uint64_t before = tally->rays;
         if (trace_rays(s, t, tally, next > 1 ? (uint64_t)next : 1, fmin(all, (double)goal->most))
                 < 0
-            || face_noise(&s->problem, &s->hierarchy, s->state.irradiance, tally, &left) < 0)
+            || find_noise(s, tally, &left) < 0)
             return -1;
         if (tally->rays == before)
             break;
@@ -337,8 +379,10 @@ static int look_ahead(struct solve *s, const struct tracer *t, struct mending_go
         struct ray_split split;
         int failed = detail_leaves(s, rays) < 0 || tally_open(&tally, t, stream, 1) < 0
                      || trace_rays(s, t, &tally, (uint64_t)rays, landings(goal)) < 0
-                     || ray_split_measure(&s->operator, & tally, s->state.irradiance, &split) < 0
-                     || mend_irradiance(&s->operator, & tally, s->state.irradiance) < 0;
+                     || ray_split_measure(&s->operator, & tally, s->state.irradiance, &split) < 0;
+        if (!failed)
+            tally_add(&tally, t->ranks);
+        failed = failed || mend_by(s, &tally, s->state.irradiance) < 0 || own_quarters_share(s) < 0;
         *spent += tally.rays;
         tally_close(&tally);
         if (failed)
@@ -365,7 +409,13 @@ static int look(struct solve *s, const struct tracer *t, struct tally *tally,
     const struct watch watch = {tell, &watched};
     if (tally->rays == 0)
         return 0;
+    tally_add_faces(tally, t->ranks);
     s->by_paths = path_mending_trace(paths, s, t, tally, goal->noise, goal->most, &watch);
+    if (s->by_paths == 0) { /* what they saw is forgotten, but for what it took */
+        const uint64_t spent = paths->paths.rays;
+        path_tally_close(paths);
+        paths->paths.rays = spent;
+    }
     return s->by_paths < 0 ? -1 : 0;
 }
 
@@ -391,20 +441,20 @@ int measure_and_mend(struct solve *s, const struct mending_goal *goal, struct me
     struct path_tally paths = {.tally = {0}};
     struct mending_goal left = *goal;
     uint64_t spent = 0;
-    uint32_t elements = s->hierarchy.count;
     s->told = 0;
     *alone = (struct measured_error){0};
     solve_forget_mended(s);
     s->by_paths = 0;
-    int failed =
-        tracer_open(&t) < 0 || (s->problem.options.no_links && look_ahead(s, &t, &left, &spent) < 0)
-        || detail_leaves(s, landings(&left)) < 0 || tally_open(&tally, &t, MEND_STREAM, 1) < 0
-        || look(s, &t, &tally, &paths, goal) < 0
-        || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
-        || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
-        || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
-        || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
-        || detail_merge(s, elements) < 0;
+    int failed = own_quarters_share(s) < 0 || tracer_open(&t) < 0
+                 || (s->problem.options.no_links && look_ahead(s, &t, &left, &spent) < 0);
+    const uint32_t elements = s->hierarchy.count;
+    failed = failed || detail_leaves(s, landings(&left)) < 0
+             || tally_open(&tally, &t, MEND_STREAM, 1) < 0 || look(s, &t, &tally, &paths, goal) < 0
+             || (!s->by_paths && goal->places > 0 && trace_for_places(s, &t, &tally, goal) < 0)
+             || (!s->by_paths && trace_for_faces(s, &t, &tally, goal) < 0)
+             || measure_faces(s, s->by_paths ? &paths.tally : &tally, alone) < 0
+             || mend(s, &t, &tally, s->by_paths ? &paths.tally : NULL, alone, &spent) < 0
+             || detail_merge(s, elements) < 0 || (!goal->own && own_quarters_share(s) < 0);
     s->report.particles =
         failed ? 0 : fingerprint(&tally) + (s->by_paths ? fingerprint(&paths.tally) : 0);
     alone->rays = tally.rays + paths.paths.rays;

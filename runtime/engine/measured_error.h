@@ -16,7 +16,7 @@ struct measured_error {
     struct RadMeasure l2, p999;    /* of surfaces, where they were asked for; else all zero */
     struct element_error elements; /* NULLs until measured_elements makes it of what is counted */
     struct tally tally;
-    struct dim_count dim; /* once mended, by measure_and_mend alone */
+    struct dim_count dim;     /* once mended, by measure_and_mend alone */
     uint64_t rays, particles; /* particles: paths, where by_paths */
     int by_paths;
     double seconds;
@@ -44,6 +44,7 @@ struct mending_goal {
     double places;   /* error on places, root mean square as ray_split.h; 0: not looked at */
     uint64_t least;  /* rays, about, before that is looked at */
     double expected; /* rays that may be needed for it; 0: nothing is known */
+    int own;         /* 1: quarters may stay with the ranks that own their faces (own_quarters.h) */
 };
 
 /* Mend the radiosities of the links, which a mended solution then shows. *alone: the links' error

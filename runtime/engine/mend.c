@@ -75,8 +75,15 @@ struct mending {
     /* of this level, by the logarithm of their particles */
     struct sight class[CLASSES];
     struct trend trend[CLASSES];
-    struct sight *kin; /* [element]: of what hangs two levels below it, on this level */
+    struct sight *kin;           /* [element]: of what hangs two levels below it, on this level */
+    const struct shares *shares; /* whose quarters are whose (own_quarters.h); NULL: all have all */
 };
+
+/* Is it this rank's to mend? Clusters all mend alike. */
+static int is_mine(const struct mending *m, uint32_t e)
+{
+    return !m->shares || !m->op->hierarchy->elements[e].vertices || shares_mine(m->shares, e);
+}
 
 enum { CHILDREN = 255, RUN = 256 /* elements that a thread takes at once */ };
 
@@ -225,7 +232,7 @@ static struct note note_trend(const struct mending *m, uint32_t e, uint32_t k)
     struct note note = {.class = NOTHING};
     double given[CHILDREN], lack[CHILDREN], whole = m->received[place(m, e, k)];
     shares_by_links(m, e, k, given);
-    if (!(whole > 0) || !foretell(m, e, k, given, lack))
+    if (!(whole > 0) || !is_mine(m, e) || !foretell(m, e, k, given, lack))
         return note;
     note.class = class_of(m, e, k);
     note.trend = (struct trend){0, 0, 0};
@@ -257,7 +264,7 @@ static void add_sight(struct sight *sum, const struct sight *own)
 static struct note note_sight(const struct mending *m, uint32_t e, uint32_t k)
 {
     double given[CHILDREN];
-    if (!(m->received[place(m, e, k)] > 0))
+    if (!(m->received[place(m, e, k)] > 0) || !is_mine(m, e))
         return (struct note){.class = NOTHING};
     foretold_shares(m, e, k, given);
     return (struct note){
@@ -313,7 +320,7 @@ static void share_all_out(const void *mending, size_t from, size_t to)
 {
     const struct mending *m = mending;
     for (size_t i = from; i < to; i++)
-        for (uint32_t k = 0; k < m->bands; k++)
+        for (uint32_t k = 0; k < m->bands && is_mine(m, m->parent[i]); k++)
             share_out(m, m->parent[i], k);
 }
 
@@ -349,16 +356,46 @@ static void add_sights(struct mending *m)
     }
 }
 
+/* The sums of all ranks, where each has notes of its own. */
+static void add_up_trends(struct mending *m)
+{
+    double sums[CLASSES][3];
+    for (int i = 0; i < CLASSES; i++) {
+        const struct trend *t = &m->trend[i];
+        memcpy(sums[i], (const double[]){t->product, t->square, t->noise}, sizeof sums[i]);
+    }
+    ranks_add(m->shares->ranks, RANKS_PARTICLES, sums[0], 3 * CLASSES);
+    for (int i = 0; i < CLASSES; i++)
+        m->trend[i] = (struct trend){sums[i][0], sums[i][1], sums[i][2]};
+}
+
+static void add_up_sights(struct mending *m)
+{
+    double sums[CLASSES][3];
+    for (int i = 0; i < CLASSES; i++) {
+        const struct sight *s = &m->class[i];
+        memcpy(sums[i], (const double[]){s->seen, s->noise, s->elements}, sizeof sums[i]);
+    }
+    ranks_add(m->shares->ranks, RANKS_PARTICLES, sums[0], 3 * CLASSES);
+    for (int i = 0; i < CLASSES; i++)
+        m->class[i] = (struct sight){sums[i][0], sums[i][1], (uint32_t)sums[i][2]};
+}
+
 /* Clusters get their light from those before them. */
 static void mend_level(struct mending *m, uint32_t level)
 {
-    const int threads = level > 0 ? m->op->problem->options.threads : 1;
+    const int threads = level > 0 ? m->op->problem->options.threads : 1,
+              apart = level > 0 && m->shares;
     m->parent = &m->levels.parent[m->levels.from[level]];
     m->parents = m->levels.from[level + 1] - m->levels.from[level];
     thread_pool_run(threads, m->parents, RUN, note_trends, m);
     add_trends(m);
+    if (apart)
+        add_up_trends(m);
     thread_pool_run(threads, m->parents, RUN, note_sights, m);
     add_sights(m);
+    if (apart)
+        add_up_sights(m);
     thread_pool_run(threads, m->parents, RUN, share_all_out, m);
 }
 
@@ -421,26 +458,44 @@ static uint32_t widest(const struct levels *l)
     return most;
 }
 
+/* How many levels any rank has. */
+static uint32_t levels_of_all(const struct mending *m)
+{
+    double count = 0;
+    for (uint32_t i = 0; i < LEVELS; i++)
+        if (m->levels.from[i + 1] > m->levels.from[i])
+            count = i + 1;
+    if (m->shares)
+        ranks_most(m->shares->ranks, RANKS_PARTICLES, &count, 1);
+    return (uint32_t)count;
+}
+
 int mend_irradiance(const struct light_operator *op, const struct tally *tally, double *irradiance)
 {
     const struct hierarchy *h = op->hierarchy;
     const int threads = op->problem->options.threads;
     size_t values = (size_t)h->count * tally->bands;
     struct mending m = {.op = op, .tally = tally, .bands = tally->bands, .irradiance = irradiance};
-    if (levels_open(&m.levels, h) < 0)
+    int failed = levels_open(&m.levels, h) < 0;
+    m.shares = op->shares.common ? &op->shares : NULL;
+    if (ranks_any(op->shares.ranks, failed)) {
+        levels_close(&m.levels);
         return -1;
+    }
     m.linked = malloc(values * sizeof *m.linked);
     m.received = malloc(values * sizeof *m.received);
     m.kin = malloc((size_t)h->count * sizeof *m.kin);
     m.replicate = malloc((size_t)REPLICATES * h->built * m.bands * sizeof *m.replicate);
     m.note = malloc(((size_t)widest(&m.levels) * m.bands + 1) * sizeof *m.note);
-    int result = m.linked && m.received && m.replicate && m.kin && m.note ? 0 : -1;
-    if (result == 0) {
+    failed = !m.linked || !m.received || !m.replicate || !m.kin || !m.note;
+    failed = ranks_any(op->shares.ranks, failed);
+    if (!failed) {
         thread_pool_run(threads, h->count, RUN, fill_some, &m);
         levels_up(&m.levels, threads, add_children, &m);
         for (uint32_t k = 0; k < m.bands; k++)
             mend_root(&m, k);
-        for (uint32_t level = 0; level < LEVELS; level++)
+        const uint32_t count = levels_of_all(&m);
+        for (uint32_t level = 0; level < count; level++)
             mend_level(&m, level);
     }
     levels_close(&m.levels);
@@ -449,5 +504,5 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
     free(m.linked);
     free(m.received);
     free(m.replicate);
-    return result;
+    return failed ? -1 : 0;
 }

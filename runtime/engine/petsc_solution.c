@@ -105,7 +105,9 @@ static PetscErrorCode spread(struct equation *q, const double *x)
     PetscCall(VecRestoreArrayWrite(q->sent, &sent));
     PetscCall(VecScatterBegin(q->ghosts, q->sent, q->everywhere, INSERT_VALUES, SCATTER_FORWARD));
     PetscCall(VecScatterEnd(q->ghosts, q->sent, q->everywhere, INSERT_VALUES, SCATTER_FORWARD));
-    ranks_sends(q->op->shares.ranks, RANKS_SWEEPS, q->op->shares.there.first[SWEEP_BLOCKS] * size);
+    const struct shares *s = &q->op->shares;
+    ranks_sends(s->ranks, RANKS_SWEEPS,
+                (s->there.first[SWEEP_BLOCKS] + s->to_groups.first[1]) * size);
     return 0;
 }
 
@@ -205,7 +207,7 @@ static PetscErrorCode make_scatter(struct equation *q, MPI_Comm comm, const Pets
 {
     const struct shares *s = &q->op->shares;
     const struct hierarchy *h = q->op->hierarchy;
-    const PetscInt bands = (PetscInt)q->step.bands, ghosts = (PetscInt)s->here.first[SWEEP_BLOCKS];
+    const PetscInt bands = (PetscInt)q->step.bands, ghosts = (PetscInt)shares_ghosts(s);
     IS from, to;
     PetscInt *next = malloc((size_t)ranks_count(s->ranks) * sizeof *next);
     if (!next)
@@ -218,8 +220,8 @@ static PetscErrorCode make_scatter(struct equation *q, MPI_Comm comm, const Pets
     free(next);
     PetscInt *of = place + h->count, *at = of + ghosts;
     for (PetscInt i = 0; i < ghosts; i++) {
-        at[i] = (PetscInt)s->here.element[i];
-        of[i] = place[s->here.element[i]];
+        at[i] = (PetscInt)shares_ghost(s, (size_t)i);
+        of[i] = place[shares_ghost(s, (size_t)i)];
     }
     PetscCall(VecCreateMPI(comm, bands * (PetscInt)q->own_count, PETSC_DECIDE, &q->sent));
     PetscCall(ISCreateBlock(comm, bands, ghosts, of, PETSC_USE_POINTER, &from));
@@ -236,8 +238,7 @@ static PetscErrorCode make_ghosts(struct equation *q, MPI_Comm comm)
     if (ranks == 1)
         return 0;
     PetscInt *first = calloc(ranks + 1, sizeof *first),
-             *place = malloc((q->op->hierarchy->count + 2 * s->here.first[SWEEP_BLOCKS] + 1)
-                             * sizeof *place);
+             *place = malloc((q->op->hierarchy->count + 2 * shares_ghosts(s) + 1) * sizeof *place);
     PetscErrorCode error = ranks_any(s->ranks, !first || !place) ? PETSC_ERR_MEM : 0;
     if (!error) {
         for (uint32_t e = 0; e < q->op->hierarchy->count; e++)
@@ -400,8 +401,7 @@ static PetscErrorCode keep(struct equation *q)
 {
     const struct shares *s = &q->op->shares;
     struct transport *x = q->x;
-    const size_t size = x->bands * sizeof *x->value,
-                 ghosts = q->sent ? s->here.first[SWEEP_BLOCKS] : 0;
+    const size_t size = x->bands * sizeof *x->value, ghosts = q->sent ? shares_ghosts(s) : 0;
     const double *found;
     KSPConvergedReason reason;
     PetscCall(KSPGetConvergedReason(q->method, &reason));
@@ -411,7 +411,7 @@ static PetscErrorCode keep(struct equation *q)
     PetscCall(spread(q, found));
     PetscCall(VecRestoreArrayRead(q->found, &found));
     for (size_t i = 0; i < q->own_count + ghosts; i++) {
-        const size_t e = i < q->own_count ? q->own[i] : s->here.element[i - q->own_count];
+        const size_t e = i < q->own_count ? q->own[i] : shares_ghost(s, i - q->own_count);
         memcpy(&x->value[e * x->bands], &q->step.value[e * x->bands], size);
     }
     return 0;

@@ -12,25 +12,36 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdlib.h>
+#include "engine/place_counts.h"
 #include "engine/ray_split.h"
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
 #include "util/thread_pool.h"
 
-/* Of some places: squares of what particles differ by, what of that chance tells, squares of that,
- * and of light; each over the light there (W). */
-struct split_sums {
-    double seen, noise, square, light;
-};
+static int is_place(const struct hierarchy *h, uint32_t e)
+{
+    double most = PLACE_SHARE * h->elements[0].area;
+    const struct element *at = &h->elements[e];
+    if (!at->vertices || (at->area > most && at->children))
+        return 0;
+    const struct element *parent = &h->elements[at->parent];
+    return !parent->vertices || parent->area > most;
+}
 
-enum { RUN = 16 }; /* faces that are added up as one, by whichever thread */
-
+/* Places, and the power counted on them: [place * bands + band] (W). */
 struct places {
     const struct hierarchy *h;
     const struct tally *tally;
-    const double *irradiance;
-    struct split_sums *sums; /* [run] */
+    uint32_t *element, count;
+    double *power;
+    const struct shares *shares; /* who looks at which; NULL: all at all */
 };
+
+/* Is it this rank's to look at? */
+static int is_counted(const struct places *p, uint32_t e)
+{
+    return !p->shares || shares_mine(p->shares, e);
+}
 
 /* Add what has been counted below an element: children last to first, each once it is whole. */
 static void add_power(const struct places *p, uint32_t e, double power[3])
@@ -46,41 +57,53 @@ static void add_power(const struct places *p, uint32_t e, double power[3])
     }
 }
 
-static void add_place(const struct places *p, uint32_t e, struct split_sums *sums)
+static void add_powers(const void *places, size_t from, size_t to)
 {
-    const struct tally *tally = p->tally;
-    const double area = p->h->elements[e].area, one = tally_power_of_one(tally);
-    double power[3] = {0, 0, 0};
-    add_power(p, e, power);
-    for (uint32_t k = 0; k < tally->bands; k++) {
-        double linked = p->irradiance[(size_t)e * tally->bands + k] * area, off = power[k] - linked,
-               weight = 1 / (linked + p->irradiance[k] * area + one);
-        /* chance is that of the light that links expect: of what landed it would be small wherever
-         * little happened to */
-        double chance = one * tally->square[k] * linked * weight;
-        sums->seen += off * off * weight;
-        sums->noise += chance;
-        sums->square += chance * chance;
-        sums->light += linked * linked * weight;
+    const struct places *p = places;
+    for (size_t i = from; i < to; i++) {
+        double power[3] = {0, 0, 0};
+        add_power(p, p->element[i], power);
+        for (uint32_t k = 0; k < p->tally->bands; k++)
+            p->power[i * p->tally->bands + k] = power[k];
     }
 }
 
-/* The places of an element. */
-static void add_places(const struct places *p, uint32_t e, struct split_sums *sums)
+/* The same where ranks have counted apart. */
+static int add_counts(const struct places *p, struct ranks *ranks)
 {
-    const struct element *at = &p->h->elements[e];
-    if (!at->children || at->area <= PLACE_SHARE * p->h->elements[0].area)
-        add_place(p, e, sums);
-    else
-        for (uint32_t j = at->child; j < at->child + at->children; j++)
-            add_places(p, j, sums);
+    const uint32_t bands = p->tally->bands;
+    int64_t *count = place_counts(ranks, p->tally, p->element, p->count, p->shares != NULL);
+    if (!count)
+        return -1;
+    for (size_t i = 0; i < (size_t)p->count * bands; i++)
+        p->power[i] = tally_leaf_unit(p->tally, (uint32_t)(i % bands)) * (double)count[i];
+    free(count);
+    return 0;
 }
 
-static void add_faces(const void *places, size_t from, size_t to)
+/* Returns 0, or -1 when out of memory; either way places_close. */
+static int places_open(struct places *p, const struct light_operator *op, const struct tally *tally)
 {
-    const struct places *p = places;
-    for (size_t i = from; i < to; i++)
-        add_places(p, p->h->face_element[i], &p->sums[from / RUN]);
+    const struct hierarchy *h = op->hierarchy;
+    const int threads = op->problem->options.threads;
+    *p = (struct places){.h = h, .tally = tally, .shares = op->shares.common ? &op->shares : NULL};
+    p->element = malloc((size_t)h->count * sizeof *p->element);
+    for (uint32_t e = 0; p->element && e < h->count; e++)
+        if (is_place(h, e) && is_counted(p, e))
+            p->element[p->count++] = e;
+    p->power = malloc(((size_t)p->count * tally->bands + 1) * sizeof *p->power);
+    if (ranks_any(op->shares.ranks, !p->element || !p->power))
+        return -1;
+    if (tally->parted_leaves)
+        return add_counts(p, op->shares.ranks);
+    thread_pool_run(threads, p->count, 64, add_powers, p);
+    return 0;
+}
+
+static void places_close(struct places *p)
+{
+    free(p->element);
+    free(p->power);
 }
 
 /* The squared noise in the L1 error of polygons, as a share of the reflected light, if chance alone
@@ -112,30 +135,75 @@ static int measure_faces(const struct light_operator *op, const struct tally *ta
     return failed ? -1 : 0;
 }
 
+/* Of a run of places: squares of what particles differ by, what of that chance tells, squares of
+ * that, and of light; each over the light there (W). */
+struct split_sums {
+    double seen, noise, square, light;
+};
+
+enum { RUN = 256 };
+
+struct summing {
+    const struct places *places;
+    const double *irradiance;
+    struct split_sums *sums; /* [run] */
+};
+
+static void add_places(const void *summing, size_t from, size_t to)
+{
+    const struct summing *x = summing;
+    const struct tally *tally = x->places->tally;
+    const double one = tally_power_of_one(tally);
+    struct split_sums *sums = &x->sums[from / RUN];
+    for (size_t i = from; i < to; i++)
+        for (uint32_t k = 0; k < tally->bands; k++) {
+            const uint32_t e = x->places->element[i];
+            double area = x->places->h->elements[e].area,
+                   linked = x->irradiance[(size_t)e * tally->bands + k] * area,
+                   off = x->places->power[i * tally->bands + k] - linked,
+                   weight = 1 / (linked + x->irradiance[k] * area + one);
+            /* chance is that of the light that links expect: of what landed it would be small
+             * wherever little happened to */
+            double chance = one * tally->square[k] * linked * weight;
+            sums->seen += off * off * weight;
+            sums->noise += chance;
+            sums->square += chance * chance;
+            sums->light += linked * linked * weight;
+        }
+}
+
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
                       const double *irradiance, struct ray_split *split)
 {
-    const uint32_t faces = op->hierarchy->face_count;
-    struct split_sums all = {0, 0, 0, 0}, *sums = calloc(faces / RUN + 1, sizeof *sums);
-    const struct places places = {op->hierarchy, tally, irradiance, sums};
+    double all[] = {0, 0, 0, 0};
+    struct places places;
+    int failed = places_open(&places, op, tally) < 0;
+    struct split_sums *sums = failed ? NULL : calloc(places.count / RUN + 1, sizeof *sums);
     *split = (struct ray_split){.rays = tally->rays};
-    if (!sums)
-        return -1;
-    thread_pool_run(op->problem->options.threads, faces, RUN, add_faces, &places);
-    for (uint32_t i = 0; i < faces; i += RUN) {
-        const struct split_sums *of = &sums[i / RUN];
-        all.seen += of->seen;
-        all.noise += of->noise;
-        all.square += of->square;
-        all.light += of->light;
+    failed = failed || ranks_any(op->shares.ranks, !sums);
+    if (!failed) {
+        const struct summing x = {&places, irradiance, sums};
+        thread_pool_run(op->problem->options.threads, places.count, RUN, add_places, &x);
+        for (uint32_t i = 0; i < places.count; i += RUN) {
+            const struct split_sums *of = &sums[i / RUN];
+            all[0] += of->seen;
+            all[1] += of->noise;
+            all[2] += of->square;
+            all[3] += of->light;
+        }
+        if (places.shares)
+            ranks_add(op->shares.ranks, RANKS_PARTICLES, all, 4);
     }
     free(sums);
-    if (all.light > 0 && tally->rays > 0) {
-        split->links = (all.seen - all.noise) / all.light;
-        split->deviation = sqrt(2 * all.square) / all.light; /* of squares of normal variables */
-        split->ray = all.noise / all.light * (double)tally->rays;
+    places_close(&places);
+    if (failed)
+        return -1;
+    if (all[3] > 0 && tally->rays > 0) {
+        split->links = (all[0] - all[1]) / all[3];
+        split->deviation = sqrt(2 * all[2]) / all[3]; /* of squares of normal variables */
+        split->ray = all[1] / all[3] * (double)tally->rays;
     }
-    if (measure_faces(op, tally, irradiance, &split->face) < 0)
+    if (ranks_any(op->shares.ranks, measure_faces(op, tally, irradiance, &split->face) < 0))
         return -1;
     split->face *= (double)tally->rays;
     return 0;

@@ -16,7 +16,7 @@ struct ray_split {
 };
 
 /* By what particles say of the irradiances [element * bands + band] of all elements (W/m2). The
- * tally has counts of leaves. Returns 0, or -1 when out of memory. */
+ * tally has counts of leaves, added or not. Returns 0, or -1 when out of memory. */
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
                       const double *irradiance, struct ray_split *split);
 

@@ -219,16 +219,21 @@ static void scale_rows(const struct light_operator *op, struct row_report *repor
     report->defect_mean = uncovered > 0 ? report->defect_mean / uncovered : 0;
 }
 
-int row_sums_renew(struct light_operator *op, struct row_report *report)
+int row_sums_separate(struct light_operator *op)
 {
     const struct problem *p = op->problem;
     separable_links_close(&op->separable);
-    if (ranks_any(op->shares.ranks,
-                  separable_links_open(&op->separable, op->hierarchy, op->refinement, (int)p->bands,
-                                       p->options.threads,
-                                       p->options.projection == RAD_PROJECTION_COLLOCATION,
-                                       shares_here(&op->shares))
-                      < 0))
+    const int failed = separable_links_open(&op->separable, op->hierarchy, op->refinement,
+                                            (int)p->bands, p->options.threads,
+                                            p->options.projection == RAD_PROJECTION_COLLOCATION,
+                                            shares_here(&op->shares))
+                       < 0;
+    return ranks_any(op->shares.ranks, failed) ? -1 : 0;
+}
+
+int row_sums_renew(struct light_operator *op, struct row_report *report)
+{
+    if (row_sums_separate(op) < 0)
         return -1;
     scale_rows(op, report);
     return 0;

@@ -17,9 +17,13 @@ struct row_report {
     double moved;
 };
 
-/* After the links have changed: take those that have a cluster at one end anew, which the rows are
- * measured over before they send, measure all rows and set the operator's row scales as
- * options.closure says. Returns 0, or -1 when out of memory. */
+/* Take the links that have a cluster at one end anew, each of several ranks those of its faces.
+ * Returns 0, or -1 on all ranks when any is out of memory. */
+int row_sums_separate(struct light_operator *op);
+
+/* After the links have changed: that, for the rows are measured over these before they send;
+ * measure all rows and set the operator's row scales as options.closure says. Returns 0 or -1,
+ * alike. */
 int row_sums_renew(struct light_operator *op, struct row_report *report);
 
 #endif

@@ -31,7 +31,6 @@ struct ghosts {
     uint32_t *element; /* [all]: by block, then by rank */
     /* [SWEEP_BLOCKS * ranks]: how many; [SWEEP_BLOCKS + 1]: where a block's begin in `element` */
     size_t *count, first[SWEEP_BLOCKS + 1];
-    size_t named; /* what links name: elements of others, and clusters as one each */
 };
 
 struct shares {
@@ -45,8 +44,11 @@ struct shares {
     /* [elements]: surfaces, with their parts, rank by rank: listed[list_first[k]] ..; of `elements`
      * elements. Only where there are several ranks, as what follows */
     uint32_t *listed, elements;
-    size_t *list_first;        /* [ranks + 1] */
-    struct ghosts here, there; /* what this rank is told; what it tells */
+    uint32_t common;    /* elements that all have; behind them own ones (own_quarters.h). 0: all */
+    size_t *list_first; /* [ranks + 1] */
+    struct ghosts here, there;          /* what this rank is told; what it tells */
+    struct ghosts of_groups, to_groups; /* the same of what links of groups alone name: one block */
+    size_t named; /* what links name: elements of others, and clusters as one each */
 };
 
 /* Equal numbers of faces. Returns 0, or -1 when out of memory. */
@@ -55,6 +57,8 @@ void shares_close(struct shares *s);
 
 /* Stretches of about the same work: work[face], the same on all ranks; NULL: as many faces. */
 void shares_divide(struct shares *s, const double *work);
+/* Stretches that have been so before: stretch[ranks + 1]. */
+void shares_restore(struct shares *s, const size_t *stretch);
 
 /* All is rank 0's: until they are divided again each rank may tell of any links. */
 void shares_take_all(struct shares *s);
@@ -116,8 +120,21 @@ int shares_find_ghosts(struct shares *s, const struct refinement *r);
 /* Tell of the block's values, `width` numbers for each element, those who take light from there. */
 void shares_tell_block(const struct shares *s, uint32_t block, double *values, size_t width,
                        double *room);
-/* What that needs room for: so many numbers for each of a value's. */
+/* After a sweep, of what links of groups alone take: single precision, which is all they read. */
+void shares_tell_groups(const struct shares *s, double *values, size_t width, void *room);
+/* What either needs room for: so many doubles for each of a value's numbers. */
 size_t shares_room(const struct shares *s);
+
+/* All that this rank is told of. */
+static inline size_t shares_ghosts(const struct shares *s)
+{
+    return s->here.first[SWEEP_BLOCKS] + s->of_groups.first[1];
+}
+static inline uint32_t shares_ghost(const struct shares *s, size_t i)
+{
+    const size_t by_surfaces = s->here.first[SWEEP_BLOCKS];
+    return i < by_surfaces ? s->here.element[i] : s->of_groups.element[i - by_surfaces];
+}
 
 /* Of values[element * width], each rank's own surfaces are right; then all surfaces are, on all
  * ranks. Returns 0 or -1, alike. */

@@ -9,69 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include "engine/shares.h"
-#include "util/array.h"
+#include "engine/tree_bits.h"
 
 /* ---- splits */
 
-struct bits {
-    unsigned char *byte;
-    size_t count, capacity; /* bits; bytes */
-    int failed;
-};
-
-static void put_bit(struct bits *b, int bit)
-{
-    const size_t at = b->count / 8;
-    if (b->failed || array_reserve(&b->byte, at + 1, &b->capacity, 1) < 0) {
-        b->failed = 1;
-        return;
-    }
-    if (b->count % 8 == 0)
-        b->byte[at] = 0;
-    b->byte[at] = (unsigned char)(b->byte[at] | bit << b->count % 8);
-    b->count++;
-}
-
-static void put_number(struct bits *b, uint32_t number)
-{
-    for (int i = 0; i < 32; i++)
-        put_bit(b, (int)(number >> i & 1));
-}
-
-static void put_tree(struct bits *b, const struct hierarchy *h, uint32_t element)
-{
-    const struct element *e = &h->elements[element];
-    put_bit(b, e->children != 0);
-    for (uint32_t c = 0; c < e->children; c++)
-        put_tree(b, h, e->child + c);
-}
-
-static uint32_t take_number(const unsigned char *byte, size_t *at)
-{
-    uint32_t number = 0;
-    for (int i = 0; i < 32; i++, ++*at)
-        number |= (uint32_t)(byte[*at / 8] >> *at % 8 & 1) << i;
-    return number;
-}
-
-/* Split as the tree says. Returns 0, or -1 when out of memory. */
-static int take_tree(const unsigned char *byte, size_t *at, struct hierarchy *h, uint32_t element)
-{
-    const int split = byte[*at / 8] >> *at % 8 & 1;
-    ++*at;
-    if (!split)
-        return 0;
-    if (hierarchy_split(h, element) < 0)
-        return -1;
-    for (uint32_t c = 0; c < 4; c++)
-        if (take_tree(byte, at, h, h->elements[element].child + c) < 0)
-            return -1;
-    return 0;
-}
-
 /* All trees that this pass has changed; a face's number before each, one that is no face's at the
  * end. */
-static int put_splits(struct bits *b, const struct hierarchy *h, uint32_t first)
+static int put_splits(struct tree_bits *b, const struct hierarchy *h, uint32_t first)
 {
     unsigned char *changed = calloc(h->face_count + 1, 1);
     if (!changed)
@@ -80,10 +24,10 @@ static int put_splits(struct bits *b, const struct hierarchy *h, uint32_t first)
         changed[h->elements[i].face] = 1;
     for (uint32_t f = 0; f < h->face_count; f++)
         if (changed[f]) {
-            put_number(b, f);
-            put_tree(b, h, h->face_element[f]);
+            tree_bits_put_number(b, f);
+            tree_bits_put(b, h, h->face_element[f]);
         }
-    put_number(b, h->face_count);
+    tree_bits_put_number(b, h->face_count);
     free(changed);
     return b->failed ? -1 : 0;
 }
@@ -92,7 +36,7 @@ static int put_splits(struct bits *b, const struct hierarchy *h, uint32_t first)
 static int share_splits(const struct shares *s, struct hierarchy *h, uint32_t first)
 {
     const size_t ranks = (size_t)ranks_count(s->ranks), me = (size_t)ranks_number(s->ranks);
-    struct bits b = {0};
+    struct tree_bits b = {0};
     size_t *place = calloc(ranks + 1, sizeof *place);
     int failed = !place || put_splits(&b, h, first) < 0;
     unsigned char *all = NULL;
@@ -115,8 +59,8 @@ static int share_splits(const struct shares *s, struct hierarchy *h, uint32_t fi
                 size_t at = 0;
                 uint32_t face;
                 while (k != me && !failed
-                       && (face = take_number(all + place[k], &at)) < h->face_count)
-                    failed = take_tree(all + place[k], &at, h, h->face_element[face]) < 0;
+                       && (face = tree_bits_take_number(all + place[k], &at)) < h->face_count)
+                    failed = tree_bits_take(all + place[k], &at, h, h->face_element[face]) < 0;
             }
         }
     } else {

@@ -70,6 +70,7 @@ int solve_make_room(struct solve *s)
         op->uncovered[i] = 1;
     }
     s->started = count;
+    s->report.held = count > s->report.held ? count : s->report.held;
     return 0;
 }
 
@@ -109,9 +110,19 @@ void solve_measure_contact(struct solve *s, uint32_t first, int known)
     const struct problem *p = &s->problem;
     double *uncovered = s->operator.uncovered;
     const struct contacts contacts = {h, p->rays, uncovered, first, known};
-    ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
-                   measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
+    if (s->quarters.common) /* here each rank has others */
+        thread_pool_run(p->options.threads, h->count - first, 64, measure_leaves, &contacts);
+    else
+        ranks_loop_run(p->options.ranks, RANKS_VALUES, p->options.threads, h->count - first, 64,
+                       measure_leaves, &contacts, uncovered + first, sizeof *uncovered);
     children_first(h, p->options.threads, measure_parent, &contacts);
+}
+
+void solve_average_contact(struct solve *s, uint32_t count)
+{
+    const struct contacts contacts = {.h = &s->hierarchy, .uncovered = s->operator.uncovered };
+    for (uint32_t i = count; i-- > 0;) /* children follow their parents */
+        measure_parent(&contacts, i);
 }
 
 /* Returns 0, or -1 when out of memory. */
@@ -620,6 +631,8 @@ void solve_close(struct solve *s)
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]);
     free(s->inputs.changed);
+    quarters_close(&s->quarters);
+    free(s->stretch);
     free(s->operator.collocated);
     memset(s, 0, sizeof *s);
 }

@@ -13,6 +13,7 @@
 #include "engine/ranking.h"
 #include "engine/refine.h"
 #include "engine/row_sums.h"
+#include "hierarchy/quarters.h"
 
 /* The solution so far, element by element: [element * bands + band]. */
 struct state {
@@ -35,6 +36,7 @@ struct report {
     uint64_t changing; /* links that the last pass changed */
     struct pass_counts counts;
     uint64_t rounds;    /* of the rank that took the most */
+    uint64_t held;      /* elements that this process has had, at the most */
     uint64_t particles; /* a sum over what has been counted, as that of the links; 0: nothing */
     /* of the last sweep of radiosity: sum A |dB| / sum A B over leaves */
     double residual;
@@ -64,11 +66,15 @@ struct solve {
     /* grows with refinement; what oracles see of elements is set by what computes it */
     struct hierarchy hierarchy;
     struct refinement refinement; /* links and the queue of pairs */
+    /* of several ranks, those of which each has its own (own_quarters.h); where faces are dealt
+     * out by these, how they are by links: [ranks + 1] */
+    struct quarters quarters;
+    size_t *stretch;
     struct light_operator operator;
     struct state state;
     struct state mended;     /* of state, by particles (measured_error.h); NULLs: it is not */
     double *mended_gradient; /* of linear.gradient, to go with it; NULL: none */
-    int by_paths; /* what is mended is so by paths, and is measured by them */
+    int by_paths;            /* what is mended is so by paths, and is measured by them */
     struct oracle_inputs inputs;
     struct importance importance;
     struct error_control error;
@@ -137,6 +143,8 @@ int solve_make_room(struct solve *s);
 /* Which share of each leaf from element `first` on no solid stands on; from there up, means. With
  * `known`, leaves of which all is bare by what stands in operator.uncovered are taken to be so. */
 void solve_measure_contact(struct solve *s, uint32_t first, int known);
+/* The means alone, of the first `count` elements. */
+void solve_average_contact(struct solve *s, uint32_t count);
 
 /* Tell the progress function which phase of the work goes on. Returns nonzero when it cancels. */
 int solve_tell(struct solve *s, const char *phase);

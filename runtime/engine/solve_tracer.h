@@ -10,6 +10,7 @@
 static inline struct tracer solve_tracer(const struct solve *s)
 {
     return (struct tracer){.hierarchy = &s->hierarchy,
+                           .quarters = &s->quarters,
                            .rays = s->problem.rays,
                            .exitance = s->problem.exitance,
                            .reflectance = s->problem.reflectance,

@@ -88,6 +88,7 @@ void transport_sweep(const struct light_operator *op, const struct transport *x,
     }
     for (uint32_t i = 0; jacobi && i < SWEEP_BLOCKS; i++)
         shares_tell_block(s, i, x->value, x->bands, room);
+    shares_tell_groups(s, x->value, x->bands, room);
 }
 
 /* Residual and bound after a sweep. */

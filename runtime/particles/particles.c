@@ -29,20 +29,25 @@ int tally_open(struct tally *tally, const struct tracer *t, uint64_t stream, int
                             .stream = stream,
                             .one = ONE_WHOLE,
                             .power = t->lights.power};
+    const struct quarters *q = t->quarters && t->quarters->common ? t->quarters : NULL;
     size_t bands = t->bands;
+    tally->quarters = q;
+    if (leaves && q)
+        tally->elements = q->count;
     tally->face = calloc((size_t)REPLICATES * tally->faces * bands, sizeof *tally->face);
     tally->square = calloc(bands, sizeof *tally->square);
     if (leaves) {
         tally->element = calloc((size_t)tally->elements * bands, sizeof *tally->element);
-        tally->first = malloc(tally->elements * sizeof *tally->first);
+        tally->made = q ? NULL : malloc(tally->elements * sizeof *tally->made);
+        tally->first = q ? q->child : tally->made;
     }
     if (!tally->face || !tally->square || (leaves && (!tally->element || !tally->first))) {
         tally_close(tally);
         return -1;
     }
-    for (uint32_t i = 0; leaves && i < tally->elements; i++) {
+    for (uint32_t i = 0; leaves && !q && i < tally->elements; i++) {
         const struct element *e = &t->hierarchy->elements[i];
-        tally->first[i] = e->children ? e->child : 0;
+        tally->made[i] = e->children ? e->child : 0;
     }
     return 0;
 }
@@ -51,11 +56,22 @@ void tally_close(struct tally *tally)
 {
     free(tally->face);
     free(tally->element);
-    free(tally->first);
+    free(tally->made);
     free(tally->square);
     free(tally->until);
     free(tally->carried);
     *tally = (struct tally){0};
+}
+
+double tally_below(const struct tally *tally, uint32_t number, uint32_t band)
+{
+    const uint32_t child = tally->first[number];
+    double sum = 0;
+    if (!child)
+        return tally_numbered(tally, number, band);
+    for (uint32_t c = 4; c-- > 0;)
+        sum += tally_below(tally, child + c, band);
+    return sum;
 }
 
 /* From an emitter one carries what the window wants of those that leave its place, but no less than
@@ -301,17 +317,20 @@ static void trace_batches(const void *batches, size_t begin, size_t end)
     }
 }
 
-/* Before all ranks trace their parts: what has been counted stays with the first; */
+/* Before all ranks trace their parts: what has been added stays with the first; */
 static void part_counts(struct tally *tally, struct ranks *ranks)
 {
-    if (ranks_number(ranks) == 0)
-        return;
-    memset((void *)(uintptr_t)tally->face, 0,
-           (size_t)REPLICATES * tally->faces * tally->bands * sizeof *tally->face);
-    memset((void *)(uintptr_t)tally->lost, 0, sizeof tally->lost);
-    if (tally->element)
+    const int others = ranks_number(ranks) > 0, several = ranks_count(ranks) > 1;
+    if (others && !tally->parted_faces) {
+        memset((void *)(uintptr_t)tally->face, 0,
+               (size_t)REPLICATES * tally->faces * tally->bands * sizeof *tally->face);
+        memset((void *)(uintptr_t)tally->lost, 0, sizeof tally->lost);
+    }
+    if (others && !tally->parted_leaves && tally->element)
         memset((void *)(uintptr_t)tally->element, 0,
                (size_t)tally->elements * tally->bands * sizeof *tally->element);
+    tally->parted_faces = several;
+    tally->parted_leaves = several && tally->element;
 }
 
 /* after it all have the sums of all, */
@@ -331,19 +350,32 @@ static void add_sums(struct ranks *ranks, struct sums *sums)
 }
 
 /* and once they are asked for, the counts. They are integers: their sum has no order. */
-void tally_add(struct tally *tally, struct ranks *ranks)
+_Static_assert(sizeof(_Atomic int64_t) == sizeof(uint64_t), "counts are sent as they stand");
+
+void tally_add_faces(struct tally *tally, struct ranks *ranks)
 {
-    _Static_assert(sizeof(_Atomic int64_t) == sizeof(uint64_t), "counts are sent as they stand");
-    if (!tally->parted)
+    if (!tally->parted_faces)
         return;
-    tally->parted = 0;
+    tally->parted_faces = 0;
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->face,
                      (size_t)REPLICATES * tally->faces * tally->bands);
     ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->lost,
                      sizeof tally->lost / sizeof **tally->lost);
-    if (tally->element)
-        ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->element,
-                         (size_t)tally->elements * tally->bands);
+}
+
+void tally_add_leaves(struct tally *tally, struct ranks *ranks)
+{
+    if (!tally->parted_leaves)
+        return;
+    tally->parted_leaves = 0;
+    ranks_add_counts(ranks, RANKS_PARTICLES, (uint64_t *)(uintptr_t)tally->element,
+                     (size_t)tally->elements * tally->bands);
+}
+
+void tally_add(struct tally *tally, struct ranks *ranks)
+{
+    tally_add_faces(tally, ranks);
+    tally_add_leaves(tally, ranks);
 }
 
 int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t particles,
@@ -361,9 +393,7 @@ int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t parti
     struct watched_loop loop = {.watch = watch, .all = mine};
     struct sums sums = {0};
     const struct batches all = {tally, t, &sobol, from, to, rank, ranks, &loop, &sums};
-    if (!tally->parted)
-        part_counts(tally, t->ranks);
-    tally->parted = ranks > 1;
+    part_counts(tally, t->ranks);
     thread_pool_run(t->threads, mine, 1, trace_batches, &all);
     add_sums(t->ranks, &sums);
     tally->rays += sums.rays;

@@ -32,7 +32,8 @@ enum { REPLICATES = 16 };
 
 /* What has been counted. */
 struct tally {
-    uint32_t faces, elements, bands;
+    uint32_t faces, elements, bands; /* elements: as they are numbered (quarters.h) */
+    const struct quarters *quarters; /* borrowed; NULL: the hierarchy has all */
     uint64_t stream;       /* which random numbers: tallies of two streams are independent */
     uint64_t particles;    /* of each replicate, so far */
     uint64_t rays;         /* cast for them */
@@ -44,12 +45,16 @@ struct tally {
     _Atomic int64_t lost[REPLICATES][3]; /* [band]: what left the scene or met a black back */
     /* by replicate, and of all: counts are so much more, as a share (power_balance.h) */
     double correction[REPLICATES + 1][3];
-    uint32_t *first; /* [element]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
-    double *square;  /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
+    uint32_t *made; /* owned; what `first` is of where the hierarchy has all */
+    const uint32_t
+        *first;     /* [element]: first child, 0 of leaves; NULL likewise (kernel/leaf_at.h) */
+    double *square; /* [bands]: mean of w^2 over mean of w, w a particle's share of its power */
     const float *window;     /* [elements]: NULL: particles are not split */
     double *until, *carried; /* [lights]: running sums of chances; what one carries from there */
     int by_paths;            /* 1: paths stand for particles (path_tally.h) */
-    int parted;              /* 1: each rank has counts of its own, which nobody has added yet */
+    /* 1: each rank has counts of its own, which nobody has added yet: of faces, with `lost`; of
+     * leaves */
+    int parted_faces, parted_leaves;
 };
 
 /* Empty, over the elements of a hierarchy as it is now (leaves: 1: count on them, too). Returns 0,
@@ -70,9 +75,12 @@ int tally_trace(struct tally *tally, const struct tracer *t, uint64_t particles,
                 const struct watch *watch);
 
 /* The same, but where there are several ranks counts stay with those who have made them, until
- * tally_add or tally_trace: before that `rays` and `square` alone are right. */
+ * they are added: before that `rays`, `square` and what power_balance sets alone are right. */
 int tally_trace_part(struct tally *tally, const struct tracer *t, uint64_t particles,
                      const struct watch *watch);
+/* All that is asked for then has the counts of all: faces, leaves, or both. */
+void tally_add_faces(struct tally *tally, struct ranks *ranks);
+void tally_add_leaves(struct tally *tally, struct ranks *ranks);
 void tally_add(struct tally *tally, struct ranks *ranks);
 
 /* W that one count of a replicate's stands for; of `element`, a REPLICATES-th of it. */
@@ -90,12 +98,29 @@ static inline double tally_face(const struct tally *tally, int replicate, uint32
            * (1 + tally->correction[replicate][band]);
 }
 
+/* Of a leaf by its number. */
+static inline double tally_numbered(const struct tally *tally, uint32_t number, uint32_t band)
+{
+    return tally_unit(tally) / REPLICATES
+           * (double)tally->element[(size_t)number * tally->bands + band]
+           * (1 + tally->correction[REPLICATES][band]);
+}
+
+/* W that one count on leaves stands for. */
+static inline double tally_leaf_unit(const struct tally *tally, uint32_t band)
+{
+    return tally_unit(tally) / REPLICATES * (1 + tally->correction[REPLICATES][band]);
+}
+
+/* Of all leaves below what is split elsewhere, last to first, as it would be summed here (W). */
+double tally_below(const struct tally *tally, uint32_t number, uint32_t band);
+
 /* Power that the leaf receives in a band (W), mean of all replicates. */
 static inline double tally_leaf(const struct tally *tally, uint32_t element, uint32_t band)
 {
-    return tally_unit(tally) / REPLICATES
-           * (double)tally->element[(size_t)element * tally->bands + band]
-           * (1 + tally->correction[REPLICATES][band]);
+    if (tally->quarters && tally->quarters->common)
+        return tally_below(tally, quarters_number(tally->quarters, element), band);
+    return tally_numbered(tally, element, band);
 }
 
 /* W that one particle of all replicates stands for. */

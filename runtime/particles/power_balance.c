@@ -78,6 +78,10 @@ void power_balance(struct tally *tally, const struct tracer *t)
     for (uint32_t k = 0; k < tally->bands; k++) {
         struct balance b = balance[k];
         double reflected = 0, ended = 0, both = 0, square = 0;
+        if (tally->parted_faces) { /* sums of sums: nobody needs the counts themselves */
+            ranks_add(t->ranks, RANKS_PARTICLES, b.reflected, REPLICATES);
+            ranks_add(t->ranks, RANKS_PARTICLES, b.ended, REPLICATES);
+        }
         b.emitted = emitted(tally, t, k);
         for (int r = 0; r < REPLICATES; r++) {
             reflected += b.reflected[r] / REPLICATES;

@@ -9,6 +9,7 @@
 
 #include <stdint.h>
 #include "hierarchy/hierarchy.h"
+#include "hierarchy/quarters.h"
 #include "kernel/hash.h"
 #include "particles/light_tree.h"
 #include "util/ranks.h"
@@ -24,6 +25,7 @@ struct lights {
 
 struct tracer {
     const struct hierarchy *hierarchy;    /* borrowed, as all that follows */
+    const struct quarters *quarters;      /* what of it others have; NULL: nothing */
     const struct rays *rays;              /* over its faces */
     const double *exitance, *reflectance; /* [face * bands + band]: E (W/m2), rho */
     uint32_t bands;                       /* 1 or 3 */

@@ -12,8 +12,11 @@ int measured_take(struct measured *m, const struct options *o, RadDevice device,
                   RadSolution solution)
 {
     *m = (struct measured){0};
+    /* what is written of faces and of the whole alone needs no quarter */
+    const struct RadCorrectOptions correct = {.own = !o->out && !o->image && !o->image_error
+                                                     && o->errors != ERRORS_ALL};
     if (!o->no_correct) {
-        if (radCorrect(solution, NULL, &m->alone) < 0)
+        if (radCorrect(solution, &correct, &m->alone) < 0)
             return report_device(device, o->scene);
         m->mended = 1;
     }

@@ -17,11 +17,12 @@ json_t *ranks_json(const struct RadRank *ranks, int count)
         for (int k = 0; k < RAD_TRAFFICS; k++)
             json_object_set_new(sent, traffic_words[k], json_integer((json_int_t)r->sent[k]));
         json_array_append_new(
-            all, json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:f, s:o}", "links",
+            all, json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:f, s:o}", "links",
                            (json_int_t)r->links, "pairs", (json_int_t)r->pairs, "rays",
                            (json_int_t)r->rays, "faces", (json_int_t)r->faces, "ghosts",
-                           (json_int_t)r->ghosts, "named", (json_int_t)r->named, "memory_mb",
-                           r->memory / 1048576, "seconds", r->seconds, "bytes_sent", sent));
+                           (json_int_t)r->ghosts, "named", (json_int_t)r->named, "elements",
+                           (json_int_t)r->elements, "memory_mb", r->memory / 1048576, "seconds",
+                           r->seconds, "bytes_sent", sent));
     }
     return all;
 }

@@ -277,6 +277,16 @@ void scene_file_free(struct scene_file *f)
     *f = (struct scene_file){0};
 }
 
+void scene_file_forget_places(struct scene_file *f)
+{
+    free(f->positions);
+    free(f->indices);
+    f->positions = NULL;
+    f->indices = NULL;
+    f->position_count = 0;
+    f->index_count = 0;
+}
+
 struct RadPolygons scene_file_polygons(const struct scene_file *f)
 {
     return (struct RadPolygons){

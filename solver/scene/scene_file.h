@@ -54,6 +54,8 @@ struct scene_options {
  * returns -1; then *file is empty. */
 int scene_file_read(struct scene_file *file, const char *path, const struct scene_options *options);
 void scene_file_free(struct scene_file *file);
+/* Corners are a tenth of what a large scene takes, and once it is committed nobody's need. */
+void scene_file_forget_places(struct scene_file *file);
 
 /* The polygons, for radSetSceneSharedPolygons; good until the file is freed. */
 struct RadPolygons scene_file_polygons(const struct scene_file *file);

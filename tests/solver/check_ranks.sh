@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # check_ranks.sh - several processes against one: the same links, decisions, rays and particles to the bit, radiosities to
 # 1e-12, on any number of ranks and threads; references and view factors to the byte; what several ranks cannot do is refused; a
-# rank that is killed, or that cannot go on, ends the run with a message and leaves no half of a file. Needs a command built by
-# `make MPI=1` and mpirun; else it says that it is skipped. THOROUGH: more scenes and more ranks.
+# rank that is killed, or that cannot go on, ends the run with a message and leaves no half of a file; no rank has or tells more than
+# its share. Needs a command built by `make MPI=1` and mpirun; else it says that it is skipped. THOROUGH: more scenes and more ranks.
 # SPDX-License-Identifier: MIT
 . "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/support/mpi.sh
@@ -73,6 +73,35 @@ if [ -n "${THOROUGH:-}" ]; then
     grid=$top/../shared/scenes/gridroom_10000.obj
     if [ -f "$grid" ]; then compare_ranks "$grid" 2 4; else echo "skipped: no gridroom"; fi
 fi
+# ---- what each has and tells: no rank has the quarters that particles are counted on of all faces, and a sweep tells of what
+# groups alone take as little as they read. Meshes, which all quarters are needed for, have the bytes of one process.
+ranks_most() { sed -n "s/^ *\"$1\": \([0-9.]*\),*$/\1/p" several.json | sort -g | tail -n 1; } # KEY: of the ranks' values
+below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > 0 && a <= b) }'; }
+boxes() { # FACES
+    awk -v FACES="$1" -v MATERIALS=boxes.mtl -f "$top/tests/studies/room_of_boxes.awk" >boxes.obj
+    "$radiosity" solve boxes.obj -q --threads 1 --json one.json -o one.ply
+    several 4 "$radiosity" solve boxes.obj -q --threads 1 --json several.json --faces several.csv >said 2>&1
+    sed '/"ranks"/,$!d' several.json >ranks.json
+    check "$1 boxes: $(head -n 3 said)" [ "$(value several.json particle_fingerprint)" = "$(value one.json particle_fingerprint)" ]
+    mv several.json all.json && mv ranks.json several.json
+    held=$(ranks_most elements) told=$(ranks_most sweeps) ghosts=$(ranks_most ghosts) memory=$(ranks_most memory_mb)
+    check "$1 boxes: one of 4 ranks has $held of $(value one.json elements) elements" below "$held" "$(awk "BEGIN { print .45 * $(value one.json elements) }")"
+    several 4 "$radiosity" solve boxes.obj -q --threads 1 -o several.ply >said 2>&1
+    check "$1 boxes: another mesh on 4 ranks: $(head -n 3 said)" cmp one.ply several.ply
+}
+boxes 300
+if [ -n "${THOROUGH:-}" ]; then
+    boxes 2000 # most of its links are of groups
+    check "2000 boxes: one of 4 ranks takes $memory MB, one process $(value one.json peak_memory_mb)" \
+        below "$memory" "$(awk "BEGIN { print .55 * $(value one.json peak_memory_mb) }")"
+    check "2000 boxes: $told bytes told in sweeps of $ghosts elements" \
+        below "$told" "$(awk "BEGIN { print 8 * $ghosts * $(value one.json iterations) }")"
+fi
+# Paths of dim polygons end in all quarters.
+"$radiosity" solve "$scenes/cornell.obj" -q -o one.ply
+several 3 "$radiosity" solve "$scenes/cornell.obj" -q -o several.ply >said 2>&1
+check "cornell: another mesh on 3 ranks: $(head -n 3 said)" cmp one.ply several.ply
+rm -f one.* several.* all.json
 # Other oracles, elements and solvers.
 for how in "--oracle bf_guarded" "--oracle ff --basis constant" "--oracle clusters" "--solver jacobi" "--closure rows" "--oracle relative --release dag" "--oracle power --release wave"; do
     # shellcheck disable=SC2086 # words

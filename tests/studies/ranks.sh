@@ -9,7 +9,7 @@ export LIMIT=${LIMIT:-3600}
 . "$(dirname "$0")/../support/mpi.sh"
 command -v mpirun >/dev/null || fail "mpirun is missing: apt-get install openmpi-bin"
 ! mpirun -n 2 "$radiosity" --version 2>&1 | grep -q 'built without MPI' || fail "$radiosity was built without MPI: make MPI=1"
-rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes,links_most,pairs_most,ghosts_most,memory_mb,splits,link_bytes,sweep_bytes,values,particles,fingerprint
+rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes,links_most,pairs_most,ghosts_most,elements_most,memory_mb,splits,link_bytes,sweep_bytes,values,particles,fingerprint
 
 solve() { # FACES RANKS
     [ -s "$tmp/$1.obj" ] || awk -v FACES="$1" -v MATERIALS="$tmp/$1.mtl" -f "$studies/room_of_boxes.awk" >"$tmp/$1.obj"
@@ -23,7 +23,8 @@ solve() { # FACES RANKS
             for (i = 1; i in all; i++) print all[i], v[all[i]]
             print "sweeps", v["iterations"]; print "passes", v["passes"]
             print "links_most", (ranks > 1 ? most("links") : v["links"]); print "pairs_most", (ranks > 1 ? most("pairs") : v["pairs"])
-            print "ghosts_most", most("ghosts"); print "memory_mb", (ranks > 1 ? most("memory_mb") : v["peak_memory_mb"])
+            print "ghosts_most", most("ghosts"); print "elements_most", (ranks > 1 ? most("elements") : v["elements"])
+            print "memory_mb", (ranks > 1 ? most("memory_mb") : v["peak_memory_mb"])
             print "splits", most("bytes_sent.splits"); print "link_bytes", most("bytes_sent.links"); print "sweep_bytes", most("bytes_sent.sweeps")
             print "values", most("bytes_sent.values"); print "particles", most("bytes_sent.particles")
             # of 64 bits the lower 48, which a number holds: equal, or the run is wrong
@@ -65,28 +66,34 @@ number of ranks. \"Most\" is the rank that has most, over the mean. Bytes are th
 What follows.
 
 - **Links and discussions** are shared out. The first pass goes by numbers of faces, later ones by links.
-- **Memory hardly falls.** Every rank holds all elements (264 bytes each), Embree's structure over all faces, and, while particles are
-  counted, 16 sums for each face; links are the smaller part. Embree keeps pointers in its structure, so processes cannot share it: give a
-  machine one rank, with threads.
-- **A sweep tells of nearly every face**, not of the surface between parts: groups are linked far and wide, and what a group sends is
-  summed from its faces by whoever receives. So its bytes grow with the faces, and with the ranks that each is told to.
-- **Particles** cost most: counts of all faces are added up after each stretch of tracing that anybody looks at.
+- **Memory falls** as far as it is quarters that particles are counted on: a rank has those of its own faces (264 bytes each, and the numbers
+  that go with them), and what their numbers are of all. What does not fall: elements that links know of, Embree's structure over all
+  faces, and, while particles are counted, 16 sums for each face. Embree keeps pointers in its structure, so processes cannot share it:
+  give a machine one rank, with threads. A mesh of the solution, a picture, paths of dim polygons and errors of surfaces need all
+  quarters: then all ranks get them. Of 1,001,222 faces, where a face has 8 elements and not 49, one process takes 5576 MB and each of
+  4 ranks 2556 to 2753, in a run apart from this table.
+- **A sweep tells of nearly every face**, not of the surface between parts: groups are linked far and wide, and each link weighs the faces
+  of a group by where they stand to it, so that a sum serves no other. What groups alone take is told once a sweep, in single precision.
+  Its bytes grow with the faces, and with the ranks that each is told to.
+- **Particles** cost most: counts of faces are added up after each stretch of tracing that anybody looks at face by face.
 
 ## More faces, more machines
 
 LogP: a message takes latency + 2 overheads (3 us together), a byte 1 / (12.5 GB/s), as a 100 Gb/s network is sold. Assumed: one rank a
-machine; per face as many elements, links, passes, sweeps and bytes as in the last row of one rank and of two above; counts of particles and values of
-elements in a ring (each rank sends and receives all once), a sweep in 16 exchanges with every other rank.
+machine; per face as many elements of all and of one rank, links, passes, sweeps and bytes as in the last row of one rank and of two above; counts of particles and values of
+elements in a ring (each rank sends and receives all once), a sweep in 16 exchanges with every other rank. What fits does so with 295
+bytes a face of geometry besides.
 END
     echo
     echo "| faces | machines | GB of elements and counts a machine | a sweep: s to send | its messages: s | values and counts: s | fits in 256 GB |"
     echo "|---|---|---|---|---|---|---|"
     awk -F , 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-        $at["faces"] != "-" && $at["ranks"] == 1 { elements = $at["elements"] / $at["faces"] }
-        $at["faces"] != "-" && $at["ranks"] == 2 { sweep = $at["sweep_bytes"] / $at["sweeps"] / $at["faces"] * 2; particles = $at["particles"] / $at["faces"]; values = $at["values"] / $at["faces"] * 2 }
+        # held by 2 ranks and by 4: what all have, and what they have parts of
+        $at["faces"] != "-" && $at["ranks"] == 4 { own = 4 * (two - $at["elements_most"] / $at["faces"]); all = two - own / 2 }
+        $at["faces"] != "-" && $at["ranks"] == 2 { two = $at["elements_most"] / $at["faces"]; sweep = $at["sweep_bytes"] / $at["sweeps"] / $at["faces"] * 2; particles = $at["particles"] / $at["faces"]; values = $at["values"] / $at["faces"] * 2 }
         END { for (f = 1e8; f <= 1e9; f *= 10) for (n = 64; n <= 1024; n *= 16) {
-            held = f * (elements * 264 + 16 * 3 * 8 + elements * 3 * 8) / 1e9
-            printf "| %.0e | %d | %.0f | %.1f | %.3f | %.1f | %s |\n", f, n, held, sweep * f * (n - 1) / n / 12.5e9, 16 * (n - 1) * 3e-6, (2 * particles + values) * f / 12.5e9, held < 256 ? "yes" : "no" } }' "$pages/ranks.csv"
+            held = f * ((all + own / n) * (264 + 3 * 8 * 2) + (all + own) * (4 + 3 * 8) + 16 * 3 * 8) / 1e9
+            printf "| %.0e | %d | %.0f | %.1f | %.3f | %.1f | %s |\n", f, n, held, sweep * f * (n - 1) / n / 12.5e9, 16 * (n - 1) * 3e-6, (2 * particles + values) * f / 12.5e9, held + f * 295 / 1e9 < 256 ? "yes" : "no" } }' "$pages/ranks.csv"
     cat <<'END'
 
 ## Where one machine does not hold it
@@ -100,8 +107,8 @@ END
         FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
         $at["faces"] != "-" && $at["ranks"] == 1 { n = $at["faces"]; elements = $at["elements"] / n; links = $at["links"] / n }
         END { printf "| corners, material | %d | all | whoever casts rays at it |\n| Embree: held, while it is built | %.0f, %.0f | all | the same |\n", face, held, most
-              printf "| %.1f elements of %d bytes, most of them quarters that particles are counted on | %.0f | all | the owner of the face; of links, who names it |\n", elements, element, elements * element
-              printf "| radiosity and irradiance of them, three bands | %.0f | all | the same |\n| counts of particles, in 16 groups | %d | all | the owner |\n", elements * 48, 16 * 3 * 8
+              printf "| %.1f elements of %d bytes, most of them quarters that particles are counted on | %.0f | quarters the owner of the face, others all | of links, who names them |\n", elements, element, elements * element
+              printf "| radiosity and irradiance of them, three bands | %.0f | the same | the same |\n| counts of particles, in 16 groups; of quarters 28 bytes each | %d | all | the owner |\n", elements * 48, 16 * 3 * 8
               printf "| %.1f links | %.0f | the owner | the owner |\n", links, links * link }' "$tmp/embree" "$pages/ranks.csv"
     echo
     echo "Embree, by its own account (\`embree_bytes\`: the monitor of its device), over the same rooms:"
@@ -111,9 +118,9 @@ END
 So the plan, in the order in which it pays:
 
 1. **Counts of particles by owner**: particles go by index, counts to the owner of the face in one exchange after each stretch of tracing (sums of
-   integers: the same bits), in place of a sum over all on every rank.
-2. **Elements by stretch**: a rank splits and keeps the faces that it owns, and of others those elements that its links name. Their path
-   is their name (`element.id`), so they are made without asking. Groups' sums are made by the owners of their faces and told as one value.
+   integers: the same bits), in place of a sum over all on every rank. Polygons of several faces then have sums to tell of.
+2. **Elements by stretch**, as quarters are by now: a rank splits and keeps the faces that it owns, and of others those elements that its links name. Their path
+   is their name (`element.id`), so they are made without asking.
 3. **Geometry** stays whole on each machine as long as corners and Embree fit:
 END
     awk '{ held = 112 + $4 / $2; most = 112 + $6 / $2 } END { printf "   %.0f bytes a face while it is built, %.0f after: 1e8 faces take %.0f GB, 1e9 %.0f GB.\n", most, held, most / 10, most }' "$tmp/embree"
@@ -129,10 +136,11 @@ What limits it is how much links name. In a room of 10036 faces in which all see
 names 4341 and 4298 elements of others and clusters, each of 8 ranks 4128 to 4603 (`named` in `--json`): .43 of the faces, and no fewer with more
 ranks. Shut rooms side by side would name less; that is not measured.
 
-It stops where one machine no longer holds all elements, most of them quarters that particles are counted on. Before that, a sweep's bytes do not fall with more machines,
-since each is told of nearly all faces. Both have one cure: elements by stretches, as links are, with those of others only where a link
-needs them, and groups' sums made by the owners of their faces. Links, decisions and numbers do not stand in the way: refinement
-asks nobody, indices depend on what is split alone, and random numbers on a path's index.
+It stops where one machine no longer holds the elements that links know of, and the counts of all faces and quarters. Before that, a sweep's bytes do not fall
+with more machines, since each is told of nearly all faces. Elements have one cure: stretches, as links and quarters are, with those of
+others only where a link needs them. Links, decisions and numbers do not stand in the way: refinement asks nobody, indices depend on
+what is split alone, and random numbers on a path's index. For sweeps, links of groups would have to take few numbers of a group,
+the same for all links.
 END
 } >"$tmp/page.md"
 mv "$tmp/page.md" "$pages/ranks.md"
