@@ -49,8 +49,10 @@ static int run(const struct options *o)
     int status =
         open_whole_scene(&scene, o->scene, &how, &o->copies, turned, o->threads) < 0 ? 1 : 0;
     const int others = machines_agree(status);
-    if (status == 0 && others == 0)
+    if (status == 0 && others == 0) {
+        scene_file_forget_places(&scene.file); /* commands ask the committed scene */
         status = commands[o->command](o, &scene);
+    }
     if (status == 0 || others == 0)
         close_scene(&scene);
     return status;

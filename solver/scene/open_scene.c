@@ -29,7 +29,6 @@ int open_whole_scene(struct open_scene *s, const char *path, const struct scene_
             }
             if (!options->quiet)
                 scene_file_warn(&s->file, path, &s->report, turned);
-            scene_file_forget_places(&s->file);
             return 0;
         }
         report_device(s->device, path);
