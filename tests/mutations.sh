@@ -54,6 +54,9 @@ bent and pierced | runtime/kernel/shaft_pierced.h | s/0.25 \* shaft->slack/shaft
 kept for another cluster | runtime/tools/cluster_visibility.h | s/if (w->child\[at\] != e->child)/if (!w->child[at])/ | runtime/check_cluster_walk
 the last child is passed by | runtime/tools/cluster_visibility.h | s/place\[k\] < last/place[k] <= last/ | runtime/check_cluster_walk
 no chance of a child's | runtime/tools/cluster_visibility.h | s/all \*= p->share\[k\];/all *= p->share[0];/ | runtime/check_cluster_walk
+rules without their last points | runtime/engine/linear_coupling.c | s/at->count; i += FEW/at->count - FEW + 1; i += FEW/ | runtime/check_linear
+the emitter's slopes mixed | runtime/engine/linear_coupling.c | s/sum_2\[k\] += sent \* phi_2/sum_2[k] += sent * (phi_2 + 0.1 * phi_1)/ | runtime/check_linear
+seen from the other's front | runtime/engine/linear_coupling.c | s/(&at, r->normal/(\&at, s->normal/ | runtime/check_linear
 an interpreter that links | runtime/oracle/interpreter.c | s/return (enum decision) ~next;/return (enum decision)(~next == 1 ? 0 : ~next);/ | dagc/check_prove
 interpreter: arcs of the first | runtime/oracle/interpreter.c | s/: dag->nodes\[t->index\].order;/: dag->nodes[t->index].order + (i == 0 \&\& k == 0);/ | dagc/check_prove
 defaults emitted 7 | dagc/emit/emit_c.c | /static void print_value/,/^}/s/dag_print_number(out, parameter->value)/dag_print_number(out, 7)/ | dagc/check_prove

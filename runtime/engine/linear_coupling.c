@@ -6,31 +6,39 @@
 #include <string.h>
 #include "kernel/constants.h"
 #include "kernel/lambert.h"
+#include "kernel/lanes.h"
 #include "kernel/surface.h"
 
-enum { POINTS = 9 };
+/* Points of a rule, whole vectors of them. */
+enum { POINTS = 9, ROOM = 12, FEW = 4 };
 
-/* The nodes of a rule over a cell, weights in m2, and what the element's basis is there. */
+/* The nodes of a rule over a cell, coordinate by coordinate, weights in m2, and what the element's
+ * basis is there; the rest of the last vector is 0. */
 struct nodes {
     int count;
-    double at[POINTS][3], weight[POINTS], phi[POINTS][3];
+    double at[3][ROOM], weight[ROOM], phi[3][ROOM];
 };
 
 /* The integral so far: sum[a][b] (m2). */
 struct integral {
     struct linear_side r, s;
     double least; /* m: cells of no larger a radius are not quartered */
+    int width;    /* of vectors */
     double sum[3][3];
 };
 
 static void add_node(struct nodes *n, const struct linear_side *side, const double x[3],
                      double weight)
 {
-    memcpy(n->at[n->count], x, sizeof n->at[0]);
-    n->weight[n->count] = weight;
-    n->phi[n->count][0] = 1;
-    linear_basis_at(side->basis, side->element->centre, x, &n->phi[n->count][1]);
-    n->count++;
+    const int i = n->count++;
+    double phi[2];
+    linear_basis_at(side->basis, side->element->centre, x, phi);
+    for (int k = 0; k < 3; k++)
+        n->at[k][i] = x[k];
+    n->weight[i] = weight;
+    n->phi[0][i] = 1;
+    n->phi[1][i] = phi[0];
+    n->phi[2][i] = phi[1];
 }
 
 /* Gauss's rule of (order + 1)^2 points in the bilinear map of a quad. */
@@ -41,19 +49,22 @@ static void place_in_quad(struct nodes *n, const struct linear_side *side, const
                                       {0.11270166537925831148, 0.5, 0.88729833462074168852}};
     static const double weight[2][3] = {{0.5, 0.5, 0}, {5 / 18.0, 8 / 18.0, 5 / 18.0}};
     const double(*v)[3] = (const double(*)[3])e->vertex;
-    for (int i = 0; i < order + 1; i++)
+    for (int i = 0; i < order + 1; i++) {
+        double s = node[order - 1][i], low[3], dt[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = v[0][k] + s * (v[1][k] - v[0][k]);
+            dt[k] = v[3][k] + s * (v[2][k] - v[3][k]) - low[k];
+        }
         for (int j = 0; j < order + 1; j++) {
-            double s = node[order - 1][i], t = node[order - 1][j], p[3], ds[3], dt[3], c[3];
+            double t = node[order - 1][j], p[3], ds[3], c[3];
             for (int k = 0; k < 3; k++) {
-                double low = v[0][k] + s * (v[1][k] - v[0][k]),
-                       high = v[3][k] + s * (v[2][k] - v[3][k]);
-                p[k] = low + t * (high - low);
-                dt[k] = high - low;
+                p[k] = low[k] + t * dt[k];
                 ds[k] = (1 - t) * (v[1][k] - v[0][k]) + t * (v[2][k] - v[3][k]);
             }
             cross3(c, ds, dt);
             add_node(n, side, p, weight[order - 1][i] * weight[order - 1][j] * dot3(c, e->normal));
         }
+    }
 }
 
 /* Three points, exact to degree 2, or six, to degree 4 [Strang and Fix 1973; Dunavant 1985]. */
@@ -82,27 +93,63 @@ static void place(struct nodes *n, const struct linear_side *side, const struct 
         place_in_quad(n, side, e, order);
     else
         place_in_triangle(n, side, e, order);
+    for (int i = n->count; i % FEW; i++)
+        for (int k = 0; k < 3; k++)
+            n->at[k][i] = 0;
 }
+
+/* What nodes of a cell with normal m send to each of `at`, whose normal is n: for each function of
+ * theirs, the sum over them in their order, of several points of `at` at a time (lanes.h). */
+TOOL void reach_body(const struct nodes *at, const double n[3], const struct nodes *from,
+                     const double m[3], double (*reached)[ROOM])
+{
+    const double n0 = n[0], n1 = n[1], n2 = n[2], m0 = m[0], m1 = m[1], m2 = m[2];
+    for (int i = 0; i < at->count; i += FEW) {
+        const double *x = at->at[0] + i, *y = at->at[1] + i, *z = at->at[2] + i;
+        double sum_0[FEW] = {0}, sum_1[FEW] = {0}, sum_2[FEW] = {0};
+        for (int j = 0; j < from->count; j++) {
+            const double to_x = from->at[0][j], to_y = from->at[1][j], to_z = from->at[2][j],
+                         weight = from->weight[j], phi_1 = from->phi[1][j], phi_2 = from->phi[2][j];
+            for (int k = 0; k < FEW; k++) {
+                const double a = to_x - x[k], b = to_y - y[k], c = to_z - z[k],
+                             sent = weight
+                                    * lambert_kernel(n0 * a + n1 * b + n2 * c,
+                                                     -(m0 * a + m1 * b + m2 * c),
+                                                     a * a + b * b + c * c, 0);
+                sum_0[k] += sent;
+                sum_1[k] += sent * phi_1;
+                sum_2[k] += sent * phi_2;
+            }
+        }
+        for (int k = 0; k < FEW; k++) {
+            reached[0][i + k] = sum_0[k];
+            reached[1][i + k] = sum_1[k];
+            reached[2][i + k] = sum_2[k];
+        }
+    }
+}
+
+#if LANES_CHOSEN
+LANES_AVX2 void reach_4(const struct nodes *at, const double n[3], const struct nodes *from,
+                        const double m[3], double (*reached)[ROOM])
+{
+    reach_body(at, n, from, m, reached);
+}
+#endif
 
 /* Cells that are apart: all points with all points. */
 static void add_apart(struct integral *c, const struct element *r, const struct element *s,
                       int order)
 {
     struct nodes at, from;
+    double reached[3][ROOM];
     place(&at, &c->r, r, order);
     place(&from, &c->s, s, order);
-    for (int i = 0; i < at.count; i++) {
-        double reached[3] = {0, 0, 0};
-        for (int j = 0; j < from.count; j++) {
-            double k =
-                from.weight[j] * lambert_points(at.at[i], r->normal, from.at[j], s->normal, 0);
-            for (int b = 0; b < 3; b++)
-                reached[b] += k * from.phi[j][b];
-        }
+    LANES_RUN(c->width, reach_4, reach_4, reach_body, (&at, r->normal, &from, s->normal, reached));
+    for (int i = 0; i < at.count; i++)
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
-                c->sum[a][b] += at.weight[i] * at.phi[i][a] * reached[b];
-    }
+                c->sum[a][b] += at.weight[i] * at.phi[a][i] * reached[b][i];
 }
 
 /* int over `to` of phi_a(x) F(x, from). */
@@ -110,13 +157,16 @@ static void exact_from_points(const struct linear_side *side, const struct eleme
                               const struct element *from, double marginal[3])
 {
     struct nodes n;
+    double x[POINTS][3], f[POINTS];
     place(&n, side, to, 1);
-    for (int i = 0; i < n.count; i++) {
-        double f =
-            lambert_sum(n.at[i], to->normal, (const double(*)[3])from->vertex, from->vertices);
-        for (int a = 0; a < 3 && f > 0; a++)
-            marginal[a] += n.weight[i] * n.phi[i][a] * f;
-    }
+    for (int i = 0; i < n.count; i++)
+        for (int k = 0; k < 3; k++)
+            x[i][k] = n.at[k][i];
+    lambert_sums(n.count, (const double(*)[3])x, to->normal, (const double(*)[3])from->vertex,
+                 from->vertices, f);
+    for (int i = 0; i < n.count; i++)
+        for (int a = 0; a < 3 && f[i] > 0; a++)
+            marginal[a] += n.weight[i] * n.phi[a][i] * f[i];
 }
 
 /* Cells that touch: the marginals from exact factors, else their product. */
@@ -174,7 +224,12 @@ static int cut_at_plane(const struct element *e, const struct element *other,
 
 void linear_coupling_integrate(double c[3][3], struct linear_side r, struct linear_side s)
 {
-    struct integral sum = {.r = r, .s = s};
+    linear_coupling_at(lanes_width(), c, r, s);
+}
+
+void linear_coupling_at(int width, double c[3][3], struct linear_side r, struct linear_side s)
+{
+    struct integral sum = {.r = r, .s = s, .width = width};
     struct element of_r[2], of_s[2];
     double smaller = fmin(r.element->radius, s.element->radius);
     int cells_of_r = cut_at_plane(r.element, s.element, of_r),

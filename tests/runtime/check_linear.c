@@ -222,6 +222,8 @@ START_TEST(test_coupling)
     int depth = pair->touching ? 5 : 4;
     make_pair(&p, pair);
     linear_coupling_integrate(c, p.r, p.s);
+    linear_coupling_at(1, fine, p.r, p.s); /* the same bits in vectors of any width */
+    ck_assert_mem_eq(fine, c, sizeof c);
     sum_points(fine, &p, depth);
     sum_points(coarse, &p, depth - 1);
     double factor = polygon_factor(&p.e[0], &p.e[1], 1), more = pair->touching ? 1 : 1 / 3.0;
