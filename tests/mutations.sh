@@ -48,6 +48,8 @@ times not scaled | runtime/oracle/statistics.c | s/\* (double)calls \/ (double)t
 rays of all nodes before | runtime/oracle/counting.c | s/t->host.rays - rays/t->host.rays + 0 * rays/ | runtime/check_instrumented
 dead arcs alive | solver/output/graph_drawing.c | s/.dead = counted \&\& count == 0/.dead = 0/ | solver/check_draw
 arcs to the first leaf | solver/output/graph_drawing.c | s/            a->leaf = (int)i;/            a->leaf = 0;/ | solver/check_draw
+behind though some is in front | runtime/tools/cluster_visibility.h | s/a->normal) + 1.001 \* s->radius/a->normal) + 0.5 * s->radius/ | runtime/check_cluster_walk
+a sample less | runtime/tools/cluster_visibility.h | s/(tried + 0.5) \* step/(tried + 1.5) * step/ | runtime/check_cluster_walk
 pierced through edges' lines | runtime/kernel/shaft_pierced.h | s/+ g.z\[1\] \* c2 > g.at\[1\]/+ g.z[1] * c2 > g.at[1] - 0.3/ | runtime/check_pierced
 pierced from one side | runtime/kernel/shaft_pierced.h | s/(a \* other < 0)/(a * other != 0)/ | runtime/check_pierced
 bent and pierced | runtime/kernel/shaft_pierced.h | s/0.25 \* shaft->slack/shaft->flat/ | runtime/check_pierced

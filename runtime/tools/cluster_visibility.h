@@ -190,10 +190,13 @@ OUTLINE double cluster_rays(const struct element *receiver, const struct element
         const struct element *a = cluster_face(&from_r, r, &u[0], &chance[0]);
         if (!a)
             continue;
+        surface_point(g->from, a, u[0], u[1]);
+        /* nothing of s is in front, nor is what rounding could make of it */
+        if (height3(s->centre, g->from, a->normal) + 1.001 * s->radius < -1e-9 * distance)
+            continue;
         const struct element *b = cluster_face(&from_s, s, &u[2], &chance[1]);
         if (!b)
             continue;
-        surface_point(g->from, a, u[0], u[1]);
         surface_point(g->to, b, u[2], u[3]);
         sub3(w, g->to, g->from);
         double cos_a = dot3(a->normal, w);

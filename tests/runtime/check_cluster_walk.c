@@ -1,5 +1,6 @@
 /* check_cluster_walk.c - faces that samples choose below a cluster: the bits of a walk that asks
- * one child after the other and keeps nothing, at every width of vectors.
+ * one child after the other and keeps nothing, at every width of vectors; and rays between two
+ * clusters: as many and the same as where every sample goes down both trees.
  *
  * Random trees, of up to four children a cluster and of up to eight; cones of any width, normals
  * beside the direction and against it, some children without area. Walks of one kind keep what
@@ -118,12 +119,133 @@ START_TEST(test_walks)
 }
 END_TEST
 
+/* A small square there, and the tree above such: the sphere of each cluster holds what is below. */
+static void stand(uint32_t at, const double middle[3], double wide)
+{
+    struct element *e = &tree[at];
+    if (e->vertices) {
+        double side[2][3];
+        direction(side[0]);
+        cross3(side[1], e->normal, side[0]);
+        cross3(side[0], side[1], e->normal);
+        for (int k = 0; k < 3; k++) {
+            e->centre[k] = middle[k] + wide * (even() - 0.5);
+            for (int i = 0; i < 4; i++)
+                e->vertex[i][k] = e->centre[k] + 0.02 * (i == 1 || i == 2 ? 1 : -1) * side[0][k]
+                                  + 0.02 * (i > 1 ? 1 : -1) * side[1][k];
+        }
+        e->radius = 0.03;
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        e->centre[k] = middle[k];
+    for (uint32_t c = 0; c < e->children; c++) {
+        const struct element *child = &tree[e->child + c];
+        double off[3];
+        stand(e->child + c, middle, wide);
+        sub3(off, child->centre, middle);
+        e->radius = fmax(e->radius, length3(off) + child->radius);
+    }
+}
+
+static double where_cast; /* of all segments so far, where they begin and end */
+
+static uint64_t cast(const struct host *host, int count, const struct segment *segments)
+{
+    uint64_t hits = 0;
+    (void)host;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++)
+            where_cast = 0.99 * where_cast + segments[i].from[k] - 2 * segments[i].to[k];
+        hits |= (uint64_t)(segments[i].from[2] > 0) << i;
+    }
+    return hits;
+}
+
+/* As cluster_rays, every sample by itself; of more than one ray. */
+static double rays_plainly(const struct element *r, const struct element *s,
+                           const struct host *host, int count)
+{
+    static const double step[4] = {0.8566748838545029, 0.733891856627126, 0.6287067210378087,
+                                   0.5385972572236101};
+    struct segment segments[SEGMENTS_MAX];
+    double weight[SEGMENTS_MAX], seen = 0, whole = 0, v[3], back[3], away[3];
+    const uint64_t hash = hash64(r->id + hash64(s->id));
+    int n = 0;
+    sub3(away, s->centre, r->centre);
+    const double distance = length3(away), slope = (r->radius + s->radius) / distance;
+    for (int k = 0; k < 3; k++) {
+        v[k] = away[k] / distance;
+        back[k] = -v[k];
+    }
+    for (int i = 0; n < count && i < CLUSTER_TRIES * count; i++) {
+        double u[4], chance[2], w[3];
+        for (int k = 0; k < 4; k++) {
+            u[k] = (double)(hash >> 16 * k & 0xffff) * (1 / 65536.0) + (i + 0.5) * step[k];
+            u[k] -= floor(u[k]);
+        }
+        const struct element *a = plainly(r, v, slope, &u[0], &chance[0]),
+                             *b = plainly(s, back, slope, &u[2], &chance[1]);
+        if (!a || !b)
+            continue;
+        surface_point(segments[n].from, a, u[0], u[1]);
+        surface_point(segments[n].to, b, u[2], u[3]);
+        sub3(w, segments[n].to, segments[n].from);
+        const double cos_a = dot3(a->normal, w), cos_b = -dot3(b->normal, w),
+                     square = dot3(w, w) / (distance * distance);
+        if (!(cos_a > 0) || !(cos_b > 0))
+            continue;
+        weight[n] = cos_a * cos_b * (a->area / r->area) * (b->area / s->area)
+                    / (square * square * chance[0] * chance[1]);
+        segment_clear(&segments[n++], a->normal, b->normal, host);
+    }
+    if (n == 0)
+        return 0;
+    segments_cast(host, n, segments, weight, &seen, &whole);
+    return whole > 0 ? seen / whole : 0;
+}
+
+START_TEST(test_rays)
+{
+    const struct element *all = tree;
+    struct host host;
+    int partial = 0, none = 0;
+    memset(&host, 0, sizeof host);
+    host.occluded = cast;
+    host.elements = &all;
+    host.ray_offset = 1e-5;
+    for (int i = 0; i < 600; i++) {
+        const double near = i % 2 ? 0.6 : 3, middle[2][3] = {{0, 0, 0}, {near, 0.3 * near, 0}};
+        memset(tree, 0, sizeof tree);
+        used = 2;
+        for (uint32_t k = 0; k < 2; k++) {
+            grow(k, 4, 4);
+            stand(k, middle[k], i % 3 ? 0.3 : 0.9);
+            tree[k].id = 1 + k + 2 * (uint64_t)i;
+            tree[k].area += 1;
+        }
+        const int count = i % 4 ? 4 : 16;
+        where_cast = 0;
+        const double wanted = rays_plainly(&tree[0], &tree[1], &host, count), were = where_cast;
+        where_cast = 0;
+        const double v = cluster_rays(&tree[1], &tree[0], &host, count);
+        ck_assert_msg(v == wanted && where_cast == were, "pair %d: %g, not %g", i, v, wanted);
+        partial += v > 0 && v < 1;
+        none += were == 0;
+    }
+    printf("%d pairs see each other in part, of %d no segment is cast\n", partial, none);
+    ck_assert_int_gt(partial, 150);
+    ck_assert_int_gt(none, 20);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("cluster walk");
     TCase *c = tcase_create("cluster walk");
     tcase_set_timeout(c, 120);
     tcase_add_test(c, test_walks);
+    tcase_add_test(c, test_rays);
     suite_add_tcase(suite, c);
     return suite_failures(suite) != 0;
 }
