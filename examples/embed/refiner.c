@@ -395,8 +395,8 @@
  * them, 95 %, it is off by 5 %, which a reader may hold every large face to */
 #define REFINER_DIM_GOAL 0.0255
 /* particles on a place of DIM_LARGE: where fewer come paths do not end. They know its light to a
- * sixteenth, and a polygon sees many such places. Chosen; with 100 or 1,000 large faces of maze_8 are
- * as wrong for as many rays */
+ * sixteenth, and a polygon sees many such places. Chosen; with 100 or 1,000 large faces of maze_8
+ * are as wrong for as many rays */
 #define REFINER_DIM_BELIEVED 256
 /* times the rays of a first look by paths. Where particles would take no more, there is none.
  * Chosen: it is an eighth of them then */
