@@ -145,6 +145,10 @@ static int choose(struct choice *x)
     }
     c->chosen = 1;
     c->seconds = seconds() - (more ? start : solved);
+    if (c->no_links) { /* all that was tried, too */
+        const struct RadReport *r = &x->s->report;
+        c->seconds = seconds() - start - r->seconds.build - r->seconds.refine - r->seconds.iterate;
+    }
     if (more == 0)
         return 0;
     if (x->s->solution) {
