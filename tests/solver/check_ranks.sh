@@ -84,14 +84,14 @@ ranks_most() { sed -n "s/^ *\"$1\": \([0-9.]*\),*$/\1/p" several.json | sort -g 
 below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > 0 && a <= b) }'; }
 boxes() { # FACES
     awk -v FACES="$1" -v MATERIALS=boxes.mtl -f "$top/tests/studies/room_of_boxes.awk" >boxes.obj
-    "$radiosity" solve boxes.obj -q --threads 1 --json one.json -o one.ply
-    several 4 "$radiosity" solve boxes.obj -q --threads 1 --json several.json --faces several.csv >said 2>&1
+    "$radiosity" solve boxes.obj --scale 16 -q --threads 1 --json one.json -o one.ply
+    several 4 "$radiosity" solve boxes.obj --scale 16 -q --threads 1 --json several.json --faces several.csv >said 2>&1
     sed '/"ranks"/,$!d' several.json >ranks.json
     check "$1 boxes: $(head -n 3 said)" [ "$(value several.json particle_fingerprint)" = "$(value one.json particle_fingerprint)" ]
     mv several.json all.json && mv ranks.json several.json
     held=$(ranks_most elements) told=$(ranks_most sweeps) ghosts=$(ranks_most ghosts) memory=$(ranks_most memory_mb)
     check "$1 boxes: one of 4 ranks has $held of $(value one.json elements) elements" below "$held" "$(awk "BEGIN { print .45 * $(value one.json elements) }")"
-    several 4 "$radiosity" solve boxes.obj -q --threads 1 -o several.ply >said 2>&1
+    several 4 "$radiosity" solve boxes.obj --scale 16 -q --threads 1 -o several.ply >said 2>&1
     check "$1 boxes: another mesh on 4 ranks: $(head -n 3 said)" cmp one.ply several.ply
 }
 boxes 300

@@ -79,7 +79,7 @@ colours=('#d1453b' '#2f81f7' '#9a9a9a')
 } | draw "$pages/growth.svg" 1000,340
 {
     page_head "Growth" "How do time and memory grow with the faces of a scene? The scenes are one room, half of the faces in its walls and half in boxes
-(\`tests/studies/room_of_boxes.awk\`). \`$default\` is \`radiosity solve\` without options: linked, mended, and its error measured.
+(\`tests/studies/room_of_boxes.awk\`). \`$default\` is \`radiosity solve\` without options: linked where links pay, mended, and its error measured.
 \`LARGEST=1000000\` goes on to a million faces."
     printf '![Seconds, memory and links over faces](growth.svg)\n\n'
     echo "| faces | method | s | of it refining | MB | links | links per face | rays | error, by its own measure |"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ranks.sh - what several processes have and tell each other: room_of_boxes.awk from 10,000 faces to LARGEST (100000), as
-# `radiosity solve` does it without options, on 1, 2, 4, 8 and 16 ranks of one machine. Time says little where ranks share a
+# `radiosity solve --scale 16` does it, on 1, 2, 4, 8 and 16 ranks of one machine. Time says little where ranks share a
 # processor, so work, traffic and memory are counted. From these: a model of more faces on more machines (LogP: Culler et al.
 # 1993), with what it assumes. LIMIT: seconds for one run (3600). Needs a command made by `make MPI=1`.
 # SPDX-License-Identifier: MIT
@@ -13,7 +13,7 @@ rows_open ranks scene,ranks,binary faces,elements,links,pairs,rays,sweeps,passes
 
 solve() { # FACES RANKS
     [ -s "$tmp/$1.obj" ] || awk -v FACES="$1" -v MATERIALS="$tmp/$1.mtl" -f "$studies/room_of_boxes.awk" >"$tmp/$1.obj"
-    timeout "$LIMIT" mpirun -n "$2" "$radiosity" solve "$tmp/$1.obj" -q --threads 1 --json "$tmp/json" >"$tmp/said" 2>&1 || return
+    timeout "$LIMIT" mpirun -n "$2" "$radiosity" solve "$tmp/$1.obj" --scale 16 -q --threads 1 --json "$tmp/json" >"$tmp/said" 2>&1 || return
     awk -f "$tables/json.awk" "$tmp/json" | awk -v ranks="$2" '
         function most(name) { return v["ranks.." name] + 0 }
         /^ranks\./ { if ($2 + 0 > v[$1] + 0) v[$1] = $2; next }
@@ -48,7 +48,7 @@ done | paste -d ' ' - - - >"$tmp/embree"
 # ---- the page
 {
     page_head "Ranks" "What do several processes have, and what do they tell each other? One room, half of its faces in walls and half in boxes
-(\`tests/studies/room_of_boxes.awk\`), \`mpirun -n N radiosity solve\` without options. The links of a scene are the same to the bit on any
+(\`tests/studies/room_of_boxes.awk\`), \`mpirun -n N radiosity solve --scale 16\`. The links of a scene are the same to the bit on any
 number of ranks. \"Most\" is the rank that has most, over the mean. Bytes are those that one rank, the busiest, has sent in the whole run;
 \"a sweep\" is what it sends while sweeps go on, over their number."
     echo "| faces | ranks | links | most | discussions, most | MB held | elements of others, most | splits KB | links MB | a sweep KB | values MB | particles MB |"
