@@ -90,7 +90,7 @@ parts that are right stay parts | runtime/engine/element_error.c | s/s->told = i
 limits without noise | runtime/engine/element_error.c | s/ELEMENT_ERROR_LIMIT \* sqrt/0.01 * sqrt/ | runtime/check_element_error
 bands by themselves | runtime/engine/face_error.c | s/noise += c->deviation\[j\]/noise = hypot(noise, c->deviation[j])/ | runtime/check_element_error
 what is covered is handed light | runtime/engine/operator.h | s/return op->uncovered\[e\] > 0 ? op->uncovered\[j\] \/ op->uncovered\[e\] : 1;/return 1 + 0 * op->uncovered[e + 0 * j];/ | runtime/check_transport
-what leaves is still here | runtime/particles/power_balance.c | s/b->ended\[r\] += tally_unit/b->ended[r] += 0 * tally_unit/ | runtime/check_power_balance
+what leaves is still here | runtime/particles/power_balance.c | s/= ended + tally_unit/= ended + 0 * tally_unit/ | runtime/check_power_balance
 leaves know no balance | runtime/particles/particles.h | s/(1 + tally->correction\[REPLICATES\]\[band\])/1/ | runtime/check_power_balance
 counted by nobody, surely nothing | runtime/engine/mend.c | s/if (m->tally->by_paths)$/if (1)/ | runtime/check_measured_error
 a class that none has met is sure | runtime/engine/face_error.c | s/seen\[k\] += more;/seen[k] += 0 * more;/ | runtime/check_measured_error
