@@ -130,9 +130,16 @@ static void set_limits(double seconds, double memory)
     signal(SIGHUP, SIG_DFL);
     signal(SIGPIPE, SIG_DFL);
     signal(SIGXCPU, SIG_DFL);
+}
+
+/* Nobody outlives the parent, which may be gone before the system is told so. */
+static void end_with(pid_t parent)
+{
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
+    if (getppid() != parent)
+        _exit(1);
 }
 
 static void send(FILE *to, const void *array, size_t size, size_t count)
@@ -374,8 +381,10 @@ int import_in_child(struct scene_file *file, const char *path, import_reader *re
     if (pipe(ends))
         return report_error(path, 0, "cannot start the importer: %s", strerror(errno));
     c.pipe = ends[0];
+    const pid_t parent = getpid();
     c.process = fork();
     if (c.process == 0) {
+        end_with(parent);
         close(ends[0]);
         run(path, read, ends[1], c.seconds, memory);
     }
