@@ -10,22 +10,14 @@
 #include <stdio.h>
 #include <string.h>
 #include "kernel/cluster_facing.h"
+#include "runtime/even_numbers.h"
 #include "suite.h"
 #include "tools/cluster_visibility.h"
 
 enum { MOST = 4000, WALKS = 60, EACH = 200 };
 
-static uint64_t state = 88172645463325252;
 static struct element tree[MOST];
 static uint32_t used;
-
-static double even(void)
-{
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (double)(state >> 11) * 0x1p-53;
-}
 
 static void direction(double v[3])
 {

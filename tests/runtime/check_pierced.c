@@ -9,17 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 #include "kernel/shaft.h"
+#include "runtime/even_numbers.h"
 #include "suite.h"
-
-static uint64_t state = 88172645463325252;
-
-static double even(void)
-{
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (double)(state >> 11) * 0x1p-53;
-}
 
 /* A parallelogram or half of one, with a corner there. */
 static void make(struct element *e, const double corner[3], int vertices)

@@ -8,20 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "even_numbers.h"
 #include "terms/form_factor.h"
 #include "terms/form_factor_range.h"
 #include "terms/blockers.h"
 #include "terms/visibility.h"
-
-static uint64_t state = 88172645463325252;
-
-static double even(void)
-{
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (double)(state >> 11) * 0x1p-53;
-}
 
 /* A parallelogram, or half of one, its corner and sides at random or on the grid. */
 static struct element make(uint64_t id, int vertices, int grid, double spread)
