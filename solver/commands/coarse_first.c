@@ -64,20 +64,24 @@ static int solve_at(struct choice *x, double scale, double pairs)
     x->point.dear = limited && machines_count() == 1;
     if (x->point.dear)
         how.limits.pairs = (uint64_t)pairs;
+    const double start = seconds();
     int status = checkpoint_solve(&x->point, x->s, x->device, x->scene, x->oracle, &how);
     if (status == 0 && limited && (double)x->s->report.pairs > pairs) {
         solved_close(x->s);
         status = 1;
     }
+    x->c->seconds += status > 0 ? seconds() - start : 0;
     return status;
 }
 
 static int measure(struct choice *x, struct RadPlaces *p)
 {
+    const double start = seconds();
     if (radMeasurePlaces(x->s->solution, 0, p) < 0)
         return report_device(x->device, x->point.where);
     radGetReport(x->s->solution, &x->s->report);
     x->c->rays += p->rays;
+    x->c->seconds += seconds() - start;
     return 0;
 }
 
@@ -97,9 +101,12 @@ static int solve_without(struct choice *x, double *pairs)
     struct RadSolveOptions how = x->how;
     struct RadPlaces p;
     how.no_links = 1;
-    if (solved_open(x->s, x->device, x->point.where, x->scene, x->oracle, &how) < 0
-        || measure(x, &p) < 0)
+    if (solved_open(x->s, x->device, x->point.where, x->scene, x->oracle, &how) < 0)
         return -1;
+    if (measure(x, &p) < 0) {
+        solved_close(x->s);
+        return -1;
+    }
     const double places = p.ray / (RAD_CORRECT_PLACES * RAD_CORRECT_PLACES),
                  faces = p.face / (RAD_CORRECT_NOISE * RAD_CORRECT_NOISE);
     *pairs = fmax(QUARTER * (places - faces), LITTLE * faces) / PAIR;
@@ -121,6 +128,8 @@ static int solve_coarse(struct choice *x)
         return -1;
     status = pairs > FEW ? solve_at(x, COARSE, pairs) : 1;
     if (status <= 0) {
+        const struct RadReport *r = &without.report;
+        x->c->seconds += r->seconds.build + r->seconds.refine + r->seconds.iterate;
         solved_close(&without);
         return status;
     }
@@ -133,22 +142,17 @@ static int choose(struct choice *x)
 {
     struct coarse_first *c = x->c;
     const double start = seconds();
-    double solved = start;
     int more = 1;
     if (!x->point.from || x->point.scale > 1) {
         if (solve_coarse(x) < 0)
             return -1;
-        solved = seconds();
         more = c->no_links ? 0 : finer_pay(x);
     } else {
         c->rays = (uint64_t)x->point.rays;
     }
     c->chosen = 1;
-    c->seconds = seconds() - (more ? start : solved);
-    if (c->no_links) { /* all that was tried, too */
-        const struct RadReport *r = &x->s->report;
-        c->seconds = seconds() - start - r->seconds.build - r->seconds.refine - r->seconds.iterate;
-    }
+    if (more)
+        c->seconds = seconds() - start;
     if (more == 0)
         return 0;
     if (x->s->solution) {
