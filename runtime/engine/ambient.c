@@ -42,6 +42,12 @@ void light_follows(const struct solve *s, struct state *state)
     children_first(&s->hierarchy, s->problem.options.threads, follow, &f);
 }
 
+void light_of_clusters_follows(const struct solve *s, struct state *state)
+{
+    const struct following f = {s, state};
+    children_first_clusters(&s->hierarchy, follow, &f);
+}
+
 struct filling {
     struct solve *s;
     double irradiance[3]; /* [band] (W/m2), of what is bare */

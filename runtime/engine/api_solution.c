@@ -476,7 +476,6 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     const int own = own_quarters(s);
     *report = (struct RadReport){
         .elements = own ? s->quarters.count : s->hierarchy.count,
-        .leaves = own ? s->quarters.leaves : 0,
         .bands = s->problem.bands,
         .links = counts->links,
         .pairs = counts->pairs,
@@ -511,8 +510,10 @@ void radGetReport(RadSolution solution, struct RadReport *report)
     memcpy(report->marked, counts->marked, sizeof report->marked);
     for (uint32_t i = 0; i < s->hierarchy.count; i++) {
         const struct element *e = &s->hierarchy.elements[i];
-        report->leaves += !own && !e->children;
+        report->leaves += !e->children;
         report->marked_elements[e->mark % RAD_LINK_MARKS]++;
     }
+    if (own)
+        report->leaves = s->quarters.leaves;
     memcpy(report->decided, counts->decided, sizeof report->decided);
 }

@@ -305,19 +305,15 @@ static double near_power(double x)
 static void set_windows(const struct dim_faces *d, float *window)
 {
     const struct hierarchy *h = d->tracer->hierarchy;
-    const double *irradiance = d->solve->mended.irradiance;
-    const uint32_t bands = d->tracer->bands;
-    double mean = 0;
+    const double mean = mended_irradiance(d, 0);
     for (uint32_t e = 0; e < h->count; e++) {
         const struct element *at = &h->elements[e];
         const struct dim_polygon *p = at->vertices ? polygon_of(d, at->face) : NULL;
-        double here = 0, before = 0, after = 0;
-        for (uint32_t k = 0; k < bands; k++) {
-            here += irradiance[(size_t)e * bands + k];
-            before += p ? p->mended[k] : 0;
-            after += p ? dim_mean(d, p, k) : 0;
+        double here = mended_irradiance(d, e), before = 0, after = 0;
+        for (uint32_t k = 0; p && k < d->tracer->bands; k++) {
+            before += p->mended[k];
+            after += dim_mean(d, p, k);
         }
-        mean = e == 0 ? here : mean;
         if (p)
             here = before > 0 ? here * after / before : after;
         window[e] = (float)near_power(fmin(fmax(here / mean, DIM_LEAST), 1));

@@ -176,22 +176,6 @@ void measured_error_free(struct measured_error *m)
     *m = (struct measured_error){0};
 }
 
-/* The radiosities of clusters, from those of faces. */
-static void average_clusters(const struct light_operator *op, double *radiosity)
-{
-    const struct hierarchy *h = op->hierarchy;
-    const uint32_t bands = op->problem->bands;
-    for (uint32_t e = h->built; e-- > 0;) {
-        const struct element *at = &h->elements[e];
-        for (uint32_t k = 0; k < bands && !at->vertices; k++) {
-            double sum = 0;
-            for (uint32_t j = at->child; j < at->child + at->children; j++)
-                sum += operator_share(op, j, e) * radiosity[(size_t)j * bands + k];
-            radiosity[(size_t)e * bands + k] = sum;
-        }
-    }
-}
-
 /* Slopes of linear elements go with what is reflected, so that no corner falls below 0: an
  * emitter's are made no steeper. */
 static void mend_gradients(const void *solve, size_t from, size_t to)
@@ -220,7 +204,7 @@ static int follow_irradiance(struct solve *s)
     if (own_quarters(s)) { /* what is made of quarters owners know, and then clusters follow */
         if (own_quarters_tell(s, s->mended.radiosity, s->problem.bands) < 0)
             return -1;
-        average_clusters(&s->operator, s->mended.radiosity);
+        light_of_clusters_follows(s, &s->mended);
     }
     if (sloped && !s->mended_gradient)
         s->mended_gradient = calloc(3 * values, sizeof *s->mended_gradient);
@@ -308,7 +292,8 @@ int measure_places(struct solve *s, uint64_t rays, struct ray_split *split, cons
     failed = failed || tracer_open(&t) < 0 || detail_places(s) < 0
              || tally_open(&tally, &t, MEND_STREAM, 1) < 0
              || trace_rays(s, &t, &tally, rays, (double)rays) < 0
-             || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0;
+             || ray_split_measure(&s->operator, & tally, s->state.irradiance, split) < 0
+             || ray_split_faces(&s->operator, & tally, s->state.irradiance, split) < 0;
     tally_close(&tally);
     tracer_close(&t);
     failed |= detail_drop(s, elements) < 0;

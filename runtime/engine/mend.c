@@ -30,14 +30,14 @@
 #include <string.h>
 #include "engine/leaf_count.h"
 #include "engine/mend.h"
+#include "hierarchy/children_first.h"
 #include "hierarchy/levels.h"
 #include "kernel/constants.h"
 #include "util/thread_pool.h"
 
 /* Sums of m^2 and of s^2, of one element or of a class. */
 struct sight {
-    double seen, noise;
-    uint32_t elements;
+    double seen, noise, elements;
 };
 
 /* How well what a parent's children lack foretells what a child's own children lack: sums, over a
@@ -75,14 +75,13 @@ struct mending {
     /* of this level, by the logarithm of their particles */
     struct sight class[CLASSES];
     struct trend trend[CLASSES];
-    struct sight *kin;           /* [element]: of what hangs two levels below it, on this level */
-    const struct shares *shares; /* whose quarters are whose (own_quarters.h); NULL: all have all */
+    struct sight *kin; /* [element]: of what hangs two levels below it, on this level */
 };
 
 /* Is it this rank's to mend? Clusters all mend alike. */
 static int is_mine(const struct mending *m, uint32_t e)
 {
-    return !m->shares || !m->op->hierarchy->elements[e].vertices || shares_mine(m->shares, e);
+    return !m->op->hierarchy->elements[e].vertices || shares_looks_at(&m->op->shares, e);
 }
 
 enum { CHILDREN = 255, RUN = 256 /* elements that a thread takes at once */ };
@@ -356,46 +355,30 @@ static void add_sights(struct mending *m)
     }
 }
 
-/* The sums of all ranks, where each has notes of its own. */
-static void add_up_trends(struct mending *m)
+/* The same of all ranks, where each has notes of its own: three numbers for each class. */
+static void add_up(const struct mending *m, void *classes)
 {
-    double sums[CLASSES][3];
-    for (int i = 0; i < CLASSES; i++) {
-        const struct trend *t = &m->trend[i];
-        memcpy(sums[i], (const double[]){t->product, t->square, t->noise}, sizeof sums[i]);
-    }
-    ranks_add(m->shares->ranks, RANKS_PARTICLES, sums[0], 3 * CLASSES);
-    for (int i = 0; i < CLASSES; i++)
-        m->trend[i] = (struct trend){sums[i][0], sums[i][1], sums[i][2]};
-}
-
-static void add_up_sights(struct mending *m)
-{
-    double sums[CLASSES][3];
-    for (int i = 0; i < CLASSES; i++) {
-        const struct sight *s = &m->class[i];
-        memcpy(sums[i], (const double[]){s->seen, s->noise, s->elements}, sizeof sums[i]);
-    }
-    ranks_add(m->shares->ranks, RANKS_PARTICLES, sums[0], 3 * CLASSES);
-    for (int i = 0; i < CLASSES; i++)
-        m->class[i] = (struct sight){sums[i][0], sums[i][1], (uint32_t)sums[i][2]};
+    _Static_assert(sizeof(struct trend) == 3 * sizeof(double)
+                       && sizeof(struct sight) == 3 * sizeof(double),
+                   "sums are told as they stand");
+    if (m->op->shares.common)
+        ranks_add(m->op->shares.ranks, RANKS_PARTICLES, classes, 3 * CLASSES);
 }
 
 /* Clusters get their light from those before them. */
 static void mend_level(struct mending *m, uint32_t level)
 {
-    const int threads = level > 0 ? m->op->problem->options.threads : 1,
-              apart = level > 0 && m->shares;
+    const int threads = level > 0 ? m->op->problem->options.threads : 1;
     m->parent = &m->levels.parent[m->levels.from[level]];
     m->parents = m->levels.from[level + 1] - m->levels.from[level];
     thread_pool_run(threads, m->parents, RUN, note_trends, m);
     add_trends(m);
-    if (apart)
-        add_up_trends(m);
+    if (level > 0)
+        add_up(m, m->trend);
     thread_pool_run(threads, m->parents, RUN, note_sights, m);
     add_sights(m);
-    if (apart)
-        add_up_sights(m);
+    if (level > 0)
+        add_up(m, m->class);
     thread_pool_run(threads, m->parents, RUN, share_all_out, m);
 }
 
@@ -465,8 +448,8 @@ static uint32_t levels_of_all(const struct mending *m)
     for (uint32_t i = 0; i < LEVELS; i++)
         if (m->levels.from[i + 1] > m->levels.from[i])
             count = i + 1;
-    if (m->shares)
-        ranks_most(m->shares->ranks, RANKS_PARTICLES, &count, 1);
+    if (m->op->shares.common)
+        ranks_most(m->op->shares.ranks, RANKS_PARTICLES, &count, 1);
     return (uint32_t)count;
 }
 
@@ -477,7 +460,6 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
     size_t values = (size_t)h->count * tally->bands;
     struct mending m = {.op = op, .tally = tally, .bands = tally->bands, .irradiance = irradiance};
     int failed = levels_open(&m.levels, h) < 0;
-    m.shares = op->shares.common ? &op->shares : NULL;
     if (ranks_any(op->shares.ranks, failed)) {
         levels_close(&m.levels);
         return -1;
@@ -491,7 +473,7 @@ int mend_irradiance(const struct light_operator *op, const struct tally *tally, 
     failed = ranks_any(op->shares.ranks, failed);
     if (!failed) {
         thread_pool_run(threads, h->count, RUN, fill_some, &m);
-        levels_up(&m.levels, threads, add_children, &m);
+        children_first(h, threads, add_children, &m);
         for (uint32_t k = 0; k < m.bands; k++)
             mend_root(&m, k);
         const uint32_t count = levels_of_all(&m);

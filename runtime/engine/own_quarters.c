@@ -69,19 +69,6 @@ static int was_leaf(const struct sharing *x, uint32_t i)
     return e->vertices && (!e->children || e->child >= x->common);
 }
 
-/* So many of this rank, and where those of each begin. */
-static void find_places(struct sharing *x, size_t mine)
-{
-    const int ranks = ranks_count(x->ranks);
-    uint64_t *count = (uint64_t *)x->at; /* as wide; not in use yet */
-    _Static_assert(sizeof *count == sizeof *x->at, "counts are sent as they stand");
-    memset(count, 0, (size_t)ranks * sizeof *count);
-    count[ranks_number(x->ranks)] = mine;
-    ranks_add_counts(x->ranks, RANKS_VALUES, count, (size_t)ranks);
-    for (int k = 0; k < ranks; k++)
-        x->first[k + 1] = x->first[k] + count[k];
-}
-
 static int tell_trees(struct sharing *x)
 {
     const struct solve *s = x->s;
@@ -92,7 +79,7 @@ static int tell_trees(struct sharing *x)
             tree_bits_put(&b, &s->hierarchy, i);
     int failed = ranks_any(x->ranks, b.failed);
     if (!failed) {
-        find_places(x, (b.count + 7) / 8);
+        ranks_starts(x->ranks, RANKS_VALUES, (b.count + 7) / 8, x->first);
         x->byte = malloc(x->first[ranks_count(x->ranks)] + 1);
         failed = ranks_any(x->ranks, !x->byte);
     }
@@ -207,7 +194,7 @@ int own_quarters_share(struct solve *s)
     int failed = ranks_any(x.ranks, !x.first || !x.at) || tell_trees(&x) < 0
                  || ranks_any(x.ranks, take_trees(&x) < 0);
     if (!failed) {
-        find_places(&x, own);
+        ranks_starts(x.ranks, RANKS_VALUES, own, x.first);
         failed = share_values(&x) < 0;
     }
     free(x.byte);

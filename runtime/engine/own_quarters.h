@@ -24,7 +24,7 @@ static inline int own_quarters(const struct solve *s)
 /* Is the element here this rank's to work on? */
 static inline int own_quarters_mine(const struct solve *s, uint32_t element)
 {
-    return !own_quarters(s) || shares_mine(&s->operator.shares, element);
+    return shares_looks_at(&s->operator.shares, element);
 }
 
 /* Of values[element * width], which owners have set: then all have those of the common surfaces.

@@ -14,24 +14,22 @@ static void add_below(const struct tally *tally, uint32_t number, int64_t *sum)
         add_below(tally, child + c, sum);
 }
 
-/* Numbers of the places of all ranks, and where this rank's begin. NULL when out of memory. */
+/* Numbers of the places that are asked for, where all ranks ask for the same; else those of all,
+ * this rank's from *from on. NULL when out of memory. */
 static uint32_t *collect(struct ranks *ranks, const struct tally *tally, const uint32_t *place,
                          uint32_t count, int own, size_t *all, size_t *from)
 {
-    const size_t n = own ? (size_t)ranks_count(ranks) : 1,
-                 me = own ? (size_t)ranks_number(ranks) : 0;
-    size_t *first = calloc(2 * n + 1, sizeof *first);
+    const size_t n = (size_t)ranks_count(ranks);
+    size_t *first = calloc(n + 1, sizeof *first);
     uint32_t *number = NULL;
+    *all = count;
+    *from = 0;
     if (!ranks_any(ranks, !first)) {
-        uint64_t *counts = (uint64_t *)(first + n + 1);
-        _Static_assert(sizeof *counts == sizeof *first, "counts are sent as they stand");
-        counts[me] = count;
-        if (own)
-            ranks_add_counts(ranks, RANKS_PARTICLES, counts, n);
-        for (size_t k = 0; k < n; k++)
-            first[k + 1] = first[k] + counts[k];
-        *all = first[n];
-        *from = first[me];
+        if (own) {
+            ranks_starts(ranks, RANKS_PARTICLES, count, first);
+            *all = first[n];
+            *from = first[ranks_number(ranks)];
+        }
         number = malloc((*all + 1) * sizeof *number);
     }
     if (ranks_any(ranks, !number)) {

@@ -34,14 +34,7 @@ struct places {
     const struct tally *tally;
     uint32_t *element, count;
     double *power;
-    const struct shares *shares; /* who looks at which; NULL: all at all */
 };
-
-/* Is it this rank's to look at? */
-static int is_counted(const struct places *p, uint32_t e)
-{
-    return !p->shares || shares_mine(p->shares, e);
-}
 
 /* Add what has been counted below an element: children last to first, each once it is whole. */
 static void add_power(const struct places *p, uint32_t e, double power[3])
@@ -69,10 +62,10 @@ static void add_powers(const void *places, size_t from, size_t to)
 }
 
 /* The same where ranks have counted apart. */
-static int add_counts(const struct places *p, struct ranks *ranks)
+static int add_counts(const struct places *p, struct ranks *ranks, int own)
 {
     const uint32_t bands = p->tally->bands;
-    int64_t *count = place_counts(ranks, p->tally, p->element, p->count, p->shares != NULL);
+    int64_t *count = place_counts(ranks, p->tally, p->element, p->count, own);
     if (!count)
         return -1;
     for (size_t i = 0; i < (size_t)p->count * bands; i++)
@@ -86,16 +79,16 @@ static int places_open(struct places *p, const struct light_operator *op, const 
 {
     const struct hierarchy *h = op->hierarchy;
     const int threads = op->problem->options.threads;
-    *p = (struct places){.h = h, .tally = tally, .shares = op->shares.common ? &op->shares : NULL};
+    *p = (struct places){.h = h, .tally = tally};
     p->element = malloc((size_t)h->count * sizeof *p->element);
     for (uint32_t e = 0; p->element && e < h->count; e++)
-        if (is_place(h, e) && is_counted(p, e))
+        if (is_place(h, e) && shares_looks_at(&op->shares, e))
             p->element[p->count++] = e;
     p->power = malloc(((size_t)p->count * tally->bands + 1) * sizeof *p->power);
     if (ranks_any(op->shares.ranks, !p->element || !p->power))
         return -1;
     if (tally->parted_leaves)
-        return add_counts(p, op->shares.ranks);
+        return add_counts(p, op->shares.ranks, op->shares.common > 0);
     thread_pool_run(threads, p->count, 64, add_powers, p);
     return 0;
 }
@@ -104,35 +97,6 @@ static void places_close(struct places *p)
 {
     free(p->element);
     free(p->power);
-}
-
-/* The squared noise in the L1 error of polygons, as a share of the reflected light, if chance alone
- * spread particles over them by what links say. Returns 0, or -1 when out of memory. */
-static int measure_faces(const struct light_operator *op, const struct tally *tally,
-                         const double *irradiance, double *square)
-{
-    const struct problem *p = op->problem;
-    const struct hierarchy *h = op->hierarchy;
-    const uint32_t bands = tally->bands, polygons = p->scene->input_count;
-    const double one = tally_power_of_one(tally);
-    double *reflected = calloc((size_t)polygons * bands + 1, sizeof *reflected), noise = 0, all = 0;
-    double *rho = calloc((size_t)polygons * bands + 1, sizeof *rho);
-    for (uint32_t i = 0; reflected && rho && i < h->face_count; i++)
-        for (uint32_t k = 0; k < bands; k++) {
-            const uint32_t e = h->face_element[i];
-            const size_t at = (size_t)h->faces[i].input * bands + k;
-            rho[at] = p->reflectance[(size_t)i * bands + k];
-            reflected[at] += rho[at] * irradiance[(size_t)e * bands + k] * h->elements[e].area;
-        }
-    for (size_t i = 0; reflected && rho && i < (size_t)polygons * bands; i++) {
-        noise += sqrt(2 / LAMBERT_PI * rho[i] * one * tally->square[i % bands] * reflected[i]);
-        all += reflected[i];
-    }
-    *square = all > 0 ? noise / all * (noise / all) : 0;
-    int failed = !reflected || !rho;
-    free(reflected);
-    free(rho);
-    return failed ? -1 : 0;
 }
 
 /* Of a run of places: squares of what particles differ by, what of that chance tells, squares of
@@ -191,7 +155,7 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
             all[2] += of->square;
             all[3] += of->light;
         }
-        if (places.shares)
+        if (op->shares.common)
             ranks_add(op->shares.ranks, RANKS_PARTICLES, all, 4);
     }
     free(sums);
@@ -203,10 +167,34 @@ int ray_split_measure(const struct light_operator *op, const struct tally *tally
         split->deviation = sqrt(2 * all[2]) / all[3]; /* of squares of normal variables */
         split->ray = all[1] / all[3] * (double)tally->rays;
     }
-    if (ranks_any(op->shares.ranks, measure_faces(op, tally, irradiance, &split->face) < 0))
-        return -1;
-    split->face *= (double)tally->rays;
     return 0;
+}
+
+int ray_split_faces(const struct light_operator *op, const struct tally *tally,
+                    const double *irradiance, struct ray_split *split)
+{
+    const struct problem *p = op->problem;
+    const struct hierarchy *h = op->hierarchy;
+    const uint32_t bands = tally->bands, polygons = p->scene->input_count;
+    const double one = tally_power_of_one(tally);
+    double *reflected = calloc((size_t)polygons * bands + 1, sizeof *reflected), noise = 0, all = 0;
+    double *rho = calloc((size_t)polygons * bands + 1, sizeof *rho);
+    for (uint32_t i = 0; reflected && rho && i < h->face_count; i++)
+        for (uint32_t k = 0; k < bands; k++) {
+            const uint32_t e = h->face_element[i];
+            const size_t at = (size_t)h->faces[i].input * bands + k;
+            rho[at] = p->reflectance[(size_t)i * bands + k];
+            reflected[at] += rho[at] * irradiance[(size_t)e * bands + k] * h->elements[e].area;
+        }
+    for (size_t i = 0; reflected && rho && i < (size_t)polygons * bands; i++) {
+        noise += sqrt(2 / LAMBERT_PI * rho[i] * one * tally->square[i % bands] * reflected[i]);
+        all += reflected[i];
+    }
+    split->face = all > 0 ? noise / all * (noise / all) * (double)tally->rays : 0;
+    int failed = ranks_any(op->shares.ranks, !reflected || !rho);
+    free(reflected);
+    free(rho);
+    return failed ? -1 : 0;
 }
 
 double ray_split_wanted(const struct ray_split *split, double wanted)

@@ -11,7 +11,7 @@ struct ray_split {
     double links;     /* of links; by chance it may come out below 0 */
     double deviation; /* standard deviation of that */
     double ray;       /* of particles of one ray; of r rays a share 1 / r of it */
-    double face;      /* the same in the L1 error of polygons, noise by chance alone */
+    double face;      /* by ray_split_faces: of one ray in the L1 error of polygons */
     uint64_t rays;    /* that told it; 0: nothing is known */
 };
 
@@ -19,6 +19,11 @@ struct ray_split {
  * tally has counts of leaves, added or not. Returns 0, or -1 when out of memory. */
 int ray_split_measure(const struct light_operator *op, const struct tally *tally,
                       const double *irradiance, struct ray_split *split);
+
+/* Set split->face: squared noise, as a share of the reflected light, if chance alone spread
+ * particles over polygons by these irradiances. Returns 0, or -1 when out of memory. */
+int ray_split_faces(const struct light_operator *op, const struct tally *tally,
+                    const double *irradiance, struct ray_split *split);
 
 /* How many rays of particles bring links and particles together to an error of `wanted`, root mean
  * square as above. */

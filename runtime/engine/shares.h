@@ -82,6 +82,13 @@ static inline int shares_mine(const struct shares *s, uint32_t element)
     return !s->owner || shares_owner(s, element) == ranks_number(s->ranks);
 }
 
+/* Is the element this rank's to look at where each has elements of its own? Else all look at all.
+ */
+static inline int shares_looks_at(const struct shares *s, uint32_t element)
+{
+    return !s->common || shares_mine(s, element);
+}
+
 /* This rank's faces, in the tree's order. */
 static inline struct face_range shares_here(const struct shares *s)
 {

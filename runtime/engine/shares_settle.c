@@ -41,17 +41,9 @@ static int share_splits(const struct shares *s, struct hierarchy *h, uint32_t fi
     int failed = !place || put_splits(&b, h, first) < 0;
     unsigned char *all = NULL;
     if (!ranks_any(s->ranks, failed)) {
-        uint64_t *sizes = calloc(ranks, sizeof *sizes);
-        failed = ranks_any(s->ranks, !sizes);
-        if (!failed) {
-            sizes[me] = (b.count + 7) / 8;
-            ranks_add_counts(s->ranks, RANKS_SPLITS, sizes, ranks);
-            for (size_t k = 0; k < ranks; k++)
-                place[k + 1] = place[k] + sizes[k];
-            all = malloc(place[ranks] + 1);
-            failed = ranks_any(s->ranks, !all);
-        }
-        free(sizes);
+        ranks_starts(s->ranks, RANKS_SPLITS, (b.count + 7) / 8, place);
+        all = malloc(place[ranks] + 1);
+        failed = ranks_any(s->ranks, !all);
         if (!failed) {
             memcpy(all + place[me], b.byte, (b.count + 7) / 8);
             ranks_complete(s->ranks, RANKS_SPLITS, all, 1, place);

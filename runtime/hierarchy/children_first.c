@@ -24,12 +24,18 @@ static void climb_faces(const void *climb, size_t from, size_t to)
         climb_from(c, c->h->face_element[i]);
 }
 
+void children_first_clusters(const struct hierarchy *h, children_first_work *work,
+                             const void *context)
+{
+    for (uint32_t e = h->built; e-- > 0;) /* children follow their parents */
+        if (!h->elements[e].vertices)
+            work(context, e);
+}
+
 void children_first(const struct hierarchy *h, int threads, children_first_work *work,
                     const void *context)
 {
     const struct climb c = {h, work, context};
     thread_pool_run(threads, h->face_count, 16, climb_faces, &c);
-    for (uint32_t e = h->built; e-- > 0;) /* children follow their parents */
-        if (!h->elements[e].vertices)
-            work(context, e);
+    children_first_clusters(h, work, context);
 }

@@ -13,5 +13,8 @@ typedef void children_first_work(const void *context, uint32_t element);
 
 void children_first(const struct hierarchy *h, int threads, children_first_work *work,
                     const void *context);
+/* The part of it that comes last: clusters. */
+void children_first_clusters(const struct hierarchy *h, children_first_work *work,
+                             const void *context);
 
 #endif

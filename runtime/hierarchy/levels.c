@@ -3,7 +3,6 @@
 #include "hierarchy/levels.h"
 #include <stdlib.h>
 #include <string.h>
-#include "util/thread_pool.h"
 
 static uint32_t level_of(const struct element *e)
 {
@@ -38,28 +37,4 @@ void levels_close(struct levels *l)
 {
     free(l->parent);
     l->parent = NULL;
-}
-
-/* Part of a level. */
-struct level {
-    const uint32_t *parent;
-    levels_work *work;
-    const void *context;
-};
-
-static void work_on(const void *level, size_t from, size_t to)
-{
-    const struct level *l = level;
-    for (size_t i = from; i < to; i++)
-        l->work(l->context, l->parent[i]);
-}
-
-void levels_up(const struct levels *l, int threads, levels_work *work, const void *context)
-{
-    for (uint32_t i = LEVELS; i-- > 1;) {
-        const struct level level = {&l->parent[l->from[i]], work, context};
-        thread_pool_run(threads, l->from[i + 1] - l->from[i], 256, work_on, &level);
-    }
-    for (uint32_t i = l->from[1]; i-- > 0;) /* children follow their parents */
-        work(context, l->parent[i]);
 }

@@ -18,9 +18,4 @@ struct levels {
 int levels_open(struct levels *l, const struct hierarchy *h);
 void levels_close(struct levels *l);
 
-/* Call `work` for all elements that have children, children first. It may change nothing but its
- * element's, by its children's. */
-typedef void levels_work(const void *context, uint32_t element);
-void levels_up(const struct levels *l, int threads, levels_work *work, const void *context);
-
 #endif

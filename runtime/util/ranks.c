@@ -203,6 +203,17 @@ void ranks_add_counts(struct ranks *r, enum ranks_kind kind, uint64_t *value, si
     reduce_all(r, kind, SUM_OF_COUNTS, value, count);
 }
 
+void ranks_starts(struct ranks *r, enum ranks_kind kind, size_t mine, size_t *first)
+{
+    const size_t ranks = (size_t)ranks_count(r);
+    _Static_assert(sizeof(size_t) == sizeof(uint64_t), "counts are sent as they stand");
+    memset(first, 0, (ranks + 1) * sizeof *first);
+    first[ranks_number(r) + 1] = mine;
+    ranks_add_counts(r, kind, (uint64_t *)first + 1, ranks);
+    for (size_t k = 0; k < ranks; k++)
+        first[k + 1] += first[k];
+}
+
 void ranks_add(struct ranks *r, enum ranks_kind kind, double *value, size_t count)
 {
     reduce_all(r, kind, SUM, value, count);

@@ -63,6 +63,9 @@ static inline size_t ranks_least(struct ranks *r, enum ranks_kind kind, size_t c
 /* Is it so (not 0) on any rank? */
 int ranks_any(struct ranks *r, int so);
 
+/* Each rank makes so many items of one array: first[ranks + 1], where each one's begin. */
+void ranks_starts(struct ranks *r, enum ranks_kind kind, size_t mine, size_t *first);
+
 /* An array of items of `size` bytes, of which rank k has made first[k] .. first[k + 1] - 1: then
  * all ranks have all. */
 void ranks_complete(struct ranks *r, enum ranks_kind kind, void *array, size_t size,
